@@ -1,7 +1,7 @@
 # The layers, lowest first, and which lower layers each may use: written here once. The targets link
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation identification intervals methods report phases study intake checks
+    dynamics forces simulation identification intervals posterior methods report phases study intake checks
     design run scene results draft contents identify_files opensim_tools twin commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
@@ -20,7 +20,8 @@ set(MYOID_LAYER_forces core muscle model osim kinematics dynamics)
 set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
 set(MYOID_LAYER_identification core math muscle)
 set(MYOID_LAYER_intervals core math muscle signals identification)
-set(MYOID_LAYER_methods core math muscle forces identification intervals)
+set(MYOID_LAYER_posterior core math muscle identification intervals)
+set(MYOID_LAYER_methods core math muscle forces identification intervals posterior)
 set(MYOID_LAYER_report core files)
 set(MYOID_LAYER_phases core math)
 set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forces identification

@@ -19,7 +19,9 @@ constexpr std::array kAll = {
     &kStiffnessShare, &kOffsetShare,        &kViscosityShare, &kStiffness,
     &kOffset,         &kViscosity,          &kInertia,        &kLeastEffort,
     &kEmgNoise,       &kEmgBandwidth,       &kModelError,     &kRestingWeight,
-    &kRestingTissue,  &kStrengthRatio};
+    &kRestingTissue,  &kStrengthRatio,      &kTorqueNoise,    &kTorqueNoiseTime,
+    &kMomentArm,      &kMomentArmSlope,     &kTorqueScale,    &kTendonStretch,
+    &kCrossTalk,      &kGainDrift,          &kUnknownEmgNoise};
 
 /// The parameters of a muscle's law whose prior stands about its starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

@@ -239,6 +239,87 @@ inline constexpr Belief kStrengthRatio{
     "by more than this an exchange of two electrodes must improve the fit",
     "each differs by 30 % between published sets"};
 
+// Quantities that residuals hardly tell: estimator `posterior`.
+inline constexpr std::string_view kPosterior = "estimator `posterior`";
+inline constexpr Belief kTorqueNoise{"error of the torque, over its root mean square",
+                                     "0.05",
+                                     0.05,
+                                     1.5,
+                                     logarithm,
+                                     "",
+                                     kPosterior,
+                                     "judgment"};
+inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torque is another",
+                                         "0.3",
+                                         0.3,
+                                         1.0,
+                                         logarithm,
+                                         "s",
+                                         kPosterior,
+                                         "judgment"};
+inline constexpr Belief kMomentArm{
+    "size of a muscle's moment arms, over the model's",
+    "1",
+    1.0,
+    0.10,
+    logarithm,
+    "",
+    kPosterior,
+    "judgment from the spread between published sets of moment arms"};
+inline constexpr Belief kMomentArmSlope{
+    "change of that over half of the recorded range of lengths",
+    "0",
+    0.0,
+    0.10,
+    value,
+    "",
+    kPosterior,
+    "judgment from the spread between published sets of moment arms"};
+inline constexpr Belief kTorqueScale{
+    "scale of the torque, over the true one",
+    "1",
+    1.0,
+    0.03,
+    logarithm,
+    "",
+    kPosterior,
+    "judgment: calibration of a dynamometer, inertia of the segments"};
+inline constexpr Belief kTendonStretch{
+    "strain at F_max of a tendon that the study takes to be rigid",
+    "0.049",
+    0.049,
+    0.02,
+    value,
+    "",
+    "estimator `posterior`, about no strain: the root mean square, 0.053, is the spread",
+    "4.9 % is the strain of Millard's tendon (2013); the spread is judgment"};
+inline constexpr Belief kCrossTalk{
+    "share of another electrode's envelope in an envelope",
+    "0",
+    0.0,
+    0.1,
+    value,
+    "",
+    kPosterior,
+    "judgment: surface electrodes over neighboring muscles share 5 to 15 %"};
+inline constexpr Belief kGainDrift{"change of an EMG channel's gain over the session",
+                                   "0",
+                                   0.0,
+                                   0.1,
+                                   value,
+                                   "",
+                                   kPosterior,
+                                   "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
+inline constexpr Belief kUnknownEmgNoise{
+    "noise of an EMG envelope, over that of a bandwidth of 150 Hz",
+    "1",
+    1.0,
+    1.0,
+    logarithm,
+    "",
+    "estimator `posterior` where no bandwidth is known",
+    "judgment"};
+
 }  // namespace beliefs
 
 /// All of them, in the order of the page.

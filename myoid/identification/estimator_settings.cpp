@@ -23,6 +23,7 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
   options.muscles = settings.muscles;
   options.priors = settings.priors;
   options.weights = settings.priors;
+  options.estimator = settings.estimator;
   follow_emg(settings.lag, options);
   options.delay_s = settings.delay_s;
   options.delay_per_channel = settings.delay_per_channel;

@@ -26,6 +26,7 @@ constexpr ChoiceNames choice_names(LagChoice) { return kLagNames; }
 struct EstimatorSettings {
   std::vector<std::string> muscles;  ///< To identify; empty: all.
   bool priors = true;                ///< False: the data alone, by plain least squares.
+  EstimatorKind estimator = EstimatorKind::least_squares;
   LagChoice lag = LagChoice::automatic;
   std::optional<double> delay_s;  ///< Held at this; empty: estimated.
   bool delay_per_channel = false;

@@ -54,6 +54,14 @@ enum class Method {
 inline constexpr std::string_view kMethodNames[] = {"paper", "force", "torque"};
 constexpr ChoiceNames choice_names(Method) { return kMethodNames; }
 
+/// The rule by which method `torque` finds numbers, intervals and verdicts.
+enum class EstimatorKind {
+  least_squares,  ///< Weighted and corrected for the errors of the EMG (estimator.h).
+  posterior,      ///< One posterior (posterior/posterior.h).
+};
+inline constexpr std::string_view kEstimatorNames[] = {"least_squares", "posterior"};
+constexpr ChoiceNames choice_names(EstimatorKind) { return kEstimatorNames; }
+
 /// How intervals are made beside the sandwich.
 struct IntervalOptions {
   int bootstrap = 0;               ///< Replicates; 0: none.
@@ -116,6 +124,8 @@ struct EstimatorOptions {
   bool predictions = true;         ///< Fill IdentificationResult::trials.
   IntervalOptions intervals;
   Progress progress;
+  EstimatorKind estimator = EstimatorKind::least_squares;
+  int posterior_draws = 0;  ///< To check the posterior by; 0: its normal approximation alone.
 };
 
 }  // namespace myoid::identification

@@ -1,0 +1,149 @@
+#include "myoid/posterior/density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "myoid/identification/beliefs.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kInside = 0.003;   // of a range: the nearest to a bound that a search begins
+constexpr double kFarthest = 40.0;  // of x: beyond it a bound is reached to round-off
+constexpr double kStartingModelError = 0.1;
+constexpr double kStartingTorqueError = 0.3;  // of the root mean square
+
+double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+
+}  // namespace
+
+Density::Density(const StudyData& data, const EstimatorOptions& options)
+    : likelihood_(data, options) {
+  const std::vector<Unknown>& free = parameters().free();
+  const auto p = static_cast<Eigen::Index>(free.size());
+  lower_.resize(p);
+  range_.resize(p);
+  prior_mean_.setZero(p);
+  prior_precision_.setZero(p);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const Unknown& of = free[static_cast<std::size_t>(j)];
+    lower_[j] = of.bounds.lower;
+    range_[j] = of.bounds.upper - of.bounds.lower;
+    if (!(of.prior.sd > 0.0)) continue;
+    prior_mean_[j] = of.prior.mean;
+    prior_precision_[j] = 1.0 / (of.prior.sd * of.prior.sd);
+  }
+  const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
+                                 [&](const std::string& name) {
+                                   const auto at = options.emg_bandwidth_hz.find(name);
+                                   return at != options.emg_bandwidth_hz.end() && at->second > 0.0;
+                                 });
+  noise_mean_[kTorqueSd] =
+      std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
+  noise_sd_[kTorqueSd] = beliefs::kTorqueNoise.sd;
+  noise_mean_[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value);
+  noise_sd_[kTorqueTime] = beliefs::kTorqueNoiseTime.sd;
+  noise_sd_[kEmgFactor] = (known ? beliefs::kEmgNoise : beliefs::kUnknownEmgNoise).sd;
+  noise_mean_[kModelErrorSize] = std::log(kStartingModelError);
+  noise_sd_[kModelErrorSize] = beliefs::kModelError.sd;
+}
+
+Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
+  return lower_ +
+         range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v); }));
+}
+
+NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
+  NoiseValues noise{};
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    noise[i] = x[lower_.size() + static_cast<Eigen::Index>(i)];
+  return noise;
+}
+
+Eigen::VectorXd Density::slope(const Eigen::VectorXd& x) const {
+  return range_.cwiseProduct(
+      x.head(lower_.size()).unaryExpr([](double v) { return logistic(v) * logistic(-v); }));
+}
+
+Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const {
+  Eigen::VectorXd x(size());
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double share =
+        range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
+    x[j] = std::log(share / (1.0 - share));
+  }
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    x[lower_.size() + static_cast<Eigen::Index>(i)] = noise[i];
+  return x;
+}
+
+Eigen::VectorXd Density::start() const {
+  NoiseValues noise = noise_mean_;
+  noise[kTorqueSd] = std::log(kStartingTorqueError * std::max(likelihood_.torque_size_nm(), 1e-9));
+  noise[kModelErrorSize] = std::log(kStartingModelError);
+  return x_of(parameters().start(), noise);
+}
+
+Eigen::VectorXd Density::longest_step(const Eigen::VectorXd& x) const {
+  constexpr double kLongest = 2.0;
+  Eigen::VectorXd longest = Eigen::VectorXd::Constant(size(), kLongest);
+  const Eigen::VectorXd by_x = slope(x);
+  for (Eigen::Index j = 0; j < lower_.size(); ++j) {
+    if (prior_precision_[j] > 0.0 && by_x[j] > 0.0)
+      longest[j] = std::min(kLongest, 1.0 / (std::sqrt(prior_precision_[j]) * by_x[j]));
+  }
+  return longest;
+}
+
+double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const {
+  const Eigen::Index p = lower_.size();
+  if (!x.allFinite() || x.cwiseAbs().maxCoeff() > kFarthest)
+    return -std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd z = z_of(x);
+  const NoiseValues noise = noise_of(x);
+  Likelihood::Gradient by;
+  double result = likelihood_.value(z, noise, gradient != nullptr ? &by : nullptr);
+  if (!std::isfinite(result)) return -std::numeric_limits<double>::infinity();
+  if (gradient != nullptr) gradient->setZero(size());
+  const Eigen::VectorXd by_x = slope(x);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const double off = z[j] - prior_mean_[j];
+    result -= 0.5 * prior_precision_[j] * off * off;
+    // ln dz/dx = ln range + ln q + ln (1 - q), q the logistic function; its slope is 1 - 2 q.
+    const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
+    result += below;
+    if (gradient == nullptr) continue;
+    (*gradient)[j] =
+        by_x[j] * (by.by_z[j] - prior_precision_[j] * off) + 1.0 - 2.0 * logistic(x[j]);
+  }
+  for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor}) {
+    const double off = (noise[field] - noise_mean_[field]) / noise_sd_[field];
+    result -= 0.5 * off * off;
+    if (gradient != nullptr) (*gradient)[p + field] = by.by_noise[field] - off / noise_sd_[field];
+  }
+  // Half normal in s; ds = s d ln s.
+  const double s = std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize];
+  result += noise[kModelErrorSize] - 0.5 * s * s;
+  if (gradient != nullptr)
+    (*gradient)[p + kModelErrorSize] = by.by_noise[kModelErrorSize] + 1.0 - s * s;
+  return result;
+}
+
+Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
+  const Eigen::Index p = lower_.size();
+  const Eigen::VectorXd by_x = slope(x);
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(size(), size());
+  Eigen::MatrixXd of_z = likelihood_.information(z_of(x), noise_of(x)).information;
+  of_z.diagonal() += prior_precision_;
+  h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
+  for (Eigen::Index j = 0; j < p; ++j) h(j, j) += 2.0 * logistic(x[j]) * logistic(-x[j]);
+  for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor})
+    h(p + field, p + field) =
+        1.0 / (noise_sd_[field] * noise_sd_[field]) +
+        (field == kTorqueSd ? 0.5 * static_cast<double>(likelihood_.row_count()) : 0.0);
+  h(p + kModelErrorSize, p + kModelErrorSize) = 4.0;
+  return h;
+}
+
+}  // namespace myoid::identification

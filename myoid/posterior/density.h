@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/posterior/likelihood.h"
+
+namespace myoid::identification {
+
+/// The posterior's density over unknowns x without bounds: one for each entry of the solver's z,
+///
+///   z = lower + (upper - lower) / (1 + exp(-x)),
+///
+/// then the hyperparameters phi of the errors. Densities are those of x: dz/dx is in them.
+///
+///   ln p(x | y) = ln p(y | z, phi) + ln p(z) + ln p(phi) + sum ln dz/dx
+///
+/// The priors of z are the study's (ParameterMap), those of phi in beliefs.h: ln sigma_T, ln tau_T
+/// and ln kappa normal, s half normal.
+class Density {
+ public:
+  Density(const StudyData& data, const EstimatorOptions& options);
+
+  /// Takes the unseen quantities at this point (Likelihood::refer_to).
+  void refer_to(const Eigen::VectorXd& x) { likelihood_.refer_to(z_of(x)); }
+  void believe(Believed believed) { likelihood_.believe(believed); }
+
+  [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
+  [[nodiscard]] const ParameterMap& parameters() const { return likelihood_.parameters(); }
+  [[nodiscard]] Eigen::Index size() const { return parameters().size() + kNoiseFieldCount; }
+  [[nodiscard]] Eigen::VectorXd z_of(const Eigen::VectorXd& x) const;
+  [[nodiscard]] NoiseValues noise_of(const Eigen::VectorXd& x) const;
+  /// dz/dx, one for each entry of z.
+  [[nodiscard]] Eigen::VectorXd slope(const Eigen::VectorXd& x) const;
+  /// Where a search begins: the starting values of the study, and errors that are large, lest it is
+  /// led astray by a point at which hardly anything is met.
+  [[nodiscard]] Eigen::VectorXd start() const;
+  /// The longest step of a search that each entry of x may take: a standard deviation of the prior,
+  /// and no more than 2, by which the logistic map is another.
+  [[nodiscard]] Eigen::VectorXd longest_step(const Eigen::VectorXd& x) const;
+  /// The x of these z and phi: values near a bound are moved inside to 0.03 of the range.
+  [[nodiscard]] Eigen::VectorXd x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const;
+
+  [[nodiscard]] double value(const Eigen::VectorXd& x) const { return evaluate(x, nullptr); }
+  [[nodiscard]] double value(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const {
+    return evaluate(x, &gradient);
+  }
+  /// Minus its second derivatives as far as the mean torque makes them: that of the data, of the
+  /// priors, and of the logistic map. Positive definite.
+  [[nodiscard]] Eigen::MatrixXd gauss_newton(const Eigen::VectorXd& x) const;
+
+ private:
+  [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
+
+  Likelihood likelihood_;
+  Eigen::VectorXd lower_, range_, prior_mean_, prior_precision_;
+  NoiseValues noise_mean_{}, noise_sd_{};  ///< Of the normal ones.
+};
+
+}  // namespace myoid::identification

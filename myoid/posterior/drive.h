@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "myoid/identification/envelope.h"
+#include "myoid/posterior/noise_model.h"
+
+namespace myoid::identification {
+
+/// The expectation of the drive of an EMG channel, given its recorded envelope u: drive and noise
+/// are stationary, and Wiener's filter tells them apart,
+///
+///   W(f) = S(f) / P(f),    S = max(P - N, 0),   P the spectrum of u, N that of its noise
+///
+/// W falls with f (the monotone fit of least squares), N has the relative size `noise_sd` and is
+/// lowered to P in the upper half of the envelope's band, where there is hardly a drive. A model
+/// that takes u for the drive finds lags that are not there, for a lag damps the noise of u, too.
+/// The error that is left has the spectrum (1 - W)^2 S + W^2 N.
+struct Drive {
+  Envelope envelope;     ///< Of the drive.
+  Eigen::VectorXd left;  ///< Power of its error over N, at the frequencies of `EnvelopeError`.
+};
+[[nodiscard]] Drive drive_behind(const Envelope& recorded,
+                                 double noise_sd,
+                                 const EnvelopeError& error,
+                                 double cutoff_hz);
+
+}  // namespace myoid::identification

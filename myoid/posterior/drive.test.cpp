@@ -1,0 +1,83 @@
+#include "myoid/posterior/drive.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "myoid/math/random.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kCutoff_hz = 6.0, kRate_hz = 100.0;
+
+/// A drive of sines below 1.5 Hz, and its envelope: times 1 + white noise behind the filter.
+struct Recorded {
+  Eigen::VectorXd time, drive, values;
+};
+
+Recorded recorded(double noise_sd, double seconds = 20.0, double middle_hz = 0.6) {
+  const auto n = static_cast<Eigen::Index>(seconds * kRate_hz) + 1;
+  Recorded r{Eigen::VectorXd::LinSpaced(n, 0.0, seconds), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  math::Random random(5);
+  const Eigen::VectorXd h = EnvelopeError(kCutoff_hz, {0.0, 0.0}).from_white(1.0 / kRate_hz);
+  const auto drive = [&](double t) {
+    return 0.3 * (1.0 + 0.5 * std::sin(2.0 * std::numbers::pi * middle_hz * t) +
+                  0.3 * std::sin(2.0 * std::numbers::pi * 1.3 * t + 1.0));
+  };
+  const Eigen::Index reach = h.size() / 2;
+  Eigen::VectorXd white(n + 2 * reach);
+  for (Eigen::Index i = 0; i < white.size(); ++i)
+    white[i] = random.normal() * drive(static_cast<double>(i - reach) / kRate_hz);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    r.drive[i] = drive(r.time[i]);
+    r.values[i] = std::max(0.0, r.drive[i] + noise_sd * h.dot(white.segment(i, h.size())));
+  }
+  return r;
+}
+
+/// Root mean square of the relative error, two seconds from the ends.
+double error_of(const Recorded& of, const Envelope& envelope) {
+  double sum = 0.0, count = 0.0;
+  for (Eigen::Index i = 0; i < of.time.size(); ++i) {
+    if (of.time[i] < 2.0 || of.time[i] > of.time[of.time.size() - 1] - 2.0) continue;
+    sum += std::pow(envelope.at(of.time[i]).value / of.drive[i] - 1.0, 2);
+    count += 1.0;
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
+  for (const double noise_sd : {0.1, 0.15, 0.25}) {
+    const Recorded of = recorded(noise_sd);
+    const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+    const Envelope envelope(of.time, of.values);
+    const Drive drive = drive_behind(envelope, noise_sd, error, kCutoff_hz);
+    EXPECT_LT(error_of(of, drive.envelope), 0.75 * error_of(of, envelope)) << noise_sd;
+    const double said = noise_sd * std::sqrt(error.behind(drive.left).share());
+    EXPECT_NEAR(said / error_of(of, drive.envelope), 1.0, 0.3) << noise_sd;
+  }
+}
+
+TEST(Drive, ASmoothEnvelopeIsLeftAlone) {
+  // The noise is believed to be there, and is not: it is lowered to what is recorded.
+  const Recorded of = recorded(0.0);
+  const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+  const Drive drive = drive_behind(Envelope(of.time, of.values), 0.15, error, kCutoff_hz);
+  EXPECT_LT(error_of(of, drive.envelope), 0.03);
+}
+
+TEST(Drive, WithoutNoiseOrOfAShortRecordingItIsTheEnvelope) {
+  const Recorded of = recorded(0.1, 1.0);
+  const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+  const Envelope envelope(of.time, of.values);
+  for (const double noise_sd : {0.0, 0.1}) {
+    const Drive drive = drive_behind(envelope, noise_sd, error, kCutoff_hz);
+    EXPECT_EQ(drive.envelope.samples(), of.values);
+    EXPECT_EQ(drive.left, Eigen::VectorXd::Ones(drive.left.size()));
+  }
+}
+
+}  // namespace
+}  // namespace myoid::identification

@@ -1,0 +1,315 @@
+#include "myoid/posterior/likelihood.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <Eigen/Cholesky>
+
+#include "myoid/core/parallel.h"
+
+namespace myoid::identification {
+namespace {
+
+double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+/// Adds the symmetric Toeplitz matrix with this first column.
+void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::MatrixXd& q) {
+  const Eigen::Index n = q.rows();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    q.col(j).tail(n - j) += first_column.head(n - j);
+    q.col(j).head(j) += first_column.segment(1, j).reverse();
+  }
+}
+
+/// The gradient by the first column of a symmetric Toeplitz matrix, b that by the matrix.
+Eigen::VectorXd diagonal_sums(const Eigen::MatrixXd& b) {
+  const Eigen::Index n = b.rows();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < n; ++j) sums.head(n - j) += b.col(j).tail(n - j);
+  sums.tail(n - 1) *= 2.0;
+  return sums;
+}
+
+}  // namespace
+
+/// One run at one point.
+struct Likelihood::Block {
+  std::unique_ptr<RunEvaluation> evaluation;
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< Of A.
+  Eigen::VectorXd solved;              ///< A^-1 r
+  Eigen::MatrixXd unseen;              ///< L S W
+  Eigen::MatrixXd unseen_solved;       ///< A^-1 L S W
+  Eigen::VectorXd projected;           ///< (L S W)' A^-1 r
+  Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W
+  double own = 0.0;                    ///< -1/2 r' A^-1 r - 1/2 ln |A|
+  bool positive = false;
+};
+
+Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options)
+    : data_(data),
+      options_(options),
+      map_(data, options),
+      runs_(trial_runs(data, options, map_)),
+      motion_(runs_.size()),
+      columns_(runs_.size()) {
+  double sum = 0.0;
+  for (const TrialRun& run : runs_) {
+    rows_ += run.measured_nm.size();
+    sum += run.measured_nm.squaredNorm();
+    auto& of_channels = envelope_noise_.emplace_back();
+    for (const EnvelopeError& error : run.errors)
+      of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
+  }
+  torque_size_nm_ = std::sqrt(sum / static_cast<double>(rows_));
+  refer_to(map_.start());
+}
+
+void Likelihood::refer_to(const Eigen::VectorXd& z) {
+  const ModelValues values = map_.values(z);
+  std::vector<RunEvaluation> at;
+  at.reserve(runs_.size());
+  for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
+  unseen_ = unseen_quantities(data_, options_, map_, runs_, values, at);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const Reduction& reduction = runs_[r].reduction;
+    columns_[r] = reduction.apply(unseen_.columns[r]);
+    if (options_.angle_sd_rad <= 0.0 && options_.angle_rate_sd_radps <= 0.0) continue;
+    const EmgNoise white(reduction, Eigen::VectorXd::Ones(1));
+    motion_[r] = white.covariance(motion_variance(runs_[r], at[r]));
+  }
+}
+
+Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run, const RunEvaluation& at) const {
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(run.time_s.size());
+  for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
+    const MuscleRows& rows = at.muscle(k);
+    // dq moves a length by -r dq, and the torque by r times the force's change.
+    const Eigen::ArrayXd squared = run.arm_m.col(static_cast<Eigen::Index>(k)).array().square();
+    variance.array() +=
+        (squared * rows.by_length.array() * options_.angle_sd_rad).square() +
+        (squared * rows.by_velocity.array() * options_.angle_rate_sd_radps).square();
+  }
+  return variance;
+}
+
+Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
+  Eigen::VectorXd w(static_cast<Eigen::Index>(unseen_.quantities.size()));
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
+    const UnseenQuantity& of = unseen_.quantities[i];
+    const bool exact = believed_ == Believed::geometry_and_sensors_exact && !of.of_the_model;
+    w[static_cast<Eigen::Index>(i)] =
+        exact ? 0.0 : of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+  }
+  return w;
+}
+
+Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noise) const {
+  Eigen::VectorXd scale = std::exp(2.0 * noise[kEmgFactor]) * runs_[r].envelope_sd.cwiseAbs2();
+  for (Eigen::Index c = 0; c < scale.size(); ++c)
+    scale[c] *= runs_[r].errors[static_cast<std::size_t>(c)].share();
+  return scale;
+}
+
+Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
+                                                const TorqueSignals& signals,
+                                                const NoiseValues& noise) const {
+  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  const Eigen::Index m = runs_[r].measured_nm.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m, m);
+  for (Eigen::Index c = 0; c < scale.size(); ++c)
+    a += envelope_noise_[r][static_cast<std::size_t>(c)].covariance(
+        scale[c] * signals.by_log_envelope.col(c).cwiseAbs2());
+  return a;
+}
+
+bool Likelihood::fill(std::size_t r,
+                      const Eigen::VectorXd& weights,
+                      const NoiseValues& noise,
+                      Block& block) const {
+  const TrialRun& run = runs_[r];
+  const TorqueSignals& signals = block.evaluation->signals();
+  Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
+  add_toeplitz(std::exp(2.0 * noise[kTorqueSd]) *
+                   torque_error(run.reduction, run.interval_s, noise[kTorqueTime]).correlation,
+               a);
+  if (motion_[r].size() > 0) a += motion_[r];
+  block.factor.compute(a);
+  if (block.factor.info() != Eigen::Success) return false;
+  const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
+  block.solved = block.factor.solve(residual);
+  block.unseen = columns_[r] * weights.asDiagonal();
+  block.unseen_solved = block.factor.solve(block.unseen);
+  block.projected = block.unseen_solved.transpose() * residual;
+  block.gram = block.unseen.transpose() * block.unseen_solved;
+  block.own = -0.5 * (residual.dot(block.solved) + log_determinant(block.factor));
+  return std::isfinite(block.own);
+}
+
+void Likelihood::pull_back(std::size_t r,
+                           const NoiseValues& noise,
+                           const Eigen::VectorXd& shared,
+                           const Eigen::MatrixXd& inverse,
+                           const Block& block,
+                           Gradient& gradient) const {
+  const TrialRun& run = runs_[r];
+  const TorqueSignals& signals = block.evaluation->signals();
+  const Eigen::Index m = run.measured_nm.size();
+  // Sigma^-1 r, and of A the gradient 1/2 (w w' - Sigma^-1).
+  const Eigen::VectorXd w = block.solved - block.unseen_solved * shared;
+  const Eigen::MatrixXd spread = block.unseen_solved * inverse;
+  const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() + spread * block.unseen_solved.transpose() -
+                                      block.factor.solve(Eigen::MatrixXd::Identity(m, m)));
+
+  const double variance = std::exp(2.0 * noise[kTorqueSd]);
+  const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
+  const Eigen::VectorXd sums = diagonal_sums(by_a);
+  gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
+  gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
+
+  const Eigen::VectorXd scale = envelope_scale(r, noise);
+  TorqueSignals by{run.reduction.transposed(w), Eigen::MatrixXd(signals.by_log_envelope)};
+  gradient.by_noise[kEmgFactor] = 0.0;
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto d = signals.by_log_envelope.col(c);
+    by.by_log_envelope.col(c) =
+        2.0 * scale[c] *
+        envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(by_a).cwiseProduct(d);
+    gradient.by_noise[kEmgFactor] += by.by_log_envelope.col(c).dot(d);
+  }
+
+  gradient.by_noise[kModelErrorSize] = 0.0;
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (unseen_.quantities[i].of_the_model)
+      gradient.by_noise[kModelErrorSize] +=
+          shared[at] * w.dot(block.unseen.col(at)) - spread.col(at).dot(block.unseen.col(at));
+  }
+  gradient.by_z.setZero(map_.size());
+  block.evaluation->pull_back(by, gradient.by_z);
+}
+
+double Likelihood::value(const Eigen::VectorXd& z,
+                         const NoiseValues& noise,
+                         Gradient* gradient) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
+  const ChainsByOwner by_owner(map_, chains);
+  const Eigen::VectorXd w = weights(noise);
+  const auto each_run = [&](const auto& one) {
+    parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+      for (std::size_t r = range.begin(); r < range.end(); ++r) one(r);
+    });
+  };
+  std::vector<Block> blocks(runs_.size());
+  each_run([&](std::size_t r) {
+    Block& block = blocks[r];
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
+                                                       gradient != nullptr ? &by_owner : nullptr);
+    block.positive = fill(r, w, noise, block);
+  });
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  const Eigen::Index quantities = w.size();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(quantities, quantities);
+  Eigen::VectorXd projected = Eigen::VectorXd::Zero(quantities);
+  double result = 0.0;
+  for (const Block& block : blocks) {
+    if (!block.positive) return kNever;
+    gram += block.gram;
+    projected += block.projected;
+    result += block.own;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+  if (factor.info() != Eigen::Success) return kNever;
+  const Eigen::VectorXd shared = factor.solve(projected);
+  result += 0.5 * (projected.dot(shared) - log_determinant(factor));
+  if (gradient == nullptr || !std::isfinite(result)) return result;
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(quantities, quantities));
+  std::vector<Gradient> parts(runs_.size());
+  each_run([&](std::size_t r) { pull_back(r, noise, shared, inverse, blocks[r], parts[r]); });
+  gradient->by_z.setZero(map_.size());
+  gradient->by_noise.fill(0.0);
+  for (const Gradient& part : parts) {
+    gradient->by_z += part.by_z;
+    for (std::size_t i = 0; i < part.by_noise.size(); ++i)
+      gradient->by_noise[i] += part.by_noise[i];
+  }
+  return result;
+}
+
+Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
+                                                const NoiseValues& noise) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, &chains);
+  const ChainsByOwner by_owner(map_, chains);
+  const Eigen::VectorXd w = weights(noise);
+  const Eigen::Index p = map_.size(), quantities = w.size();
+  std::vector<Block> blocks(runs_.size());
+  std::vector<Eigen::MatrixXd> solved(runs_.size());  // A^-1 L J
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(quantities, quantities);
+  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(quantities, p);
+  Information result{Eigen::MatrixXd::Zero(p, p),
+                     std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    Block& block = blocks[r];
+    block.evaluation =
+        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
+    if (!fill(r, w, noise, block)) return result;
+    solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
+    gram += block.gram;
+    cross += block.unseen.transpose() * solved[r];
+  }
+  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J
+  const auto of = [&](Source source) -> Eigen::MatrixXd& {
+    return result.by_source[static_cast<std::size_t>(source)];
+  };
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const Eigen::MatrixXd k = solved[r] - blocks[r].unseen_solved * shared;
+    const Eigen::MatrixXd envelopes =
+        envelope_covariance(r, blocks[r].evaluation->signals(), noise);
+    const Eigen::MatrixXd all = blocks[r].factor.reconstructedMatrix();
+    of(Source::electrodes) += k.transpose() * envelopes * k;
+    of(Source::noise) += k.transpose() * (all - envelopes) * k;
+  }
+  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
+    const auto row = shared.row(static_cast<Eigen::Index>(i));
+    of(unseen_.quantities[i].source) += row.transpose() * row;
+  }
+  for (const Eigen::MatrixXd& part : result.by_source) result.information += part;
+  return result;
+}
+
+Eigen::VectorXd Likelihood::unseen_mean(const Eigen::VectorXd& z, const NoiseValues& noise) const {
+  const ModelValues values = map_.values(z);
+  const Eigen::VectorXd w = weights(noise);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(w.size(), w.size());
+  Eigen::VectorXd projected = Eigen::VectorXd::Zero(w.size());
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    Block block;
+    block.evaluation =
+        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, nullptr);
+    if (!fill(r, w, noise, block)) continue;
+    gram += block.gram;
+    projected += block.projected;
+  }
+  return gram.llt().solve(projected);
+}
+
+Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
+  const ModelValues values = map_.values(z);
+  Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_)};
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const RunEvaluation evaluation(runs_[r], map_, options_.lag, values, nullptr);
+    const Eigen::Index m = runs_[r].measured_nm.size();
+    result.measured_nm.segment(first, m) = runs_[r].measured_nm;
+    result.predicted_nm.segment(first, m) =
+        runs_[r].reduction.apply(evaluation.signals().torque_nm);
+    first += m;
+  }
+  return result;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/posterior/noise_model.h"
+#include "myoid/posterior/torque_signals.h"
+#include "myoid/posterior/trial_run.h"
+#include "myoid/posterior/unseen.h"
+
+namespace myoid::identification {
+
+/// What is taken to be exact: nothing, or the geometry and the scales of the sensors.
+enum class Believed { nothing_exact, geometry_and_sensors_exact };
+
+/// ln p(y | z, phi) of all calibration trials: y = T^(z; u, q) + e_T + e_u + e_q + S W x, all of it
+/// behind the operator L of each run,
+///
+///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
+///   A = L [sigma_T^2 exp(-|dt|/tau_T) + Q] L' + kappa^2 sum_c sd_c^2 K_c D_c^2 K_c'
+///
+/// A is one block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken
+/// in by Woodbury's identity. K_c is L behind the filters
+/// of the envelope and the drive (EmgNoise). S and Q, the
+/// error of angle and rate, independent from sample to sample, belong to reference values of the
+/// unknowns. The constant -n/2 ln(2 pi) is left out.
+class Likelihood {
+ public:
+  /// The reference is the start.
+  Likelihood(const StudyData& data, const EstimatorOptions& options);
+
+  /// Takes S and Q at these values of the unknowns.
+  void refer_to(const Eigen::VectorXd& z);
+  /// Leaves out of S what is taken to be exact; at first nothing is.
+  void believe(Believed believed) { believed_ = believed; }
+
+  [[nodiscard]] const ParameterMap& parameters() const { return map_; }
+  [[nodiscard]] const std::vector<TrialRun>& runs() const { return runs_; }
+  [[nodiscard]] const Unseen& unseen() const { return unseen_; }
+  [[nodiscard]] Eigen::Index row_count() const { return rows_; }
+  /// Root mean square of the measured torque.
+  [[nodiscard]] double torque_size_nm() const { return torque_size_nm_; }
+
+  struct Gradient {
+    Eigen::VectorXd by_z;
+    NoiseValues by_noise{};
+  };
+  /// Runs in parallel, sums in order: the same bits for any number of threads. -infinity where
+  /// Sigma is not positive definite in the computer's numbers.
+  [[nodiscard]] double value(const Eigen::VectorXd& z,
+                             const NoiseValues& noise,
+                             Gradient* gradient = nullptr) const;
+
+  /// Fisher's information of z in the mean, J' Sigma^-1 J, and what each source is of it:
+  /// `by_source`[s] = J' Sigma^-1 Sigma_s Sigma^-1 J, which add to `information`.
+  struct Information {
+    Eigen::MatrixXd information;
+    std::vector<Eigen::MatrixXd> by_source;  ///< Indexed by Source; that of literature is zero.
+  };
+  [[nodiscard]] Information information(const Eigen::VectorXd& z, const NoiseValues& noise) const;
+
+  /// The expectation of the unseen quantities given the torque, each over its standard deviation.
+  [[nodiscard]] Eigen::VectorXd unseen_mean(const Eigen::VectorXd& z,
+                                            const NoiseValues& noise) const;
+
+  struct Residuals {
+    Eigen::VectorXd measured_nm;   ///< L y, all runs one after the other.
+    Eigen::VectorXd predicted_nm;  ///< L T^.
+  };
+  [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z) const;
+
+ private:
+  struct Block;
+  [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
+  /// kappa^2 sd_c^2 of each channel.
+  [[nodiscard]] Eigen::VectorXd envelope_scale(std::size_t run, const NoiseValues& noise) const;
+  [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
+                                                    const TorqueSignals& signals,
+                                                    const NoiseValues& noise) const;
+  /// Fills the block of a run up to what needs no other run; false: not positive definite.
+  [[nodiscard]] bool fill(std::size_t run,
+                          const Eigen::VectorXd& weights,
+                          const NoiseValues& noise,
+                          Block& block) const;
+  void pull_back(std::size_t run,
+                 const NoiseValues& noise,
+                 const Eigen::VectorXd& shared,
+                 const Eigen::MatrixXd& inverse,
+                 const Block& block,
+                 Gradient& gradient) const;
+  [[nodiscard]] Eigen::VectorXd motion_variance(const TrialRun& run, const RunEvaluation& at) const;
+
+  const StudyData& data_;
+  EstimatorOptions options_;
+  ParameterMap map_;
+  std::vector<TrialRun> runs_;
+  std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
+  std::vector<Eigen::MatrixXd> motion_;                ///< Per run: L Q L', or empty.
+  Unseen unseen_;
+  Believed believed_ = Believed::nothing_exact;
+  std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.
+  Eigen::Index rows_ = 0;
+  double torque_size_nm_ = 0.0;
+};
+
+}  // namespace myoid::identification

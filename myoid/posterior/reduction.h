@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace myoid::identification {
+
+/// The linear operator L that makes a run of n even samples into m < n rows: a Gaussian low-pass,
+/// amplitude exp(-(2 pi f sigma)^2 / 2) with -3 dB at `cutoff_hz`, read every third of 1 /
+/// cut-off. All rows have the same weights, which add to 1 and reach no farther than the run, so
+/// that L makes a stationary error stationary again. A run shorter than the weights is one row.
+/// Without a cut-off L is the identity.
+class Reduction {
+ public:
+  Reduction(Eigen::Index samples, double rate_hz, std::optional<double> cutoff_hz);
+
+  [[nodiscard]] Eigen::Index inputs() const { return inputs_; }
+  [[nodiscard]] Eigen::Index outputs() const { return outputs_; }
+  /// The weights of a row.
+  [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
+  /// The sample that the first weight of row j belongs to.
+  [[nodiscard]] Eigen::Index first(Eigen::Index j) const { return begin_ + j * stride_; }
+  /// Samples from row to row.
+  [[nodiscard]] Eigen::Index stride() const { return stride_; }
+
+  /// L X, column by column.
+  [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+  /// L' Y.
+  [[nodiscard]] Eigen::MatrixXd transposed(const Eigen::Ref<const Eigen::MatrixXd>& y) const;
+
+ private:
+  Eigen::Index inputs_ = 0, outputs_ = 0, begin_ = 0, stride_ = 1;
+  Eigen::VectorXd weights_;
+};
+
+/// Samples that one run and the next must share for their rows to follow each other without a gap.
+[[nodiscard]] Eigen::Index shared_samples(double rate_hz, std::optional<double> cutoff_hz);
+
+}  // namespace myoid::identification

@@ -1,0 +1,117 @@
+#include "myoid/posterior/torque_signals.h"
+
+#include "myoid/identification/muscle_law.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kActivationStep = 0.02;
+
+/// The activations when the envelope is larger by kActivationStep: a (1 + h p).
+std::vector<Activation> more_active(std::vector<Activation> activation, double exponent) {
+  const double grown = 1.0 + kActivationStep * exponent;
+  for (Activation& a : activation) {
+    const double before = a.value;
+    a.value *= grown;
+    for (double& by : a.by_field) by *= grown;
+    a.by_field[kExponent] += kActivationStep * before;
+  }
+  return activation;
+}
+
+/// What a joint's own torque changes by with one of its numbers.
+Eigen::VectorXd by_joint_field(const TrialRun& run, int field) {
+  const Eigen::Index n = run.time_s.size();
+  if (field == kOffset) return Eigen::VectorXd::Ones(n);
+  if (run.motion.size() == 0) return Eigen::VectorXd::Zero(n);
+  return -run.motion.col(field == kViscosity ? 1 : field == kInertia ? 2 : 0);
+}
+
+void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen::VectorXd& by_z) {
+  const Eigen::VectorXd by = rows.by_variable * by_force;
+  for (std::size_t v = 0; v < rows.variables.size(); ++v)
+    by_z[rows.variables[v]] += by[static_cast<Eigen::Index>(v)];
+}
+
+}  // namespace
+
+ChainsByOwner::ChainsByOwner(const ParameterMap& map,
+                             const std::vector<ParameterMap::Chain>& chains)
+    : of_muscle(map.held().muscles.size()),
+      of_channel(map.channels().size()),
+      of_joint(map.joints().size()) {
+  for (const ParameterMap::Chain& chain : chains) {
+    const auto owner = static_cast<std::size_t>(chain.owner);
+    if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
+    if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
+    if (chain.scope == Scope::joint) of_joint[owner].push_back(chain);
+  }
+}
+
+RunEvaluation::RunEvaluation(const TrialRun& run,
+                             const ParameterMap& map,
+                             EmgLag lag,
+                             const ModelValues& values,
+                             const ChainsByOwner* chains)
+    : run_(run), chains_(chains), muscles_(values.muscles.size()) {
+  const Eigen::Index n = run.time_s.size();
+  const auto channels = static_cast<Eigen::Index>(run.envelopes.size());
+  signals_.torque_nm = run.resting_nm;
+  signals_.by_log_envelope.setZero(n, channels);
+  const JointValues& joint = values.joints.front();
+  for (int field = 0; field < kJointFieldCount; ++field) {
+    const double value = joint[static_cast<std::size_t>(field)];
+    if (value != 0.0) signals_.torque_nm += value * by_joint_field(run, field);
+  }
+  std::vector<std::vector<Activation>> more;
+  for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
+    activations_.push_back(activation(run.envelopes[c], run.time_s, values.channels[c], lag));
+    more.push_back(more_active(activations_.back(), values.channels[c][kExponent]));
+  }
+  static const std::vector<ParameterMap::Chain> kNone;
+  for (std::size_t k = 0; k < muscles_.size(); ++k) {
+    Muscle& m = muscles_[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    const auto c = static_cast<std::size_t>(map.channel_of_muscle(k));
+    m.channel = static_cast<Eigen::Index>(c);
+    const auto evaluate = [&](const std::vector<Activation>& a, MuscleRows& rows) {
+      evaluate_muscle(a, run.length_m.col(column), run.velocity_mps.col(column), values.muscles[k],
+                      chains == nullptr ? kNone : chains->of_muscle[k],
+                      chains == nullptr ? kNone : chains->of_channel[c], rows);
+    };
+    evaluate(activations_[c], m.at);
+    evaluate(more[c], m.more_active);
+    const auto arm = run.arm_m.col(column).array();
+    signals_.torque_nm.array() += arm * m.at.force_n.array();
+    signals_.by_log_envelope.col(m.channel).array() +=
+        arm * (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
+  }
+}
+
+void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const {
+  for (const ParameterMap::Chain& chain : chains_->of_joint.front())
+    by_z[chain.variable] += chain.slope * by.torque_nm.dot(by_joint_field(run_, chain.field));
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
+    const Muscle& m = muscles_[static_cast<std::size_t>(k)];
+    const auto arm = run_.arm_m.col(k).array();
+    const Eigen::ArrayXd more = arm * by.by_log_envelope.col(m.channel).array() / kActivationStep;
+    add_gradient(m.at, arm * by.torque_nm.array() - more, by_z);
+    add_gradient(m.more_active, more, by_z);
+  }
+}
+
+Eigen::MatrixXd RunEvaluation::jacobian(Eigen::Index unknowns) const {
+  Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.time_s.size(), unknowns);
+  for (const ParameterMap::Chain& chain : chains_->of_joint.front())
+    by_z.col(chain.variable) += chain.slope * by_joint_field(run_, chain.field);
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
+    const MuscleRows& rows = muscles_[static_cast<std::size_t>(k)].at;
+    for (std::size_t v = 0; v < rows.variables.size(); ++v)
+      by_z.col(rows.variables[v]).array() +=
+          run_.arm_m.col(k).array() *
+          rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose().array();
+  }
+  return by_z;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/muscle_rows.h"
+#include "myoid/identification/parameters.h"
+#include "myoid/posterior/trial_run.h"
+
+namespace myoid::identification {
+
+/// What the model says of one run at all n samples, or a function's gradient by it.
+struct TorqueSignals {
+  Eigen::VectorXd torque_nm;        ///< n: T^.
+  Eigen::MatrixXd by_log_envelope;  ///< n x channels: D_c = d T^ / d ln u_c.
+};
+
+/// The derivative of the numbers of the model by the unknowns, by whose they are.
+struct ChainsByOwner {
+  ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains);
+  std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
+};
+
+/// The torque signals of one run at one point, with all that takes a gradient back from them to the
+/// unknowns.
+///
+/// D_c is a secant, of the activation from a to a (1 + 0.02 p), p the exponent of the channel: its
+/// gradient needs first derivatives of the muscles' law only, and is exact.
+class RunEvaluation {
+ public:
+  /// `chains` null: no gradient will be asked for.
+  RunEvaluation(const TrialRun& run,
+                const ParameterMap& map,
+                EmgLag lag,
+                const ModelValues& values,
+                const ChainsByOwner* chains);
+
+  [[nodiscard]] const TorqueSignals& signals() const { return signals_; }
+  /// The channels' activations at the n samples.
+  [[nodiscard]] const std::vector<std::vector<Activation>>& activations() const {
+    return activations_;
+  }
+  /// A muscle's tension, with its derivatives by length and rate.
+  [[nodiscard]] const MuscleRows& muscle(std::size_t k) const { return muscles_[k].at; }
+  /// Adds to `by_z` the gradient of a function whose gradient by the signals is `by`.
+  void pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const;
+  /// d T^ / d z, n x unknowns.
+  [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index unknowns) const;
+
+ private:
+  struct Muscle {
+    Eigen::Index channel = 0;
+    MuscleRows at, more_active;
+  };
+
+  const TrialRun& run_;
+  const ChainsByOwner* chains_ = nullptr;
+  std::vector<std::vector<Activation>> activations_;
+  std::vector<Muscle> muscles_;
+  TorqueSignals signals_;
+};
+
+}  // namespace myoid::identification

@@ -1,0 +1,62 @@
+#include "myoid/posterior/torque_signals.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/elbow_study.h"
+
+namespace myoid::identification {
+namespace {
+
+TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
+  const StudyData data = test::elbow_study({.trials = 1, .seconds = 6.0, .with_priors = true}).data;
+  const ParameterMap map(data, {});
+  const std::vector<TrialRun> runs = trial_runs(data, {}, map);
+  const Eigen::VectorXd z = map.start();
+  for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
+    const auto at = [&](const Eigen::VectorXd& point) {
+      return RunEvaluation(runs[0], map, lag, map.values(point), nullptr).signals();
+    };
+    std::vector<ParameterMap::Chain> chains;
+    const ModelValues values = map.values(z, &chains);
+    const ChainsByOwner by_owner(map, chains);
+    const RunEvaluation evaluation(runs[0], map, lag, values, &by_owner);
+    // Any linear function of the signals.
+    TorqueSignals by = evaluation.signals();
+    const auto wave = [](Eigen::Index i, Eigen::Index j) {
+      return std::sin(0.3 * static_cast<double>(i) + 1.7 * static_cast<double>(j));
+    };
+    by.torque_nm = Eigen::MatrixXd::NullaryExpr(by.torque_nm.size(), 1, wave);
+    by.by_log_envelope =
+        Eigen::MatrixXd::NullaryExpr(by.by_log_envelope.rows(), by.by_log_envelope.cols(), wave);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
+    evaluation.pull_back(by, gradient);
+    const Eigen::MatrixXd jacobian = evaluation.jacobian(z.size());
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const Eigen::VectorXd step = 1e-5 * Eigen::VectorXd::Unit(z.size(), j);
+      const TorqueSignals above = at(z + step), below = at(z - step);
+      const double sum =
+          (by.torque_nm.dot(above.torque_nm - below.torque_nm) +
+           by.by_log_envelope.cwiseProduct(above.by_log_envelope - below.by_log_envelope).sum()) /
+          2e-5;
+      EXPECT_NEAR(gradient[j], sum, 1e-4 * (1.0 + std::abs(sum))) << j;
+      const Eigen::VectorXd change = (above.torque_nm - below.torque_nm) / 2e-5;
+      EXPECT_LT((jacobian.col(j) - change).norm(), 1e-5 * (1.0 + change.norm())) << j;
+    }
+  }
+}
+
+TEST(RunEvaluation, WhatALargerEnvelopeMakesIsItsSecant) {
+  // The plain law is proportional to the envelope: D_c is the channel's torque.
+  const StudyData data = test::elbow_study({.trials = 1, .seconds = 6.0}).data;
+  const ParameterMap map(data, {});
+  const std::vector<TrialRun> runs = trial_runs(data, {}, map);
+  const TorqueSignals signals =
+      RunEvaluation(runs[0], map, EmgLag::delay, map.values(map.start()), nullptr).signals();
+  EXPECT_LT((signals.by_log_envelope.rowwise().sum() - signals.torque_nm).norm(),
+            1e-10 * signals.torque_nm.norm());
+}
+
+}  // namespace
+}  // namespace myoid::identification

@@ -1,0 +1,152 @@
+#include "myoid/posterior/trial_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/core/error.h"
+#include "myoid/identification/residual_model.h"
+#include "myoid/posterior/drive.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kLongest_s = 8.0;
+constexpr Eigen::Index kFewest = 8;  // samples of a run
+
+/// Every stride-th sample that may be fitted, in stretches without a hole.
+std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial,
+                                                 double max_rate_hz,
+                                                 double longest_delay_s) {
+  const Eigen::Index all = trial.time_s.size();
+  const double begin = trial.time_s[0], end = trial.time_s[all - 1], span = end - begin;
+  const double interval = span / static_cast<double>(all - 1);
+  const auto stride = std::max<Eigen::Index>(1, std::lround(1.0 / (interval * max_rate_hz)));
+  const double edge_s = std::min(0.1, 0.02 * span), reach_s = std::min(longest_delay_s, 0.1 * span);
+  const Eigen::VectorXd& clock = trial.activation.time_s();
+  std::vector<bool> included(static_cast<std::size_t>(all), false);
+  for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
+  std::vector<std::vector<Eigen::Index>> found(1);
+  for (Eigen::Index i = 0; i < all; i += stride) {
+    const double t = trial.time_s[i];
+    if (included[static_cast<std::size_t>(i)] && t >= begin + edge_s && t <= end - edge_s &&
+        t - reach_s >= clock[0] - 1e-9 && t <= clock[clock.size() - 1] + 1e-9) {
+      found.back().push_back(i);
+    } else if (!found.back().empty()) {
+      found.emplace_back();
+    }
+  }
+  return found;
+}
+
+/// The stretch in pieces of equal length, none longer than kLongest_s but for the samples that
+/// neighbors share.
+std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& rows,
+                                              const Eigen::VectorXd& time_s,
+                                              std::optional<double> cutoff_hz) {
+  const double span = time_s[rows.back()] - time_s[rows.front()];
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(span / kLongest_s)));
+  const double rate_hz = static_cast<double>(rows.size() - 1) / std::max(span, 1e-9);
+  const auto shared = static_cast<std::size_t>(shared_samples(rate_hz, cutoff_hz));
+  const std::size_t own = rows.size() > shared ? (rows.size() - shared) / count : 0;
+  std::vector<std::vector<Eigen::Index>> found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k * own);
+    found.emplace_back(
+        first, k + 1 == count ? rows.end() : first + static_cast<std::ptrdiff_t>(own + shared));
+  }
+  return found;
+}
+
+TrialRun make_run(const TrialData& trial,
+                  const std::vector<Eigen::Index>& rows,
+                  const EstimatorOptions& options,
+                  const ParameterMap& map) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const double span = trial.time_s[rows.back()] - trial.time_s[rows.front()];
+  const double rate_hz = static_cast<double>(n - 1) / span;
+  TrialRun run{.time_s = trial.time_s(rows),
+               .length_m = trial.length_m(rows, Eigen::all),
+               .velocity_mps = trial.velocity_mps(rows, Eigen::all),
+               .arm_m = trial.moment_arm_m(rows, Eigen::all),
+               .motion = {},
+               .resting_nm = resting_torque_nm(trial)(rows),
+               .envelopes = {},
+               .errors = {},
+               .envelope_sd = {},
+               .interval_s = 1.0 / rate_hz,
+               .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz),
+               .measured_nm = {}};
+  const Eigen::Index all = trial.time_s.size();
+  if (trial.angle_rad.size() == all && trial.velocity_radps.size() == all &&
+      trial.acceleration_radps2.size() == all) {
+    run.motion.resize(n, 3);
+    run.motion << trial.angle_rad(rows), trial.velocity_radps(rows),
+        trial.acceleration_radps2(rows);
+  }
+  run.measured_nm = run.reduction.apply(Eigen::VectorXd(trial.torque_nm(rows)));
+  run.envelope_sd.resize(static_cast<Eigen::Index>(map.channels().size()));
+  const Eigen::VectorXd& clock = trial.activation.time_s();
+  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
+  for (std::size_t c = 0; c < map.channels().size(); ++c) {
+    const std::string& name = map.channels()[c];
+    const Envelope recorded(clock, trial.activation.column(name));
+    const auto rest = options.emg_rest.find(name);
+    const auto bandwidth = options.emg_bandwidth_hz.find(name);
+    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
+    const double spread = envelope_spread(options, name);
+    run.envelope_sd[static_cast<Eigen::Index>(c)] =
+        spread * noise_gain(recorded, run.time_s[0] - delay_s, run.time_s[n - 1] - delay_s,
+                            raw && rest != options.emg_rest.end() ? rest->second : 0.0, spread);
+    const EnvelopeError plain(options.envelope_cutoff_hz, {});
+    Drive drive = drive_behind(recorded, run.envelope_sd[static_cast<Eigen::Index>(c)], plain,
+                               options.envelope_cutoff_hz);
+    run.envelopes.push_back(std::move(drive.envelope));
+    run.errors.push_back(
+        EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
+            .behind(drive.left));
+  }
+  return run;
+}
+
+}  // namespace
+
+std::vector<TrialRun> trial_runs(const StudyData& data,
+                                 const EstimatorOptions& options,
+                                 const ParameterMap& map) {
+  const auto trials = std::count_if(data.trials.begin(), data.trials.end(),
+                                    [](const TrialData& trial) { return trial.calibration; });
+  std::vector<TrialRun> runs;
+  double before = 0.0;
+  for (std::size_t i = 0; i < data.trials.size(); ++i) {
+    const TrialData& trial = data.trials[i];
+    if (!trial.calibration) continue;
+    const Eigen::Index all = trial.time_s.size();
+    if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
+      throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
+    if (!trial.more_joints.empty() || map.joints().size() > 1)
+      throw InvalidInput(fmt::format(
+          "trial '{}': the posterior is that of one joint, and this study fits several; "
+          "take the estimator least_squares",
+          trial.name));
+    const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
+    for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
+      if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
+      for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
+        if (static_cast<Eigen::Index>(rows.size()) < kFewest) continue;
+        TrialRun& run = runs.emplace_back(make_run(trial, rows, options, map));
+        run.trial = static_cast<int>(i);
+        const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
+        run.session = (before + middle / span) / static_cast<double>(trials) - 0.5;
+      }
+    }
+    before += 1.0;
+  }
+  if (runs.empty())
+    throw InvalidInput(
+        "identification: no calibration sample is left; EMG and motion must overlap in time");
+  return runs;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/envelope.h"
+#include "myoid/identification/parameters.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/posterior/noise_model.h"
+#include "myoid/posterior/reduction.h"
+
+namespace myoid::identification {
+
+/// A stretch of one calibration trial without a hole, n even samples, and its measured torque
+/// behind L. Trials longer than 8 s are cut into runs of equal length, whose errors count as
+/// independent but for those that are the person's (unseen.h): 8 s are many times as long as the
+/// errors' memory, and the work grows with the square of a run.
+struct TrialRun {
+  int trial = 0;                    ///< In StudyData::trials.
+  double session = 0.0;             ///< Place of its middle in the session, -1/2 to 1/2.
+  Eigen::VectorXd time_s;           ///< n
+  Eigen::MatrixXd length_m;         ///< n x muscles, musculotendon length.
+  Eigen::MatrixXd velocity_mps;     ///< n x muscles
+  Eigen::MatrixXd arm_m;            ///< n x muscles
+  Eigen::MatrixXd motion;           ///< n x 3: angle, rate, acceleration; empty where not known.
+  Eigen::VectorXd resting_nm;       ///< n: what the joint was measured to make by itself, or zeros.
+  std::vector<Envelope> envelopes;  ///< Per EMG channel: of the drive (drive.h).
+  std::vector<EnvelopeError> errors;  ///< Per EMG channel: of the envelope.
+  Eigen::VectorXd envelope_sd;  ///< Per EMG channel: relative sd expected of the recorded one.
+  double interval_s = 0.0;
+  Reduction reduction;
+  Eigen::VectorXd measured_nm;  ///< m: L y.
+};
+
+/// All runs of the calibration trials, thinned to EstimatorOptions::max_rate_hz, in order. The ends
+/// of a trial are left out, where splines and filters are unreliable and the EMG must reach back by
+/// the delay. Throws InvalidInput where nothing is left or a trial has several joints.
+[[nodiscard]] std::vector<TrialRun> trial_runs(const StudyData& data,
+                                               const EstimatorOptions& options,
+                                               const ParameterMap& map);
+
+}  // namespace myoid::identification

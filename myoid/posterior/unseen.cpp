@@ -1,0 +1,271 @@
+#include "myoid/posterior/unseen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/identification/beliefs.h"
+#include "myoid/identification/muscle_law.h"
+#include "myoid/intervals/held_tendon.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kLogRange = 2.3;
+constexpr double kLag_s = 0.15;  // a model's relative error of 10 % is a lag of 15 ms
+constexpr double kLeastActivation = 0.02;
+
+bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
+  return std::any_of(map.free().begin(), map.free().end(),
+                     [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
+}
+
+/// Recorded lengths and speeds of a muscle over all runs.
+struct Range {
+  double shortest = 1e9, longest = -1e9, fastest = 1e-9;
+  [[nodiscard]] double span() const { return std::max(longest - shortest, 1e-6); }
+  [[nodiscard]] Eigen::ArrayXd place(const Eigen::ArrayXd& l) const {
+    return 2.0 * (l - shortest) / span() - 1.0;
+  }
+};
+
+/// A range is at least half an optimal fiber length: over less a muscle's law and its moment arm
+/// cannot err by as much.
+std::vector<Range> ranges(const std::vector<TrialRun>& runs,
+                          const std::vector<MuscleValues>& muscles) {
+  std::vector<Range> found(muscles.size());
+  for (const TrialRun& run : runs) {
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      Range& range = found[k];
+      range.shortest = std::min(range.shortest, run.length_m.col(column).minCoeff());
+      range.longest = std::max(range.longest, run.length_m.col(column).maxCoeff());
+      range.fastest = std::max(range.fastest, run.velocity_mps.col(column).cwiseAbs().maxCoeff());
+    }
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double more = std::max(0.0, 0.5 * muscles[k][kFiberLength] - found[k].span());
+    found[k].shortest -= 0.5 * more;
+    found[k].longest += 0.5 * more;
+  }
+  return found;
+}
+
+/// Collects quantities one after the other.
+class Collector {
+ public:
+  Collector(const StudyData& data,
+            const ParameterMap& map,
+            const std::vector<TrialRun>& runs,
+            const ModelValues& values,
+            const std::vector<RunEvaluation>& at)
+      : data_(data),
+        map_(map),
+        runs_(runs),
+        values_(values),
+        at_(at),
+        ranges_(ranges(runs, map.held().muscles)),
+        columns_(runs.size()) {}
+
+  void add_geometry(std::size_t k, bool priors) {
+    const std::string& name = data_.muscles[k].name;
+    const Range& range = ranges_[k];
+    const double mean = 0.5 * (range.shortest + range.longest);
+    add(name + ".moment_arm", Source::geometry, beliefs::kMomentArm.sd);
+    for_runs(k, [&](const OfMuscle& of, auto column) {
+      column += of.torque + of.by_length * (of.length - mean) + of.by_velocity * of.velocity;
+    });
+    add(name + ".moment_arm_slope", Source::geometry, beliefs::kMomentArmSlope.sd);
+    for_runs(k, [&](const OfMuscle& of, auto column) {
+      const Eigen::ArrayXd x = range.place(of.length);
+      column += of.torque * x + of.by_length * 0.25 * range.span() * (x.square() - 1.0 / 3.0) +
+                of.by_velocity * x * of.velocity;
+    });
+    add_tendon(k, priors);
+  }
+
+  void add_electrodes() {
+    const std::size_t channels = map_.channels().size();
+    for (std::size_t c = 0; c < channels; ++c) {
+      add(map_.channels()[c] + ".gain_drift", Source::electrodes, beliefs::kGainDrift.sd);
+      for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
+      for (std::size_t other = 0; other < channels; ++other) {
+        if (other == c) continue;
+        add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]),
+            Source::electrodes, beliefs::kCrossTalk.sd);
+        for_channel(c, [&](const OfMuscle& of, auto column) {
+          column += of.torque * activation_of(of.at, other) /
+                    activation_of(of.at, c).max(kLeastActivation);
+        });
+      }
+    }
+  }
+
+  void add_torque_scale() {
+    add("torque_scale", Source::torque_scale, beliefs::kTorqueScale.sd);
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      columns_[r].back() = at_[r].signals().torque_nm.array();
+  }
+
+  void add_model_errors(std::size_t k) {
+    const std::string& name = data_.muscles[k].name;
+    const int channel = map_.channel_of_muscle(k);
+    const auto c = static_cast<std::size_t>(channel);
+    const Range& range = ranges_[k];
+    const auto shape = [&](const char* of_what, double weight, const auto& factor) {
+      add(name + ".error_" + of_what, Source::model, weight, true);
+      for_runs(k, [&](const OfMuscle& of, auto column) { column += of.torque * factor(of); });
+    };
+    const auto place = [&](const OfMuscle& of) { return range.place(of.length); };
+    shape("strength", 1.0, [](const OfMuscle&) { return 1.0; });
+    shape("length_1", 1.0, place);
+    shape("length_2", 1.0,
+          [&](const OfMuscle& of) { return (1.5 * place(of).square() - 0.5).eval(); });
+    shape("length_3", 0.5,
+          [&](const OfMuscle& of) { return (2.5 * place(of).cube() - 1.5 * place(of)).eval(); });
+    if (!is_free(map_, Scope::channel, kExponent, channel) &&
+        !is_free(map_, Scope::channel, kShape, channel))
+      shape("effort", 1.0, [&](const OfMuscle& of) {
+        return (1.0 + activation_of(of.at, c).max(kLeastActivation).log() / kLogRange).eval();
+      });
+    shape("speed", 1.0, [&](const OfMuscle& of) { return (of.velocity / range.fastest).eval(); });
+    shape("lag", 1.0, [&](const OfMuscle& of) { return lag_effect(of.at, c); });
+  }
+
+  /// A constant and a slope of the joint, of the size of the measured torque.
+  void add_joint_errors() {
+    double sum = 0.0, count = 0.0;
+    for (const TrialRun& run : runs_) {
+      sum += run.measured_nm.squaredNorm();
+      count += static_cast<double>(run.measured_nm.size());
+    }
+    const double size_nm = std::sqrt(sum / count);
+    if (!is_free(map_, Scope::joint, kOffset, 0)) {
+      add("joint.error_constant", Source::model, 1.0, true);
+      for (auto& columns : columns_) columns.back().setConstant(size_nm);
+    }
+    if (!is_free(map_, Scope::joint, kStiffness, 0)) {
+      add("joint.error_slope", Source::model, 1.0, true);
+      for (std::size_t r = 0; r < runs_.size(); ++r)
+        columns_[r].back() = size_nm * ranges_[0].place(runs_[r].length_m.col(0));
+    }
+  }
+
+  Unseen take() {
+    Unseen unseen{std::move(quantities_), {}};
+    for (const auto& columns : columns_) {
+      Eigen::MatrixXd& s = unseen.columns.emplace_back(columns.front().size(), columns.size());
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        s.col(static_cast<Eigen::Index>(i)) = columns[i].matrix();
+    }
+    return unseen;
+  }
+
+ private:
+  /// A muscle in one run: its torque r F, how that changes with length and rate, and both.
+  struct OfMuscle {
+    const TrialRun& run;
+    const RunEvaluation& at;
+    Eigen::ArrayXd torque, by_length, by_velocity, length, velocity;
+  };
+
+  static Eigen::ArrayXd activation_of(const RunEvaluation& at, std::size_t channel) {
+    const std::vector<Activation>& a = at.activations()[channel];
+    Eigen::ArrayXd value(static_cast<Eigen::Index>(a.size()));
+    for (Eigen::Index i = 0; i < value.size(); ++i) value[i] = a[static_cast<std::size_t>(i)].value;
+    return value;
+  }
+
+  /// Change of ln a by a lag of kLag_s.
+  static Eigen::ArrayXd lag_effect(const RunEvaluation& at, std::size_t channel) {
+    const std::vector<Activation>& a = at.activations()[channel];
+    Eigen::ArrayXd late(static_cast<Eigen::Index>(a.size()));
+    for (Eigen::Index i = 0; i < late.size(); ++i) {
+      const Activation& here = a[static_cast<std::size_t>(i)];
+      late[i] = -kLag_s * here.by_field[kDelay] / std::max(here.value, kLeastActivation);
+    }
+    return late;
+  }
+
+  void add_tendon(std::size_t k, bool priors) {
+    const int muscle = static_cast<int>(k);
+    const MuscleSetup& setup = data_.muscles[k];
+    const double slack_sd_m =
+        priors && !is_free(map_, Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
+    if (slack_sd_m > 0.0) {
+      add(setup.name + ".tendon_slack_length", Source::geometry, slack_sd_m);
+      for_runs(k, [](const OfMuscle& of, auto column) { column -= of.by_length; });
+    }
+    const MuscleValues& now = values_.muscles[k];
+    if (is_free(map_, Scope::muscle, kTendonStrain, muscle) || !(now[kSlack] > 0.0)) return;
+    const double elastic = now[kTendonStrain];
+    add(setup.name + ".tendon_strain", Source::geometry,
+        elastic > 0.0 ? elastic * beliefs::kTendonStrain.sd
+                      : std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd));
+    for_runs(k, [&](const OfMuscle& of, auto column) {
+      const Eigen::ArrayXd force = of.at.muscle(k).force_n.array() / now[kMaxForce];
+      column -= of.by_length * now[kSlack] * (1.0 + 5.0 * force).log() / std::log(6.0);
+    });
+  }
+
+  void add(std::string name, Source source, double weight, bool of_the_model = false) {
+    quantities_.push_back({std::move(name), source, weight, of_the_model});
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].time_s.size()));
+  }
+
+  template <typename Fill>
+  void for_runs(std::size_t k, const Fill& fill) {
+    const auto column = static_cast<Eigen::Index>(k);
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const MuscleRows& rows = at_[r].muscle(k);
+      const auto arm = runs_[r].arm_m.col(column).array();
+      const OfMuscle of{runs_[r],
+                        at_[r],
+                        arm * rows.force_n.array(),
+                        arm * rows.by_length.array(),
+                        arm * rows.by_velocity.array(),
+                        runs_[r].length_m.col(column).array(),
+                        runs_[r].velocity_mps.col(column).array()};
+      fill(of, Eigen::Ref<Eigen::ArrayXd>(columns_[r].back()));
+    }
+  }
+
+  template <typename Fill>
+  void for_channel(std::size_t c, const Fill& fill) {
+    for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
+      if (map_.channel_of_muscle(k) == static_cast<int>(c)) for_runs(k, fill);
+    }
+  }
+
+  const StudyData& data_;
+  const ParameterMap& map_;
+  const std::vector<TrialRun>& runs_;
+  const ModelValues& values_;
+  const std::vector<RunEvaluation>& at_;
+  std::vector<Range> ranges_;
+  std::vector<UnseenQuantity> quantities_;
+  std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
+};
+
+}  // namespace
+
+Unseen unseen_quantities(const StudyData& data,
+                         const EstimatorOptions& options,
+                         const ParameterMap& map,
+                         const std::vector<TrialRun>& runs,
+                         const ModelValues& values,
+                         const std::vector<RunEvaluation>& at) {
+  Collector collector(data, map, runs, values, at);
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    collector.add_geometry(k, options.priors);
+    collector.add_model_errors(k);
+  }
+  collector.add_electrodes();
+  collector.add_torque_scale();
+  collector.add_joint_errors();
+  return collector.take();
+}
+
+}  // namespace myoid::identification

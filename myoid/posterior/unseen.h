@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/parameters.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/posterior/torque_signals.h"
+#include "myoid/posterior/trial_run.h"
+
+namespace myoid::identification {
+
+/// Where an uncertainty comes from.
+enum class Source { noise, literature, geometry, electrodes, torque_scale, model };
+inline constexpr int kSourceCount = 6;
+
+/// A quantity x ~ N(0, weight^2) that the residuals can hardly tell, in which the torque is linear:
+/// it adds x S(t) to the torque, and W S S' W to the covariance, for all trials at once.
+struct UnseenQuantity {
+  std::string name;
+  Source source = Source::model;
+  double weight = 0.0;        ///< Standard deviation; of a model's error, over its size s.
+  bool of_the_model = false;  ///< Its standard deviation is s weight.
+};
+
+/// All such quantities of a study, and what they are in each run, at reference values of the
+/// unknowns. A relative error is one of the torque that was recorded, so S does not follow the
+/// unknowns: a moment arm that is 10 % too large makes F_max 10 % too small, and not the other
+/// muscles' errors smaller.
+///
+/// A moment arm r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the
+/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), as r = -dl/dq. A slack
+/// length that is off by d makes fibers shorter by d; a tendon that the study holds rigid stretches
+/// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque. Gain drift: the
+/// channel's torque times the place in the session. Cross-talk: the channel's torque times the
+/// ratio of another's activation to its own. Model error: the muscle's torque times polynomials of
+/// length, ln(activation), speed and lag, and a constant and a slope of the joint, as ErrorShapes.
+struct Unseen {
+  std::vector<UnseenQuantity> quantities;
+  std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n x quantities [N m].
+};
+
+/// `at` are the runs evaluated at the reference values `values`.
+[[nodiscard]] Unseen unseen_quantities(const StudyData& data,
+                                       const EstimatorOptions& options,
+                                       const ParameterMap& map,
+                                       const std::vector<TrialRun>& runs,
+                                       const ModelValues& values,
+                                       const std::vector<RunEvaluation>& at);
+
+}  // namespace myoid::identification

@@ -1,0 +1,191 @@
+#include "myoid/posterior/unseen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "myoid/posterior/torque_signals.h"
+
+#include "tests/support/elbow_study.h"
+
+namespace myoid::identification {
+namespace {
+
+StudyData two_trials() { return test::elbow_study({.trials = 2, .seconds = 6.0}).data; }
+
+/// A study, its runs, and where they are evaluated: at the start.
+struct AtStart {
+  explicit AtStart(StudyData of)
+      : data(std::move(of)), map(data, {}), runs(trial_runs(data, {}, map)) {}
+
+  /// The torque of all runs, one after the other; `change` gets each run and the model's numbers.
+  template <typename Change>
+  Eigen::VectorXd torque(const Change& change) const {
+    Eigen::VectorXd all(0);
+    for (const TrialRun& run : runs) {
+      TrialRun changed = run;
+      ModelValues values = map.values(map.start());
+      change(changed, values);
+      const Eigen::VectorXd one =
+          RunEvaluation(changed, map, EmgLag::delay, values, nullptr).signals().torque_nm;
+      all.conservativeResize(all.size() + one.size());
+      all.tail(one.size()) = one;
+    }
+    return all;
+  }
+
+  Unseen unseen() const {
+    const ModelValues values = map.values(map.start());
+    std::vector<RunEvaluation> at;
+    at.reserve(runs.size());
+    for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
+    return unseen_quantities(data, {}, map, runs, values, at);
+  }
+
+  /// The column of S of this name, all runs one after the other.
+  Eigen::VectorXd column(const std::string& name) const {
+    const Unseen all = unseen();
+    const auto found = std::find_if(all.quantities.begin(), all.quantities.end(),
+                                    [&](const UnseenQuantity& q) { return q.name == name; });
+    EXPECT_NE(found, all.quantities.end()) << name;
+    Eigen::VectorXd joined(0);
+    for (const Eigen::MatrixXd& columns : all.columns) {
+      joined.conservativeResize(joined.size() + columns.rows());
+      joined.tail(columns.rows()) = columns.col(found - all.quantities.begin());
+    }
+    return joined;
+  }
+
+  StudyData data;
+  ParameterMap map;
+  std::vector<TrialRun> runs;
+};
+
+/// Compares a column with the difference of the torque that `change(by, run, values)` makes.
+template <typename Change>
+void expect_derivative(const AtStart& at,
+                       const std::string& name,
+                       double step,
+                       const Change& change) {
+  const auto moved = [&](double by) {
+    return at.torque([&](TrialRun& run, ModelValues& values) { change(by, run, values); });
+  };
+  const Eigen::VectorXd difference = (moved(step) - moved(-step)) / (2.0 * step);
+  const Eigen::VectorXd column = at.column(name);
+  ASSERT_GT(difference.norm(), 0.0);
+  // The program's derivatives by length and rate may be secants.
+  EXPECT_LT((column - difference).norm(), 0.02 * difference.norm()) << name;
+}
+
+/// Shortest and longest recorded length, widened to half an optimal fiber length.
+std::pair<double, double> recorded_range(const AtStart& at, Eigen::Index k) {
+  double low = 1e9, high = -1e9;
+  for (const TrialRun& run : at.runs) {
+    low = std::min(low, run.length_m.col(k).minCoeff());
+    high = std::max(high, run.length_m.col(k).maxCoeff());
+  }
+  const double l0 = at.data.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
+  const double more = std::max(0.0, 0.5 * l0 - (high - low));
+  return {low - 0.5 * more, high + 0.5 * more};
+}
+
+TEST(Unseen, AMomentArmMovesLengthAndRateToo) {
+  const AtStart at(two_trials());
+  for (const Eigen::Index k : {0, 3}) {
+    const auto [low, high] = recorded_range(at, k);
+    const double middle = 0.5 * (low + high);
+    expect_derivative(at, at.data.muscles[static_cast<std::size_t>(k)].name + ".moment_arm", 1e-4,
+                      [&](double by, TrialRun& run, ModelValues&) {
+                        run.arm_m.col(k) *= 1.0 + by;
+                        run.velocity_mps.col(k) *= 1.0 + by;
+                        run.length_m.col(k).array() += by * (run.length_m.col(k).array() - middle);
+                      });
+  }
+}
+
+TEST(Unseen, ASlopeOfTheMomentArmIsTheIntegralOfItsLength) {
+  const AtStart at(two_trials());
+  for (const Eigen::Index k : {0, 3}) {
+    const auto [low, high] = recorded_range(at, k);
+    expect_derivative(
+        at, at.data.muscles[static_cast<std::size_t>(k)].name + ".moment_arm_slope", 1e-4,
+        [&, low = low, high = high](double by, TrialRun& run, ModelValues&) {
+          const Eigen::ArrayXd x = 2.0 * (run.length_m.col(k).array() - low) / (high - low) - 1.0;
+          run.arm_m.col(k).array() *= 1.0 + by * x;
+          run.velocity_mps.col(k).array() *= 1.0 + by * x;
+          // d/dl of the change is x: dl' = (1 + by x) dl.
+          run.length_m.col(k).array() += by * 0.25 * (high - low) * (x.square() - 1.0 / 3.0);
+        });
+  }
+}
+
+TEST(Unseen, ATendonThatIsLongerMakesFibersShorter) {
+  StudyData data = two_trials();
+  for (MuscleSetup& muscle : data.muscles)
+    muscle.priors["tendon_slack_length"] =
+        Prior{.mean = muscle.start.tendon_slack_length_m, .sd = 0.1, .logarithmic = true};
+  const AtStart at(std::move(data));
+  expect_derivative(
+      at, "BIC.tendon_slack_length", 1e-5,
+      [](double by, TrialRun&, ModelValues& values) { values.muscles[0][kSlack] += by; });
+}
+
+TEST(Unseen, ATendonThatStretchesIsTheLawsWithASmallStrain) {
+  const AtStart at(two_trials());
+  // An elastic tendon has a positive strain only: the forward difference.
+  const double strain = 2e-4;
+  const Eigen::VectorXd rigid = at.torque([](TrialRun&, ModelValues&) {});
+  const Eigen::VectorXd elastic =
+      at.torque([&](TrialRun&, ModelValues& values) { values.muscles[1][kTendonStrain] = strain; });
+  const Eigen::VectorXd difference = (elastic - rigid) / strain;
+  const Eigen::VectorXd column = at.column("BRA.tendon_strain");
+  EXPECT_LT((column - difference).norm(), 0.02 * difference.norm());
+}
+
+TEST(Unseen, AGainDriftsWithThePlaceInTheSession) {
+  const AtStart at(two_trials());
+  expect_derivative(at, "BRD.gain_drift", 1e-4, [](double by, TrialRun& run, ModelValues& values) {
+    values.channels[2][kGain] *= 1.0 + by * run.session;
+  });
+  EXPECT_NEAR(at.runs[0].session, -0.25, 1e-9);
+  EXPECT_NEAR(at.runs[1].session, 0.25, 1e-9);
+}
+
+TEST(Unseen, CrosstalkAddsAnotherEnvelope) {
+  const AtStart at(two_trials());
+  expect_derivative(at, "BIC.crosstalk_of_TRI", 1e-3, [](double by, TrialRun& run, ModelValues&) {
+    run.envelopes[0] = Envelope(run.envelopes[0].time_s(),
+                                run.envelopes[0].samples() + by * run.envelopes[3].samples());
+  });
+}
+
+TEST(Unseen, ATorqueScaleIsTheWholeTorque) {
+  const AtStart at(two_trials());
+  EXPECT_EQ(at.column("torque_scale"), at.torque([](TrialRun&, ModelValues&) {}));
+}
+
+TEST(Unseen, TheModelsErrorsAreTheMusclesTorqueTimesTheirShapes) {
+  const AtStart at(two_trials());
+  const auto alone = [&](double strength) {
+    return at.torque(
+        [&](TrialRun&, ModelValues& values) { values.muscles[3][kMaxForce] *= strength; });
+  };
+  const Eigen::VectorXd torque = alone(1.0) - alone(0.0);
+  EXPECT_LT((at.column("TRI.error_strength") - torque).norm(), 1e-9 * torque.norm());
+  // Earlier by 150 ms: the sign is that of ln a.
+  expect_derivative(at, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
+    values.channels[3][kDelay] -= 0.15 * by;
+  });
+}
+
+TEST(Unseen, WhatTheModelErrsByIsMarked) {
+  for (const UnseenQuantity& q : AtStart(two_trials()).unseen().quantities) {
+    EXPECT_EQ(q.of_the_model, q.name.find(".error_") != std::string::npos) << q.name;
+    EXPECT_EQ(q.of_the_model, q.source == Source::model) << q.name;
+    EXPECT_GT(q.weight, 0.0) << q.name;
+  }
+}
+
+}  // namespace
+}  // namespace myoid::identification

@@ -1,0 +1,94 @@
+#include "myoid/posterior/verdicts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "myoid/intervals/verdict_rules.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
+    "noise of the torque", "prior belief",        "geometry",
+    "electrodes",          "scale of the torque", "error of the model"};
+
+double half_width(double value, double low, double high, bool absolute) {
+  const double half = std::max(value - low, high - value);
+  return absolute ? half : half / std::max(std::abs(value), 1e-12);
+}
+
+std::string size_text(double half, bool is_delay) {
+  return is_delay ? fmt::format("± {:.0f} ms", 1000.0 * half)
+                  : fmt::format("± {:.2g} %", 100.0 * half);
+}
+
+std::string sources_text(const SourceShares& shares) {
+  std::array<std::size_t, kSourceCount> order{0, 1, 2, 3, 4, 5};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  std::string text;
+  for (const std::size_t i : order) {
+    if (shares[i] < 0.1) break;
+    text +=
+        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", kSourceNames[i], 100.0 * shares[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+Finding finding(const PosteriorFacts& facts) {
+  const VerdictRules rules;
+  if (!facts.converged) return Finding::not_converged;
+  if (!facts.possible) return Finding::impossible;
+  if (facts.nuisance_gain || (facts.contraction && *facts.contraction < rules.least_shrinkage))
+    return Finding::as_the_prior;
+  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
+  if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width))
+    return Finding::too_wide;
+  if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width))
+    return Finding::wide;
+  if (facts.contraction && *facts.contraction < rules.half_shrinkage)
+    return Finding::half_the_prior;
+  return Finding::narrow;
+}
+
+Verdict verdict_of(Finding finding) {
+  switch (finding) {
+    case Finding::not_converged:
+    case Finding::too_wide:
+      return Verdict::not_identifiable;
+    case Finding::impossible:
+      return Verdict::non_physical;
+    case Finding::as_the_prior:
+      return Verdict::prior_dominated;
+    case Finding::half_the_prior:
+    case Finding::wide:
+      return Verdict::weak;
+    case Finding::narrow:
+      break;
+  }
+  return Verdict::identified;
+}
+
+std::string reason_of(Finding finding, const PosteriorFacts& facts) {
+  if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
+  const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
+  const double given = half_width(facts.value, facts.low_given, facts.high_given, facts.is_delay);
+  std::string text = fmt::format("{} of the person, {} were geometry and sensors exact",
+                                 size_text(half, facts.is_delay), size_text(given, facts.is_delay));
+  if (facts.contraction)
+    text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
+                        100.0 * std::max(0.0, *facts.contraction));
+  if (const std::string sources = sources_text(facts.shares); !sources.empty())
+    text += "; it rests on " + sources;
+  if (finding == Finding::impossible)
+    text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
+  if (facts.approximate) text += "; approximate: the normal approximation could not be checked";
+  return text;
+}
+
+}  // namespace myoid::identification

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "myoid/intervals/result.h"
+#include "myoid/posterior/unseen.h"
+
+namespace myoid::identification {
+
+/// Shares of a variance by source, which add to 1.
+using SourceShares = std::array<double, kSourceCount>;
+
+/// What the posterior says of one number.
+struct PosteriorFacts {
+  bool converged = true;
+  bool approximate = false;    ///< The interval is that of the normal approximation.
+  bool nuisance_gain = false;  ///< The gain of an EMG channel: a scale that F_max shares.
+  double value = 0.0, low = 0.0, high = 0.0;  ///< Of the person, 95 %.
+  double low_given = 0.0, high_given = 0.0;   ///< The same, geometry and sensors exact.
+  /// 1 - posterior variance / prior variance; empty: no prior.
+  std::optional<double> contraction;
+  bool possible = true;  ///< A muscle can have it.
+  bool is_delay = false;
+  SourceShares shares{};
+};
+
+/// The answer to three questions: is the number possible and the search converged; how much
+/// narrower than the prior is the interval; is it narrow enough to use.
+enum class Finding {
+  not_converged,
+  impossible,
+  as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
+  too_wide,        ///< Beyond VerdictRules::weak_half_width.
+  half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
+  wide,            ///< Beyond VerdictRules::identified_half_width.
+  narrow
+};
+
+/// The first that holds.
+[[nodiscard]] Finding finding(const PosteriorFacts& facts);
+[[nodiscard]] Verdict verdict_of(Finding finding);
+/// A sentence: the finding with its numbers, and the sources that make a tenth or more of the
+/// variance.
+[[nodiscard]] std::string reason_of(Finding finding, const PosteriorFacts& facts);
+
+}  // namespace myoid::identification

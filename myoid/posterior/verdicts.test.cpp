@@ -1,0 +1,83 @@
+#include "myoid/posterior/verdicts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace myoid::identification {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A strength of 1000 N, half width 10 %, from a prior four times as wide.
+PosteriorFacts good() {
+  PosteriorFacts facts;
+  facts.value = 1000.0;
+  facts.low = 905.0;
+  facts.high = 1100.0;
+  facts.low_given = 950.0;
+  facts.high_given = 1040.0;
+  facts.contraction = 0.94;
+  facts.shares = {0.2, 0.05, 0.6, 0.0, 0.15, 0.0};
+  return facts;
+}
+
+TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
+  const PosteriorFacts facts = good();
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  EXPECT_EQ(verdict_of(Finding::narrow), Verdict::identified);
+  const std::string reason = reason_of(Finding::narrow, facts);
+  EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 5 % were geometry and sensors exact"));
+  EXPECT_THAT(reason, HasSubstr("takes 94 % off"));
+  EXPECT_THAT(reason,
+              HasSubstr("geometry 60 %, noise of the torque 20 %, scale of the torque 15 %"));
+  EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
+}
+
+TEST(PosteriorVerdict, TheFartherEndCounts) {
+  PosteriorFacts facts = good();
+  facts.high = 1130.0;
+  EXPECT_EQ(finding(facts), Finding::wide);
+  facts.high = 1700.0;
+  EXPECT_EQ(finding(facts), Finding::too_wide);
+  EXPECT_EQ(verdict_of(Finding::too_wide), Verdict::not_identifiable);
+}
+
+TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
+  PosteriorFacts facts = good();
+  facts.contraction = 0.45;
+  EXPECT_EQ(finding(facts), Finding::half_the_prior);
+  facts.contraction = 0.1;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
+  facts.contraction.reset();
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  facts.nuisance_gain = true;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
+}
+
+TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
+  PosteriorFacts facts = good();
+  facts.possible = false;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::non_physical);
+  facts.converged = false;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
+}
+
+TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
+  PosteriorFacts facts = good();
+  facts.is_delay = true;
+  facts.value = 0.05;
+  facts.low = 0.04;
+  facts.high = 0.058;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("± 10 ms"));
+}
+
+TEST(PosteriorVerdict, SaysWhereTheApproximationWasNotChecked) {
+  PosteriorFacts facts = good();
+  facts.approximate = true;
+  EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("approximate"));
+}
+
+}  // namespace
+}  // namespace myoid::identification
