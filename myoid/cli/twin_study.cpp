@@ -117,6 +117,11 @@ void add_twin_study(CLI::App& app, Context& context) {
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
       ->transform(one_of<identification::Method>())
       ->default_str("torque");
+  command
+      .add_option("--estimator", options->study.estimator,
+                  "Of method torque: least_squares or posterior")
+      ->transform(one_of<identification::EstimatorKind>())
+      ->default_str("least_squares");
   command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
   command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")
       ->required();

@@ -63,6 +63,7 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
 identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   identification::EstimatorSettings settings;
   settings.priors = !o.no_priors;
+  settings.estimator = *choice_named<identification::EstimatorKind>(o.estimator);
   if (!o.lag.empty()) settings.lag = *choice_named<identification::LagChoice>(o.lag);
   settings.max_rate_hz = o.max_rate_hz;
   settings.delay_s = o.delay_s;
@@ -170,6 +171,11 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
            {.says = "Samples are thinned to at most this (`force`, `torque`), as by "
                     "[`max_rate_hz`](study.md) of a study; data without noise to 200 Hz.",
             .limits = within(5.0, 2000.0, "Hz")});
+  v.text("estimator", o.estimator,
+         {.says = "Of method `torque`: `least_squares`, or `posterior`, whose intervals also hold "
+                  "moment arms, tendons, the scale of the torque, cross-talk and drift, which "
+                  "residuals do not show ([how](../theory/posterior.md)).",
+          .words = choice_names(identification::EstimatorKind{})});
   v.text(
       "loss", o.loss,
       {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
@@ -236,6 +242,8 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
     if (given) found.push_back(fmt::format("{} has no effect: {}", option, why));
   };
   const bool paper = o.method == "paper", torque = o.method == "torque";
+  tell(!torque && o.estimator == "posterior", "--estimator",
+       "the posterior is that of joint torques, of method torque");
   tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
   tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
        "the published method fits the forces as they are");

@@ -59,10 +59,12 @@ bool RunResult::failed(bool strict) const {
 RunResult run(const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
-  result.study = run_study(read_study(o.study), {.start_s = o.call.start_s,
-                                                 .end_s = o.call.end_s,
-                                                 .progress = o.call.progress,
-                                                 .store = o.store});
+  Study study = read_study(o.study);
+  if (o.estimator) study.identify.estimator = *o.estimator;
+  result.study = run_study(study, {.start_s = o.call.start_s,
+                                   .end_s = o.call.end_s,
+                                   .progress = o.call.progress,
+                                   .store = o.store});
   result.gates = quality_gates(result.study);
   result.provenance.command = o.call.command;
   result.provenance.inputs = result.study.source.files;

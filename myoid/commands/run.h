@@ -8,6 +8,7 @@
 
 #include "myoid/commands/call.h"
 #include "myoid/core/provenance.h"
+#include "myoid/identification/options.h"
 #include "myoid/report/report.h"
 #include "myoid/run/study_result.h"
 
@@ -16,7 +17,8 @@ namespace myoid::commands {
 /// The whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
   Call call;
-  std::string study;                           ///< study.toml
+  std::string study;                                       ///< study.toml
+  std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   std::optional<std::filesystem::path> store;  ///< Where stages are kept between runs; or nowhere.
 };
 

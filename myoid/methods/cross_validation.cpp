@@ -374,6 +374,7 @@ std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
 EstimatorOptions of_a_fold(EstimatorOptions options) {
   options.predictions = false;
   options.intervals = {};
+  options.posterior_draws = 0;
   options.progress.report = nullptr;
   return options;
 }

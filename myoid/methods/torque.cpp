@@ -11,6 +11,7 @@
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/trial_fit.h"
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/posterior/posterior.h"
 
 namespace myoid::identification {
 namespace {
@@ -241,6 +242,11 @@ FittedPrediction predict(const StudyData& data,
 }
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
+  if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {
+    IdentificationResult result = identify_by_posterior(data, options);
+    if (options.predictions) add_predictions(data, options, result);
+    return result;
+  }
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
   const Estimator estimator(data, options);

@@ -211,6 +211,7 @@ struct IdentifySpec {
   bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
+  identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
   bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   int next_movements = 4;  ///< To suggest for the next recording; 0: none.

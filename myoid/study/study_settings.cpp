@@ -273,6 +273,12 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                   "fails) or `not_settled`."});
   v.flag("priors", identify.priors,
          {.says = "The [priors](../theory/priors.md) from the literature are used."});
+  v.choice(
+      "estimator", identify.estimator,
+      {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
+               "EMG; `posterior`, one posterior of one joint, whose intervals also hold what "
+               "residuals do not show: moment arms, tendons, the scale of the torque, "
+               "cross-talk and drift ([how](../theory/posterior.md))."});
   v.flag("gain", identify.gain,
          {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,

@@ -36,6 +36,7 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
   Study study = parse_study(twin::study_toml(recording), "study.toml");
   study.model.text = recording.model_osim;
   study.identify.methods = options.methods;
+  study.identify.estimator = options.estimator;
   study.identify.cross_validate = false;
   study.identify.next_movements = 0;
   study.identify.bootstrap = 0;  // beside the reported interval, not in it

@@ -16,6 +16,7 @@ struct TwinStudyOptions {
   int subjects = 200;
   std::uint64_t first_seed = 1;  ///< Subject k has this plus k.
   std::vector<identification::Method> methods = {identification::Method::torque};
+  identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
   Progress progress;
 };
 
