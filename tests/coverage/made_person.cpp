@@ -1,0 +1,375 @@
+#include "tests/coverage/made_person.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/planar_elbow.h"
+#include "myoid/identification/beliefs.h"
+#include "myoid/identification/envelope.h"
+#include "myoid/identification/muscle_law.h"
+#include "myoid/identification/parameters.h"
+#include "myoid/intervals/held_tendon.h"
+#include "myoid/math/random.h"
+#include "myoid/posterior/density.h"
+
+namespace myoid::test {
+namespace {
+
+using namespace identification;
+
+constexpr double kMargin_s = 0.8;  // of the EMG, before and behind the motion
+constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
+
+/// Draws from the prior of an unknown within its bounds.
+double draw_unknown(const Unknown& of, math::Random& random) {
+  for (int i = 0; i < 10000; ++i) {
+    const double z = of.prior.mean + of.prior.sd * random.normal();
+    if (z > of.bounds.lower && z < of.bounds.upper) return z;
+  }
+  return of.start;
+}
+
+/// Weights of a Gaussian low-pass of -3 dB at this frequency.
+Eigen::VectorXd gaussian(double cutoff_hz, double rate_hz) {
+  const double width =
+      rate_hz * std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz);
+  const auto reach = static_cast<Eigen::Index>(std::ceil(4.0 * width));
+  Eigen::VectorXd h(2 * reach + 1);
+  for (Eigen::Index i = 0; i < h.size(); ++i)
+    h[i] = std::exp(-0.5 * std::pow(static_cast<double>(i - reach) / width, 2));
+  return h / h.sum();
+}
+
+/// h * x, x longer by the weights' reach on either side.
+Eigen::VectorXd filtered(const Eigen::VectorXd& h, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y(x.size() - h.size() + 1);
+  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = h.dot(x.segment(i, h.size()));
+  return y;
+}
+
+/// A positive process below some hertz, of mean `level` and a relative spread of about a half.
+Eigen::VectorXd drive(
+    Eigen::Index n, double level, double cutoff_hz, double rate_hz, math::Random& random) {
+  const Eigen::VectorXd h = gaussian(cutoff_hz, rate_hz);
+  Eigen::VectorXd shots(n + h.size() - 1);
+  const double spread = 0.5 / h.norm();  // of the shots, over their mean
+  for (double& s : shots) {
+    // Gamma of shape 1/spread^2 < 1, by a rare exponential of the same mean and variance.
+    const double share = 2.0 / (1.0 + spread * spread);
+    s = random.uniform() < share ? -std::log(1.0 - random.uniform()) / share : 0.0;
+  }
+  return level * filtered(h, shots);
+}
+
+/// Geometry of one trial at its samples.
+struct Geometry {
+  Eigen::MatrixXd length, velocity, arm;
+};
+
+/// The unseen numbers of one muscle.
+struct MuscleErrors {
+  double arm = 0.0, arm_slope = 0.0, slack_m = 0.0, strain = 0.0;
+  double shortest = 1e9, longest = -1e9, fastest = 1e-9;  ///< Recorded.
+  std::array<double, 7> model{};  ///< Strength, three of length, effort, speed, lag.
+  [[nodiscard]] double place(double l) const {
+    return 2.0 * (l - shortest) / (longest - shortest) - 1.0;
+  }
+};
+
+class Maker {
+ public:
+  explicit Maker(const MadePersonOptions& options)
+      : o_(options), random_(options.seed, 17), elbow_(model::planar_elbow()) {}
+
+  MadePerson make() {
+    set_up();
+    const ParameterMap map(person_.data, person_.options);
+    person_.z.resize(map.size());
+    for (Eigen::Index j = 0; j < map.size(); ++j)
+      person_.z[j] = draw_unknown(map.free()[static_cast<std::size_t>(j)], random_);
+    const ModelValues values = map.values(person_.z);
+    draw_noise();
+    if (o_.linear) {
+      make_linear(map);
+    } else {
+      draw_unseen();
+      double squares = 0.0, count = 0.0;
+      for (std::size_t i = 0; i < person_.data.trials.size(); ++i) {
+        make_torque(i, values);
+        squares += person_.data.trials[i].torque_nm.squaredNorm();
+        count += static_cast<double>(person_.data.trials[i].torque_nm.size());
+      }
+      finish_torque(std::sqrt(squares / count), values);
+    }
+    make_envelopes();
+    return std::move(person_);
+  }
+
+ private:
+  void set_up() {
+    const auto start = model::arm4_muscles();
+    for (std::size_t k = 0; k < 4; ++k) {
+      MuscleSetup setup;
+      setup.name = std::string(elbow_.muscles[k].name);
+      setup.emg_channel = setup.name;
+      setup.start = start[k];
+      setup.priors = literature_priors(start[k]);
+      person_.options.gain_prior_sd[setup.name] = beliefs::kEmgGain.sd;
+      person_.options.emg_bandwidth_hz[setup.name] = o_.emg_bandwidth_hz;
+      person_.data.muscles.push_back(setup);
+    }
+    ParameterRule offset;
+    offset.parameter = "joint_torque_offset";
+    offset.free = true;
+    person_.data.rules.push_back(offset);
+    const auto n = static_cast<Eigen::Index>(o_.seconds * o_.rate_hz) + 1;
+    const auto margin = static_cast<Eigen::Index>(kMargin_s * o_.rate_hz);
+    const Eigen::Index all = n + 2 * margin;
+    for (int number = 0; number < o_.trials; ++number) {
+      TrialData trial;
+      trial.name = "trial" + std::to_string(number + 1);
+      trial.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, o_.seconds);
+      trial.torque_nm.setZero(n);
+      move(number, trial);
+      Eigen::MatrixXd& drives = drives_.emplace_back(all, 4);
+      for (Eigen::Index c = 0; c < 4; ++c)
+        drives.col(c) =
+            drive(all, 0.12 + 0.25 * random_.uniform(),
+                  o_.drive_hz * (1.0 + 2.0 * random_.uniform()) / 3.0, o_.rate_hz, random_);
+      trial.activation = record(trial, drives);
+      person_.data.trials.push_back(std::move(trial));
+    }
+  }
+
+  TimeSeries record(const TrialData& trial, const Eigen::MatrixXd& values) const {
+    std::vector<Channel> channels;
+    for (const MuscleSetup& m : person_.data.muscles)
+      channels.push_back({m.emg_channel, Unit::dimensionless});
+    const double more =
+        0.5 * (static_cast<double>(values.rows() - trial.time_s.size())) / o_.rate_hz;
+    return {Eigen::VectorXd::LinSpaced(values.rows(), -more, o_.seconds + more), channels, values};
+  }
+
+  /// An elbow between 10 and 125 degrees, at up to some 7 rad/s.
+  void move(int number, TrialData& trial) {
+    const Eigen::Index n = trial.time_s.size();
+    const double w1 = 2.0 * std::numbers::pi * (0.3 + 0.25 * number + 0.1 * random_.uniform());
+    const double w2 = 2.0 * std::numbers::pi * (1.0 + 0.3 * random_.uniform());
+    const double phase = 2.0 * std::numbers::pi * random_.uniform();
+    trial.length_m.resize(n, 4);
+    trial.velocity_mps.resize(n, 4);
+    trial.moment_arm_m.resize(n, 4);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double t = trial.time_s[i];
+      const double q = 1.18 + 0.75 * std::sin(w1 * t + phase) + 0.25 * std::sin(w2 * t);
+      const double rate = 0.75 * w1 * std::cos(w1 * t + phase) + 0.25 * w2 * std::cos(w2 * t);
+      for (Eigen::Index k = 0; k < 4; ++k) {
+        const model::MuscleTravel travel =
+            model::travel(elbow_.muscles[static_cast<std::size_t>(k)], q);
+        trial.length_m(i, k) = travel.length_m;
+        trial.moment_arm_m(i, k) = travel.moment_arm_m;
+        trial.velocity_mps(i, k) = -travel.moment_arm_m * rate;
+      }
+    }
+  }
+
+  void draw_noise() {
+    NoiseValues& noise = person_.noise;
+    noise[kTorqueSd] = std::log(beliefs::kTorqueNoise.value) +
+                       beliefs::kTorqueNoise.sd * random_.normal();  // over the torque's size
+    noise[kTorqueTime] =
+        std::log(beliefs::kTorqueNoiseTime.value) + beliefs::kTorqueNoiseTime.sd * random_.normal();
+    noise[kEmgFactor] = beliefs::kEmgNoise.sd * random_.normal();
+    noise[kModelErrorSize] = std::log(beliefs::kModelError.sd * std::abs(random_.normal()));
+  }
+
+  void draw_unseen() {
+    const double s = std::exp(person_.noise[kModelErrorSize]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      MuscleErrors& e = errors_.emplace_back();
+      const auto column = static_cast<Eigen::Index>(k);
+      for (const TrialData& trial : person_.data.trials) {
+        e.shortest = std::min(e.shortest, trial.length_m.col(column).minCoeff());
+        e.longest = std::max(e.longest, trial.length_m.col(column).maxCoeff());
+        e.fastest = std::max(e.fastest, trial.velocity_mps.col(column).cwiseAbs().maxCoeff());
+      }
+      const double more = std::max(0.0, 0.5 * person_.data.muscles[k].start.optimal_fiber_length_m -
+                                            (e.longest - e.shortest));
+      e.shortest -= 0.5 * more;
+      e.longest += 0.5 * more;
+      e.arm = beliefs::kMomentArm.sd * random_.normal();
+      e.arm_slope = beliefs::kMomentArmSlope.sd * random_.normal();
+      e.slack_m = held_slack_sd_m(person_.data, k) * random_.normal();
+      e.strain =
+          std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd) * random_.normal();
+      for (double& x : e.model) x = s * random_.normal();
+      e.model[3] *= 0.5;
+      drift_.push_back(beliefs::kGainDrift.sd * random_.normal());
+    }
+    crosstalk_ = Eigen::MatrixXd::Identity(4, 4);
+    for (Eigen::Index c = 0; c < 4; ++c) {
+      for (Eigen::Index other = 0; other < 4; ++other)
+        if (other != c) crosstalk_(other, c) = beliefs::kCrossTalk.sd * random_.normal();
+    }
+  }
+
+  /// Torque of one muscle at one instant.
+  static double torque(const TrialData& trial,
+                       Eigen::Index i,
+                       Eigen::Index k,
+                       const Activation& a,
+                       const MuscleErrors& e,
+                       MuscleValues values) {
+    const double l = trial.length_m(i, k), x = e.place(l), span = e.longest - e.shortest;
+    const double grown = 1.0 + e.arm + e.arm_slope * x;
+    const double length = l + e.arm * (l - 0.5 * (e.shortest + e.longest)) +
+                          e.arm_slope * 0.25 * span * (x * x - 1.0 / 3.0);
+    const double velocity = trial.velocity_mps(i, k) * grown;
+    values[kSlack] += e.slack_m;
+    double force = tension_n(a.value, length, velocity, values);
+    // The tendon that is held rigid stretches: the fixed point of force and strain.
+    for (int pass = 0; pass < 8; ++pass) {
+      const double stretch = values[kSlack] * e.strain *
+                             std::log(1.0 + 5.0 * std::max(0.0, force) / values[kMaxForce]) /
+                             std::log(6.0);
+      force = 0.5 * (force + tension_n(a.value, length - stretch, velocity, values));
+    }
+    const double level = std::max(a.value, kLeastActivation);
+    const std::array<double, 7> shape{1.0,
+                                      x,
+                                      1.5 * x * x - 0.5,
+                                      2.5 * x * x * x - 1.5 * x,
+                                      1.0 + std::log(level) / kLogRange,
+                                      trial.velocity_mps(i, k) / e.fastest,
+                                      -kLag_s * a.by_field[kDelay] / level};
+    double wrong = 1.0;
+    for (std::size_t j = 0; j < shape.size(); ++j) wrong += e.model[j] * shape[j];
+    return trial.moment_arm_m(i, k) * grown * force * wrong;
+  }
+
+  void make_torque(std::size_t number, const ModelValues& values) {
+    TrialData& trial = person_.data.trials[number];
+    const double place = (static_cast<double>(number) + 0.5) / o_.trials - 0.5;
+    const Eigen::VectorXd clock = trial.activation.time_s();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      ChannelValues channel = values.channels[k];
+      channel[kGain] *= 1.0 + drift_[k] * place;
+      const std::vector<Activation> a = activation(Envelope(clock, drives_[number].col(column)),
+                                                   trial.time_s, channel, EmgLag::delay);
+      for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
+        trial.torque_nm[i] +=
+            torque(trial, i, column, a[static_cast<std::size_t>(i)], errors_[k], values.muscles[k]);
+    }
+  }
+
+  /// Adds the joint's own torque and the torque's error of relative size, and scales.
+  void finish_torque(double size_nm, const ModelValues& values) {
+    person_.noise[kTorqueSd] += std::log(size_nm);
+    const double s = std::exp(person_.noise[kModelErrorSize]);
+    const double slope_nm = s * size_nm * random_.normal();
+    const double scale = 1.0 + beliefs::kTorqueScale.sd * random_.normal();
+    for (TrialData& trial : person_.data.trials) {
+      for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
+        trial.torque_nm[i] = scale * (trial.torque_nm[i] + values.joints[0][kOffset]) +
+                             slope_nm * errors_[0].place(trial.length_m(i, 0));
+      add_torque_error(trial);
+    }
+  }
+
+  void add_torque_error(TrialData& trial) {
+    const double sd = std::exp(person_.noise[kTorqueSd]);
+    const double kept = std::exp(-1.0 / (o_.rate_hz * std::exp(person_.noise[kTorqueTime])));
+    double e = sd * random_.normal();
+    for (double& t : trial.torque_nm) {
+      t += e;
+      e = kept * e + sd * std::sqrt(1.0 - kept * kept) * random_.normal();
+    }
+  }
+
+  /// The torque of the model at the unknowns, and the unseen quantities by their columns.
+  void make_linear(const ParameterMap& map) {
+    person_.options.max_rate_hz = o_.rate_hz;
+    StudyData& data = person_.data;
+    // Noise that is next to nothing, so that the drive is the recorded one.
+    EstimatorOptions plain = person_.options;
+    for (auto& [name, hz] : plain.emg_bandwidth_hz) hz = 1e12;
+    const std::vector<TrialRun> runs = trial_runs(data, plain, map);
+    const ModelValues values = map.values(person_.z);
+    std::vector<RunEvaluation> at;
+    at.reserve(runs.size());
+    for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
+    double squares = 0.0, count = 0.0;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const TrialRun& run = runs[r];
+      TrialData& trial = data.trials[static_cast<std::size_t>(run.trial)];
+      trial.torque_nm.setZero();
+      trial.torque_nm.segment(first_of(run, trial), run.time_s.size()) = at[r].signals().torque_nm;
+      squares += at[r].signals().torque_nm.squaredNorm();
+      count += static_cast<double>(run.time_s.size());
+    }
+    // The shapes of the joint have the size of the measured torque: runs with the torque.
+    const std::vector<TrialRun> measured = trial_runs(data, plain, map);
+    const Unseen unseen = unseen_quantities(data, person_.options, map, measured, values, at);
+    const double s = std::exp(person_.noise[kModelErrorSize]);
+    Eigen::VectorXd x(static_cast<Eigen::Index>(unseen.quantities.size()));
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const UnseenQuantity& q = unseen.quantities[static_cast<std::size_t>(i)];
+      x[i] = q.weight * (q.of_the_model ? s : 1.0) * random_.normal();
+    }
+    person_.noise[kTorqueSd] += 0.5 * std::log(squares / count);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      TrialData& trial = data.trials[static_cast<std::size_t>(runs[r].trial)];
+      trial.torque_nm.segment(first_of(runs[r], trial), runs[r].time_s.size()) +=
+          unseen.columns[r] * x;
+    }
+    for (TrialData& trial : data.trials) add_torque_error(trial);
+    crosstalk_ = Eigen::MatrixXd::Identity(4, 4);
+  }
+
+  static Eigen::Index first_of(const TrialRun& run, const TrialData& trial) {
+    return std::lower_bound(trial.time_s.begin(), trial.time_s.end(), run.time_s[0] - 1e-9) -
+           trial.time_s.begin();
+  }
+
+  /// Cross-talk, and white noise times the envelope behind the envelope's filter.
+  void make_envelopes() {
+    const EnvelopeError error(person_.options.envelope_cutoff_hz, {0.0, 0.0});
+    const Eigen::VectorXd h = error.from_white(1.0 / o_.rate_hz);
+    const double sd =
+        std::exp(person_.noise[kEmgFactor]) * 0.7555 /
+        std::sqrt(2.0 * o_.emg_bandwidth_hz * 0.4815 / person_.options.envelope_cutoff_hz);
+    const Eigen::Index reach = h.size() / 2;
+    for (std::size_t i = 0; i < person_.data.trials.size(); ++i) {
+      const Eigen::MatrixXd mixed = (drives_[i] * crosstalk_).cwiseMax(1e-4);
+      const Eigen::Index n = mixed.rows();
+      Eigen::MatrixXd recorded = mixed;
+      for (Eigen::Index c = 0; c < mixed.cols(); ++c) {
+        Eigen::VectorXd white(n + 2 * reach);
+        for (Eigen::Index j = 0; j < white.size(); ++j)
+          white[j] = random_.normal() * mixed(std::clamp<Eigen::Index>(j - reach, 0, n - 1), c);
+        recorded.col(c) += sd * filtered(h, white);
+      }
+      person_.data.trials[i].activation = record(person_.data.trials[i], recorded.cwiseMax(0.0));
+    }
+  }
+
+  MadePersonOptions o_;
+  math::Random random_;
+  model::PlanarElbow elbow_;
+  MadePerson person_;
+  std::vector<Eigen::MatrixXd> drives_;  ///< Per trial, instants x channels.
+  std::vector<MuscleErrors> errors_;
+  std::vector<double> drift_;
+  Eigen::MatrixXd crosstalk_;
+};
+
+}  // namespace
+
+MadePerson made_person(const MadePersonOptions& options) { return Maker(options).make(); }
+
+}  // namespace myoid::test

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/options.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/posterior/noise_model.h"
+
+namespace myoid::test {
+
+/// How a person and a recording are made.
+struct MadePersonOptions {
+  int trials = 4;
+  double seconds = 12.0;
+  double rate_hz = 100.0;
+  double emg_bandwidth_hz = 150.0;
+  /// The unseen quantities act by their columns S at the true unknowns, as the estimator has them,
+  /// and not by what they mean.
+  bool linear = false;
+  double drive_hz = 1.2;  ///< Highest -3 dB frequency of a channel's drive; the lowest is a third.
+  std::uint64_t seed = 1;
+};
+
+/// A person drawn from every prior of the posterior, and the recording made of this person.
+struct MadePerson {
+  identification::StudyData data;
+  identification::EstimatorOptions options;
+  Eigen::VectorXd z;                    ///< The unknowns, in the solver's scale.
+  identification::NoiseValues noise{};  ///< The hyperparameters.
+};
+
+/// The built-in arm's four elbow muscles with one EMG channel each. Drawn are the study's unknowns
+/// (from their priors within their bounds: muscles, delay, gains, offset of the torque), the
+/// hyperparameters, and every unseen quantity, N(0, weight^2):
+///
+/// - moment arms r (1 + alpha + beta x), which change length and rate, too,
+/// - slack lengths and strains of the tendons, by the law of the muscle,
+/// - each channel's gain drift, and cross-talk added to the recorded envelopes,
+/// - the scale of the torque, and the model's error as a factor of each muscle's torque.
+///
+/// The drives are positive shot noise behind a Gaussian low-pass. An envelope is the drive times
+/// 1 + white noise behind the envelope's filter; the torque's error is an autoregressive process.
+[[nodiscard]] MadePerson made_person(const MadePersonOptions& options);
+
+}  // namespace myoid::test
