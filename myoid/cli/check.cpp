@@ -9,6 +9,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/json_text.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::cli {
 namespace {
@@ -52,9 +53,9 @@ void add_check(CLI::App& app, Context& context) {
                                           "nothing.\n"
                                           "Example: myoid check study.toml");
   const auto o = std::make_shared<commands::CheckOptions>();
-  command
-      .add_option("study", o->input,
-                  "study.toml, or a single recording: .c3d, .trc, .edf, .bdf, .anc, .csv, .tsv")
+  const std::string recordings = recording::endings_text(
+      [](const recording::FormatEntry& entry) { return recording::is_recording(entry.format); });
+  command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)
       ->required();
   command
       .add_option(
