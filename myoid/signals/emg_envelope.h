@@ -80,9 +80,9 @@ struct ChannelNormalisation {
   double resting_level_v = 0.0;
   bool rests = true;  ///< False if the greatest level is below 1.5 times the quietest second, as in
                       ///< an effort sustained from the first sample to the last.
-  /// sqrt(m^2 - rest^2): activation 1. m is the mean of the greatest moving means over the study,
-  /// those at most one spread of such a mean below m. The single greatest of many would be 5 to 10
-  /// % above a sustained effort.
+  /// sqrt(m^2 - rest^2): activation 1. m is the mean of the study's moving means that lie at most
+  /// 1.5 spreads of such a mean below m. The single greatest of many would be 5 to 10 % above a
+  /// sustained effort.
   double reference_v = 0.0;
   double relative_sd = 0.0;    ///< Uncertainty of the reference, from the number of windows in m.
   double bandwidth_hz = 0.0;   ///< Bandwidth of the raw EMG at the maximum; 0 if unknown.
