@@ -23,15 +23,6 @@ bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
                      [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
 }
 
-/// Whether another muscle has this EMG channel too.
-bool is_shared(const ParameterMap& map, int channel, int muscle) {
-  for (std::size_t other = 0; other < map.held().muscles.size(); ++other) {
-    if (other != static_cast<std::size_t>(muscle) && map.channel_of_muscle(other) == channel)
-      return true;
-  }
-  return false;
-}
-
 /// The shapes of a muscle that are unknowns of the fit themselves. The data have had their say
 /// about these, and a prior bounds them. A number of an EMG channel that drives other muscles too,
 /// or that is tied to another channel's, belongs to no single muscle.
@@ -39,9 +30,11 @@ std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map,
                                              int muscle,
                                              bool measured_is_force) {
   const int channel = map.channel_of_muscle(static_cast<std::size_t>(muscle));
-  const bool alone = !is_shared(map, channel, muscle);
+  int driven = 0;  // muscles of this EMG channel
+  for (std::size_t k = 0; k < map.held().muscles.size(); ++k)
+    driven += map.channel_of_muscle(k) == channel ? 1 : 0;
   const auto own = [&](int field) {
-    return alone && std::any_of(map.free().begin(), map.free().end(), [&](const Unknown& p) {
+    return driven == 1 && std::any_of(map.free().begin(), map.free().end(), [&](const Unknown& p) {
              return p.is(Scope::channel, field) && p.targets.size() == 1 && p.acts_on(channel);
            });
   };

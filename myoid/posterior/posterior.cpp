@@ -15,6 +15,7 @@
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
+#include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/density.h"
 #include "myoid/posterior/importance.h"
 #include "myoid/posterior/mode.h"
