@@ -82,8 +82,11 @@ double held_at_m(const ArmOptions& options) {
 }
 
 MuscleTravel travel(const PlanarMuscle& muscle, double elbow_flexion_rad) {
-  MuscleTravel result{muscle.constant_m + muscle.pulley_m * elbow_flexion_rad, -muscle.pulley_m,
-                      0.0};
+  const double from_rad = elbow_flexion_rad - muscle.taper_about_rad;
+  const double taper_m = muscle.taper_mprad * from_rad;
+  MuscleTravel result{
+      muscle.constant_m + muscle.pulley_m * elbow_flexion_rad - 0.5 * taper_m * from_rad,
+      -muscle.pulley_m + taper_m, muscle.taper_mprad};
   if (muscle.above_m == 0.0) return result;
   const double psi = muscle.straight_rad - elbow_flexion_rad;
   const double product_m2 = muscle.above_m * muscle.below_m;
@@ -94,7 +97,7 @@ MuscleTravel travel(const PlanarMuscle& muscle, double elbow_flexion_rad) {
   result.length_m += across_m;
   result.moment_arm_m += arm_m;
   // dr/dq of r = L1 L2 sin(psi) / l, with dpsi/dq = -1 and dl/dq = -r.
-  result.moment_arm_slope_mprad = (arm_m * arm_m - product_m2 * std::cos(psi)) / across_m;
+  result.moment_arm_slope_mprad += (arm_m * arm_m - product_m2 * std::cos(psi)) / across_m;
   return result;
 }
 

@@ -34,14 +34,17 @@ struct SegmentInertia {
 /// A muscle across a hinge in its plane. Flexors follow the law of cosines between their
 /// attachments, the triceps a pulley:
 ///
-///   l(q) = constant + sqrt(L1^2 + L2^2 - 2 L1 L2 cos(psi0 - q)) + pulley q,   r = -dl/dq
+///   l(q) = constant + sqrt(L1^2 + L2^2 - 2 L1 L2 cos(psi0 - q)) + pulley q - taper (q - q_t)^2 /
+///   2, r = -dl/dq
 struct PlanarMuscle {
   std::string_view name;
-  double constant_m = 0.0;    ///< The part of the path that does not cross the elbow.
-  double above_m = 0.0;       ///< L1: elbow to the attachment on the upper arm; 0: pulley only.
-  double below_m = 0.0;       ///< L2: elbow to the attachment on the forearm.
-  double straight_rad = 0.0;  ///< psi0: the angle between the two in full extension.
-  double pulley_m = 0.0;      ///< Radius about which an extensor turns.
+  double constant_m = 0.0;       ///< The part of the path that does not cross the elbow.
+  double above_m = 0.0;          ///< L1: elbow to the attachment on the upper arm; 0: pulley only.
+  double below_m = 0.0;          ///< L2: elbow to the attachment on the forearm.
+  double straight_rad = 0.0;     ///< psi0: the angle between the two in full extension.
+  double pulley_m = 0.0;         ///< Radius about which an extensor turns.
+  double taper_mprad = 0.0;      ///< Moment arm that each radian from q_t adds.
+  double taper_about_rad = 0.0;  ///< q_t
 };
 
 /// Muscle with tendon: length, and the derivatives by the angle.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/commands/twin.h"
 #include "myoid/files/text_file.h"
 #include "myoid/study/setting_rows.h"
 
@@ -55,6 +56,14 @@ SettingValue value_of(const Setting& setting, const std::vector<std::string>& gi
 }
 
 }  // namespace
+
+void add_truth_option(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option("--truth", settings,
+                  "Keys of [truth] in place of the protocol's: moment_arm_sd=0.15 curves=millard")
+      ->type_name("KEY=VALUE");
+  command.footer(commands::truth_help());
+}
 
 bool OptionDeclarer::met(const Setting& setting, const SettingValue& now, const Set& /*set*/) {
   const SettingRow row = setting_row(setting, now, SettingNotation::command_line);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "myoid/study/setting.h"
@@ -47,5 +50,8 @@ template <typename Options>
   visit(options, reader);
   return options;
 }
+
+/// Declares `--truth KEY=VALUE`, and the keys below the help.
+void add_truth_option(CLI::App& command, std::vector<std::string>& settings);
 
 }  // namespace myoid::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/options.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 
@@ -76,6 +77,7 @@ void add_twin(CLI::App& app, Context& context) {
                   "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol "
                   "says")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
+  add_truth_option(command, options->twin.truth);
   command
       .add_option("--subjects", options->persons,
                   "So many persons, seeds counting up from --seed, a folder each, and persons.csv")

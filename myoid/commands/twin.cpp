@@ -8,6 +8,7 @@
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/twin/truth_settings.h"
 #include "myoid/twin/write_recording.h"
 
 namespace myoid::commands {
@@ -19,6 +20,7 @@ twin::Protocol protocol_of(const TwinOptions& o) {
   check_word("--model", o.model, {"arm4", "arm7"});
   check_word("--format", o.format, {"trc", "c3d"});
   twin::Protocol protocol = twin::read_protocol(o.protocol, level_named(o.level));
+  twin::set_truth(protocol, o.truth);
   protocol.seven_heads = o.model == "arm7";
   if (protocol.seven_heads && protocol.level != twin::Level::different) {
     throw InvalidInput(
@@ -50,6 +52,8 @@ std::optional<twin::Level> level_named(const std::string& name) {
   }
   return std::nullopt;
 }
+
+std::string truth_help() { return reference_text({twin::truth_reference()}); }
 
 TwinResult twin(const TwinOptions& o) {
   return {twin::make_virtual_recording(protocol_of(o), o.call.seed), o.format};

@@ -15,10 +15,11 @@ namespace myoid::commands {
 /// Virtual recordings with known parameters. The call's seed makes the person.
 struct TwinOptions {
   Call call;
-  std::string model = "arm4";  ///< That goes with the recording: arm4, or arm7 at level L2.
-  std::string protocol;        ///< Of the recording (.toml).
-  std::string level;           ///< L0, L1 or L2; empty: the protocol's.
-  std::string format = "trc";  ///< Of markers and EMG: trc (.trc and .sto), or c3d.
+  std::string model = "arm4";      ///< That goes with the recording: arm4, or arm7 at level L2.
+  std::string protocol;            ///< Of the recording (.toml).
+  std::string level;               ///< L0, L1 or L2; empty: the protocol's.
+  std::vector<std::string> truth;  ///< Keys of [truth] beyond the protocol's: "KEY=VALUE".
+  std::string format = "trc";      ///< Of markers and EMG: trc (.trc and .sto), or c3d.
 };
 
 struct TwinResult {
@@ -48,6 +49,9 @@ struct TwinPersonsResult {
 /// time: no more recordings are held than threads work. The folder may hold files.
 TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options,
                                      const std::filesystem::path& folder);
+
+/// The keys of a protocol's [truth], for a terminal.
+[[nodiscard]] std::string truth_help();
 
 /// The level of this name: L0, L1 or L2; nothing for an empty name. Throws InvalidInput for others.
 [[nodiscard]] std::optional<twin::Level> level_named(const std::string& name);

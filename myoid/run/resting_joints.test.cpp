@@ -25,7 +25,7 @@ struct Recorded {
 };
 
 Recorded recorded() {
-  twin::Protocol protocol;
+  twin::Protocol protocol = twin::default_protocol(twin::Level::noisy);
   protocol.truth.beside_muscles = true;
   const auto trial = [&](const char* name, twin::TrialKind kind, const char* use) {
     twin::TrialProtocol t;

@@ -156,6 +156,29 @@ void limit_bandwidth(Eigen::VectorXd& signal, double cutoff_hz, double rate_hz) 
   }
 }
 
+/// Drives that wander between nothing and the greatest effort, whatever the muscles do.
+class WanderingDrive {
+ public:
+  WanderingDrive(Eigen::Index count, const std::string& trial, std::uint64_t seed) {
+    if (count == 0) return;
+    simulation::Random random = stream(seed, "wandering emg", trial);
+    for (Eigen::VectorXd& drive : drives_)
+      drive = (kMean + kSd * lowpass_noise(kCutoff_hz, kEnvelopeRate_hz, count, random).array())
+                  .cwiseMax(0.0)
+                  .cwiseMin(1.0)
+                  .matrix();
+  }
+  [[nodiscard]] PerMuscle at(Eigen::Index k) const {
+    PerMuscle u = {};
+    for (std::size_t m = 0; m < u.size(); ++m) u[m] = drives_[m](k);
+    return u;
+  }
+
+ private:
+  static constexpr double kMean = 0.3, kSd = 0.2, kCutoff_hz = 1.0;
+  std::array<Eigen::VectorXd, 4> drives_;
+};
+
 /// Noise of amplifier, mains and movement, in shares of the greatest rms.
 Eigen::VectorXd disturbance(const EmgNoise& emg,
                             double baseline,
@@ -193,6 +216,7 @@ Instruments attach_instruments(const Protocol& protocol,
     result.greatest_v[m] =
         std::exp(random.uniform(std::log(emg.mvc_min_v), std::log(emg.mvc_max_v)));
     result.exponent[m] = random.uniform(emg.exponent_min, emg.exponent_max);
+    result.exponent[m] = protocol.truth.sensors.emg_exponent.value_or(result.exponent[m]);
     result.crosstalk[m] = random.uniform(emg.crosstalk_min, emg.crosstalk_max);
     const double baseline = random.uniform(2.0 / 3.0, 4.0 / 3.0);
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
@@ -312,11 +336,13 @@ TimeSeries record_emg(const Protocol& protocol,
   for (Source& source : sources)
     source = {Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
   Eigen::VectorXd speed(count);
+  const SensorTruth& sensors = protocol.truth.sensors;
+  const WanderingDrive wandering(sensors.emg_noise ? count : 0, script.protocol.name, seed);
   for (Eigen::Index k = 0; k < count; ++k) {
     const double t = first_s + static_cast<double>(k) / kEnvelopeRate_hz;
-    const PerMuscle u = performance.drive(t);
+    const PerMuscle u = sensors.emg_noise ? wandering.at(k) : performance.drive(t);
     const PerMuscle fatigued = performance.fatigued(t);
-    const double gain = 1.0 + kColdGain * script.cold(t);
+    const double gain = (1.0 + kColdGain * script.cold(t)) * script.emg_gain(t);
     for (std::size_t m = 0; m < 4; ++m) {
       const double p = instruments.exponent[m];
       // Where an effort begins its level is 0 but for round-off of either sign.
@@ -353,6 +379,9 @@ TimeSeries record_emg(const Protocol& protocol,
         signals[m] + disturbance(emg, instruments.baseline[m], speed_radps,
                                  stream(seed, "amplifier", script.protocol.name + "." + name));
     if (mixed && kNeighbour[m] != m) signal += instruments.crosstalk[m] * signals[kNeighbour[m]];
+    for (const std::size_t other : channels_of) {
+      if (sensors.crosstalk > 0.0 && other != m) signal += sensors.crosstalk * signals[other];
+    }
     if (emg.bandwidth_hz > 0.0 && emg.bandwidth_hz < 0.49 * emg.rate_hz)
       limit_bandwidth(signal, emg.bandwidth_hz, emg.rate_hz);
     values.col(static_cast<Eigen::Index>(c)) = instruments.greatest_v[m] * signal;
@@ -366,7 +395,10 @@ TimeSeries record_torque(const Protocol& protocol,
                          const Eigen::VectorXd& time_s,
                          const Eigen::VectorXd& external_torque_nm,
                          std::uint64_t seed) {
+  const SensorTruth& sensors = protocol.truth.sensors;
   Eigen::VectorXd shown = external_torque_nm;
+  if (sensors.torque_scale != 1.0 || sensors.torque_offset_nm != 0.0)
+    shown = (sensors.torque_scale * shown.array() + sensors.torque_offset_nm).matrix();
   if (protocol.level != Level::noise_free && protocol.torque.sd_nm > 0.0) {
     simulation::Random random = stream(seed, "torque", performance.script().protocol.name);
     shown += protocol.torque.sd_nm * lowpass_noise(protocol.torque.bandwidth_hz,

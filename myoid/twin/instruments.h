@@ -59,15 +59,17 @@ struct EmgClock {
 /// n_i noise of Shwedyk's spectrum, its frequencies lower by the share that fatigue has taken so
 /// far, Gaussian or made of the discharges of motor units (EmgNoise::motor_units); w white.
 /// Neighbours: BRA of BIC, BIC of BRA, and of BRD the radial wrist extensors, which nobody records
-/// and which hold the hand (half of the biceps' excitation and 0.05 per kilogram). At last the
-/// amplifier's bandwidth.
+/// and which hold the hand (half of the biceps' excitation and 0.05 per kilogram). A
+/// SensorTruth::crosstalk adds as much of every other channel's s. At last the amplifier's
+/// bandwidth.
 [[nodiscard]] TimeSeries record_emg(const Protocol& protocol,
                                     const Instruments& instruments,
                                     const Performance& performance,
                                     const EmgClock& emg_clock,
                                     std::uint64_t seed);
 
-/// elbow_flexion_moment [N m] that the dynamometer shows.
+/// elbow_flexion_moment [N m] that the dynamometer shows: scale * torque + offset (SensorTruth) and
+/// noise.
 [[nodiscard]] TimeSeries record_torque(const Protocol& protocol,
                                        const Performance& performance,
                                        const Eigen::VectorXd& time_s,

@@ -291,5 +291,88 @@ TEST(Instruments, EmgOfADifferentClockIsTheSameSignalShifted) {
   }
 }
 
+Eigen::VectorXd channel(const VirtualRecording& r, std::size_t muscle) {
+  return r.trials[0].emg.column(std::string(kArmMuscles[muscle])) /
+         r.truth.instruments.greatest_v[muscle];
+}
+
+TEST(WrongSensors, TheDynamometerShowsScaleTimesTorqueAndOffset) {
+  Protocol protocol = quiet(kHold);
+  set_truth(protocol, {"torque_scale=1.05", "torque_offset_nm=-1.5"});
+  const VirtualTrial trial = make_virtual_recording(protocol, 4).trials[0];
+  const Eigen::VectorXd exact = trial.truth.torque.column("elbow_flexion_external_moment");
+  const Eigen::VectorXd shown = trial.external_torque->column("elbow_flexion_moment");
+  EXPECT_LT((shown - (1.05 * exact.array() - 1.5).matrix()).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_GT(exact.cwiseAbs().maxCoeff(), 10.0);
+}
+
+TEST(WrongSensors, CrosstalkIsAShareOfEveryOtherChannel) {
+  Protocol protocol = quiet(kHold);
+  protocol.control.brachialis_synergy = 0.3;
+  const VirtualRecording without = make_virtual_recording(protocol, 5);
+  set_truth(protocol, {"crosstalk=0.15"});
+  const VirtualRecording with = make_virtual_recording(protocol, 5);
+  for (std::size_t m = 0; m < 4; ++m) {
+    Eigen::VectorXd expected = channel(without, m);
+    for (std::size_t other = 0; other < 4; ++other)
+      if (other != m) expected += 0.15 * channel(without, other);
+    EXPECT_LT((channel(with, m) - expected).cwiseAbs().maxCoeff(), 1e-3);  // 0.1 uV of 0.3 mV
+  }
+}
+
+TEST(WrongSensors, TheExponentIsEveryMusclesAndInTheTruth) {
+  Protocol protocol = quiet(kHold);
+  protocol.truth.sensors = {};
+  const VirtualRecording plain = make_virtual_recording(protocol, 6);
+  set_truth(protocol, {"emg_exponent=0.6"});
+  const VirtualRecording bent = make_virtual_recording(protocol, 6);
+  for (const double p : bent.truth.instruments.exponent) EXPECT_EQ(p, 0.6);
+  // The triceps works along at a share c of the greatest effort: its amplitude is c^(1/0.6).
+  const Eigen::VectorXd one = channel(plain, kTriceps).segment(3000, 38000);
+  const Eigen::VectorXd other = channel(bent, kTriceps).segment(3000, 38000);
+  const Eigen::VectorXd u = bent.trials[0].truth.activation.column("TRI").segment(300, 3800);
+  const double expected = std::sqrt(u.array().pow(2.0 / 0.6).mean() / u.array().square().mean());
+  EXPECT_NEAR(rms(other) / rms(one) / expected, 1.0, 0.1);
+}
+
+TEST(WrongSensors, TheGainGrowsEvenlyOverTheSession) {
+  Protocol protocol = quiet(kHold +
+                            "[[trial]]\nname = \"again\"\nkind = \"mvc\"\ndirection = "
+                            "\"flexion\"\nhold_s = 40\n");
+  protocol.fatigue.rest_s = 60.0;
+  const VirtualRecording without = make_virtual_recording(protocol, 5);
+  set_truth(protocol, {"emg_gain_drift=0.2"});
+  const VirtualRecording with = make_virtual_recording(protocol, 5);
+  const auto last_s = [&](std::size_t k) {
+    const Eigen::VectorXd& time_s = with.trials[k].truth.motion.time_s();
+    return time_s(time_s.size() - 1);
+  };
+  const double session_s = last_s(0) + 60.0 + last_s(1);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::VectorXd before = without.trials[k].emg.column("BIC");
+    const Eigen::VectorXd after = with.trials[k].emg.column("BIC");
+    for (Eigen::Index i = 5000; i < 35000; i += 97) {
+      if (std::abs(before(i)) < 2e-4) continue;
+      const double at_s = 0.001 * static_cast<double>(i) + (k == 0 ? 0.0 : last_s(0) + 60.0);
+      EXPECT_NEAR(after(i) / before(i), 1.0 + 0.2 * at_s / session_s, 1e-3);  // 0.1 uV
+    }
+  }
+}
+
+TEST(WrongSensors, EmgThatIsNoiseIsTheSameWhateverTheMusclesDo) {
+  Protocol strong = quiet(kHold);
+  set_truth(strong, {"emg_noise=true"});
+  Protocol weak = strong;
+  weak.trials[0].peak = 0.3;
+  const VirtualRecording a = make_virtual_recording(strong, 7);
+  const VirtualRecording b = make_virtual_recording(weak, 7);
+  for (std::size_t m : {kBiceps, kTriceps}) {
+    EXPECT_EQ(channel(a, m), channel(b, m));
+    EXPECT_GT(rms(channel(a, m)), 0.2);
+  }
+  EXPECT_GT(a.trials[0].truth.activation.column("BIC").maxCoeff(),
+            2.0 * b.trials[0].truth.activation.column("BIC").maxCoeff());
+}
+
 }  // namespace
 }  // namespace myoid::twin

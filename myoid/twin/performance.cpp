@@ -42,11 +42,14 @@ ExactPerformance::ExactPerformance(const VirtualArm& arm,
                                    double delay_s,
                                    const PerMuscle& effort,
                                    Tiredness<4>& tiredness,
-                                   const BesideMuscles& beside)
+                                   const BesideMuscles& beside,
+                                   const Departures& departures)
     : Performance(std::move(script)),
       arm_(&arm),
       muscles_(&muscles),
       beside_(beside),
+      body_(departures, arm, muscles),
+      elastic_(departures.elastic()),
       delay_s_(delay_s),
       effort_(effort) {
   if (!tiredness.rates) return;
@@ -71,62 +74,66 @@ PerMuscle ExactPerformance::fatigued(double time_s) const {
 }
 
 PerMuscle ExactPerformance::force_per_activation_n(const MuscleGeometry& geometry,
-                                                   const PerMuscle& activation) const {
-  if (beside_.length_activation == 0.0) return full_force_n(geometry, *muscles_);
-  HillSet shifted = *muscles_;
-  for (std::size_t i = 0; i < shifted.size(); ++i)
-    shifted[i].optimal_fiber_length_m *= 1.0 + beside_.length_activation * (1.0 - activation[i]);
-  return full_force_n(geometry, shifted);
+                                                   const PerMuscle& activation,
+                                                   const PerMuscle& tension_n) const {
+  PerMuscle longer = {1.0, 1.0, 1.0, 1.0};
+  if (beside_.length_activation != 0.0) {
+    for (std::size_t i = 0; i < longer.size(); ++i)
+      longer[i] = 1.0 + beside_.length_activation * (1.0 - activation[i]);
+  }
+  return body_.full_force_n(geometry, longer, tension_n);
 }
 
 Instant ExactPerformance::at(double time_s) const {
   const TrialScript& script = this->script();
   Instant now;
   now.q = script.motion(time_s);
-  const MuscleGeometry geometry = arm_->geometry(now.q);
+  const MuscleGeometry geometry = body_.geometry(now.q);
   const PerMuscle left = strength(time_s);
-  PerMuscle full_n{}, capacity_nm{};
-  const auto find_capacity = [&] {
-    full_n = force_per_activation_n(geometry, now.activation);
-    for (std::size_t i = 0; i < 4; ++i) {
-      full_n[i] *= left[i];
-      capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
-    }
-  };
-  for (std::size_t i = 0; i < 4; ++i)
-    now.fiber_length_m[i] = geometry.length_m[i] - (*muscles_)[i].tendon_slack_length_m;
   now.passive_torque_nm = beside_.joint_torque_nm -
                           beside_.joint_stiffness_nm_per_rad * now.q.value -
                           beside_.joint_viscosity_nms_per_rad * now.q.first;
   const double required_nm =
       arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) -
       now.passive_torque_nm;
-  if (script.against_dynamometer()) {
+  const bool prescribed = script.against_dynamometer();
+  if (prescribed) {
     now.activation = script.prescribed_activations(time_s);
     if (script.protocol.kind == TrialKind::mvc) {
       for (std::size_t i = 0; i < 4; ++i) now.activation[i] *= effort_[i];
     }
-    find_capacity();
-  } else {
-    // What a muscle exerts per activation depends a little on the activation: in turn, until both
-    // agree.
-    constexpr int kMostTurns = 100;
-    const int turns = beside_.length_activation == 0.0 ? 1 : kMostTurns;
-    for (int turn = 0; turn < turns; ++turn) {
-      const PerMuscle before = now.activation;
-      find_capacity();
-      now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
-      double change = 0.0;
-      for (std::size_t i = 0; i < 4; ++i)
-        change = std::max(change, std::abs(now.activation[i] - before[i]));
-      if (change < 1e-10) break;
+  }
+  // The force per activation depends a little on the activation (its shift of the optimum) and on
+  // the force (the tendon's stretch): in turn, until all agree. Stretches that answer the force by
+  // more than itself settle too, because half of each step is taken.
+  constexpr int kMostTurns = 200;
+  const bool at_once = !elastic_ && (prescribed || beside_.length_activation == 0.0);
+  PerMuscle full_n{}, capacity_nm{}, tension_n{};
+  for (int turn = 0; turn < (at_once ? 1 : kMostTurns); ++turn) {
+    const PerMuscle before = now.activation;
+    full_n = force_per_activation_n(geometry, now.activation, tension_n);
+    for (std::size_t i = 0; i < 4; ++i) {
+      full_n[i] *= left[i];
+      capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
     }
+    if (!prescribed)
+      now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+    double change = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      change = std::max(change, std::abs(now.activation[i] - before[i]));
+      if (!elastic_) continue;
+      const double step_n = now.activation[i] * full_n[i] - tension_n[i];
+      tension_n[i] += 0.5 * step_n;
+      change = std::max(change, std::abs(step_n) / (*muscles_)[i].max_isometric_force_n);
+    }
+    if (change < 1e-10) break;
   }
   for (std::size_t i = 0; i < 4; ++i) {
     now.force_n[i] = now.activation[i] * full_n[i];
+    now.fiber_length_m[i] = body_.fiber_length_m(i, geometry.length_m[i], now.force_n[i]);
     now.muscle_torque_nm += now.activation[i] * capacity_nm[i];
   }
-  if (script.against_dynamometer()) now.external_torque_nm = required_nm - now.muscle_torque_nm;
+  if (prescribed) now.external_torque_nm = required_nm - now.muscle_torque_nm;
   return now;
 }
 

@@ -8,6 +8,7 @@
 
 #include "myoid/muscle/fatigue.h"
 #include "myoid/twin/arm_stepper.h"
+#include "myoid/twin/departures.h"
 #include "myoid/twin/draw_truth.h"
 #include "myoid/twin/trial_script.h"
 #include "myoid/twin/true_arm.h"
@@ -92,7 +93,8 @@ class ExactPerformance : public Performance {
                    double delay_s,
                    const PerMuscle& effort,
                    Tiredness<4>& tiredness,
-                   const BesideMuscles& beside = {});
+                   const BesideMuscles& beside = {},
+                   const Departures& departures = {});
 
   [[nodiscard]] Instant at(double time_s) const override;
   [[nodiscard]] Moment motion(double time_s) const override { return script().motion(time_s); }
@@ -104,13 +106,16 @@ class ExactPerformance : public Performance {
 
  private:
   [[nodiscard]] PerMuscle strength(double time_s) const;
-  /// Force over activation at these activations.
+  /// Force over activation at these activations and tensions.
   [[nodiscard]] PerMuscle force_per_activation_n(const MuscleGeometry& geometry,
-                                                 const PerMuscle& activation) const;
+                                                 const PerMuscle& activation,
+                                                 const PerMuscle& tension_n) const;
 
   const VirtualArm* arm_;
   const HillSet* muscles_;
   BesideMuscles beside_;
+  DepartedMuscles body_;
+  bool elastic_;
   double delay_s_;
   PerMuscle effort_;
   std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.

@@ -17,6 +17,8 @@
 #include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/muscle/hill_parameters.h"
+#include "myoid/study/setting_reader.h"
+#include "myoid/twin/truth_settings.h"
 
 namespace myoid::twin {
 namespace {
@@ -89,20 +91,26 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
   table.finish();
 }
 
+/// Throws where the level gives a key of [truth] no meaning.
+void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
+  if (level == Level::different && truth.curves == "paper")
+    table.fail("curves",
+               "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has "
+               "\"de_groote\" or \"millard\"");
+  for (const char* key : {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise",
+                          "torque_scale", "torque_offset_nm"}) {
+    if (level == Level::noise_free && table.has(key))
+      table.fail(key, "the sensors of level L0 are exact; remove the key, or choose level L1");
+  }
+}
+
 void read_truth(TomlTable table, Level level, TruthSpec& truth) {
-  number_into(table, "spread", truth.spread, 0.0, 3.0);
-  number_into(table, "offset", truth.offset, -3.0, 3.0);
-  truth.beside_muscles = table.flag("beside_muscles").value_or(truth.beside_muscles);
-  truth.curves = table.choice("curves", truth.curves, {"any", "de_groote", "millard"});
-  range_into(table, "tendon_strain", truth.tendon_strain_min, truth.tendon_strain_max, 0.005, 0.15);
-  number_into(table, "moment_arm_sd", truth.moment_arm_sd, 0.0, 0.3);
-  number_into(table, "inertia_sd", truth.inertia_sd, 0.0, 0.3);
-  range_into(table, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s, 0.0, 0.2);
+  SettingReader reader(table, {});
+  visit(truth, reader);
+  check_level(table, level, truth);
   const std::vector<std::string> known = parameter_names();
   const auto check = [&table, &known](const std::string& parameter, std::string_view key) {
-    if (std::find(known.begin(), known.end(), parameter) != known.end()) {
-      return;
-    }
+    if (std::find(known.begin(), known.end(), parameter) != known.end()) return;
     const auto near = recording::nearest_word(parameter, known);
     table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you "
                                        "mean \"{}\"?",
@@ -111,10 +119,6 @@ void read_truth(TomlTable table, Level level, TruthSpec& truth) {
                                        "{}",
                                        parameter, fmt::join(known, ", ")));
   };
-  if (auto vary = table.texts("vary")) {
-    for (const std::string& parameter : *vary) check(parameter, "vary");
-    truth.vary = *std::move(vary);
-  }
   for (const std::string_view muscle : {"BIC", "BRA", "BRD", "TRI"}) {
     auto values = table.table(muscle);
     if (!values) continue;
@@ -319,7 +323,12 @@ std::string_view name(Level level) {
 Protocol default_protocol(Level level) {
   Protocol protocol;
   protocol.level = level;
-  if (level != Level::different) return protocol;
+  if (level != Level::different) {
+    protocol.truth.curves = "paper";
+    protocol.truth.tendon_strain_min = protocol.truth.tendon_strain_max = 0.0;
+    protocol.truth.moment_arm_sd = 0.0;
+    return protocol;
+  }
   protocol.motion.soft_tissue = 1.0;
   protocol.motion.misplacement_m = 0.005;
   protocol.motion.dropouts_per_min = 2.0;
@@ -406,6 +415,20 @@ Protocol parse_protocol(std::string_view text,
     throw ReadError(file, 0, "no trial; describe at least one as [[trial]] with name and kind");
   }
   return protocol;
+}
+
+void set_truth(Protocol& protocol, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    // A word needs no quotes.
+    const std::size_t value = setting.find('=') + 1;
+    const std::string_view word = std::string_view(setting).substr(value);
+    const bool quote = value > 0 && !word.empty() &&
+                       std::isalpha(static_cast<unsigned char>(word[0])) != 0 && word != "true" &&
+                       word != "false";
+    const toml::table table = recording::parse_toml(
+        quote ? fmt::format("{}\"{}\"", setting.substr(0, value), word) : setting, "--truth");
+    read_truth(TomlTable(table, "--truth", "[truth]"), protocol.level, protocol.truth);
+  }
 }
 
 Protocol read_protocol(const std::filesystem::path& file, std::optional<Level> level) {

@@ -44,6 +44,16 @@ struct VirtualSubject {
   double forearm_length_m = 0.2689;  ///< Elbow to wrist.
 };
 
+/// Sensors that show something else than the identification believes.
+struct SensorTruth {
+  std::optional<double> emg_exponent;  ///< p of every muscle, in place of EmgNoise's range.
+  double crosstalk = 0.0;              ///< Share of every other channel's signal in each channel.
+  double emg_gain_drift = 0.0;  ///< Relative growth of the EMG per excitation over the session.
+  bool emg_noise = false;       ///< The EMG has nothing to do with the muscles.
+  double torque_scale = 1.0;    ///< The dynamometer shows scale * torque + offset.
+  double torque_offset_nm = 0.0;
+};
+
 /// Where the true muscle parameters come from.
 struct TruthSpec {
   double spread = 1.0;  ///< In standard deviations of the prior about the literature value.
@@ -59,12 +69,15 @@ struct TruthSpec {
   /// (pipeline/nuisances.h): `draw_beside_muscles`.
   bool beside_muscles = false;
   double offset = 0.0;  ///< Shifts the mean of what is drawn, in standard deviations of the prior.
-  // Of level L2:
-  std::string curves = "any";       ///< "de_groote", "millard", or "any": by chance.
-  double tendon_strain_min = 0.03;  ///< At F_max, drawn between these.
+  // The values of level L2. Levels L0 and L1: `default_protocol`.
+  /// "paper" (L0, L1), "de_groote", "millard", or "any": one of the last two by chance.
+  std::string curves = "any";
+  double tendon_strain_min = 0.03;  ///< At F_max, drawn between these; 0: rigid (L0, L1).
   double tendon_strain_max = 0.06;
-  double moment_arm_sd = 0.10;  ///< Relative, per muscle.
-  double inertia_sd = 0.10;     ///< Relative, of forearm and hand.
+  double moment_arm_sd = 0.10;       ///< Relative, per muscle.
+  double moment_arm_slope_sd = 0.0;  ///< Relative per radian, per muscle.
+  double inertia_sd = 0.10;          ///< Relative, of forearm and hand. L2.
+  SensorTruth sensors;
 };
 
 /// How the virtual person shares the effort.
@@ -209,6 +222,10 @@ struct Protocol {
 [[nodiscard]] Protocol parse_protocol(std::string_view text,
                                       const std::filesystem::path& file,
                                       std::optional<Level> level = std::nullopt);
+
+/// Sets keys of the table [truth] beyond those of the file: "moment_arm_sd=0.15",
+/// "curves=millard", "tendon_strain=[0.08, 0.08]". Throws ReadError as `read_protocol` does.
+void set_truth(Protocol& protocol, const std::vector<std::string>& settings);
 
 /// What a protocol is at this level before any key of a file is read.
 [[nodiscard]] Protocol default_protocol(Level level);

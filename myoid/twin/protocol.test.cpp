@@ -74,7 +74,7 @@ TEST(Protocol, SaysWhatWasFoundAndWhatIsExpected) {
   EXPECT_THAT(complaint(kTrial + "centre_deg = 20\namplitude_deg = 60\n"),
               HasSubstr("expected within 0 to 150"));
   EXPECT_THAT(complaint("[truth]\nvary = [\"optimal_fibre_length\"]\n" + kTrial),
-              HasSubstr("did you mean \"optimal_fiber_length\""));
+              HasSubstr("did you mean 'optimal_fiber_length'"));
 }
 
 TEST(Protocol, RefusesWhatCannotBe) {

@@ -9,6 +9,7 @@
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/twin/effective_truth.h"
+#include "myoid/twin/truth_settings.h"
 #include "myoid/twin/write_recording.h"
 
 namespace myoid::twin {
@@ -126,16 +127,37 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   return text;
 }
 
+namespace {
+
+/// Rows of truth.csv for the properties that depart from the model.
+std::string departures_csv(const Departures& departures) {
+  std::string text;
+  const auto add = [&text](std::string_view name, std::string_view unit, const PerMuscle& values,
+                           double usual) {
+    if (std::all_of(values.begin(), values.end(), [&](double v) { return v == usual; })) return;
+    for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
+      text += fmt::format("{},{},{},{}\n", kArmMuscles[i], name, unit, values[i]);
+  };
+  add("moment_arm_scale", "1", departures.moment_arm_scale, 1.0);
+  add("moment_arm_slope", "1/rad", departures.moment_arm_slope_per_rad, 0.0);
+  add("tendon_strain", "1", departures.tendon_strain, 0.0);
+  return text;
+}
+
+}  // namespace
+
 std::string truth_csv(const VirtualRecording& recording) {
   std::string text = "muscle,parameter,unit,value\n";
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     for (const muscle::HillField& field : muscle::kHillFields) {
+      if (!recording.truth.departures.has(field)) continue;
       text += fmt::format("{},{},{},{}\n", kArmMuscles[i], field.name, symbol(field.unit),
                           recording.truth.muscles[i].*(field.member));
     }
   }
   text += fmt::format("subject,emg_delay,s,{}\n", recording.truth.emg_delay_s);
-  for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
+  const Departures& departures = recording.truth.departures;
+  for (std::size_t i = 0; departures.paper_curves() && i < kArmMuscles.size(); ++i)
     text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
                         muscle::slope_ratio(recording.truth.muscles[i].velocity_law()));
   if (!recording.truth.arm) {
@@ -154,6 +176,7 @@ std::string truth_csv(const VirtualRecording& recording) {
     text +=
         fmt::format("elbow_flexion,joint_stiffness,N m,{}\n", beside.joint_stiffness_nm_per_rad);
     text += fmt::format("elbow_flexion,joint_torque_offset,N m,{}\n", beside.joint_torque_nm);
+    text += departures_csv(departures);
   }
   if (recording.truth.arm) {
     const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);
@@ -180,7 +203,8 @@ std::string truth_row(const VirtualRecording& recording) {
   std::string text = fmt::format("{},{},{}", recording.seed, truth.draws, truth.emg_delay_s);
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     for (const muscle::HillField& field : muscle::kHillFields)
-      text += fmt::format(",{}", truth.muscles[i].*(field.member));
+      text +=
+          truth.departures.has(field) ? fmt::format(",{}", truth.muscles[i].*(field.member)) : ",";
   }
   return text;
 }
@@ -208,6 +232,8 @@ std::string person_csv(const VirtualRecording& recording) {
       add(trial.protocol.name, fmt::format("fatigued_{}", kArmMuscles[m]), "1",
           trial.truth.fatigued[m]);
   }
+  for (const WorldSetting& setting : stated_world(recording.protocol))
+    text += fmt::format("world,{},{},{}\n", setting.key, setting.unit, setting.value);
   if (!truth.arm) return text;
   const TrueArm& arm = *truth.arm;
   add("person", "millard_curves", "1", arm.laws.length == muscle::LengthLaw::millard ? 1.0 : 0.0);

@@ -124,8 +124,9 @@ Session perform_exactly(const Protocol& protocol,
   Session session;
   Tiredness<4> tiredness = fresh<4>(protocol);
   for (const TrialScript& script : scripts) {
-    auto performance = std::make_unique<ExactPerformance>(
-        arm, truth.muscles, script, truth.emg_delay_s, truth.effort, tiredness, truth.beside);
+    auto performance =
+        std::make_unique<ExactPerformance>(arm, truth.muscles, script, truth.emg_delay_s,
+                                           truth.effort, tiredness, truth.beside, truth.departures);
     if (performance->greatest_activation(100.0) > kGreatestActivation) {
       session.too_hard = script.protocol.name;
       session.why = "the muscles are too weak";
@@ -173,6 +174,18 @@ struct OwnBrachialis {
   double wander = 0.0;
 };
 
+/// The EMG per excitation grows evenly from the first trial to the end of the last.
+void drift_gains(std::vector<TrialScript>& scripts, double growth, double rest_s) {
+  double session_s = -rest_s;
+  for (const TrialScript& script : scripts) session_s += script.duration_s + rest_s;
+  double begin_s = 0.0;
+  for (TrialScript& script : scripts) {
+    script.emg_gain_first = 1.0 + growth * begin_s / session_s;
+    script.emg_gain_last = 1.0 + growth * (begin_s + script.duration_s) / session_s;
+    begin_s += script.duration_s + rest_s;
+  }
+}
+
 std::vector<TrialScript> make_scripts(const Protocol& protocol,
                                       const OwnBrachialis& brachialis,
                                       std::uint64_t seed) {
@@ -186,6 +199,7 @@ std::vector<TrialScript> make_scripts(const Protocol& protocol,
       if (trial.kind != TrialKind::mvc) effort.coordination.brachialis += std::log(brachialis.gain);
     }
   }
+  drift_gains(scripts, protocol.truth.sensors.emg_gain_drift, protocol.fatigue.rest_s);
   return scripts;
 }
 
@@ -205,8 +219,11 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   if (!simulated) {
     truth.beside = draw_beside_muscles(
         protocol.truth, simulation::Random(simulation::seed_for(seed, "beside muscles")));
-    for (std::size_t m = 0; protocol.truth.beside_muscles && m < 4; ++m)
+    const bool drawn = protocol.truth.beside_muscles && !protocol.truth.sensors.emg_exponent;
+    for (std::size_t m = 0; drawn && m < 4; ++m)
       truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
+    truth.departures = draw_departures(
+        protocol.truth, simulation::Random(simulation::seed_for(seed, "departures")));
   }
   simulation::Random random(simulation::seed_for(seed, "truth"));
   truth.emg_delay_s =

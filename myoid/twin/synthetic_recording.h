@@ -10,6 +10,7 @@
 #include "myoid/core/time_series.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/twin/control.h"
+#include "myoid/twin/departures.h"
 #include "myoid/twin/draw_truth.h"
 #include "myoid/twin/instruments.h"
 #include "myoid/twin/protocol.h"
@@ -29,6 +30,7 @@ struct Truth {
                       1.0};  ///< What the MVC trials reach of the greatest activation.
   Instruments instruments;
   BesideMuscles beside;        ///< L0, L1.
+  Departures departures;       ///< L0, L1.
   int draws = 1;               ///< Persons drawn until every trial could be done.
   std::optional<TrueArm> arm;  ///< L2: what the person really is.
   PerMuscle misfit = {};       ///< L2: of `muscles`, a share of the torque.

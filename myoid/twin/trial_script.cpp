@@ -193,6 +193,10 @@ double TrialScript::cold(double time_s) const {
   return std::exp(-3.0 * std::max(0.0, time_s) / protocol.warm_up_s);
 }
 
+double TrialScript::emg_gain(double time_s) const {
+  return std::lerp(emg_gain_first, emg_gain_last, std::clamp(time_s / duration_s, 0.0, 1.0));
+}
+
 Coordination TrialScript::coordination(double time_s) const {
   return {
       .brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,

@@ -43,9 +43,13 @@ struct TrialScript {
   Modulation brachialis_change;
   Modulation co_contraction_change;  ///< A factor.
   bool eased = false;                ///< See Coordination.
+  double emg_gain_first = 1.0;       ///< EMG per excitation at the beginning ...
+  double emg_gain_last = 1.0;        ///< ... and at the end; a straight line in between.
 
   /// 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
   [[nodiscard]] double cold(double time_s) const;
+
+  [[nodiscard]] double emg_gain(double time_s) const;
 
   /// How the torque is shared at this time, in trials with a motion.
   [[nodiscard]] Coordination coordination(double time_s) const;

@@ -7,6 +7,7 @@
 #include "myoid/arm/arm_osim.h"
 #include "myoid/core/units.h"
 #include "myoid/identification/beliefs.h"
+#include "myoid/twin/departures.h"
 #include "myoid/twin/draw_truth.h"
 #include "myoid/twin/virtual_arm.h"
 
@@ -27,20 +28,9 @@ constexpr double kMostPureDelay_s = 0.020;
 /// 85 degrees, several newton meters at 20 degrees; a relaxed elbow has about one.
 constexpr double kLeastPassiveStrain = 0.8;
 constexpr double kMostPassiveStrain = 1.2;
-/// Nothing is drawn beyond this many standard deviations: people with half a moment arm are rare.
-constexpr double kMostDeviations = 2.5;
-
 /// What the electrode over a muscle picks up of each head: the biceps' both, the triceps' above all
 /// of the lateral one.
 constexpr PerHead kElectrodeShare = {0.5, 0.5, 1.0, 1.0, 0.3, 0.6, 0.1};
-
-double bounded_normal(simulation::Random& random) {
-  double z = 0.0;
-  do {
-    z = random.normal();
-  } while (std::abs(z) > kMostDeviations);
-  return z;
-}
 
 /// What is drawn once for a muscle, in standard deviations.
 struct MuscleDraw {
@@ -58,13 +48,6 @@ double set_curves(const TruthSpec& spec, simulation::Random& random, TrueArm& ar
   arm.millard.passive_strain_at_one = passive_strain;
   arm.millard.passive_stiffness_at_one = 2.0 / passive_strain;
   return passive_strain;
-}
-
-/// Muscles that turn the elbow with this many times the moment arm.
-void scale_moment_arm(model::PlanarMuscle& path, double factor) {
-  path.above_m *= factor;
-  path.below_m *= factor;
-  path.pulley_m *= factor;
 }
 
 }  // namespace
@@ -156,6 +139,13 @@ TrueArm draw_true_arm(const TruthSpec& spec,
   arm.inertia_kgm2 = elbow.inertia_kgm2 * inertia;
   arm.static_moment_kgm = elbow.static_moment_kgm * inertia;
   arm.held_at_m = elbow.held_at_m * (1.0 + kHeldSd * z());
+  if (spec.moment_arm_slope_sd > 0.0) {
+    PerMuscle slope_per_rad;
+    for (double& slope : slope_per_rad) slope = spec.moment_arm_slope_sd * bounded_normal(random);
+    for (TrueHead& head : arm.heads)
+      taper_moment_arm(head.path, slope_per_rad[head.muscle],
+                       model::kArmOptimalAt_rad[head.muscle]);
+  }
   return arm;
 }
 

@@ -45,14 +45,13 @@ struct TrueArm {
 /// Draws an arm. Standard deviations, times `spec.spread`: ln F_max 0.2 for the person, 0.15 per
 /// muscle and 0.05 per head; l_0 10 % per muscle and 3 % per head; where in the range fibers are
 /// optimal, 3 % of l_0 + l_ts per muscle; ln v_max 0.2; moment arms `spec.moment_arm_sd` per
-/// muscle; inertia and weight `spec.inertia_sd`; where the hand holds the mass, 2 %. Uniform:
-/// tendon strain at F_max `spec.tendon_strain`, shift of the optimum with activation 0.10 to 0.20,
-/// passive strain at F_max 0.8 to 1.2,
-/// pure delay 0 to 20 ms, spring and dashpot of the joint up to half of muscle::elbow_passive (its
-/// stops are whole). ln tau_ne 0.2, ln
-/// tau_ac and ln tau_deac 0.25 about 40, 15 and 50 ms. `spec.offset` shifts F_max, l_0 and v_max by
-/// that many standard deviations. Curves as `spec.curves` says, or one of the two sets by chance;
-/// Millard's eccentric maximum is uniform in 1.3 to 1.5.
+/// muscle, and `spec.moment_arm_slope_sd` per radian; inertia and weight `spec.inertia_sd`; where
+/// the hand holds the mass, 2 %. Uniform: tendon strain at F_max `spec.tendon_strain`, shift of the
+/// optimum with activation 0.10 to 0.20, passive strain at F_max 0.8 to 1.2, pure delay 0 to 20 ms,
+/// spring and dashpot of the joint up to half of muscle::elbow_passive (its stops are whole). ln
+/// tau_ne 0.2, ln tau_ac and ln tau_deac 0.25 about 40, 15 and 50 ms. `spec.offset` shifts F_max,
+/// l_0 and v_max by that many standard deviations. Curves as `spec.curves` says, or one of the two
+/// sets by chance; Millard's eccentric maximum is uniform in 1.3 to 1.5.
 [[nodiscard]] TrueArm draw_true_arm(const TruthSpec& spec,
                                     const VirtualSubject& subject,
                                     simulation::Random& random);

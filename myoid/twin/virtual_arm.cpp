@@ -8,7 +8,6 @@
 #include "myoid/arm/planar_elbow.h"
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/muscle/hill_muscle.h"
 #include "myoid/osim/osim_reader.h"
 
 namespace myoid::twin {
@@ -106,16 +105,24 @@ VirtualArm::~VirtualArm() = default;
 VirtualArm::VirtualArm(VirtualArm&&) noexcept = default;
 VirtualArm& VirtualArm::operator=(VirtualArm&&) noexcept = default;
 
-MuscleGeometry VirtualArm::geometry(const Moment& elbow_flexion_rad) const {
+MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
+                           const Moment& elbow_flexion_rad) {
   MuscleGeometry result;
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
-    const model::MuscleTravel now =
-        model::travel(parts_->elbow.muscles[i], elbow_flexion_rad.value);
+    const model::MuscleTravel now = model::travel(paths[i], elbow_flexion_rad.value);
     result.length_m[i] = now.length_m;
     result.velocity_mps[i] = -now.moment_arm_m * elbow_flexion_rad.first;
     result.moment_arm_m[i] = now.moment_arm_m;
   }
   return result;
+}
+
+const std::array<model::PlanarMuscle, 4>& VirtualArm::paths() const {
+  return parts_->elbow.muscles;
+}
+
+MuscleGeometry VirtualArm::geometry(const Moment& elbow_flexion_rad) const {
+  return geometry_of(paths(), elbow_flexion_rad);
 }
 
 double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad,
@@ -162,15 +169,6 @@ Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& e
       result.block<1, 3>(k, column) = (X_GB * p_BM).transpose();
       column += 3;
     }
-  }
-  return result;
-}
-
-PerMuscle full_force_n(const MuscleGeometry& geometry, const HillSet& muscles) {
-  PerMuscle result = {};
-  for (std::size_t i = 0; i < muscles.size(); ++i) {
-    result[i] = muscle::hill_force(1.0, geometry.length_m[i] - muscles[i].tendon_slack_length_m,
-                                   geometry.velocity_mps[i], muscles[i]);
   }
   return result;
 }

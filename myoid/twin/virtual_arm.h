@@ -28,6 +28,10 @@ struct MuscleGeometry {
   PerMuscle moment_arm_m = {};
 };
 
+/// Of muscles along these paths.
+[[nodiscard]] MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
+                                         const Moment& elbow_flexion_rad);
+
 /// How one marker of a person departs from the model's.
 struct MarkerError {
   Vec3 misplaced_m = Vec3::Zero();    ///< In the frame of its body.
@@ -47,6 +51,7 @@ class VirtualArm {
   VirtualArm(VirtualArm&&) noexcept;
   VirtualArm& operator=(VirtualArm&&) noexcept;
 
+  [[nodiscard]] const std::array<model::PlanarMuscle, 4>& paths() const;
   [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const;
 
   /// Torque about the elbow that the motion requires of muscles and dynamometer together [N m].
@@ -78,9 +83,5 @@ class VirtualArm {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
-
-/// Force of each muscle at full activation [N], f_l f_v F_max, with a rigid tendon:
-/// l_m = l_mt - l_ts.
-[[nodiscard]] PerMuscle full_force_n(const MuscleGeometry& geometry, const HillSet& muscles);
 
 }  // namespace myoid::twin

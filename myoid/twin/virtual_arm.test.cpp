@@ -48,14 +48,6 @@ TEST(VirtualArm, MuscleVelocityIsTheChangeOfLength) {
   }
 }
 
-TEST(VirtualArm, FullForceAtTheOptimumAndAtRestIsTheGreatest) {
-  const VirtualArm arm(VirtualSubject{});
-  // BIC is optimal at 85 degrees.
-  const PerMuscle force_n =
-      full_force_n(arm.geometry({85.0 * kDegree, 0.0, 0.0}), arm.literature());
-  EXPECT_NEAR(force_n[kBiceps], arm.literature()[kBiceps].max_isometric_force_n, 1e-9);
-}
-
 TEST(VirtualArm, AWomansArmIsLighter) {
   const VirtualArm man(VirtualSubject{});
   const VirtualArm woman(VirtualSubject{.sex = "female"});

@@ -18,6 +18,7 @@ enum class RecordingFormat {
                                      RecordingFormat format = RecordingFormat::text);
 
 /// The true values: muscle, parameter, unit, value; the delay of the EMG has muscle "subject".
+/// Parameters that other curves than the paper's do not have are left out.
 [[nodiscard]] std::string truth_csv(const VirtualRecording& recording);
 
 /// The same in one line, for tables of many persons: seed, persons drawn, delay, and the parameters

@@ -45,6 +45,7 @@ kind = "isometric_ramp"
 )",
                                        "p.toml");
     protocol.level = level;
+    protocol.truth = default_protocol(level).truth;
     return make_virtual_recording(protocol, seed);
   }
 
