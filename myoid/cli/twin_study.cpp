@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/options.h"
 #include "myoid/core/error.h"
 #include "myoid/math/statistics.h"
 
@@ -17,22 +18,24 @@ std::string percent(double share) {
 }
 
 void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
-  fmt::print(
-      "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n",
-      "method", "case", "muscle", "parameter", "n", "bias", "rmse", "<5 %", "<10 %", "<20 %",
-      "prior", "cover", "identif.", "of these");
-  fmt::print(
-      "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n", "",
-      "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "", "<15 % [%]");
+  const auto print = [](auto... cells) {
+    fmt::print(
+        "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} "
+        "{:>7} {:>9} {:>9}\n",
+        cells...);
+  };
+  print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %",
+        "<20 %", "prior", "cover", "half w.", "identif.", "of these");
+  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "[%]",
+        "<15 % [%]");
   for (const twin::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
-    fmt::print(
-        "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>9} {:>9}\n",
-        s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.rmse),
-        percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
-        percent(s.coverage), identified,
-        identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
+    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias),
+          percent(s.median_error), percent(s.rmse), percent(s.within_5), percent(s.within_10),
+          percent(s.within_20), percent(s.prior_within_10), percent(s.coverage),
+          percent(s.half_width), percent(static_cast<double>(identified) / s.count),
+          identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }
 
@@ -111,6 +114,7 @@ void add_twin_study(CLI::App& app, Context& context) {
       .add_option("--offset", options->offset,
                   "Mean of the persons away from the priors', in standard deviations")
       ->check(CLI::Range(-3.0, 3.0));
+  add_truth_option(command, options->truth);
   command.add_option("--subjects", options->study.subjects, "Virtual persons")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

@@ -10,6 +10,7 @@ namespace myoid::commands {
 TwinStudyResult twin_study(const TwinStudyOptions& o) {
   Remarks remarks(o.call);
   twin::Protocol protocol = twin::read_protocol(o.protocol, level_named(o.level));
+  twin::set_truth(protocol, o.truth);
   if (o.offset) protocol.truth.offset = *o.offset;
   twin::TwinStudyOptions options = o.study;
   options.first_seed = o.call.seed;

@@ -14,10 +14,11 @@ namespace myoid::commands {
 /// Studies of many virtual persons, compared with their true parameters.
 struct TwinStudyOptions {
   Call call;
-  std::string protocol;          ///< Of the recording (.toml).
-  std::string level;             ///< L0, L1 or L2; empty: the protocol's.
-  std::optional<double> offset;  ///< Mean of the persons away from the priors', in sd.
-  twin::TwinStudyOptions study;  ///< Its seed and progress are the call's.
+  std::string protocol;            ///< Of the recording (.toml).
+  std::string level;               ///< L0, L1 or L2; empty: the protocol's.
+  std::optional<double> offset;    ///< Mean of the persons away from the priors', in sd.
+  std::vector<std::string> truth;  ///< Keys of [truth] beyond the protocol's: "KEY=VALUE".
+  twin::TwinStudyOptions study;    ///< Its seed and progress are the call's.
 };
 
 struct TwinStudyResult {

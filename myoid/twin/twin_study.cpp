@@ -61,6 +61,7 @@ std::map<std::pair<std::string, std::string>, double> truth_of(
   std::map<std::pair<std::string, std::string>, double> truth;
   for (std::size_t m = 0; m < twin::kArmMuscles.size(); ++m) {
     for (const muscle::HillField& field : muscle::kHillFields) {
+      if (!recording.truth.departures.has(field)) continue;
       truth[{std::string(twin::kArmMuscles[m]), std::string(field.name)}] =
           recording.truth.muscles[m].*field.member;
     }
@@ -157,6 +158,9 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     }
   }
   s.bias = math::median(errors);
+  std::vector<double> sizes = errors;
+  for (double& e : sizes) e = std::abs(e);
+  s.median_error = math::median(std::move(sizes));
   for (double& e : errors) e = std::abs(e - s.bias);
   s.rmse = errors.empty() ? std::nan("") : std::sqrt(squares / static_cast<double>(errors.size()));
   s.mad = math::median(std::move(errors));
@@ -203,6 +207,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   TwinStudyResult result;
   result.protocol = protocol.name;
   result.level = name(protocol.level);
+  result.world = stated_world(protocol);
   result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
   result.subjects = options.subjects;
   result.first_seed = options.first_seed;
@@ -259,20 +264,21 @@ void write_twin_study(const TwinStudyResult& result,
   }
   recording::write_file(folder / "persons.csv", persons);
   std::string summary =
-      "method,case,muscle,parameter,count,bias,mad,rmse,within_5,within_10,within_15,within_20,"
+      "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,"
+      "within_20,"
       "prior_within_10,coverage,half_width,shrinkage,identified,weak,prior_dominated,"
       "not_identifiable,non_physical,identified_and_within_10,identified_but_not,"
       "not_identified_but_within_10,not_identified_and_not,identified_within_15,"
       "outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
     summary += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-        s.method, s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.mad),
-        cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
-        cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.shrinkage),
-        s.verdicts[0], s.verdicts[1], s.verdicts[2], s.verdicts[3], s.verdicts[4],
-        s.identified_good, s.identified_bad, s.other_good, s.other_bad, s.identified_within_15,
-        s.outside_physical);
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        s.method, s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error),
+        cell(s.mad), cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15),
+        cell(s.within_20), cell(s.prior_within_10), cell(s.coverage), cell(s.half_width),
+        cell(s.shrinkage), s.verdicts[0], s.verdicts[1], s.verdicts[2], s.verdicts[3],
+        s.verdicts[4], s.identified_good, s.identified_bad, s.other_good, s.other_bad,
+        s.identified_within_15, s.outside_physical);
   }
   recording::write_file(folder / "summary.csv", summary);
   std::string predictions =
@@ -297,6 +303,7 @@ void write_twin_study(const TwinStudyResult& result,
                                 {"interrupted", result.interrupted},
                                 {"inputs", nlohmann::ordered_json::array()},
                                 {"failures", nlohmann::ordered_json::array()}};
+  for (const WorldSetting& setting : result.world) run["world"][setting.key] = setting.value;
   for (const InputFile& file : provenance.inputs)
     run["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
   for (const TwinFailure& f : result.failures)

@@ -9,6 +9,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/intervals/result.h"
 #include "myoid/twin/protocol.h"
+#include "myoid/twin/truth_settings.h"
 
 namespace myoid::twin {
 
@@ -48,7 +49,8 @@ struct TwinFailure {
 struct TwinStudyResult {
   std::string protocol;
   std::string level;
-  std::vector<TwinRow> rows;  ///< By seed, then as the estimators list them.
+  std::vector<WorldSetting> world;  ///< Keys of [truth] beside the level's defaults.
+  std::vector<TwinRow> rows;        ///< By seed, then as the estimators list them.
   std::vector<TwinPrediction> predictions;
   std::vector<TwinFailure> failures;
   int subjects = 0;  ///< Persons asked for ...
@@ -63,8 +65,9 @@ struct TwinSummary {
   std::string muscle;  ///< "all": over the muscles.
   std::string parameter;
   int count = 0;
-  double bias = 0.0;  ///< Median signed error.
-  double mad = 0.0;   ///< Median absolute deviation from it.
+  double bias = 0.0;          ///< Median signed error.
+  double median_error = 0.0;  ///< Median of its size.
+  double mad = 0.0;           ///< Median absolute deviation from it.
   double rmse = 0.0;
   double within_5 = 0.0, within_10 = 0.0, within_15 = 0.0, within_20 = 0.0;
   double prior_within_10 = 0.0;  ///< Of the values that the search began with.

@@ -46,6 +46,7 @@ TEST(TwinSummary, CountsErrorsCoverageAndVerdictsByHand) {
   const TwinSummary& s = list[0];
   EXPECT_EQ(s.count, 3);
   EXPECT_NEAR(s.bias, 0.04, 1e-12);
+  EXPECT_NEAR(s.median_error, 0.08, 1e-12);
   EXPECT_NEAR(s.mad, 0.12, 1e-12);
   EXPECT_NEAR(s.rmse, std::sqrt((0.04 * 0.04 + 0.08 * 0.08 + 0.3 * 0.3) / 3.0), 1e-12);
   EXPECT_NEAR(s.within_5, 1.0 / 3.0, 1e-12);

@@ -172,4 +172,40 @@ use = "validation"
   EXPECT_NE(rows[0].at("r2"), rows[0].at("smoothed_r2"));
 }
 
+TEST(TwinCommand, AWorldIsSetByOptionsAndStated) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  const Finished done =
+      myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--truth", "curves=millard",
+             "tendon_strain=[0.08,0.08]", "torque_scale=1.05", "--out", folder / "wrong"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string person = read_text(fs::path(folder / "wrong") / "truth" / "person.csv");
+  for (const char* row : {"world,curves,1,millard", "world,tendon_strain,1,0.08 to 0.08",
+                          "world,torque_scale,1,1.05"})
+    EXPECT_THAT(person, HasSubstr(row));
+  EXPECT_THAT(myoid({"twin", "--help"}).out, HasSubstr("moment_arm_slope_sd"));
+  const Finished refused = myoid({"twin", "--protocol", folder / "p.toml", "--truth",
+                                  "moment_arms=0.1", "--out", folder / "refused"});
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.err, HasSubstr("did you mean 'moment_arm_sd'"));
+  // The report reads a truth in which the curves' parameters are absent.
+  const Finished run =
+      myoid({"run", fs::path(folder / "wrong") / "study.toml", "--out", folder / "results"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(TwinCommand, AStudyOfAWorldStatesItAndTellsErrorAndWidthOfEachParameter) {
+  const TemporaryFolder folder;
+  write_text(folder / "p.toml", kShort);
+  const Finished done =
+      myoid({"twin-study", "--protocol", folder / "p.toml", "--level", "L1", "--subjects", "2",
+             "--truth", "moment_arm_sd=0.15", "--out", folder / "study"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (const char* column : {"error", "half w.", "identif.", "of these"})
+    EXPECT_THAT(done.out, HasSubstr(column));
+  const auto run = nlohmann::json::parse(read_text(fs::path(folder / "study") / "run.json"));
+  EXPECT_EQ(run["world"]["moment_arm_sd"], "0.15");
+  EXPECT_THAT(read_text(fs::path(folder / "study") / "summary.csv"), HasSubstr("median_error"));
+}
+
 }  // namespace
