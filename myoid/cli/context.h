@@ -108,7 +108,9 @@ void add_compat_option(CLI::App& command, Context& context);
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});
 
 // One per command, each in a file of its own.
+void add_bids(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
+void add_cohort(CLI::App& app, Context& context);
 void add_compare(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_design(CLI::App& app, Context& context);

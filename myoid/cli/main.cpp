@@ -19,6 +19,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/held_folders.h"
+#include "myoid/cli/help_files.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/toml_table.h"
@@ -84,6 +85,8 @@ constexpr Command kCommands[] = {
     {"init", myoid::cli::add_init},
     {"check", myoid::cli::add_check},
     {"compare", myoid::cli::add_compare},
+    {"cohort", myoid::cli::add_cohort},
+    {"bids", myoid::cli::add_bids},
     {"settings", myoid::cli::add_settings},
     {"info", myoid::cli::add_info},
     {"convert", myoid::cli::add_convert},
@@ -170,6 +173,11 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
   // Declaring the options of all commands takes longer than a small run.
   const std::string_view word = argc > 1 ? argv[1] : "";
   const Command* const called = find_command(word);
+  if (called == nullptr && argc == 3 && word == myoid::cli::kHelpFilesWord) {
+    for (const Command& command : kCommands) command.add(app, context);
+    myoid::cli::write_help_files(app, argv[2]);
+    return myoid::cli::kDone;
+  }
   if (called == nullptr) {
     app.footer(
         "myoid COMMAND --help shows a command's purpose, an example and its options.\n"

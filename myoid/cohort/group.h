@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/cohort/manifest.h"
+#include "myoid/cohort/outcome.h"
+#include "myoid/report/report.h"
+
+namespace myoid::cohort {
+
+/// The results of all persons side by side.
+struct Group {
+  std::vector<PersonOutcome> outcomes;  ///< In the order of the manifest.
+  report::Table persons;                ///< Person, further columns, study, outcome, message.
+  report::Table parameters;  ///< Person, further columns, and the columns of parameters.csv.
+  report::Report page;
+};
+
+/// Reads outcome.json and parameters.csv of every person in the folder of the cohort. Persons who
+/// failed or are not computed yet stand in `persons` and on the page, not in `parameters`.
+///
+/// The page shows the numbers that recordings tell (verdict identified or weak): every person's
+/// with its 95 % interval, and over the persons n, mean, standard deviation and the median half
+/// width of the intervals. Each person counts once, whatever the width of the interval.
+[[nodiscard]] Group read_group(const Manifest& manifest, const std::filesystem::path& folder);
+
+/// Writes persons.csv, cohort.csv, the page with its figures and tables, and a BIDS derivative:
+/// dataset_description.json, participants.tsv, sub-LABEL of every person with results, and a
+/// .bidsignore for the other files. The derivative of a person without results is removed.
+void write_group(const Group& group, const Manifest& manifest, const std::filesystem::path& folder);
+
+}  // namespace myoid::cohort

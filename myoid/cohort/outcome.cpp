@@ -1,0 +1,92 @@
+#include "myoid/cohort/outcome.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/build_identity.h"
+#include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/byte_source.h"
+#include "myoid/files/text_file.h"
+
+namespace myoid::cohort {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kFile = "outcome.json";
+
+bool is_unchanged(const InputFile& input) {
+  try {
+    return sha256(recording::read_bytes(input.path)) == input.sha256;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::optional<Outcome> read_outcome(const fs::path& folder) {
+  try {
+    const auto json = ordered_json::parse(recording::read_text_file(folder / kFile));
+    const auto kind = choice_named<OutcomeKind>(json.at("outcome").get<std::string>());
+    if (!kind) return std::nullopt;
+    Outcome outcome{.kind = *kind,
+                    .message = json.at("message").get<std::string>(),
+                    .settings = json.at("settings").get<std::string>(),
+                    .build = json.at("build").get<std::string>(),
+                    .inputs = {}};
+    for (const ordered_json& input : json.at("inputs"))
+      outcome.inputs.push_back(
+          {input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
+    return outcome;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+void write_outcome(const Outcome& outcome, const fs::path& folder) {
+  ordered_json json{{"outcome", std::string(choice_name(outcome.kind))},
+                    {"message", outcome.message},
+                    {"settings", outcome.settings},
+                    {"build", outcome.build},
+                    {"inputs", ordered_json::array()}};
+  for (const InputFile& input : outcome.inputs)
+    json["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});
+  recording::write_file(folder / kFile, json_text(json) + "\n");
+}
+
+void remove_outcome(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove(folder / kFile, ignored);
+}
+
+bool is_current(const Outcome& outcome, const fs::path& study, std::string_view settings) {
+  const auto& inputs = outcome.inputs;
+  return outcome.kind != OutcomeKind::failed && outcome.settings == settings &&
+         outcome.build == build_identity() &&
+         std::any_of(inputs.begin(), inputs.end(),
+                     [&](const InputFile& input) { return input.path == study.string(); }) &&
+         std::all_of(inputs.begin(), inputs.end(), is_unchanged);
+}
+
+std::vector<std::string> failures(const std::vector<PersonOutcome>& outcomes) {
+  std::vector<std::string> lines;
+  for (const PersonOutcome& each : outcomes) {
+    if (!each.outcome) {
+      lines.push_back(
+          fmt::format("{}: not computed yet; give the same command again", each.person));
+    } else if (each.outcome->kind == OutcomeKind::failed) {
+      lines.push_back(fmt::format("{}: {}", each.person, each.outcome->message));
+    }
+  }
+  return lines;
+}
+
+}  // namespace myoid::cohort

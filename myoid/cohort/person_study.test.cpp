@@ -1,0 +1,61 @@
+#include "myoid/cohort/person_study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/files/atomic_file.h"
+#include "myoid/study/read_study.h"
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::cohort {
+namespace {
+
+using test::message_of;
+using testing::HasSubstr;
+
+const Person kPerson{
+    .name = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
+
+TEST(PersonStudy, WordsInBracesBecomeThePersonsAndTomlsOwnBracesStay) {
+  EXPECT_EQ(filled_study("mass = {weight} # {name}, {label}\nemg = { same_as = \"BIC\" }\n", "t",
+                         kPerson),
+            "mass = 61.5 # sub-07, 07\nemg = { same_as = \"BIC\" }\n");
+}
+
+TEST(PersonStudy, SaysWhichColumnIsMissingAndInWhichLine) {
+  EXPECT_THAT(
+      message_of([] { (void)filled_study("a = 1\nb = \"{labell}\"\n", "t.toml", kPerson); }),
+      HasSubstr("t.toml:2: found {labell}, expected a column of the manifest: name, label"));
+  EXPECT_THAT(message_of([] { (void)filled_study("sex = \"{sex}\"\n", "t.toml", kPerson); }),
+              HasSubstr("'sub-07' has no value in the column 'sex'"));
+}
+
+TEST(PersonStudy, AFilledTemplateIsAStudyWhosePathsAreThoseOfTheTemplate) {
+  const test::TemporaryFolder folder;
+  const auto text = [](const std::string& place) {
+    return "[subject]\nmass_kg = " + std::string(place.empty() ? "{weight}" : "61.5") +
+           "\n[[muscle]]\nname = \"BIC\"\nosim = [\"BIC\"]\nemg = \"BIC\"\n[[trial]]\nname = "
+           "\"a\"\n"
+           "markers = \"../sub-" +
+           (place.empty() ? "{label}" : place) + "/a.trc\"\nemg = \"../a.sto\"\n";
+  };
+  recording::write_file(folder / "code/study.toml", text(""));
+  recording::write_file(folder / "code/by_hand.toml", text("07"));
+  Person person = kPerson;
+  person.study = folder / "code/study.toml";
+  const Study filled = read_study(person_study(person, folder / "out"));
+  const Study by_hand = read_study(folder / "code/by_hand.toml");
+  EXPECT_EQ(filled.file, folder / "out/study.toml");
+  EXPECT_EQ(filled.subject.mass_kg, 61.5);
+  ASSERT_TRUE(filled.trials[0].markers && by_hand.trials[0].markers);
+  EXPECT_EQ(filled.trials[0].markers->lexically_normal(),
+            by_hand.trials[0].markers->lexically_normal());
+
+  person.study = folder / "code/by_hand.toml";
+  EXPECT_EQ(person_study(person, folder / "other"), person.study) << "no template: the file itself";
+}
+
+}  // namespace
+}  // namespace myoid::cohort

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/cohort/manifest.h"
+#include "myoid/core/choice.h"
+
+namespace myoid::cohort {
+
+/// A program that distributes jobs over processors and computers.
+enum class Engine { snakemake, slurm, parallel };
+inline constexpr std::string_view kEngineNames[] = {"snakemake", "slurm", "parallel"};
+constexpr ChoiceNames choice_names(Engine) { return kEngineNames; }
+
+struct WorkflowFile {
+  std::string name;
+  std::string text;
+};
+
+struct Workflow {
+  std::vector<WorkflowFile> files;  ///< For the folder `workflow` in the folder of the cohort.
+  std::string start;                ///< The command that starts the engine.
+};
+
+/// Returns the files by which an engine computes each person as one job and the group after them.
+/// All paths in them are absolute. `options`: further words of `myoid cohort`, as a shell reads
+/// them. Every engine calls person.sh NAME, which writes logs/NAME.log and returns 0 once the
+/// person's outcome is recorded, failed or not: a person's bad data stop nobody. A job that was
+/// killed is started again up to two times.
+[[nodiscard]] Workflow workflow(Engine engine,
+                                const Manifest& manifest,
+                                const std::filesystem::path& cohort,
+                                const std::string& options);
+
+/// Quotes a word for a POSIX shell.
+[[nodiscard]] std::string shell_word(std::string_view word);
+
+}  // namespace myoid::cohort

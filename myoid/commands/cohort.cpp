@@ -1,0 +1,236 @@
+#include "myoid/commands/cohort.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "myoid/cohort/person_study.h"
+#include "myoid/commands/run.h"
+#include "myoid/core/build_identity.h"
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/files/folder_lock.h"
+
+namespace myoid::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using cohort::Outcome;
+using cohort::OutcomeKind;
+using cohort::Person;
+
+/// Folder of a person's stages, which an interrupted job continues from.
+constexpr const char* kStageFolder = ".stages";
+
+std::string settings_of(const CohortOptions& o) {
+  return o.estimator ? fmt::format("estimator {}", choice_name(*o.estimator)) : "";
+}
+
+/// Removes the results of an earlier job from a person's folder.
+void remove_earlier(const fs::path& folder) {
+  const std::set<std::string> kept{kStageFolder, "study.toml",
+                                   std::string(recording::FolderLock::kFile)};
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (!kept.contains(entry.path().filename().string())) fs::remove_all(entry.path(), ignored);
+  }
+}
+
+std::size_t failed_gates(const RunResult& result) {
+  return static_cast<std::size_t>(std::count_if(
+      result.gates.begin(), result.gates.end(),
+      [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; }));
+}
+
+std::string failed_gate_names(const RunResult& result) {
+  std::string names;
+  for (const report::Gate& gate : result.gates) {
+    if (gate.status == report::GateStatus::fail)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", gate.name);
+  }
+  return names;
+}
+
+void judge(const RunResult& result, Outcome& outcome) {
+  std::string trials;
+  for (const TrialResult& trial : result.study.trials) {
+    if (!trial.failure().empty())
+      trials += fmt::format("{}{}", trials.empty() ? "" : ", ", trial.spec.name);
+  }
+  if (!trials.empty()) {
+    outcome.kind = OutcomeKind::trials_failed;
+    outcome.message = "trials that failed: " + trials;
+  } else if (result.failed(false)) {
+    outcome.kind = OutcomeKind::gate_failed;
+    outcome.message = failed_gates(result) > 0
+                          ? "quality gates that failed: " + failed_gate_names(result)
+                          : "the method torque did not converge";
+  }
+}
+
+/// Computes a person anew and writes the results.
+Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& folder) {
+  RunOptions options;
+  options.call = {.seed = o.call.seed,
+                  .start_s = o.call.start_s,
+                  .end_s = o.call.end_s,
+                  .command = fmt::format("myoid run {}", study.string()),
+                  .progress = {.report = {}, .stop = o.call.progress.stop},
+                  .listener = {}};
+  options.study = study.string();
+  options.estimator = o.estimator;
+  options.store = folder / kStageFolder;
+  RunResult result = run(options);
+  result.study.times.clear();  // the same bytes however long the job takes
+  write_run(result, folder);
+  Outcome outcome{
+      .kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = {}};
+  outcome.inputs = result.provenance.inputs;
+  judge(result, outcome);
+  return outcome;
+}
+
+Outcome failure(const std::string& message) {
+  return {
+      .kind = OutcomeKind::failed, .message = message, .settings = {}, .build = {}, .inputs = {}};
+}
+
+/// Computes a person unless the results are current; records a failure.
+cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const fs::path& folder) {
+  const std::string settings = settings_of(o);
+  Outcome outcome;
+  try {
+    const fs::path study = cohort::person_study(person, folder);
+    const std::optional<Outcome> earlier = cohort::read_outcome(folder);
+    if (earlier && cohort::is_current(*earlier, study, settings))
+      return {.person = person.name, .outcome = earlier, .reused = true};
+    cohort::remove_outcome(folder);
+    remove_earlier(folder);
+    outcome = computed(o, study, folder);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const InvalidInput& error) {
+    remove_earlier(folder);
+    outcome = failure(error.what());
+  } catch (const std::exception& error) {
+    remove_earlier(folder);
+    outcome = failure(fmt::format("internal error: {}", error.what()));
+  }
+  outcome.settings = settings;
+  outcome.build = build_identity();
+  cohort::write_outcome(outcome, folder);
+  return {.person = person.name, .outcome = std::move(outcome)};
+}
+
+/// One person's job in a folder that no other process may hold.
+cohort::PersonOutcome job(const CohortOptions& o, const Person& person, const fs::path& out) {
+  const fs::path folder = cohort::person_folder(out, person);
+  try {
+    fs::create_directories(folder);
+    recording::FolderLock lock(folder);
+    lock.sign(o.call.command, true);
+    cohort::PersonOutcome outcome = job_in(o, person, folder);
+    lock.finish();
+    return outcome;
+  } catch (const InvalidInput& error) {  // the folder is held, or the disk is full
+    return {.person = person.name, .outcome = failure(error.what())};
+  } catch (const fs::filesystem_error& error) {
+    return {.person = person.name, .outcome = failure(error.what())};
+  }
+}
+
+/// Calls `body(i)` for 0 .. count - 1 on `jobs` threads, each with its share of the program's
+/// threads; after the first exception no further number begins, and the exception is rethrown.
+template <typename Body>
+void in_jobs(std::size_t count, std::size_t jobs, const Body& body) {
+  using Limit = oneapi::tbb::global_control;
+  const std::size_t threads = Limit::active_value(Limit::max_allowed_parallelism);
+  jobs = std::min(jobs == 0 ? threads : jobs, std::max<std::size_t>(count, 1));
+  const int share = static_cast<int>(std::max<std::size_t>(threads / jobs, 1));
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto work = [&] {
+    try {
+      oneapi::tbb::task_arena arena(share);
+      for (std::size_t i = next++; i < count; i = next++) arena.execute([&] { body(i); });
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!error) error = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t k = 1; k < jobs; ++k) others.emplace_back(work);
+  work();
+  others.clear();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& o,
+                                                        const fs::path& folder) {
+  const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
+  const std::vector<const Person*> persons = cohort::chosen_persons(manifest, o.persons);
+  std::vector<cohort::PersonOutcome> outcomes(persons.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  in_jobs(persons.size(), o.jobs, [&](std::size_t i) {
+    o.call.progress.check();
+    outcomes[i] = job(o, *persons[i], folder);
+    const std::scoped_lock lock(mutex);
+    o.call.progress.tell(static_cast<double>(++done) / static_cast<double>(persons.size()),
+                         fmt::format("{} of {} persons", done, persons.size()));
+    if (o.heard) o.heard(outcomes[i]);
+  });
+  return outcomes;
+}
+
+cohort::Group write_cohort_group(const CohortOptions& o, const fs::path& folder) {
+  const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
+  cohort::Group group = cohort::read_group(manifest, folder);
+  cohort::write_group(group, manifest, folder);
+  return group;
+}
+
+std::string write_cohort_workflow(const CohortOptions& o,
+                                  cohort::Engine engine,
+                                  const fs::path& folder) {
+  const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
+  std::string options;
+  if (!o.study.empty())
+    options += "--study " + cohort::shell_word(fs::absolute(o.study).lexically_normal().string());
+  if (o.estimator)
+    options +=
+        fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
+  const cohort::Workflow workflow = cohort::workflow(engine, manifest, folder, options);
+  for (const cohort::WorkflowFile& file : workflow.files)
+    recording::write_file(folder / "workflow" / file.name, file.text);
+  return workflow.start;
+}
+
+void prepare_cohort_folder(const fs::path& folder, bool overwrite) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw InvalidInput(fmt::format("{} is a file; name a folder", folder.string()));
+  const fs::path persons = folder / cohort::kPersonsFolder;
+  if (!fs::exists(persons, error) && recording::holds_content(folder) && !overwrite)
+    throw InvalidInput(
+        fmt::format("the folder {} holds other files than a cohort's; give an empty folder, or add "
+                    "--overwrite",
+                    folder.string()));
+  fs::create_directories(persons, error);
+  if (error)
+    throw InvalidInput(
+        fmt::format("cannot create the folder {}: {}", persons.string(), error.message()));
+}
+
+}  // namespace myoid::commands

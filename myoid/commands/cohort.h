@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/cohort/group.h"
+#include "myoid/cohort/manifest.h"
+#include "myoid/cohort/outcome.h"
+#include "myoid/cohort/workflow.h"
+#include "myoid/commands/call.h"
+#include "myoid/identification/options.h"
+
+namespace myoid::commands {
+
+/// Many persons, each with a study: `run` for each, then all results side by side.
+struct CohortOptions {
+  Call call;
+  std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
+  std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
+  std::vector<std::string> persons;  ///< Names or labels; empty: everybody.
+  std::optional<identification::EstimatorKind> estimator;  ///< In place of the studies'.
+  std::size_t jobs = 0;  ///< Persons at a time; 0: as many as threads.
+  /// Hears the end of each person at once; may be empty. Called by one thread at a time.
+  std::function<void(const cohort::PersonOutcome&)> heard;
+};
+
+/// Computes the persons and writes each into a folder of its own, `persons/NAME` in `folder`. A
+/// person with current results is not computed again. A person who fails is recorded, and the
+/// others go on. The files are the same to the byte for every number of jobs and threads: they hold
+/// no times. Throws InvalidInput for a manifest that cannot be read and for a name that no person
+/// has.
+std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& options,
+                                                        const std::filesystem::path& folder);
+
+/// Puts the persons' results in `folder` side by side, and writes tables, page and BIDS derivative.
+cohort::Group write_cohort_group(const CohortOptions& options, const std::filesystem::path& folder);
+
+/// Writes the files by which an engine computes the cohort into `workflow` in `folder`; returns the
+/// command that starts the engine.
+std::string write_cohort_workflow(const CohortOptions& options,
+                                  cohort::Engine engine,
+                                  const std::filesystem::path& folder);
+
+/// Makes the folder of a cohort. Throws InvalidInput for a file, or for a folder with other content
+/// than a cohort's unless `overwrite`.
+void prepare_cohort_folder(const std::filesystem::path& folder, bool overwrite);
+
+}  // namespace myoid::commands
