@@ -65,11 +65,11 @@ constexpr const char* kSlurmPerson = R"sh(#!/bin/sh
 # One task of the array is one person: line FIRST + task of persons.txt.
 here={0}
 person=$(sed -n "$((FIRST + SLURM_ARRAY_TASK_ID))p" "$here/persons.txt")
-sh "$here/person.sh" "$person"
-code=$?
-if [ $code -ge 128 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt 2 ]; then  # killed: once more
-  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}"
-fi
+for attempt in 1 2 3; do
+  sh "$here/person.sh" "$person"
+  code=$?
+  [ $code -ge 128 ] || break  # 128 and above: the program was killed
+done
 exit $code
 )sh";
 

@@ -1,0 +1,178 @@
+#!/usr/bin/env bash
+# usage: tests/cohort/engines.sh PROGRAM [PERSONS] [ENGINE...]
+#
+# Makes a BIDS data set of virtual persons and computes it by one process on one core, then by every engine (parallel,
+# snakemake, slurm) with a worker killed half-way, and compares the bytes of all results. Slurm runs as one node on
+# loopback that this script starts and stops. An engine that is not installed is skipped, and the script says so.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+export MYOID; MYOID=$(realpath "$1")
+persons=${2:-6}
+shift; [ $# -gt 0 ] && shift
+[ $# -gt 0 ] || set -- parallel snakemake slurm
+work=$(mktemp -d)
+trap 'stop_slurm; rm -rf "$work"' EXIT
+cores=$(nproc)
+
+stop_slurm() {
+  local name
+  for name in slurmd slurmctld munged; do
+    [ -f "$work/$name.pid" ] && kill "$(cat "$work/$name.pid")" 2>/dev/null || true
+    rm -f "$work/$name.pid"
+  done
+}
+
+say() { printf '%s\n' "$*"; }
+seconds() { date +%s.%N; }
+took() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.1f s", b - a }'; }
+
+cat >"$work/protocol.toml" <<'TOML'
+level = "L2"
+[[trial]]
+name = "mvc"
+kind = "mvc"
+direction = "both"
+[[trial]]
+name = "lift"
+kind = "eccentric"
+held_mass_kg = 1.0
+TOML
+"$MYOID" twin --protocol "$work/protocol.toml" --subjects "$persons" --out "$work/people" >/dev/null 2>&1
+python3 "$here/make_bids.py" "$work/people" "$work/data"
+last=$(printf 'sub-%03d' "$persons")
+rm "$work/data/$last/motion/${last}_task-lift_tracksys-omc_motion.tsv"  # one person fails, and stops nobody
+
+begin=$(seconds)
+code=0
+"$MYOID" cohort "$work/data" --out "$work/out" --jobs 1 --threads 1 --quiet >/dev/null || code=$?
+alone=$(took "$begin" "$(seconds)")
+[ "$code" -eq 5 ] || { say "FAILED: exit code $code, expected 5: one person fails"; exit 1; }
+grep -q "^$last,.*failed" "$work/out/persons.csv" || { say "FAILED: $last is not named"; exit 1; }
+mv "$work/out" "$work/reference"
+say "$persons persons by one process on one core: $alone"
+
+# Kills one running person, once two persons are done; files hold the folder's name, so that every engine uses one.
+kill_a_worker() {
+  local deadline=$((SECONDS + 120)) victim
+  until [ "$(find "$work/out/persons" -name outcome.json 2>/dev/null | wc -l)" -ge 2 ]; do
+    [ $SECONDS -lt $deadline ] || return 0
+    sleep 0.05
+  done
+  for _ in $(seq 200); do
+    victim=$(pgrep -n -f -- "$MYOID cohort $work/data --out $work/out .*--person" || true)
+    if [ -n "$victim" ] && kill -9 "$victim" 2>/dev/null; then say "  killed process $victim"; return 0; fi
+    sleep 0.05
+  done
+  say "  no worker was found to kill"
+}
+
+compare() {  # compare ENGINE BEGIN
+  local engine=$1 end
+  end=$(seconds)
+  rm -rf "$work/out/workflow"
+  if diff -r "$work/reference" "$work/out" >"$work/differences"; then
+    say "$engine, $cores cores: $(took "$2" "$end"), the same bytes as on one core"
+  else
+    say "FAILED: $engine differs from one core:"; head -20 "$work/differences"; exit 1
+  fi
+  rm -rf "$work/out"
+}
+
+write_workflow() { "$MYOID" cohort "$work/data" --out "$work/out" --workflow "$1" >/dev/null; }
+
+run_parallel() {
+  command -v parallel >/dev/null || { say "parallel: skipped, not installed"; return; }
+  local begin; begin=$(seconds)
+  write_workflow parallel
+  kill_a_worker & local killer=$!
+  sh "$work/out/workflow/run.sh" --will-cite >/dev/null 2>&1 || [ $? -eq 5 ]
+  wait $killer
+  compare parallel "$begin"
+}
+
+run_snakemake() {
+  command -v snakemake >/dev/null || { say "snakemake: skipped, not installed"; return; }
+  local begin; begin=$(seconds)
+  write_workflow snakemake
+  kill_a_worker & local killer=$!
+  (cd "$work" && snakemake --snakefile "$work/out/workflow/Snakefile" --cores "$cores" --keep-going) \
+    >"$work/snakemake.log" 2>&1 || { say "FAILED: snakemake:"; tail -20 "$work/snakemake.log"; exit 1; }
+  wait $killer
+  compare snakemake "$begin"
+}
+
+start_slurm() {
+  local host; host=$(hostname -s)
+  export SLURM_CONF="$work/slurm.conf"
+  mkdir -p "$work/spool" "$work/state" "$work/munge"
+  chmod 755 "$work"
+  chmod 700 "$work/munge"
+  dd if=/dev/urandom of="$work/munge/key" bs=128 count=1 2>/dev/null
+  chmod 600 "$work/munge/key"
+  munged --force --key-file="$work/munge/key" --socket="$work/munge.socket" --pid-file="$work/munged.pid" \
+    --seed-file="$work/munge/seed" --log-file="$work/munge/log" || return 1
+  cat >"$SLURM_CONF" <<CONF
+ClusterName=loopback
+SlurmctldHost=$host(127.0.0.1)
+SlurmUser=$(id -un)
+AuthType=auth/munge
+AuthInfo=socket=$work/munge.socket
+CredType=cred/munge
+SlurmctldPort=26817
+SlurmdPort=26818
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
+SlurmdSpoolDir=$work/spool
+StateSaveLocation=$work/state
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+MpiDefault=none
+SwitchType=switch/none
+ReturnToService=2
+SchedulerParameters=batch_sched_delay=0,sched_interval=1
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$cores State=UNKNOWN
+PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
+CONF
+  slurmctld && slurmd || return 1
+  local deadline=$((SECONDS + 30))
+  until sinfo -h -o %t 2>/dev/null | grep -q idle; do
+    [ $SECONDS -lt $deadline ] || return 1
+    sleep 0.2
+  done
+}
+
+run_slurm() {
+  local tool
+  for tool in slurmctld slurmd munged sbatch; do
+    command -v $tool >/dev/null || { say "slurm: skipped, $tool is not installed"; return; }
+  done
+  start_slurm || {
+    say "slurm: skipped, it does not start on loopback here:"
+    tail -n 3 "$work"/*.log "$work/munge/log" || true
+    return
+  }
+  local begin deadline; begin=$(seconds)
+  write_workflow slurm
+  kill_a_worker & local killer=$!
+  sh "$work/out/workflow/submit.sh" >/dev/null
+  deadline=$((SECONDS + 60 + 10 * persons))
+  while squeue -h | grep -q .; do
+    [ $SECONDS -lt $deadline ] || { say "FAILED: slurm does not end:"; squeue; exit 1; }
+    sleep 0.5
+  done
+  wait $killer
+  stop_slurm
+  compare slurm "$begin"
+}
+
+for engine in "$@"; do
+  case $engine in
+    parallel|snakemake|slurm) "run_$engine" ;;
+    *) say "there is no engine '$engine'; there are parallel, snakemake, slurm"; exit 2 ;;
+  esac
+done
