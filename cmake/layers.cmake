@@ -2,7 +2,7 @@
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals posterior methods report phases study intake checks
-    design run scene results draft contents identify_files opensim_tools twin cohort commands cli)
+    design run scene results draft contents identify_files opensim_tools twin cohort realtime commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -45,6 +45,7 @@ set(MYOID_LAYER_opensim_tools core math files tables recording signals model osi
 set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation identification
     intervals study run)
 set(MYOID_LAYER_cohort core math files tables recording report study)
+set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files opensim_tools twin cohort)

@@ -1,0 +1,259 @@
+#include "myoid/realtime/read_predictor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/identification/emg_lag.h"
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/model/body_model.h"
+#include "myoid/muscle/force_velocity.h"
+#include "myoid/study/read_study.h"
+#include "myoid/study/study_model.h"
+
+namespace myoid {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace identification;
+using nlohmann::json;
+
+/// Length and moment arms of the polynomials come closer to the paths than a fit could notice.
+constexpr double kLengthTolerance = 5e-5;  // [m]
+constexpr double kArmTolerance = 3e-4;     // [m]
+constexpr int kMaxDegree = 16;
+
+json read_json(const fs::path& path) {
+  try {
+    return json::parse(recording::read_text_file(path));
+  } catch (const json::exception& error) {
+    throw ReadError(path, 0, fmt::format("is no result of a run: {}", error.what()));
+  }
+}
+
+/// The numbers of the model under way: values by owner, and ratios of the eccentric slopes.
+struct Numbers {
+  Predictor* predictor;
+  std::vector<double> slope_ratio;  ///< By muscle; 0: the product is the parameter.
+
+  /// The number of an owner; null where the owner has none of this scope.
+  [[nodiscard]] std::vector<double*> of(const ParameterField& field, std::string_view owner) {
+    std::vector<double*> found;
+    const auto f = static_cast<std::size_t>(field.field);
+    const auto is = [&](const std::string& name) { return owner == name || owner == "subject"; };
+    for (std::size_t k = 0; field.scope == Scope::muscle && k < predictor->muscles.size(); ++k) {
+      if (!is(predictor->muscles[k].name)) continue;
+      found.push_back(field.field == kSlopeRatio ? &slope_ratio[k]
+                                                 : &predictor->muscles[k].values[f]);
+    }
+    for (Predictor::Channel& channel : predictor->channels) {
+      if (field.scope == Scope::channel && is(channel.name)) found.push_back(&channel.values[f]);
+    }
+    for (Predictor::Joint& joint : predictor->joints) {
+      if (field.scope == Scope::joint && is(joint.name)) found.push_back(&joint.values[f]);
+    }
+    return found;
+  }
+};
+
+void set_values(const Study& study, const json& method, Numbers& numbers) {
+  for (const ParameterRule& rule : study.parameters) {
+    if (!rule.value) continue;
+    const std::vector<std::string> all{"subject"};
+    for (const std::string& owner : rule.owners.empty() ? all : rule.owners)
+      for (double* value : numbers.of(parameter_field(rule.parameter), owner)) *value = *rule.value;
+  }
+  for (const json& row : method.at("estimates")) {
+    if (!row.at("estimate").is_number()) continue;
+    const auto name = row.at("parameter").get<std::string>();
+    for (double* value : numbers.of(parameter_field(name), row.at("muscle").get<std::string>()))
+      *value = row.at("estimate").get<double>();
+  }
+  for (std::size_t k = 0; k < numbers.slope_ratio.size(); ++k) {
+    MuscleValues& m = numbers.predictor->muscles[k].values;
+    if (numbers.slope_ratio[k] > 0.0)
+      m[kProduct] = std::max(muscle::curvature_product_from_slope_ratio(numbers.slope_ratio[k],
+                                                                        m[kCurvature], m[kPlateau]),
+                             1e-12);
+  }
+}
+
+using Chains = std::vector<Predictor::Chain>;
+
+/// The product of a muscle whose slope ratio S is the unknown:
+///   P = (V_ml - 1) V_sh / (S (1 + V_sh)).
+void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
+  const double product = m[kProduct];
+  for (const Predictor::Chain& c : Chains(chains)) {
+    double by = 0.0;
+    if (c.field == kSlopeRatio) by = -product / ratio;
+    if (c.field == kCurvature) by = product / (m[kCurvature] * (1.0 + m[kCurvature]));
+    if (c.field == kPlateau) by = product / (m[kPlateau] - 1.0);
+    if (by != 0.0 && std::isfinite(by)) chains.push_back({kProduct, c.variable, by * c.slope});
+  }
+  std::erase_if(chains, [](const Predictor::Chain& c) { return c.field == kSlopeRatio; });
+}
+
+/// "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
+void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
+  const std::size_t point = label.rfind('.');
+  if (point == std::string::npos)
+    throw InvalidInput(fmt::format("found the unknown '{}', expected OWNER.PARAMETER", label));
+  const ParameterField& field = parameter_field(label.substr(point + 1));
+  std::vector<double*> values;
+  for (const std::string_view owner :
+       recording::split(std::string_view(label).substr(0, point), '+'))
+    for (double* value : numbers.of(field, owner)) values.push_back(value);
+  Predictor& p = *numbers.predictor;
+  for (double* value : values) {
+    const double first = *values.front();
+    const double slope = field.logarithmic ? *value : first != 0.0 ? *value / first : 1.0;
+    const Predictor::Chain chain{field.field, variable, slope};
+    for (std::size_t k = 0; k < p.muscles.size(); ++k) {
+      const auto& own = p.muscles[k].values;
+      if (value == &numbers.slope_ratio[k] ||
+          (value >= own.data() && value < own.data() + own.size()))
+        p.muscles[k].chains.push_back(chain);
+    }
+    for (Predictor::Channel& c : p.channels) {
+      if (value >= c.values.data() && value < c.values.data() + c.values.size())
+        c.chains.push_back(chain);
+    }
+    for (Predictor::Joint& j : p.joints) {
+      if (value >= j.values.data() && value < j.values.data() + j.values.size())
+        j.chains.push_back(chain);
+    }
+  }
+}
+
+void set_covariance(const json& method, Numbers& numbers) {
+  const json& covariance = method.at("covariance");
+  const auto labels = covariance.at("parameters").get<std::vector<std::string>>();
+  Predictor& p = *numbers.predictor;
+  const auto n = static_cast<Eigen::Index>(labels.size());
+  p.covariance.setZero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const json& row = covariance.at("matrix").at(static_cast<std::size_t>(i));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const json& cell = row.at(static_cast<std::size_t>(j));
+      p.covariance(i, j) = cell.is_number() ? cell.get<double>() : 0.0;
+    }
+    add_chains(labels[static_cast<std::size_t>(i)], i, numbers);
+  }
+  for (std::size_t k = 0; k < p.muscles.size(); ++k) {
+    if (numbers.slope_ratio[k] > 0.0)
+      add_product_chains(p.muscles[k].values, numbers.slope_ratio[k], p.muscles[k].chains);
+  }
+  const json& sd = method.at("torque_sd_nm");
+  p.torque_sd_nm = sd.is_number() ? sd.get<double>() : 0.0;
+}
+
+/// Delay and lags of every channel as the fit chose them.
+void set_lags(const json& method, Predictor& p) {
+  const json& word = method.at("emg_lag");
+  const std::string lag = word.is_string() ? word.get<std::string>() : "delay";
+  constexpr LagShares kShare;
+  constexpr double kLeast = 1e-4;  // [s], as in the fit
+  for (Predictor::Channel& channel : p.channels) {
+    const double delay_s = channel.values[kDelay];
+    channel.lags = lag != name(EmgLag::delay);
+    channel.pure_delay_s = lag == name(EmgLag::shared) ? kShare.pure * delay_s : delay_s;
+    if (lag != name(EmgLag::shared)) continue;
+    channel.values[kExcitationTime] = std::max(kLeast, kShare.excitation * delay_s);
+    channel.values[kActivationTime] = std::max(kLeast, kShare.activation * delay_s);
+    channel.values[kDeactivationTime] = std::max(kLeast, kShare.deactivation * delay_s);
+  }
+}
+
+/// Muscles, channels and joints with the values that the fit started from.
+Predictor start_of(const Study& study, const model::BodyModel& model) {
+  Predictor p;
+  for (const MuscleSetup& setup : muscle_setups(study, model)) {
+    const auto known = std::find_if(p.channels.begin(), p.channels.end(), [&](const auto& channel) {
+      return channel.name == setup.emg_channel;
+    });
+    const auto index = static_cast<std::size_t>(known - p.channels.begin());
+    if (known == p.channels.end())
+      p.channels.push_back({setup.emg_channel, {0.0, 1.0, 0.0, 0.040, 0.015, 0.050, 1.0}, {}});
+    p.muscles.push_back({.name = setup.name,
+                         .channel = index,
+                         .values = muscle_values(setup.start, setup.extras),
+                         .heads = {},
+                         .chains = {}});
+  }
+  for (const std::string& name : study_coordinates(study.model)) {
+    const auto found = std::find_if(model.coordinates.begin(), model.coordinates.end(),
+                                    [&](const auto& c) { return c.name == name; });
+    p.joints.push_back(
+        {name, static_cast<int>(found - model.coordinates.begin()), JointValues{}, {}});
+  }
+  return p;
+}
+
+/// The polynomials of the heads that the muscles are made of.
+void set_paths(const Study& study, const model::BodyModel& model, Predictor& p) {
+  const std::vector<kinematics::PathSurrogate> all =
+      kinematics::fit_surrogates(model, {.length_tolerance_m = kLengthTolerance,
+                                         .arm_tolerance_m = kArmTolerance,
+                                         .max_degree = kMaxDegree});
+  const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
+  std::map<int, std::size_t> place;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (std::size_t i = 0; i < groups[k].members.size(); ++i) {
+      const int head = groups[k].members[i];
+      const auto [known, is_new] = place.emplace(head, p.paths.size());
+      if (is_new) p.paths.push_back(all[static_cast<std::size_t>(head)]);
+      p.muscles[k].heads.push_back({known->second, groups[k].weights[i]});
+    }
+  }
+  p.default_q = model.default_q();
+}
+
+void refuse_unlike(const Study& study, const json& parameters) {
+  if (study.identify.normalised)
+    throw InvalidInput("a study with normalised = true cannot be predicted");
+  if (!parameters.at("resting_torque").empty())
+    throw InvalidInput("a study with measured resting torques cannot be predicted");
+  if (!study.model.file && !study.model.forearm_length_m)
+    throw InvalidInput(
+        "the built-in arm of this study got its length from the markers; state forearm_length_m "
+        "in [model], or give a model file");
+}
+
+}  // namespace
+
+Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
+  const json parameters = read_json(results / "parameters.json");
+  try {
+    const fs::path file =
+        study_file.empty()
+            ? fs::path(read_json(results / "run.json").at("study").get<std::string>())
+            : study_file;
+    const Study study = read_study(file);
+    refuse_unlike(study, parameters);
+    const model::BodyModel model = load_model(study);
+    Predictor predictor = start_of(study, model);
+    for (const json& method : parameters.at("methods")) {
+      if (method.at("method") != "torque") continue;
+      Numbers numbers{&predictor, std::vector<double>(predictor.muscles.size(), 0.0)};
+      set_values(study, method, numbers);
+      set_covariance(method, numbers);
+      set_lags(method, predictor);
+      set_paths(study, model, predictor);
+      return predictor;
+    }
+  } catch (const json::exception& error) {
+    throw ReadError(results / "parameters.json", 0,
+                    fmt::format("is no result of a run of this version: {}", error.what()));
+  }
+  throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]",
+                                 (results / "parameters.json").string()));
+}
+
+}  // namespace myoid
