@@ -9,7 +9,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/report/write_report.h"
 #include "myoid/results/study_report.h"
-#include "myoid/results/study_scene.h"
+#include "myoid/results/study_workbench.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
@@ -71,8 +71,8 @@ ReportResult report(const ReportOptions& o) {
 }
 
 void write_report(const ReportResult& result, const fs::path& folder) {
-  write_motion_page(result.study, folder);
-  report::write_report(study_report(result.study, result.provenance), folder);
+  const report::Workbench workbench = study_workbench(result.study);
+  report::write_report(study_report(result.study, result.provenance), folder, &workbench);
 }
 
 }  // namespace myoid::commands

@@ -8,7 +8,7 @@
 #include "myoid/report/write_report.h"
 #include "myoid/results/result_files.h"
 #include "myoid/results/study_report.h"
-#include "myoid/results/study_scene.h"
+#include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/run_study.h"
 #include "myoid/study/read_study.h"
@@ -77,8 +77,8 @@ RunResult run(const RunOptions& o) {
 void write_run(const RunResult& result, const std::filesystem::path& folder) {
   remove_results(folder);
   write_results(result.study, result.provenance, folder);
-  write_motion_page(result.study, folder);
-  report::write_report(study_report(result.study, result.provenance), folder);
+  const report::Workbench workbench = study_workbench(result.study);
+  report::write_report(study_report(result.study, result.provenance), folder, &workbench);
 }
 
 }  // namespace myoid::commands

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "myoid/report/forest.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
+#include "myoid/report/viewer_bundle.h"
 
 namespace myoid::report {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1180px; padding: 28px 24px 60px; background: #fff; color: #22262b;
+body { margin: 0 auto; max-width: 1640px; padding: 28px 24px 60px; background: #fff; color: #22262b;
   font: 15px/1.5 Helvetica, Arial, sans-serif; }
 h1 { font-size: 26px; line-height: 1.2; margin: 0 0 2px; }
 h2 { font-size: 19px; margin: 38px 0 8px; padding-bottom: 4px; border-bottom: 1px solid #d5d9de; }
@@ -22,7 +24,25 @@ h3 { font-size: 15px; margin: 22px 0 4px; }
 p { margin: 6px 0 10px; max-width: 74ch; }
 .subtitle, .caption, .hints { color: #5a626b; }
 .caption, .hints { font-size: 13px; }
-.headline { font-size: 16px; border-left: 4px solid #1f5fa8; padding: 6px 0 6px 14px; margin: 16px 0; }
+.headline { font-size: 17px; margin: 16px 0 12px; max-width: 90ch; }
+.light { display: flex; gap: 14px; align-items: center; margin: 12px 0; padding: 10px 14px; border: 1px solid; border-radius: 8px; }
+.light p { margin: 0; max-width: 100ch; } .light svg { flex: none; fill: currentColor; }
+.light .sign { fill: none; stroke: #fff; stroke-width: 4; }
+.forest { margin: 10px 0 22px; }
+.forest table { width: 100%; max-width: 1180px; }
+.forest td, .forest th { padding: 1px 12px 1px 0; vertical-align: middle; }
+.forest .bar { width: 34%; min-width: 120px; overflow: visible; padding-right: 22px; }
+.forest svg.bar { width: 100%; display: block; padding: 0; }
+.forest .number, .forest .badge { white-space: nowrap; }
+.forest .bar text { font-size: 11px; fill: #5a626b; }
+.forest .prior { fill: #dfe3e8; background: #dfe3e8; } .forest .middle { stroke: #8a9097; stroke-dasharray: 2 3; }
+.forest .truth { stroke: #111; stroke-width: 2; background: #111; }
+.legend { font-size: 13px; max-width: none; margin: 6px 0; } .legend span { margin-right: 14px; white-space: nowrap; }
+.legend i { display: inline-block; width: 24px; height: 10px; } .legend i.truth { width: 3px; height: 14px; vertical-align: -2px; }
+.mark { vertical-align: -3px; }
+.beside th { padding-top: 10px; color: #5a626b; }
+details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1f5fa8; cursor: pointer; }
+.reading dl { margin: 6px 0; max-width: 90ch; } .reading dt { font-weight: 600; } .reading dd { margin: 0 0 6px; }
 nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; }
 nav a { margin-right: 14px; white-space: nowrap; }
 a { color: #1f5fa8; }
@@ -39,15 +59,19 @@ td.short { white-space: nowrap; }
 .fail, .bad { color: #8e1c1c; background: #fde6e4; border-color: #eba8a2; }
 .info { color: #24507f; background: #e6f0fa; border-color: #a9c8e8; }
 figure { margin: 18px 0; break-inside: avoid; }
-figure svg { width: 100%; height: auto; display: block; }
+figure > svg { width: 100%; max-width: 1000px; height: auto; display: block; }
+.save { font-size: 12px; margin: 2px 0; }
 figcaption { font-size: 13px; color: #5a626b; margin-top: 4px; }
 figcaption b { color: #22262b; }
 ul { margin: 6px 0; padding-left: 20px; }
 li { margin: 3px 0; max-width: 74ch; }
+@media (max-width: 760px) { body { padding: 16px 12px 40px; } .wide-only { display: none; } .forest { font-size: 12px; }
+  .forest td, .forest th { padding-right: 6px; } .forest .bar { min-width: 70px; } }
 code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
   h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
-  .badge { print-color-adjust: exact; -webkit-print-color-adjust: exact; } @page { margin: 16mm; } }
+  .badge, .light, .forest { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  .forest tr { break-inside: avoid; } .save, details:not([open]) { display: none; } @page { size: A4; margin: 14mm; } }
 )";
 
 /// Longer cells may be broken into lines.
@@ -142,10 +166,36 @@ std::string table_html(const Table& table) {
   return text;
 }
 
-std::string figure_html(const Figure& figure) {
-  return fmt::format("<figure id=\"{}\">\n{}<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
-                     escape_xml(figure.id), svg_plot(figure), typeset(figure.title),
-                     typeset(figure.caption));
+/// Returns the three answers that a reader of a figure needs.
+std::string reading_html(const Figure& figure) {
+  if (figure.bad.empty() && figure.act.empty()) return "";
+  return fmt::format(
+      "<details class=\"reading\"><summary>How to read this</summary><dl><dt>What this shows</dt>"
+      "<dd>{}</dd><dt>What bad looks like</dt><dd>{}</dd><dt>What to do</dt><dd>{}</dd></dl>"
+      "</details>\n",
+      typeset(figure.caption), typeset(figure.bad), typeset(figure.act));
+}
+
+/// Returns the panels that the page draws.
+Figure on_page(Figure figure) {
+  const auto most = static_cast<std::size_t>(figure.most_on_page);
+  if (most > 0 && figure.panels.size() > most) {
+    figure.caption += fmt::format(" The first {} of {} panels; the files hold all.", most,
+                                  figure.panels.size());
+    figure.panels.resize(most);
+  }
+  return figure;
+}
+
+std::string figure_html(const Figure& whole) {
+  const Figure figure = on_page(whole);
+  const std::string id = escape_xml(figure.id);
+  return fmt::format(
+      "<figure id=\"{0}\"{1}>\n{2}<figcaption><b>{3}.</b> {4}</figcaption>\n{5}"
+      "<p class=\"save\"><a href=\"figures/{0}.csv\">CSV</a> <a href=\"figures/{0}.svg\">SVG</a>"
+      "</p>\n</figure>\n",
+      id, figure.in_workbench ? " class=\"in-workbench\"" : "", svg_plot(figure),
+      typeset(figure.title), typeset(figure.caption), reading_html(figure));
 }
 
 std::string section_html(const Section& section) {
@@ -160,30 +210,58 @@ std::string section_html(const Section& section) {
   return text + "</section>\n";
 }
 
-}  // namespace
+/// Returns the scripts of the workbench: its values, its scenes and the program that shows them.
+std::string scripts_html(const Report& report, const Workbench& workbench) {
+  std::string text =
+      fmt::format("<script type=\"application/json\" id=\"workbench-data\">{}</script>\n",
+                  workbench_json(workbench, report));
+  if (!workbench.scenes.scenes.empty())
+    text += fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n",
+                        scenes_json(workbench.scenes));
+  return text + fmt::format("<script>{}</script>\n", viewer_bundle().script);
+}
 
-std::string html(const Report& report) {
-  std::string text = fmt::format(
+std::string head_html(const Report& report, bool live) {
+  const ViewerBundle bundle = viewer_bundle();
+  return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
-      escape_xml(report.title), kStyle);
+      "<title>{}</title>\n{}<style>{}{}</style>\n</head>\n",
+      escape_xml(report.title),
+      live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license)
+           : "",
+      kStyle, live ? bundle.report : "");
+}
+
+}  // namespace
+
+std::string html(const Report& report, const Workbench* workbench) {
+  const bool live = workbench != nullptr && !workbench->trials.empty() && has_viewer();
+  std::string text = head_html(report, live);
+  text += fmt::format("<body>\n<header>\n<h1>{}</h1>\n", escape_xml(report.title));
   if (!report.subtitle.empty()) {
     text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   }
   if (!report.headline.empty()) {
-    text += fmt::format("<div class=\"headline\">{}</div>\n", typeset(report.headline));
+    text += fmt::format("<p class=\"headline\">{}</p>\n", typeset(report.headline));
   }
+  text += light_html(report.gates);
   for (const Link& link : report.links) {
     text +=
         fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
   }
-  text += "</header>\n<nav>";
+  text += "</header>\n<nav class=\"contents\">";
+  if (!report.forest.empty()) text += "<a href=\"#numbers\">All numbers</a>";
+  if (live) text += "<a class=\"live-only\" href=\"#workbench\" hidden>Workbench</a>";
   if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
   for (const Section& section : report.sections) {
     text += fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), typeset(section.heading));
   }
   text += "</nav>\n<main>\n";
+  if (!report.forest.empty())
+    text += "<section>\n<h2 id=\"numbers\">All numbers</h2>\n" + forest_html(report.forest) +
+            "</section>\n";
+  if (live) text += "<section id=\"workbench\" class=\"workbench\" hidden></section>\n";
   if (!report.gates.empty()) {
     text += "<section>\n<h2 id=\"quality\">Quality of the data and of the fit</h2>\n" +
             gates_html(report.gates) + "</section>\n";
@@ -206,7 +284,9 @@ std::string html(const Report& report) {
     }
     text += "</tbody></table></div>\n</section>\n";
   }
-  return text + "</main>\n</body>\n</html>\n";
+  text += "</main>\n";
+  if (live) text += scripts_html(report, *workbench);
+  return text + "</body>\n</html>\n";
 }
 
 }  // namespace myoid::report

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "myoid/core/json_text.h"
+
 namespace myoid::report {
 
 using nlohmann::ordered_json;
@@ -22,6 +24,20 @@ ordered_json provenance_json(const Provenance& provenance) {
                           ? ordered_json::object()
                           : ordered_json::parse(provenance.options_json);
   return object;
+}
+
+std::string embedded(const ordered_json& json) {
+  const std::string text = json_text(json, -1);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
 }
 
 }  // namespace myoid::report

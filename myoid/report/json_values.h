@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -13,5 +14,8 @@ namespace myoid::report {
 
 /// Returns program, version, command, inputs with their SHA-256, and options.
 [[nodiscard]] nlohmann::ordered_json provenance_json(const Provenance& provenance);
+
+/// Returns JSON that may stand inside a <script> element: '<' is written as an escape.
+[[nodiscard]] std::string embedded(const nlohmann::ordered_json& json);
 
 }  // namespace myoid::report

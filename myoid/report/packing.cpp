@@ -84,6 +84,23 @@ void pack(const Mat3& rotation, std::vector<std::uint16_t>& numbers) {
     numbers.push_back(static_cast<std::uint16_t>(std::lround(32767.0 * (1.0 + c))));
 }
 
+PackedNumbers packed(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
+  PackedNumbers result;
+  bool any = false;
+  for (const double x : numbers) {
+    if (!std::isfinite(x)) continue;
+    result.lower = any ? std::min(result.lower, x) : x;
+    result.upper = any ? std::max(result.upper, x) : x;
+    any = true;
+  }
+  const double range = result.upper - result.lower;
+  for (const double x : numbers) {
+    result.codes.push_back(std::isfinite(x) ? pack(x - result.lower, range > 0.0 ? range : 1.0)
+                                            : kPackedMissing);
+  }
+  return result;
+}
+
 std::uint16_t pack(double value, double top) {
   if (std::isnan(value)) return kPackedMissing;
   return static_cast<std::uint16_t>(std::lround(kSteps * std::clamp(value / top, 0.0, 1.0)));

@@ -33,6 +33,13 @@ void pack(const PackingBox& box, const Vec3& point, std::vector<std::uint16_t>& 
 /// Packs the unit quaternion x, y, z, w of a rotation, as 32767 (1 + component) rounded: components
 /// are right within 1.6e-5.
 void pack(const Mat3& rotation, std::vector<std::uint16_t>& numbers);
+/// Numbers in 65534 steps between the least and the greatest of them: right within half a step.
+struct PackedNumbers {
+  double lower = 0.0, upper = 0.0;
+  std::vector<std::uint16_t> codes;  ///< value = lower + (upper - lower) code / 65534.
+};
+/// Packs the numbers; one that is not finite becomes kPackedMissing.
+[[nodiscard]] PackedNumbers packed(const Eigen::Ref<const Eigen::VectorXd>& numbers);
 /// Packs a value of 0 .. top in 65534 steps; a value beyond becomes the nearest end, NaN
 /// kPackedMissing.
 [[nodiscard]] std::uint16_t pack(double value, double top);

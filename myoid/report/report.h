@@ -17,6 +17,8 @@ enum class Role {
   truth,       ///< Known truth of a virtual recording: solid black, thin.
   raw,         ///< As recorded, before processing: thin light grey.
   band,        ///< Area between y and y_upper: light.
+  unseen,      ///< Predicted without this recording: dash-dotted green.
+  range,       ///< Area between y and y_upper that the recording visited: grey.
   points,      ///< Markers without a line; with y_lower/y_upper an error bar.
 };
 
@@ -55,6 +57,12 @@ struct Figure {
   int columns = 1;  ///< Panels side by side.
   /// First lines of ID.csv, each behind "# ": the origin of the numbers.
   std::vector<std::string> comments{};
+  int most_on_page = 0;  ///< The page draws the first panels only; 0: all. The files have all.
+  std::string bad{};  ///< How the figure looks if something is wrong; one or two sentences.
+  std::string act{};  ///< What the reader does about it.
+  /// True if the workbench shows the same: the page then shows the drawing in print and without
+  /// script only.
+  bool in_workbench = false;
 };
 
 /// The quality of a value, shown as a small colored word.
@@ -85,6 +93,21 @@ struct Gate {
   std::string why;        ///< Consequence of the answer, one sentence.
 };
 
+/// One estimated number beside the knowledge before the recording: a row of the forest plot.
+struct ForestRow {
+  std::string owner;  ///< "BIC"
+  std::string name;   ///< "optimal fiber length"
+  std::string unit;   ///< Empty: dimensionless.
+  double estimate = 0.0;
+  std::optional<double> lower, upper;          ///< 95 % interval.
+  std::optional<double> prior_mean, prior_sd;  ///< Without both of them the row has no bar.
+  std::optional<double> truth;                 ///< Of a virtual recording.
+  std::string verdict;                         ///< "identified"
+  Badge badge = Badge::none;                   ///< Of the verdict; decides color and shape.
+  std::string why;                             ///< The reason of the verdict, a sentence.
+  bool beside = false;  ///< Of an electrode or a joint: below the muscles' numbers.
+};
+
 /// Another file of the run, by its name relative to the report.
 struct Link {
   std::string text;
@@ -108,10 +131,11 @@ struct ProvenanceRow {
 /// All results of a run for a reader, as a value without any formatting.
 struct Report {
   std::string title;
-  std::string subtitle;     ///< Who, when, which data.
-  std::string headline;     ///< The result in two or three sentences.
-  std::vector<Link> links;  ///< Beside the report, to look at.
-  std::vector<Gate> gates;  ///< First of all: may the numbers below be believed?
+  std::string subtitle;             ///< Who, when, which data.
+  std::string headline;             ///< The result in two or three sentences.
+  std::vector<Link> links;          ///< Beside the report, to look at.
+  std::vector<Gate> gates;          ///< First of all: may the numbers below be believed?
+  std::vector<ForestRow> forest{};  ///< All numbers in one picture; may be empty.
   std::vector<Section> sections;
   std::vector<std::string> assumptions;
   std::vector<ProvenanceRow> provenance;  ///< Version, inputs with hashes, options.

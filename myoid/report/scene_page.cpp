@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
+#include "myoid/report/json_values.h"
 #include "myoid/report/packing.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/viewer_bundle.h"
@@ -215,32 +215,11 @@ void validate_meshes(const ScenePage& page) {
   }
 }
 
-/// Returns JSON that may stand inside a <script> element.
-std::string embedded(const ordered_json& j) {
-  const std::string text = json_text(j, -1);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
 }  // namespace
 
 bool has_viewer() { return !viewer_bundle().script.empty(); }
 
-std::string scene_page(const ScenePage& page) {
-  if (!has_viewer()) {
-    throw InvalidInput(
-        "this program was built without three.js, so it cannot write pages with a moving model: "
-        "install the packages libjs-three and esbuild and build it again");
-  }
-  if (page.scenes.empty()) throw InvalidInput("a page with a moving model needs a scene");
+std::string scenes_json(const ScenePage& page) {
   validate_meshes(page);
   ordered_json j{{"title", page.title},
                  {"subtitle", page.subtitle},
@@ -251,6 +230,17 @@ std::string scene_page(const ScenePage& page) {
     validate(scene);
     j["scenes"].push_back(scene_json(scene));
   }
+  return embedded(j);
+}
+
+std::string scene_page(const ScenePage& page) {
+  if (!has_viewer()) {
+    throw InvalidInput(
+        "this program was built without three.js, so it cannot write pages with a moving model: "
+        "install the packages libjs-three and esbuild and build it again");
+  }
+  if (page.scenes.empty()) throw InvalidInput("a page with a moving model needs a scene");
+  const std::string scenes = scenes_json(page);
   const ViewerBundle bundle = viewer_bundle();
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -259,7 +249,7 @@ std::string scene_page(const ScenePage& page) {
       "</head>\n<body>\n<noscript>This page shows a moving model and needs JavaScript.</noscript>\n"
       "<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}</script>\n"
       "</body>\n</html>\n",
-      escape_xml(page.title), bundle.license, bundle.style, embedded(j), bundle.script);
+      escape_xml(page.title), bundle.license, bundle.style, scenes, bundle.script);
 }
 
 }  // namespace myoid::report

@@ -19,6 +19,10 @@ struct ScenePage {
 };
 [[nodiscard]] std::string scene_page(const ScenePage& page);
 
+/// Returns the scenes of a page as JSON that may stand inside a <script> element. Calls `validate`.
+/// Throws InvalidInput as `scene_page` for meshes.
+[[nodiscard]] std::string scenes_json(const ScenePage& page);
+
 /// Whether this build includes the viewer that `scene_page` needs.
 [[nodiscard]] bool has_viewer();
 

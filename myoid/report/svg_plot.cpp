@@ -18,7 +18,7 @@ constexpr double kRight = 12.0;
 constexpr double kTop = 24.0;
 constexpr double kBottom = 42.0;
 constexpr double kLegendRow = 18.0;
-constexpr std::size_t kBinsPerPanel = 400;
+constexpr std::size_t kBinsPerPanel = 200;
 
 struct Style {
   const char* color;
@@ -40,6 +40,10 @@ Style style_of(Role role) {
       return {"#b9bec4", "", 0.7};
     case Role::band:
       return {"#d1491b", "", 0.0};
+    case Role::unseen:
+      return {"#00694b", "7 2 1.5 2", 1.5};
+    case Role::range:
+      return {"#5a626b", "", 0.0};
     case Role::points:
       return {"#1f5fa8", "", 1.3};
   }
@@ -194,7 +198,7 @@ class PanelDrawing {
   }
 
   [[nodiscard]] std::string curve(const Series& series) const {
-    if (series.role == Role::band) return band(series);
+    if (series.role == Role::band || series.role == Role::range) return band(series);
     if (series.role == Role::points) return points(series);
     std::string path;
     bool pen_down = false;
@@ -307,7 +311,7 @@ double entry_width(const LegendEntry& entry) {
 
 std::string legend_mark(Role role, double x, double y) {
   const Style style = style_of(role);
-  if (role == Role::band) {
+  if (role == Role::band || role == Role::range) {
     return fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"24\" height=\"9\" fill=\"{}\" "
         "fill-opacity=\"0.16\"/>\n",
@@ -427,8 +431,8 @@ std::string svg_plot(const Figure& figure) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:.0f}\" width=\"{0:g}\" "
       "height=\"{1:.0f}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
-      "fill=\"#22262b\">\n<title>{2}</title>\n",
-      kWidth, height, escape_xml(figure.title));
+      "fill=\"#22262b\">\n<title>{2}</title>\n<desc>{3}</desc>\n",
+      kWidth, height, escape_xml(figure.title), escape_xml(typographic(figure.caption)));
   svg += legend;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const double left = static_cast<double>(k % columns) * cell_width + kLeft;

@@ -79,6 +79,10 @@ std::string_view name(Role role) {
       return "raw";
     case Role::band:
       return "band";
+    case Role::unseen:
+      return "unseen";
+    case Role::range:
+      return "range";
     case Role::points:
       return "points";
   }

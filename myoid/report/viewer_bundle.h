@@ -8,7 +8,8 @@ namespace myoid::report {
 /// myoid/report/viewer and three.js. Empty in a build without three.js or esbuild.
 struct ViewerBundle {
   std::string_view script;   ///< JavaScript, minified; three.js inside.
-  std::string_view style;    ///< CSS.
+  std::string_view style;    ///< CSS of a page that shows the model alone.
+  std::string_view report;   ///< CSS of the workbench in a report.
   std::string_view license;  ///< Of three.js.
 };
 

@@ -8,7 +8,9 @@
 
 namespace myoid::report {
 
-void write_report(const Report& report, const std::filesystem::path& directory) {
+void write_report(const Report& report,
+                  const std::filesystem::path& directory,
+                  const Workbench* workbench) {
   validate(report);
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
@@ -20,7 +22,7 @@ void write_report(const Report& report, const std::filesystem::path& directory) 
     }
   }
   recording::write_file(directory / "report.json", report_json(report));
-  recording::write_file(directory / "report.html", html(report));
+  recording::write_file(directory / "report.html", html(report, workbench));
 }
 
 }  // namespace myoid::report

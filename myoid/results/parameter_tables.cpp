@@ -191,6 +191,32 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   return tables;
 }
 
+std::vector<report::ForestRow> forest_rows(const StudyResult& result,
+                                           const IdentificationResult& method) {
+  std::vector<report::ForestRow> rows;
+  for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
+    const ParameterEstimate& e = *line.estimate;
+    if (!std::isfinite(e.estimate)) continue;
+    report::ForestRow row{.owner = line.owners,
+                          .name = report::spelled(e.parameter),
+                          .unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit)),
+                          .estimate = e.estimate,
+                          .lower = e.ci_low,
+                          .upper = e.ci_high,
+                          .prior_mean = e.prior_mean,
+                          .prior_sd = e.prior_sd,
+                          .truth = truth_of(result, e),
+                          .verdict = report::spelled(identification::name(e.verdict)),
+                          .badge = badge(e.verdict),
+                          .why = e.reason,
+                          .beside = identification::is_nuisance(e)};
+    if (is_undetermined(e)) row.lower = row.upper = std::nullopt;
+    if (!e.fit_case.empty() && method.method == "paper") row.name += ", " + e.fit_case;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 std::vector<Table> paper_tables(const IdentificationResult& method) {
   const auto empty = [](std::string id, std::string title) {
     return Table{

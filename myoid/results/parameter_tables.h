@@ -41,4 +41,9 @@ struct EstimateLine {
 [[nodiscard]] std::vector<report::Table> basin_tables(
     const identification::IdentificationResult& method);
 
+/// Returns the rows of the forest plot: the numbers of `estimate_lines`, with the truth of a
+/// virtual recording. A number that the recording leaves open has no interval.
+[[nodiscard]] std::vector<report::ForestRow> forest_rows(
+    const StudyResult& result, const identification::IdentificationResult& method);
+
 }  // namespace myoid

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/muscle/hill_muscle.h"
+#include "myoid/results/log_covariance.h"
 
 namespace myoid {
 namespace {
@@ -43,6 +44,7 @@ using Curve = std::function<double(double x, const HillParameters<double>& muscl
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;
+  Eigen::MatrixXd log_covariance;  ///< Of the identified ones, in the order of muscle::kHillFields.
 };
 
 report::Series sampled(std::string name,
@@ -60,9 +62,32 @@ report::Series sampled(std::string name,
   return series;
 }
 
+/// The curve's 95 % band to first order: f -+ 1.96 sqrt(g' C g), g = df / d ln x, C the covariance
+/// of the logarithms. Never below 0. Only muscles with a standard error have one.
+report::Series band_of(const MuscleVersions& of, double from, double to, const Curve& curve) {
+  constexpr double kStep = 1e-4;  // of the logarithm
+  report::Series band = sampled("identified, 95 %", Role::band, from, to, curve, of.identified);
+  for (std::size_t i = 0; i < band.x.size(); ++i) {
+    Eigen::VectorXd slope(of.log_covariance.rows());
+    for (Eigen::Index k = 0; k < slope.size(); ++k) {
+      const auto member = muscle::kHillFields[static_cast<std::size_t>(k)].member;
+      HillParameters<double> less = of.identified, more = of.identified;
+      less.*member *= std::exp(-kStep);
+      more.*member *= std::exp(kStep);
+      slope[k] = (curve(band.x[i], more) - curve(band.x[i], less)) / (2.0 * kStep);
+    }
+    const double half = 1.96 * std::sqrt(std::max(0.0, slope.dot(of.log_covariance * slope)));
+    band.y_upper.push_back(band.y[i] + half);
+    band.y[i] = std::max(0.0, band.y[i] - half);
+  }
+  return band;
+}
+
 /// Adds the curve of every version of the muscle between two places.
 void add_curves(
     Panel& panel, const MuscleVersions& of, double from, double to, const Curve& curve) {
+  if (of.log_covariance.diagonal().sum() > 0.0)
+    panel.series.push_back(band_of(of, from, to, curve));
   panel.series.push_back(sampled("literature", Role::literature, from, to, curve, of.literature));
   panel.series.push_back(sampled("identified", Role::identified, from, to, curve, of.identified));
   if (of.truth) panel.series.push_back(sampled("truth", Role::truth, from, to, curve, *of.truth));
@@ -89,7 +114,7 @@ VisitedRange visited(const identification::StudyData& data, std::size_t m) {
 Panel length_panel(const MuscleVersions& of, const VisitedRange& range) {
   Panel panel{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
   panel.series.push_back(
-      {"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::band, {}, {1.0, 1.0}});
+      {"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::range, {}, {1.0, 1.0}});
   const double l0 = of.literature.optimal_fiber_length_m;
   const double span = 1.6 * of.literature.force_length_width_m;
   add_curves(panel, of, l0 - span, l0 + span, [](double x, const auto& muscle) {
@@ -108,7 +133,7 @@ Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
   panel.series.push_back({"visited",
                           {-range.fastest_mps, range.fastest_mps},
                           {0.0, 0.0},
-                          Role::band,
+                          Role::range,
                           {},
                           {highest, highest}});
   const double v = of.literature.max_shortening_speed_mps;
@@ -122,16 +147,29 @@ Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
 
 Figure muscle_curves(const StudyResult& result, const IdentificationResult& method, std::size_t m) {
   const auto& setup = result.fit_input.data.muscles[m];
+  std::vector<std::string> names;
+  for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
   const MuscleVersions of{.literature = setup.start,
                           .identified = method.muscles[m],
-                          .truth = true_muscle(result, setup)};
+                          .truth = true_muscle(result, setup),
+                          .log_covariance = log_covariance(method, setup.name, names)};
   const VisitedRange range = visited(result.fit_input.data, m);
-  return {"curves_" + setup.name,
-          fmt::format("{}: force-length and force-velocity relations", setup.name),
-          "Grey dotted: literature; orange dashed: identified; thin black: the truth of a virtual "
-          "recording. The recording covers the shaded range.",
-          {length_panel(of, range), velocity_panel(of, range)},
-          2};
+  Figure figure{"curves_" + setup.name,
+                fmt::format("{}: force-length and force-velocity relations", setup.name),
+                "Grey dotted: literature; orange dashed: identified, with its 95 % band from the "
+                "standard errors; thin black: the truth of a virtual recording. The recording "
+                "covers the shaded range.",
+                {length_panel(of, range), velocity_panel(of, range)},
+                2};
+  figure.bad =
+      "The shaded range covers a small part of the curve: outside of it the curve is the law's "
+      "shape and the literature's number. The band is as wide as the curve is high. The curve is "
+      "far narrower than the literature's.";
+  figure.act =
+      "Read the curve inside of the shaded range only. Record other joint angles to widen the "
+      "range "
+      "of lengths, and faster movements to widen the range of velocities.";
+  return figure;
 }
 
 Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chain) {
@@ -141,6 +179,7 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
                 {},
                 2,
                 chain};
+  figure.in_workbench = true;
   const TimeSeries& raw = trial.emg.stages->raw;
   const TimeSeries& rectified = trial.emg.stages->rectified;
   const TimeSeries& envelope = trial.emg.stages->envelope;
@@ -178,6 +217,7 @@ Figure force_figure(const StudyResult& result,
       "parameters with the measured EMG. Orange dashed: identified parameters.",
       {},
       2};
+  figure.in_workbench = true;
   const std::vector<double> t = to_vector(data.time_s);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);

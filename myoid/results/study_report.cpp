@@ -15,7 +15,6 @@
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/phases_report.h"
 #include "myoid/results/study_figures.h"
-#include "myoid/results/study_scene.h"
 #include "myoid/results/torque_report.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/study_emg.h"
@@ -102,19 +101,18 @@ std::string headline(const StudyResult& result) {
   if (best == nullptr) best = method_of(result, "force");
   if (best == nullptr)
     return "Parameters by the source paper's method, each with an interval and a verdict.";
-  std::vector<std::string> sure;
-  int total = 0;
+  int total = 0, sure = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
     ++total;
-    if (e.verdict == Verdict::identified)
-      sure.push_back(e.muscle + " " + report::spelled(e.parameter));
+    if (e.verdict == Verdict::identified) ++sure;
+    if (e.verdict == Verdict::weak) ++weak;
   }
   std::string text =
-      sure.empty()
-          ? fmt::format("This recording identifies none of {} parameters with certainty.", total)
-          : fmt::format("This recording identifies {} of {} parameters: {}.", sure.size(), total,
-                        fmt::join(sure, ", "));
+      sure == 0
+          ? fmt::format("This recording identifies none of {} parameters with certainty", total)
+          : fmt::format("This recording identifies {} of {} parameters", sure, total);
+  text += weak > 0 ? fmt::format("; {} more are known with a wide interval.", weak) : ".";
   if (!result.folds.empty()) {
     std::vector<double> ours, theirs;
     for (const identification::Fold& f : result.folds) {
@@ -182,26 +180,19 @@ Section paper_section(const IdentificationResult& paper) {
   return section;
 }
 
-/// Shows the muscle forces of the six trials with the most movement; the trials' folders hold all
-/// forces.
-Section forces_section(const StudyResult& result,
-                       const IdentificationResult* torque,
-                       const IdentificationResult* paper) {
+/// Shows the muscle forces of the trial with the most movement; the workbench has those of all
+/// trials, the trials' folders have their numbers.
+Section forces_section(const StudyResult& result, const IdentificationResult& method) {
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
-  std::vector<const identification::TrialData*> shown;
-  for (const auto& data : result.fit_input.data.trials) shown.push_back(&data);
-  std::stable_sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) {
-    const auto range = [](const identification::TrialData* d) {
-      return (d->length_m.colwise().maxCoeff() - d->length_m.colwise().minCoeff()).maxCoeff();
-    };
-    return std::lround(100.0 * range(a)) > std::lround(100.0 * range(b));
-  });
-  if (shown.size() > 6) shown.resize(6);
-  if (torque != nullptr) {
-    for (const auto* data : shown) forces.figures.push_back(force_figure(result, *data, *torque));
-  }
-  if (paper != nullptr && !shown.empty())
-    forces.figures.push_back(force_figure(result, *shown.front(), *paper));
+  const auto& trials = result.fit_input.data.trials;
+  const auto most =
+      std::max_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) {
+        const auto range = [](const identification::TrialData& d) {
+          return (d.length_m.colwise().maxCoeff() - d.length_m.colwise().minCoeff()).maxCoeff();
+        };
+        return std::lround(100.0 * range(a)) < std::lround(100.0 * range(b));
+      });
+  if (most != trials.end()) forces.figures.push_back(force_figure(result, *most, method));
   return forces;
 }
 
@@ -250,12 +241,13 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   report.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name);
   report.subtitle = subtitle(result);
   report.headline = headline(result);
-  if (has_motion_page(result))
-    report.links.push_back({"The model moving through every trial, in the browser", kMotionPage});
   report.gates = quality_gates(result);
   const IdentificationResult* torque = method_of(result, "torque");
   const IdentificationResult* force = method_of(result, "force");
   const IdentificationResult* paper = method_of(result, "paper");
+
+  const IdentificationResult* best = torque != nullptr ? torque : force != nullptr ? force : paper;
+  if (best != nullptr) report.forest = forest_rows(result, *best);
 
   std::vector<Section>& sections = report.sections;
   sections.push_back(recordings_section(result));
@@ -264,7 +256,8 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
   if (result.next) sections.push_back(next_recording_section(*result.next));
   if (paper != nullptr) sections.push_back(paper_section(*paper));
-  sections.push_back(forces_section(result, torque, paper));
+  if (const auto* shown = torque != nullptr ? torque : paper)
+    sections.push_back(forces_section(result, *shown));
   if (auto emg = emg_section(result)) sections.push_back(std::move(*emg));
   if (!result.fit.informed.empty() || result.fit.force_loop)
     sections.push_back(informed_section(result));

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/files/atomic_file.h"
 #include "myoid/scene/model_meshes.h"
 #include "myoid/scene/model_scene.h"
 #include "myoid/study/study_model.h"
@@ -61,21 +60,6 @@ report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
   if (result.source.study.model.file && !page.scenes.empty())
     add_meshes(load_meshes(result.source.model_text, *result.source.study.model.file), page);
   return page;
-}
-
-bool has_motion_page(const StudyResult& result) {
-  return report::has_viewer() &&
-         std::any_of(result.trials.begin(), result.trials.end(),
-                     [](const TrialResult& trial) { return trial.has_motion(); });
-}
-
-void write_motion_page(const StudyResult& result, const std::filesystem::path& folder) {
-  if (has_motion_page(result)) {
-    recording::write_file(folder / kMotionPage, report::scene_page(study_scenes(result)));
-  } else {
-    std::error_code ignored;
-    std::filesystem::remove(folder / kMotionPage, ignored);
-  }
 }
 
 }  // namespace myoid

@@ -1,6 +1,5 @@
 #include "myoid/results/study_scene.h"
 
-#include <fstream>
 #include <memory>
 
 #include <gmock/gmock.h>
@@ -8,8 +7,6 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/osim/osim_reader.h"
-
-#include "tests/support/temporary_folder.h"
 
 namespace myoid {
 namespace {
@@ -68,20 +65,6 @@ TEST(StudyScenes, ShareTheFramesAmongManyTrials) {
   many.trials.resize(3);
   const report::ScenePage page = study_scenes(many, 60);
   for (const report::Scene& scene : page.scenes) EXPECT_LE(scene.time_s.size(), 100);
-}
-
-TEST(MotionPage, IsWrittenOrAnEarlierOneIsRemoved) {
-  if (!report::has_viewer()) GTEST_SKIP() << "built without three.js or esbuild";
-  const test::TemporaryFolder folder;
-  StudyResult result = two_trials();
-  EXPECT_TRUE(has_motion_page(result));
-  write_motion_page(result, folder.path());
-  EXPECT_TRUE(std::filesystem::exists(folder / kMotionPage));
-  result.trials.resize(2);
-  result.trials.erase(result.trials.begin());
-  EXPECT_FALSE(has_motion_page(result));
-  write_motion_page(result, folder.path());
-  EXPECT_FALSE(std::filesystem::exists(folder / kMotionPage));
 }
 
 }  // namespace

@@ -69,10 +69,18 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
                   left_out),
       {},
       2};
-  for (const identification::Fold& f : result.folds) {
+  figure.in_workbench = choice_name(result.source.study.identify.folds) == "trial";
+  figure.most_on_page = 6;
+  figure.caption += " The worst predicted come first.";
+  std::vector<const identification::Fold*> folds;
+  for (const identification::Fold& f : result.folds) folds.push_back(&f);
+  std::stable_sort(folds.begin(), folds.end(), [](const auto* a, const auto* b) {
+    return a->identified.r2() < b->identified.r2();
+  });
+  for (const identification::Fold* f : folds) {
     figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, f.trial, f.joint), f.identified.r2()),
-        f.time_s, f.measured_nm, f.literature_nm, f.predicted_nm, delay_s));
+        fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()),
+        f->time_s, f->measured_nm, f->literature_nm, f->predicted_nm, delay_s));
   }
   return figure;
 }
@@ -165,6 +173,8 @@ Figure held_back_figure(const StudyResult& result,
                 "trials. Grey dotted: literature's muscles.",
                 {},
                 2};
+  figure.in_workbench = true;
+  figure.most_on_page = 6;
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
     figure.panels.push_back(torque_panel(

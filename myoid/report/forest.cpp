@@ -1,0 +1,220 @@
+#include "myoid/report/forest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/report/svg_plot.h"
+#include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
+
+namespace myoid::report {
+namespace {
+
+constexpr double kEnd = 4.0;  // of the scale, in standard deviations of the prior
+constexpr double k95 = 1.96;
+
+/// The place of z in the drawing, in percent of its width.
+double percent(double z) { return 50.0 + 50.0 * std::clamp(z, -kEnd, kEnd) / kEnd; }
+
+struct Mark {
+  const char* color;
+  const char* shape;  ///< Path about the origin, 12 units wide.
+  bool filled;
+};
+
+/// Colors that the color-blind can tell apart, each with a shape of its own.
+Mark mark_of(Badge badge) {
+  switch (badge) {
+    case Badge::good:
+      return {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true};
+    case Badge::weak:
+      return {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true};
+    case Badge::info:
+      return {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false};
+    case Badge::bad:
+      return {"#b3261e", "M0 -6L6 5H-6Z", true};
+    case Badge::none:
+      return {"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false};
+  }
+  return {"#5a626b", "", false};
+}
+
+std::string drawn(const Mark& mark) {
+  return fmt::format("<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", mark.shape,
+                     mark.filled ? mark.color : "none", mark.color);
+}
+
+std::string number(const ForestRow& row, double value) {
+  return row.lower && row.upper ? format_rounded(value, *row.upper - *row.lower)
+                                : format_value(value);
+}
+
+std::string interval(const ForestRow& row) {
+  return row.lower && row.upper ? format_interval(*row.lower, *row.upper) : std::string("none");
+}
+
+std::string prior(const ForestRow& row) {
+  if (!row.prior_mean || !row.prior_sd) return "–";
+  return fmt::format("{} ± {}", format_rounded(*row.prior_mean, *row.prior_sd),
+                     format_rounded(*row.prior_sd, *row.prior_sd));
+}
+
+std::string arrow(double z, const char* color) {
+  return fmt::format(
+      "<svg x=\"{}%\" y=\"50%\" overflow=\"visible\"><path d=\"M{}\" fill=\"{}\"/></svg>",
+      z < 0.0 ? 0 : 100, z < 0.0 ? "0 0L8 -4V4Z" : "0 0L-8 -4V4Z", color);
+}
+
+std::string bar(const ForestRow& row) {
+  const std::string sentence =
+      fmt::format("{} {}: {} {}, 95 % interval {}, literature {}, {}", row.owner, row.name,
+                  number(row, row.estimate), row.unit, interval(row), prior(row), row.verdict);
+  std::string svg =
+      fmt::format("<svg class=\"bar\" width=\"100%\" height=\"22\" role=\"img\"><title>{}</title>",
+                  escape_xml(typographic(sentence)));
+  if (!row.prior_mean || !row.prior_sd || !(*row.prior_sd > 0.0))
+    return svg +
+           "<text x=\"50%\" y=\"15\" text-anchor=\"middle\" class=\"none\">no prior</text></svg>";
+  const auto z = [&](double x) { return (x - *row.prior_mean) / *row.prior_sd; };
+  svg += fmt::format(
+      "<rect x=\"{:.2f}%\" width=\"{:.2f}%\" y=\"3\" height=\"16\" class=\"prior\"/>"
+      "<line x1=\"50%\" x2=\"50%\" y1=\"0\" y2=\"22\" class=\"middle\"/>",
+      percent(-k95), percent(k95) - percent(-k95));
+  const Mark mark = mark_of(row.badge);
+  if (row.lower && row.upper) {
+    svg += fmt::format(
+        "<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"11\" y2=\"11\" stroke=\"{}\" "
+        "stroke-width=\"3\"/>",
+        percent(z(*row.lower)), percent(z(*row.upper)), mark.color);
+    if (z(*row.lower) < -kEnd) svg += arrow(-1.0, mark.color);
+    if (z(*row.upper) > kEnd) svg += arrow(1.0, mark.color);
+  }
+  if (row.truth)
+    svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"1\" y2=\"21\" class=\"truth\"/>",
+                       percent(z(*row.truth)));
+  return svg + fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}</svg></svg>",
+                           percent(z(row.estimate)), drawn(mark));
+}
+
+std::string scale() {
+  std::string svg = "<svg class=\"bar\" width=\"100%\" height=\"18\" aria-hidden=\"true\">";
+  for (const int at : {-4, -2, 0, 2, 4}) {
+    svg += fmt::format("<text x=\"{}%\" y=\"13\" text-anchor=\"{}\">{}</text>", percent(at),
+                       at == -4  ? "start"
+                       : at == 4 ? "end"
+                                 : "middle",
+                       at == 0 ? std::string("literature") : fmt::format("{:+d} SD", at));
+  }
+  return svg + "</svg>";
+}
+
+std::string row_html(const ForestRow& row) {
+  return fmt::format(
+      "<tr data-verdict=\"{}\" title=\"{}\"><td>{}</td><td>{}</td><td class=\"bar\">{}</td>"
+      "<td class=\"number\">{}{}</td><td class=\"number wide-only\">{}</td>"
+      "<td class=\"number wide-only\">{}</td>"
+      "<td><span class=\"badge {}\">{}</span></td></tr>\n",
+      escape_xml(row.verdict), escape_xml(typographic(row.why)), typeset(row.owner),
+      typeset(row.name), bar(row), number(row, row.estimate),
+      row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), prior(row),
+      name(row.badge), typeset(row.verdict));
+}
+
+std::string legend(const std::vector<ForestRow>& rows) {
+  std::string text = "<p class=\"legend\">";
+  std::vector<std::string> seen;
+  for (const Badge badge : {Badge::good, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
+    for (const ForestRow& row : rows) {
+      if (row.badge != badge || std::find(seen.begin(), seen.end(), row.verdict) != seen.end())
+        continue;
+      seen.push_back(row.verdict);
+      text += fmt::format("<span>{} {}</span> ", verdict_mark(badge), typeset(row.verdict));
+    }
+  }
+  text += "<span><i class=\"prior\"></i> literature, 95 %</span>";
+  if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.truth.has_value(); }))
+    text += " <span><i class=\"truth\"></i> truth of the virtual person</span>";
+  return text + "</p>\n";
+}
+
+}  // namespace
+
+std::string verdict_mark(Badge badge) {
+  return fmt::format(
+      "<svg class=\"mark\" width=\"16\" height=\"16\" viewBox=\"-8 -8 16 16\" "
+      "aria-hidden=\"true\">{}</svg>",
+      drawn(mark_of(badge)));
+}
+
+std::string forest_html(const std::vector<ForestRow>& rows) {
+  if (rows.empty()) return "";
+  std::string text =
+      "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
+      "<table><thead><tr><th>of</th><th>number</th><th class=\"bar\">" + scale() +
+      "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
+      "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
+  for (const ForestRow& row : rows)
+    if (!row.beside) text += row_html(row);
+  text += "</tbody>\n";
+  if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.beside; })) {
+    text +=
+        "<tbody class=\"beside\"><tr><th colspan=\"7\">Electrodes and joints: free so that their "
+        "uncertainty counts</th></tr>\n";
+    for (const ForestRow& row : rows)
+      if (row.beside) text += row_html(row);
+    text += "</tbody>\n";
+  }
+  return text +
+         "</table>\n<details class=\"reading\"><summary>How to read this</summary><dl>"
+         "<dt>What this shows</dt><dd>Each number as its distance from the literature, in the "
+         "literature's standard deviations. Grey: the literature's 95 %. The line is the 95 % "
+         "interval after the recording. Pointing at a row gives the verdict's reason.</dd>"
+         "<dt>What bad looks like</dt><dd>A line as wide as the grey field: the recording added "
+         "nothing. A mark outside of the grey field: an unusual person, or an error in "
+         "electrodes, units, loads or geometry. A triangle: no muscle can have the value.</dd>"
+         "<dt>What to do</dt><dd>Use the numbers that are identified. Report the interval of "
+         "weak numbers. For the others the section “What to record next” names "
+         "movements that would tell.</dd></dl></details>\n</figure>\n";
+}
+
+std::string light_html(const std::vector<Gate>& gates) {
+  if (gates.empty()) return "";
+  const auto count = [&](GateStatus status) {
+    return std::count_if(gates.begin(), gates.end(),
+                         [&](const Gate& gate) { return gate.status == status; });
+  };
+  const auto failed = count(GateStatus::fail);
+  const auto warned = count(GateStatus::warn);
+  const auto asked = failed + warned + count(GateStatus::pass);
+  const GateStatus worst = failed > 0   ? GateStatus::fail
+                           : warned > 0 ? GateStatus::warn
+                                        : GateStatus::pass;
+  std::vector<std::string> questions;
+  for (const Gate& gate : gates)
+    if (gate.status == worst && worst != GateStatus::pass)
+      questions.push_back(gate.value.empty() ? gate.name
+                                             : fmt::format("{} ({})", gate.name, gate.value));
+  const char* head = failed > 0   ? "Do not use the numbers"
+                     : warned > 0 ? "Use the numbers with caution"
+                                  : "The recording passed every question";
+  // Octagon, triangle and circle: the light is readable without its color.
+  const char* shape =
+      failed > 0   ? "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" "
+                     "d=\"M13 13L27 27M27 13L13 27\"/>"
+      : warned > 0 ? "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>"
+                   : "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" "
+                     "d=\"M11 20L18 27L29 13\"/>";
+  return fmt::format(
+      "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
+      "aria-hidden=\"true\">{}</svg><p><b>{}.</b> {} of {} questions about the recording and the "
+      "fit are answered well.{} <a href=\"#quality\">All questions</a></p></div>\n",
+      name(worst), shape, head, count(GateStatus::pass), asked,
+      questions.empty() ? ""
+                        : " " + typeset(fmt::format("{}: {}.", failed > 0 ? "Failed" : "Caution",
+                                                    fmt::join(questions, "; "))));
+}
+
+}  // namespace myoid::report

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "myoid/report/report.h"
+
+namespace myoid::report {
+
+/// Returns the forest plot as an HTML table with one drawn bar per number. A bar's scale is
+/// (x - prior mean) / prior standard deviation, from -4 to 4: grey the prior's 95 %, a line the
+/// interval, a mark the estimate. Color and shape of the mark tell the verdict. Ends beyond the
+/// scale become arrows. The table's cells hold the numbers as text. Empty without rows.
+[[nodiscard]] std::string forest_html(const std::vector<ForestRow>& rows);
+
+/// Returns the mark of a verdict as a small drawing, as in the forest plot.
+[[nodiscard]] std::string verdict_mark(Badge badge);
+
+/// Returns the light of the gates, red, yellow or green by the worst of them, with a sentence.
+[[nodiscard]] std::string light_html(const std::vector<Gate>& gates);
+
+}  // namespace myoid::report

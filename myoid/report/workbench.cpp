@@ -1,0 +1,222 @@
+#include "myoid/report/workbench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/report/json_values.h"
+#include "myoid/report/packing.h"
+#include "myoid/report/tables.h"
+
+namespace myoid::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  const PackedNumbers p = packed(values);
+  return {{"lower", p.lower}, {"upper", p.upper}, {"codes", base64(p.codes)}};
+}
+
+ordered_json packed_json(const std::vector<double>& values) {
+  return packed_json(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+}
+
+/// Returns an even clock as start, step and count, any other as 32-bit numbers.
+ordered_json clock_json(const Eigen::VectorXd& time_s) {
+  const Eigen::Index n = time_s.size();
+  const double step = n > 1 ? (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1) : 0.0;
+  bool even = true;
+  for (Eigen::Index i = 0; i < n; ++i)
+    even = even && std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * step) < 1e-7;
+  if (even) return {{"start", time_s[0]}, {"step", step}, {"count", n}};
+  return {{"times", base64(std::vector<float>(time_s.begin(), time_s.end()))}};
+}
+
+ordered_json plot_json(const TimePlot& plot) {
+  ordered_json j{{"kind", plot.kind},
+                 {"title", plot.title},
+                 {"unit", plot.unit},
+                 {"joint", plot.joint},
+                 {"muscle", plot.muscle},
+                 {"file", plot.file},
+                 {"lines", ordered_json::array()}};
+  for (const TimeLine& line : plot.lines) {
+    j["lines"].push_back({{"name", line.name},
+                          {"role", name(line.role)},
+                          {"clock", line.clock},
+                          {"value", packed_json(line.value)}});
+    if (line.upper.size() > 0) j["lines"].back()["upper"] = packed_json(line.upper);
+  }
+  return j;
+}
+
+ordered_json drive_json(const MuscleDrive& drive) {
+  ordered_json arms = ordered_json::array();
+  for (const Eigen::VectorXd& arm : drive.moment_arm_m) arms.push_back(packed_json(arm));
+  return {{"activation", packed_json(drive.activation)},
+          {"length", packed_json(drive.length_m)},
+          {"velocity", packed_json(drive.velocity_mps)},
+          {"arms", arms}};
+}
+
+ordered_json trial_json(const WorkbenchTrial& trial) {
+  ordered_json j{{"name", trial.name},
+                 {"use", trial.use},
+                 {"scene", trial.scene},
+                 {"badge", name(trial.badge)},
+                 {"remarks", trial.remarks},
+                 {"clocks", ordered_json::array()},
+                 {"plots", ordered_json::array()},
+                 {"carpet",
+                  {{"begin", trial.carpet_when.begin_s},
+                   {"end", trial.carpet_when.end_s},
+                   {"rows", ordered_json::array()}}},
+                 {"marks", ordered_json::array()},
+                 {"drives", ordered_json::array()}};
+  for (const Eigen::VectorXd& clock : trial.clocks) j["clocks"].push_back(clock_json(clock));
+  for (const TimePlot& plot : trial.plots) j["plots"].push_back(plot_json(plot));
+  for (const CarpetRow& row : trial.carpet) {
+    j["carpet"]["rows"].push_back({{"name", row.name},
+                                   {"kind", row.kind},
+                                   {"unit", row.unit},
+                                   {"value", packed_json(row.value)}});
+  }
+  for (const TrialMark& mark : trial.marks) {
+    j["marks"].push_back(
+        {{"about", mark.about},
+         {"begin", mark.timed ? ordered_json(mark.when.begin_s) : ordered_json(nullptr)},
+         {"end", mark.timed ? ordered_json(mark.when.end_s) : ordered_json(nullptr)},
+         {"badge", name(mark.badge)},
+         {"text", mark.text}});
+  }
+  for (const MuscleDrive& drive : trial.drives) j["drives"].push_back(drive_json(drive));
+  return j;
+}
+
+ordered_json muscle_json(const MovableMuscle& muscle) {
+  ordered_json j{{"name", muscle.name},
+                 {"literature", muscle.literature},
+                 {"identified", muscle.identified},
+                 {"numbers", ordered_json::array()},
+                 {"correlation", ordered_json::array()}};
+  for (const MovableNumber& n : muscle.numbers) {
+    j["numbers"].push_back({{"field", n.field},
+                            {"name", n.name},
+                            {"unit", n.unit},
+                            {"lower", n.lower},
+                            {"upper", n.upper},
+                            {"sd_log", number_or_null(n.sd_log)},
+                            {"verdict", n.verdict}});
+  }
+  for (Eigen::Index r = 0; r < muscle.correlation.rows(); ++r) {
+    ordered_json row = ordered_json::array();
+    for (Eigen::Index c = 0; c < muscle.correlation.cols(); ++c)
+      row.push_back(number_or_null(muscle.correlation(r, c)));
+    j["correlation"].push_back(row);
+  }
+  return j;
+}
+
+ordered_json axis_json(const Axis& axis) {
+  return {{"label", axis.label},
+          {"unit", axis.unit},
+          {"lower", number_or_null(axis.lower)},
+          {"upper", number_or_null(axis.upper)}};
+}
+
+ordered_json figure_json(const Figure& figure) {
+  ordered_json j{{"id", figure.id},
+                 {"title", figure.title},
+                 {"columns", figure.columns},
+                 {"panels", ordered_json::array()}};
+  for (const Panel& panel : figure.panels) {
+    ordered_json series = ordered_json::array();
+    for (const Series& s : panel.series) {
+      series.push_back({{"name", s.name},
+                        {"role", name(s.role)},
+                        {"x", packed_json(s.x)},
+                        {"value", packed_json(s.y)}});
+      if (!s.y_upper.empty()) series.back()["upper"] = packed_json(s.y_upper);
+      if (!s.y_lower.empty()) series.back()["lower"] = packed_json(s.y_lower);
+    }
+    j["panels"].push_back({{"title", panel.title},
+                           {"x", axis_json(panel.x)},
+                           {"y", axis_json(panel.y)},
+                           {"series", series}});
+  }
+  return j;
+}
+
+/// True if the page can draw the figure itself: curves over numbers.
+bool is_live(const Figure& figure) {
+  return !figure.in_workbench &&
+         std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
+           return panel.x.categories.empty() && panel.y.categories.empty() &&
+                  std::none_of(panel.series.begin(), panel.series.end(),
+                               [](const Series& s) { return s.role == Role::points; });
+         });
+}
+
+void require(bool condition, const WorkbenchTrial& trial, const std::string& what) {
+  if (!condition) throw InvalidInput(fmt::format("workbench, trial '{}': {}", trial.name, what));
+}
+
+void validate(const WorkbenchTrial& trial, const Workbench& workbench) {
+  require(trial.scene < static_cast<int>(workbench.scenes.scenes.size()), trial,
+          fmt::format("there is no scene number {}", trial.scene));
+  for (const Eigen::VectorXd& clock : trial.clocks) {
+    bool rises = clock.size() > 0 && clock.allFinite();
+    for (Eigen::Index i = 1; i < clock.size(); ++i) rises = rises && clock[i] > clock[i - 1];
+    require(rises, trial, "a clock has no times, or they do not rise");
+  }
+  for (const TimePlot& plot : trial.plots) {
+    require(plot.muscle < static_cast<int>(workbench.muscles.size()), trial,
+            fmt::format("plot '{}': there is no muscle number {}", plot.title, plot.muscle));
+    for (const TimeLine& line : plot.lines) {
+      const bool known = line.clock >= 0 && line.clock < static_cast<int>(trial.clocks.size());
+      const Eigen::Index n = known ? trial.clocks[static_cast<std::size_t>(line.clock)].size() : -1;
+      require(line.value.size() == n && (line.upper.size() == 0 || line.upper.size() == n), trial,
+              fmt::format("plot '{}', line '{}': {} values; expected one for each of {} times",
+                          plot.title, line.name, line.value.size(), n));
+    }
+  }
+  require(trial.drives.empty() || trial.drives.size() == workbench.muscles.size(), trial,
+          "expected the inputs of every muscle, or of none");
+  for (const MuscleDrive& drive : trial.drives) {
+    const Eigen::Index n = trial.clocks.empty() ? -1 : trial.clocks.front().size();
+    const bool equal = drive.activation.size() == n && drive.length_m.size() == n &&
+                       drive.velocity_mps.size() == n &&
+                       std::all_of(drive.moment_arm_m.begin(), drive.moment_arm_m.end(),
+                                   [&](const auto& arm) { return arm.size() == n; });
+    require(equal, trial, fmt::format("expected {} samples of a muscle's inputs", n));
+  }
+}
+
+}  // namespace
+
+void validate(const Workbench& workbench) {
+  for (const WorkbenchTrial& trial : workbench.trials) validate(trial, workbench);
+}
+
+std::string workbench_json(const Workbench& workbench, const Report& report) {
+  validate(workbench);
+  ordered_json j{{"title", report.title},
+                 {"fields", workbench.fields},
+                 {"trials", ordered_json::array()},
+                 {"muscles", ordered_json::array()},
+                 {"figures", ordered_json::array()}};
+  for (const WorkbenchTrial& trial : workbench.trials) j["trials"].push_back(trial_json(trial));
+  for (const MovableMuscle& muscle : workbench.muscles) j["muscles"].push_back(muscle_json(muscle));
+  for (const Section& section : report.sections) {
+    for (const Figure& figure : section.figures)
+      if (is_live(figure)) j["figures"].push_back(figure_json(figure));
+  }
+  return embedded(j);
+}
+
+}  // namespace myoid::report

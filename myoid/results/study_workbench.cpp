@@ -1,0 +1,455 @@
+#include "myoid/results/study_workbench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "myoid/identification/parameter_fields.h"
+#include "myoid/methods/torque.h"
+#include "myoid/report/typeset.h"
+#include "myoid/results/log_covariance.h"
+#include "myoid/results/study_scene.h"
+#include "myoid/run/prediction_gates.h"
+
+namespace myoid {
+namespace {
+
+using identification::IdentificationResult;
+using report::Badge;
+using report::CarpetRow;
+using report::Role;
+using report::TimeLine;
+using report::TimePlot;
+using report::TrialMark;
+using report::WorkbenchTrial;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Eigen::Index kMostSamples = 15000;  // of a plot over all trials
+constexpr Eigen::Index kLeastSamples = 250;   // of a plot of one trial
+constexpr Eigen::Index kCarpetColumns = 200;
+constexpr Eigen::Index kRawColumns = 400;
+constexpr Eigen::Index kMostForces = 40;  // of muscles without a fit: the strongest
+
+const IdentificationResult* fit_of(const StudyResult& result) {
+  for (const char* name : {"torque", "force"})
+    for (const IdentificationResult& method : result.fit.methods)
+      if (method.method == name) return &method;
+  return result.fit.methods.empty() ? nullptr : &result.fit.methods.front();
+}
+
+/// Adds the series of a trial, thinned to the samples that a plot may have.
+class TrialPlots {
+ public:
+  TrialPlots(WorkbenchTrial& trial, Eigen::Index most) : trial_(trial), most_(most) {}
+
+  /// Returns every k-th value, so that at most `most` are left.
+  [[nodiscard]] Eigen::VectorXd thinned(const Eigen::Ref<const Eigen::VectorXd>& values) const {
+    const Eigen::Index step = step_of(values.size());
+    return values(Eigen::seq(0, Eigen::last, step));
+  }
+
+  /// Returns the number of the thinned clock.
+  int clock(const Eigen::VectorXd& time_s) { return whole_clock(thinned(time_s)); }
+
+  int whole_clock(const Eigen::VectorXd& time_s) {
+    for (std::size_t k = 0; k < trial_.clocks.size(); ++k)
+      if (trial_.clocks[k].size() == time_s.size() && trial_.clocks[k] == time_s)
+        return static_cast<int>(k);
+    trial_.clocks.push_back(time_s);
+    return static_cast<int>(trial_.clocks.size()) - 1;
+  }
+
+  [[nodiscard]] TimeLine line(std::string name,
+                              Role role,
+                              const Eigen::VectorXd& time_s,
+                              const Eigen::Ref<const Eigen::VectorXd>& values) {
+    return {std::move(name), role, clock(time_s), thinned(values), {}};
+  }
+
+  void add(TimePlot plot) {
+    if (!plot.lines.empty()) trial_.plots.push_back(std::move(plot));
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index step_of(Eigen::Index n) const {
+    return std::max<Eigen::Index>(1, (n + most_ - 1) / most_);
+  }
+  WorkbenchTrial& trial_;
+  Eigen::Index most_;
+};
+
+/// Which of `columns` equal stretches a time is in.
+Eigen::Index column_of(double time_s, const Stretch& when, Eigen::Index columns) {
+  const double share = (time_s - when.begin_s) / std::max(1e-9, when.end_s - when.begin_s);
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(columns)),
+                                  0, columns - 1);
+}
+
+/// The greatest value in each stretch; NaN where a value is missing, or there is none.
+Eigen::VectorXd greatest(const Eigen::VectorXd& time_s,
+                         const Eigen::Ref<const Eigen::VectorXd>& values,
+                         const Stretch& when,
+                         Eigen::Index columns) {
+  constexpr double kUnseen = -std::numeric_limits<double>::infinity();
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(columns, kUnseen);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    double& at = result[column_of(time_s[i], when, columns)];
+    at = std::isfinite(values[i]) && !std::isnan(at) ? std::max(at, values[i]) : kNone;
+  }
+  // A stretch shorter than the sampling interval takes over the value before it.
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    if (result[i] == kUnseen) result[i] = i > 0 ? result[i - 1] : kNone;
+  }
+  return result;
+}
+
+void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots& plots) {
+  if (!trial.has_motion()) return;
+  const TimeSeries& q = trial.motion.joints.q;
+  for (const std::string& name : study_coordinates(result.source.study.model)) {
+    const auto column = q.find(name);
+    if (!column) continue;
+    plots.add({.kind = "angle",
+               .title = report::spelled(name),
+               .unit = "deg",
+               .lines = {plots.line("angle", Role::reference, q.time_s(),
+                                    q.values().col(*column) / kDegree)},
+               .file = trial.spec.name + "/ik.mot"});
+  }
+}
+
+const identification::Fold* fold_of(const StudyResult& result,
+                                    const std::string& trial,
+                                    const std::string& joint,
+                                    Eigen::Index samples) {
+  for (const identification::Fold& fold : result.folds)
+    if (fold.trial == trial && fold.joint == joint && fold.predicted_nm.size() == samples)
+      return &fold;
+  return nullptr;
+}
+
+void add_torques(const StudyResult& result,
+                 const IdentificationResult* fit,
+                 const TrialResult& trial,
+                 TrialPlots& plots) {
+  const std::vector<std::string> joints = study_coordinates(result.source.study.model);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    TimePlot plot{.kind = "torque",
+                  .title = report::spelled(joints[j]),
+                  .unit = "N m",
+                  .joint = static_cast<int>(j),
+                  .file = trial.spec.name + "/id.sto"};
+    const auto fitted = [&]() -> const identification::TrialFit* {
+      if (fit == nullptr) return nullptr;
+      for (const identification::TrialFit& t : fit->trials)
+        if (t.trial == trial.spec.name && (t.joint == joints[j] || joints.size() == 1)) return &t;
+      return nullptr;
+    }();
+    if (fitted != nullptr) {
+      const Eigen::VectorXd& t = fitted->time_s;
+      plot.lines.push_back(plots.line("measured", Role::reference, t, fitted->torque_nm));
+      if (fitted->literature_torque_nm.size() == t.size())
+        plot.lines.push_back(
+            plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
+      if (fitted->torque_fit_nm.size() == t.size())
+        plot.lines.push_back(
+            plots.line(fitted->calibration ? "identified" : "identified on the other trials",
+                       Role::identified, t, fitted->torque_fit_nm));
+      if (const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size()))
+        plot.lines.push_back(
+            plots.line("predicted without this trial", Role::unseen, t, fold->predicted_nm));
+    } else if (trial.has_motion() &&
+               static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
+      const TimeSeries& torque = trial.forces.muscle_torque;
+      plot.lines.push_back(plots.line("measured", Role::reference, torque.time_s(),
+                                      torque.values().col(static_cast<Eigen::Index>(j))));
+    }
+    plots.add(std::move(plot));
+  }
+}
+
+/// Raw EMG as the least and the greatest value in equal stretches, with the envelope.
+void add_emg(const TrialResult& trial, TrialPlots& plots) {
+  if (trial.emg.stages) {
+    const TimeSeries& raw = trial.emg.stages->raw;
+    const TimeSeries& envelope = trial.emg.stages->envelope;
+    const Eigen::VectorXd& t = raw.time_s();
+    const Eigen::Index columns = std::min(kRawColumns, raw.sample_count());
+    const Stretch when{t[0], t[t.size() - 1]};
+    const double width = (when.end_s - when.begin_s) / static_cast<double>(columns);
+    const int clock = plots.whole_clock(
+        Eigen::VectorXd::LinSpaced(columns, when.begin_s + 0.5 * width, when.end_s - 0.5 * width));
+    for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
+      const Eigen::VectorXd mv = 1e3 * raw.values().col(c);
+      plots.add({.kind = "emg",
+                 .title = raw.channels()[static_cast<std::size_t>(c)].name,
+                 .unit = "mV",
+                 .lines = {{"raw", Role::raw, clock, -greatest(t, -mv, when, columns),
+                            greatest(t, mv, when, columns)},
+                           plots.line("envelope", Role::identified, envelope.time_s(),
+                                      1e3 * envelope.values().col(c))}});
+    }
+  }
+  const TimeSeries& activation = trial.emg.activation;
+  if (activation.empty()) return;
+  TimePlot plot{.kind = "activation",
+                .title = "activation by EMG",
+                .unit = "",
+                .file = trial.spec.name + "/activation.sto"};
+  for (Eigen::Index c = 0; c < activation.channel_count(); ++c)
+    plot.lines.push_back(plots.line(activation.channels()[static_cast<std::size_t>(c)].name,
+                                    Role::reference, activation.time_s(),
+                                    activation.values().col(c)));
+  plots.add(std::move(plot));
+}
+
+/// Forces of the study's muscles by the fit.
+void add_fitted_forces(const StudyResult& result,
+                       const identification::TrialData& data,
+                       const identification::TrialFit& fit,
+                       TrialPlots& plots) {
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
+    const auto c = static_cast<Eigen::Index>(m);
+    TimePlot plot{.kind = "force",
+                  .title = result.fit_input.data.muscles[m].name,
+                  .unit = "N",
+                  .muscle = static_cast<int>(m),
+                  .file = data.name + "/identified_forces.sto"};
+    if (data.force_n.cols() > c)
+      plot.lines.push_back(plots.line("shared", Role::reference, data.time_s, data.force_n.col(c)));
+    if (fit.literature_force_n.cols() > c)
+      plot.lines.push_back(
+          plots.line("literature", Role::literature, data.time_s, fit.literature_force_n.col(c)));
+    if (fit.force_fit_n.cols() > c && fit.force_fit_n.col(c).allFinite())
+      plot.lines.push_back(
+          plots.line("identified", Role::identified, data.time_s, fit.force_fit_n.col(c)));
+    plots.add(std::move(plot));
+  }
+}
+
+/// Shared forces of the model's muscles, the strongest first.
+void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
+  const TimeSeries& force = trial.forces.shared.force;
+  if (force.empty()) return;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(force.channel_count()));
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return force.values().col(a).maxCoeff() > force.values().col(b).maxCoeff();
+  });
+  if (order.size() > kMostForces) order.resize(kMostForces);
+  for (const Eigen::Index c : order) {
+    plots.add(
+        {.kind = "force",
+         .title = force.channels()[static_cast<std::size_t>(c)].name,
+         .unit = "N",
+         .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
+         .file = trial.spec.name + "/StaticOptimization_force.sto"});
+  }
+}
+
+void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
+  const TimeSeries& emg = trial.emg.activation;
+  const TimeSeries empty;
+  const TimeSeries& errors = trial.motion.ik ? trial.motion.ik->errors : empty;
+  bool any = false;
+  for (const TimeSeries* series : {&emg, &errors}) {
+    if (series->empty()) continue;
+    const auto& t = series->time_s();
+    const Stretch own{t[0], t[t.size() - 1]};
+    shown.carpet_when = any ? Stretch{std::min(shown.carpet_when.begin_s, own.begin_s),
+                                      std::max(shown.carpet_when.end_s, own.end_s)}
+                            : own;
+    any = true;
+  }
+  const auto add = [&](const TimeSeries& of, Eigen::Index c, const char* kind, const char* unit,
+                       double scale) {
+    const Eigen::Index columns = std::min(kCarpetColumns, of.sample_count());
+    shown.carpet.push_back(
+        {of.channels()[static_cast<std::size_t>(c)].name, kind, unit,
+         greatest(of.time_s(), scale * of.values().col(c), shown.carpet_when, columns)});
+  };
+  for (Eigen::Index c = 0; c < emg.channel_count(); ++c) add(emg, c, "EMG", "", 1.0);
+  for (Eigen::Index c = 3; c < errors.channel_count(); ++c) add(errors, c, "marker", "mm", 1e3);
+}
+
+void add_remarks(const StudyResult& result,
+                 const IdentificationResult* fit,
+                 const std::vector<OutlyingFold>& outlying,
+                 const TrialResult& trial,
+                 WorkbenchTrial& shown) {
+  shown.badge = Badge::good;
+  const auto worse = [&](Badge badge) {
+    if (shown.badge != Badge::bad) shown.badge = badge;
+  };
+  if (!trial.failure().empty()) {
+    worse(Badge::bad);
+    shown.remarks.push_back("Could not be computed: " + trial.failure());
+  }
+  for (const OutlyingFold& fold : outlying) {
+    if (fold.trial != trial.spec.name) continue;
+    worse(Badge::bad);
+    shown.remarks.push_back(fmt::format(
+        "Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its "
+        "files, labels, held mass and clock.",
+        fold.rms_nm, fold.usual_rms_nm));
+  }
+  for (const Remark& fault : trial.faults) {
+    if (fault.severity != Severity::warning && fault.severity != Severity::error) continue;
+    worse(Badge::weak);
+    TrialMark mark{.about = fault.about, .badge = Badge::weak, .text = sentence(fault)};
+    if (fault.when) {
+      mark.when = *fault.when;
+      mark.timed = true;
+    }
+    shown.marks.push_back(std::move(mark));
+  }
+  if (fit == nullptr) return;
+  for (const identification::TrialFit& t : fit->trials) {
+    if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
+    shown.remarks.push_back(
+        fmt::format("{}: torque {} within {:.2f} N m rms (R2 {:.2f}).", report::spelled(t.joint),
+                    t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
+  }
+  for (const identification::Fold& fold : result.folds) {
+    if (fold.trial == trial.spec.name)
+      shown.remarks.push_back(
+          fmt::format("Left out, it is predicted within {:.2f} N m rms (R2 "
+                      "{:.2f}).",
+                      fold.identified.rmse_nm(), fold.identified.r2()));
+  }
+}
+
+/// The inputs of the muscles' law, with the activation that the fit uses.
+void add_drives(const StudyResult& result,
+                const IdentificationResult& fit,
+                const identification::TrialData& data,
+                TrialPlots& plots,
+                WorkbenchTrial& shown) {
+  if (fit.values.muscles.size() != result.fit_input.data.muscles.size()) return;
+  const identification::Prediction prediction =
+      identification::predict(result.fit_input.data, data, fit.values, fit.lag);
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
+    const auto c = static_cast<Eigen::Index>(m);
+    report::MuscleDrive drive{plots.thinned(prediction.activation.col(c)),
+                              plots.thinned(data.length_m.col(c)),
+                              plots.thinned(data.velocity_mps.col(c)),
+                              {}};
+    if (data.moment_arm_m.cols() > c)
+      drive.moment_arm_m.push_back(plots.thinned(data.moment_arm_m.col(c)));
+    for (const identification::JointData& joint : data.more_joints)
+      if (joint.moment_arm_m.cols() > c)
+        drive.moment_arm_m.push_back(plots.thinned(joint.moment_arm_m.col(c)));
+    shown.drives.push_back(std::move(drive));
+  }
+}
+
+/// The names of a muscle's numbers in the order of identification::MuscleField.
+std::vector<std::string> field_names() {
+  std::vector<std::string> names(identification::kMuscleFieldCount);
+  for (const identification::ParameterField& field : identification::parameter_fields()) {
+    if (field.scope == identification::Scope::muscle && field.field >= 0 &&
+        field.field < identification::kMuscleFieldCount)
+      names[static_cast<std::size_t>(field.field)] = std::string(field.name);
+  }
+  return names;
+}
+
+report::MovableMuscle movable(const IdentificationResult& fit,
+                              const identification::MuscleSetup& setup,
+                              std::size_t m,
+                              const std::vector<std::string>& fields) {
+  const identification::MuscleValues start =
+      identification::muscle_values(setup.start, setup.extras);
+  const identification::MuscleValues& found = fit.values.muscles[m];
+  report::MovableMuscle muscle{
+      setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}, {}, {}};
+  std::vector<std::string> names;
+  for (const int field :
+       {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
+    const auto f = static_cast<std::size_t>(field);
+    names.push_back(fields[f]);
+    report::MovableNumber number{
+        .field = field,
+        .name = report::spelled(fields[f]),
+        .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
+        .lower = 0.5 * std::min(start[f], found[f]),
+        .upper = 1.6 * std::max(start[f], found[f]),
+        .sd_log = 0.0,
+        .verdict = ""};
+    for (const identification::ParameterEstimate& e : fit.estimates) {
+      if (e.muscle == setup.name && e.parameter == fields[f])
+        number.verdict = report::spelled(identification::name(e.verdict));
+    }
+    muscle.numbers.push_back(std::move(number));
+  }
+  const Eigen::MatrixXd covariance = log_covariance(fit, setup.name, names);
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
+  muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
+  for (Eigen::Index i = 0; i < sd.size(); ++i) {
+    muscle.numbers[static_cast<std::size_t>(i)].sd_log = sd[i];
+    for (Eigen::Index j = 0; j < sd.size(); ++j)
+      if (i != j && sd[i] > 0.0 && sd[j] > 0.0)
+        muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
+  }
+  return muscle;
+}
+
+WorkbenchTrial shown_trial(const StudyResult& result,
+                           const IdentificationResult* fit,
+                           const std::vector<OutlyingFold>& outlying,
+                           const TrialResult& trial,
+                           Eigen::Index most) {
+  WorkbenchTrial shown{.name = trial.spec.name, .use = std::string(choice_name(trial.spec.use))};
+  TrialPlots plots(shown, most);
+  const auto& all = result.fit_input.data.trials;
+  const auto data = std::find_if(all.begin(), all.end(),
+                                 [&](const auto& d) { return d.name == trial.spec.name; });
+  const identification::TrialFit* fitted = nullptr;
+  if (fit != nullptr && data != all.end()) {
+    plots.clock(data->time_s);
+    for (const identification::TrialFit& t : fit->trials)
+      if (t.trial == trial.spec.name && fitted == nullptr) fitted = &t;
+    if (fitted != nullptr) add_drives(result, *fit, *data, plots, shown);
+  }
+  add_angles(result, trial, plots);
+  add_torques(result, fit, trial, plots);
+  add_emg(trial, plots);
+  if (fitted != nullptr)
+    add_fitted_forces(result, *data, *fitted, plots);
+  else
+    add_shared_forces(trial, plots);
+  add_carpet(trial, shown);
+  add_remarks(result, fit, outlying, trial, shown);
+  return shown;
+}
+
+}  // namespace
+
+report::Workbench study_workbench(const StudyResult& result) {
+  report::Workbench workbench{.scenes = study_scenes(result)};
+  const IdentificationResult* fit = fit_of(result);
+  const auto& muscles = result.fit_input.data.muscles;
+  if (fit != nullptr && fit->values.muscles.size() == muscles.size()) {
+    workbench.fields = field_names();
+    for (std::size_t m = 0; m < muscles.size(); ++m)
+      workbench.muscles.push_back(movable(*fit, muscles[m], m, workbench.fields));
+  } else {
+    fit = nullptr;
+  }
+  const Eigen::Index most = std::max(
+      kLeastSamples,
+      kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
+  const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
+  int scene = 0;
+  for (const TrialResult& trial : result.trials) {
+    WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, most);
+    if (trial.has_motion()) shown.scene = scene++;
+    if (!shown.plots.empty() || shown.scene >= 0 || shown.badge == Badge::bad)
+      workbench.trials.push_back(std::move(shown));
+  }
+  return workbench;
+}
+
+}  // namespace myoid
