@@ -111,14 +111,14 @@ std::string scale() {
   return svg + "</svg>";
 }
 
-std::string row_html(const ForestRow& row) {
+std::string row_html(const ForestRow& row, bool first) {
   return fmt::format(
-      "<tr data-verdict=\"{}\" title=\"{}\"><td>{}</td><td>{}</td><td class=\"bar\">{}</td>"
+      "<tr{} data-verdict=\"{}\" title=\"{}\"><td>{}</td><td>{}</td><td class=\"bar\">{}</td>"
       "<td class=\"number\">{}{}</td><td class=\"number wide-only\">{}</td>"
       "<td class=\"number wide-only\">{}</td>"
       "<td><span class=\"badge {}\">{}</span></td></tr>\n",
-      escape_xml(row.verdict), escape_xml(typographic(row.why)), typeset(row.owner),
-      typeset(row.name), bar(row), number(row, row.estimate),
+      first ? " class=\"first\"" : "", escape_xml(row.verdict), escape_xml(typographic(row.why)),
+      typeset(spelled(row.owner)), typeset(row.name), bar(row), number(row, row.estimate),
       row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), prior(row),
       name(row.badge), typeset(row.verdict));
 }
@@ -156,15 +156,21 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
       "<table><thead><tr><th>of</th><th>number</th><th class=\"bar\">" + scale() +
       "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
       "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
-  for (const ForestRow& row : rows)
-    if (!row.beside) text += row_html(row);
+  const auto add = [&](bool beside) {
+    const std::string* owner = nullptr;
+    for (const ForestRow& row : rows) {
+      if (row.beside != beside) continue;
+      text += row_html(row, owner == nullptr || *owner != row.owner);
+      owner = &row.owner;
+    }
+  };
+  add(false);
   text += "</tbody>\n";
   if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.beside; })) {
     text +=
         "<tbody class=\"beside\"><tr><th colspan=\"7\">Electrodes and joints: free so that their "
         "uncertainty counts</th></tr>\n";
-    for (const ForestRow& row : rows)
-      if (row.beside) text += row_html(row);
+    add(true);
     text += "</tbody>\n";
   }
   return text +

@@ -40,6 +40,8 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .legend { font-size: 13px; max-width: none; margin: 6px 0; } .legend span { margin-right: 14px; white-space: nowrap; }
 .legend i { display: inline-block; width: 24px; height: 10px; } .legend i.truth { width: 3px; height: 14px; vertical-align: -2px; }
 .mark { vertical-align: -3px; }
+.forest td { border-bottom: 0; } .forest tr.first td { border-top: 1px solid #d5d9de; }
+.forest tr:not(.first) td:first-child { color: #a8aeb5; }
 .beside th { padding-top: 10px; color: #5a626b; }
 details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1f5fa8; cursor: pointer; }
 .reading dl { margin: 6px 0; max-width: 90ch; } .reading dt { font-weight: 600; } .reading dd { margin: 0 0 6px; }
@@ -180,8 +182,8 @@ std::string reading_html(const Figure& figure) {
 Figure on_page(Figure figure) {
   const auto most = static_cast<std::size_t>(figure.most_on_page);
   if (most > 0 && figure.panels.size() > most) {
-    figure.caption += fmt::format(" The first {} of {} panels; the files hold all.", most,
-                                  figure.panels.size());
+    figure.caption +=
+        fmt::format(" The first {} of {} panels; the files hold all.", most, figure.panels.size());
     figure.panels.resize(most);
   }
   return figure;

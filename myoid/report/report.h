@@ -58,8 +58,8 @@ struct Figure {
   /// First lines of ID.csv, each behind "# ": the origin of the numbers.
   std::vector<std::string> comments{};
   int most_on_page = 0;  ///< The page draws the first panels only; 0: all. The files have all.
-  std::string bad{};  ///< How the figure looks if something is wrong; one or two sentences.
-  std::string act{};  ///< What the reader does about it.
+  std::string bad{};     ///< How the figure looks if something is wrong; one or two sentences.
+  std::string act{};     ///< What the reader does about it.
   /// True if the workbench shows the same: the page then shows the drawing in print and without
   /// script only.
   bool in_workbench = false;

@@ -65,6 +65,12 @@ void validate_frames(const Scene& scene) {
                 v.value.cols() == static_cast<Eigen::Index>(scene.muscles.size()) && v.top > 0.0,
             fmt::format("expected '{}' of frames x muscles, top above 0", v.name));
   }
+  for (const SceneLoad& load : scene.loads) {
+    require(load.point_m.rows() == frames && load.point_m.cols() == 3 &&
+                load.force_n.rows() == frames && load.force_n.cols() == 3 &&
+                load.force_n.allFinite(),
+            fmt::format("expected points and forces of '{}' in every frame", load.name));
+  }
   require(
       scene.measured_markers.empty() ||
           (scene.measured_m.rows() == frames &&

@@ -70,6 +70,13 @@ struct SceneValues {
   Eigen::MatrixXd value{};  ///< Frames x muscles; NaN: not known.
 };
 
+/// A measured force on the person, as of a force plate or of a held handle.
+struct SceneLoad {
+  std::string name;
+  Eigen::MatrixXd point_m{};  ///< Frames x 3, where it acts, in ground; NaN: no force.
+  Eigen::MatrixXd force_n{};  ///< Frames x 3, in ground.
+};
+
 /// A model in one trial, or in one posture (a single frame), as plain values.
 struct Scene {
   std::string name;                     ///< Of the trial.
@@ -90,6 +97,7 @@ struct Scene {
   std::vector<SceneValues> values = {};
   std::vector<std::string> measured_markers = {};
   Eigen::MatrixXd measured_m{};  ///< Frames x 3 measured markers, in ground; NaN: not seen.
+  std::vector<SceneLoad> loads = {};
 };
 
 /// Throws InvalidInput, naming the fault, unless all numbers of frames, bodies, muscles and

@@ -92,6 +92,9 @@ std::vector<Vec3> points_of(const Scene& scene) {
     for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
       points.emplace_back(scene.measured_m.block<1, 3>(f, m).transpose());
   }
+  for (const SceneLoad& load : scene.loads)
+    for (Eigen::Index f = 0; f < load.point_m.rows(); ++f)
+      points.emplace_back(load.point_m.row(f).transpose());
   return points;
 }
 
@@ -135,6 +138,16 @@ ordered_json measured_json(const Scene& scene, const PackingBox& box) {
   return j;
 }
 
+ordered_json load_json(const SceneLoad& load, const PackingBox& box) {
+  std::vector<std::uint16_t> points;
+  std::vector<float> forces;
+  for (Eigen::Index f = 0; f < load.point_m.rows(); ++f) {
+    pack(box, load.point_m.row(f).transpose(), points);
+    for (Eigen::Index k = 0; k < 3; ++k) forces.push_back(static_cast<float>(load.force_n(f, k)));
+  }
+  return {{"name", load.name}, {"points", base64(points)}, {"forces", base64(forces)}};
+}
+
 ordered_json scene_json(const Scene& scene) {
   const std::vector<Vec3> points = points_of(scene);
   const PackingBox box = packing_box(points);
@@ -163,6 +176,8 @@ ordered_json scene_json(const Scene& scene) {
             {"lines", lines_json(scene, box)},
             {"values", ordered_json::array()}});
   for (const SceneValues& values : scene.values) j["values"].push_back(values_json(values));
+  if (!scene.loads.empty()) j["loads"] = ordered_json::array();
+  for (const SceneLoad& load : scene.loads) j["loads"].push_back(load_json(load, box));
   if (!scene.measured_markers.empty()) j["measured"] = measured_json(scene, box);
   return j;
 }

@@ -1,6 +1,7 @@
 #include "myoid/results/study_scene.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,35 @@ TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
   return {emg.time_s(), std::move(channels), emg.values()(Eigen::all, columns)};
 }
 
+/// Adds the measured forces at the frames of the scene, turned into ground. A force below a newton
+/// has no place: the center of pressure is noise there.
+void add_loads(const TrialResult& trial, report::Scene& scene) {
+  constexpr double kLeast_n = 1.0;
+  if (!trial.input.loads) return;
+  const auto& loads = *trial.input.loads;
+  for (const auto& load : loads.forces) {
+    if (!load.force) continue;
+    report::SceneLoad shown{load.name};
+    shown.point_m.setConstant(scene.time_s.size(), 3, std::numeric_limits<double>::quiet_NaN());
+    shown.force_n.setZero(scene.time_s.size(), 3);
+    for (Eigen::Index f = 0; f < scene.time_s.size(); ++f) {
+      const double t = scene.time_s[f];
+      if (t < loads.start_s || t > loads.end_s) continue;
+      const auto& poses = scene.poses[static_cast<std::size_t>(f)];
+      const auto pose = [&](int body) { return poses[static_cast<std::size_t>(body)]; };
+      const Vec3 force = pose(load.force_frame).R * load.force->at(loads.data_time_s(t));
+      if (!force.allFinite() || force.norm() < kLeast_n) continue;
+      const Pose frame = pose(load.point_frame);
+      shown.force_n.row(f) = force.transpose();
+      shown.point_m.row(f) =
+          (load.point ? Vec3(frame.p + frame.R * load.point->at(loads.data_time_s(t)))
+                      : pose(load.body).p)
+              .transpose();
+    }
+    if (shown.point_m.array().isFinite().any()) scene.loads.push_back(std::move(shown));
+  }
+}
+
 report::Scene trial_scene(const Study& study, const TrialResult& trial, int most_frames) {
   SceneInput input;
   input.name = trial.spec.name;
@@ -41,7 +71,9 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
     if (activation.channel_count() > 0)
       input.colorings.push_back({"EMG activation", "", std::move(activation)});
   }
-  return model_scene(*trial.motion.model, input, {.most_frames = most_frames});
+  report::Scene scene = model_scene(*trial.motion.model, input, {.most_frames = most_frames});
+  add_loads(trial, scene);
+  return scene;
 }
 
 }  // namespace

@@ -60,6 +60,24 @@ TEST(StudyScenes, HaveTheTrialsThatMoveWithTheirMarkersAndActivations) {
   EXPECT_TRUE(std::isnan(scene.values[0].value(25, arm.muscle_index("TRI"))));
 }
 
+TEST(StudyScenes, ShowAMeasuredForceWhereItActsWhileItActs) {
+  StudyResult result = two_trials();
+  dynamics::ExternalForce force{.name = "plate 1", .body = 1};
+  force.force = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.0, 500.0, 10.0)};
+  force.point = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.1, 0.0, 0.2)};
+  result.trials[0].input.loads =
+      dynamics::ExternalLoads{.forces = {force}, .start_s = 0.5, .end_s = 1.0};
+  const report::Scene scene = study_scenes(result).scenes[0];
+  EXPECT_NO_THROW(report::validate(scene));
+  ASSERT_EQ(scene.loads.size(), 1U);
+  EXPECT_TRUE(std::isnan(scene.loads[0].point_m(0, 0)));  // before the file begins
+  EXPECT_EQ(scene.loads[0].force_n.row(0).norm(), 0.0);
+  EXPECT_NEAR((scene.loads[0].point_m.row(50) - Eigen::RowVector3d(0.1, 0.0, 0.2)).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR((scene.loads[0].force_n.row(50) - Eigen::RowVector3d(0.0, 500.0, 10.0)).norm(), 0.0,
+              1e-12);
+}
+
 TEST(StudyScenes, ShareTheFramesAmongManyTrials) {
   StudyResult many = two_trials();
   many.trials.resize(3);

@@ -28,8 +28,8 @@ using report::WorkbenchTrial;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr Eigen::Index kMostSamples = 15000;  // of a plot over all trials
 constexpr Eigen::Index kLeastSamples = 250;   // of a plot of one trial
-constexpr Eigen::Index kCarpetColumns = 200;
-constexpr Eigen::Index kRawColumns = 400;
+constexpr Eigen::Index kCarpetColumns = 160;
+constexpr Eigen::Index kRawColumns = 300;
 constexpr Eigen::Index kMostForces = 40;  // of muscles without a fit: the strongest
 
 const IdentificationResult* fit_of(const StudyResult& result) {
@@ -120,6 +120,22 @@ void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots&
   }
 }
 
+/// The measured forces on the person, in the frame that the file gives them in.
+void add_loads(const TrialResult& trial, TrialPlots& plots) {
+  if (!trial.has_motion() || !trial.input.loads) return;
+  const Eigen::VectorXd& t = trial.motion.joints.q.time_s();
+  for (const auto& load : trial.input.loads->forces) {
+    if (!load.force) continue;
+    Eigen::MatrixXd force(t.size(), 3);
+    for (Eigen::Index i = 0; i < t.size(); ++i)
+      force.row(i) = load.force->at(trial.input.loads->data_time_s(t[i])).transpose();
+    TimePlot plot{.kind = "load", .title = load.name, .unit = "N"};
+    for (Eigen::Index k = 0; k < 3; ++k)
+      plot.lines.push_back(plots.line(std::string(1, "xyz"[k]), Role::reference, t, force.col(k)));
+    plots.add(std::move(plot));
+  }
+}
+
 const identification::Fold* fold_of(const StudyResult& result,
                                     const std::string& trial,
                                     const std::string& joint,
@@ -154,12 +170,9 @@ void add_torques(const StudyResult& result,
         plot.lines.push_back(
             plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
       if (fitted->torque_fit_nm.size() == t.size())
-        plot.lines.push_back(
-            plots.line(fitted->calibration ? "identified" : "identified on the other trials",
-                       Role::identified, t, fitted->torque_fit_nm));
+        plot.lines.push_back(plots.line("identified", Role::identified, t, fitted->torque_fit_nm));
       if (const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size()))
-        plot.lines.push_back(
-            plots.line("predicted without this trial", Role::unseen, t, fold->predicted_nm));
+        plot.lines.push_back(plots.line("left out", Role::unseen, t, fold->predicted_nm));
     } else if (trial.has_motion() &&
                static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
       const TimeSeries& torque = trial.forces.muscle_torque;
@@ -415,6 +428,7 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   }
   add_angles(result, trial, plots);
   add_torques(result, fit, trial, plots);
+  add_loads(trial, plots);
   add_emg(trial, plots);
   if (fitted != nullptr)
     add_fitted_forces(result, *data, *fitted, plots);

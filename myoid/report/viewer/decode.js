@@ -9,8 +9,8 @@ function bytes(text) {
   return result.buffer;
 }
 
-const halves = (text) => new Uint16Array(bytes(text));
-const floats = (text) => new Float32Array(bytes(text));
+export const halves = (text) => new Uint16Array(bytes(text));
+export const floats = (text) => new Float32Array(bytes(text));
 
 /** A surface: its vertices and the corners of its triangles. */
 export function mesh(data) {
@@ -39,6 +39,7 @@ export class Trial {
     this.linePoints = halves(data.lines.points);
     this.lineStarts = starts(this.lineCounts);
     this.values = data.values.map((v) => ({ ...v, numbers: halves(v.numbers) }));
+    this.loads = (data.loads || []).map((load) => ({ name: load.name, points: halves(load.points), forces: floats(load.forces) }));
     this.measured = data.measured ? { ...data.measured, points: halves(data.measured.points) } : null;
   }
 
@@ -103,6 +104,23 @@ export class Trial {
     if (this.measured.points[at] === MISSING) return false;
     this.#point(this.measured.points, at, point);
     return true;
+  }
+
+  /** Writes where a measured force acts, and the force [N]; false while there is none. */
+  load(frame, index, point, force) {
+    const { points, forces } = this.loads[index];
+    if (points[3 * frame] === MISSING) return false;
+    this.#point(points, 3 * frame, point);
+    force.fromArray(forces, 3 * frame);
+    return true;
+  }
+
+  /** The greatest measured force [N]. */
+  get greatestLoad() {
+    let top = 0;
+    for (const { forces } of this.loads)
+      for (let i = 0; i < forces.length; i += 3) top = Math.max(top, Math.hypot(forces[i], forces[i + 1], forces[i + 2]));
+    return top;
   }
 
   #point(numbers, at, point) {

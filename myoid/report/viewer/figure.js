@@ -10,7 +10,7 @@ import {
   Vector3,
 } from 'three';
 import { MUSCLE, UNKNOWN, colorOf } from './colors.js';
-import { Tube, bone, cylinder, sphere, surface, torus } from './shapes.js';
+import { Tube, bone, cylinder, revolve, sphere, surface, torus } from './shapes.js';
 
 const BONE = 0xe6dcc3;
 const CENTER = 0x8d99a6;
@@ -18,6 +18,7 @@ const MODEL_MARKER = 0xff6fae;
 const MEASURED_MARKER = 0x5cc8ff;
 const ERROR_LINE = 0xffb020;
 const SURFACE = 0x4fd1b5;
+const LOAD = 0xffe14d;
 
 /** Parts that can be hidden, in the order they are offered. */
 export const PARTS = [
@@ -27,6 +28,7 @@ export const PARTS = [
   ['markers', 'Model markers', 'm'],
   ['measured', 'Measured markers', 'e'],
   ['errors', 'Marker errors', 'r'],
+  ['loads', 'Measured forces', 'g'],
   ['surfaces', 'Wrap surfaces', 'w'],
 ];
 
@@ -49,6 +51,7 @@ export class Figure {
     this.#addSurfaces();
     this.#addMuscles();
     this.#addMarkers();
+    this.#addLoads();
   }
 
   /** Which kinds of parts there are at all. */
@@ -57,6 +60,7 @@ export class Figure {
   }
 
   show(part, visible) {
+    if (part === 'loads') this.loadsShown = visible;
     for (const object of this.parts[part]) object.visible = visible;
   }
 
@@ -153,6 +157,34 @@ export class Figure {
     this.parts.errors.push(this.errors);
   }
 
+  /** An arrow for each measured force, as long as half the model at the greatest one, and a ball where it acts. */
+  #addLoads() {
+    const thin = 0.006 * this.size;
+    const profile = [[0, 0], [thin, 0], [thin, 0.86], [3 * thin, 0.86], [0, 1]];
+    this.newton = (0.5 * this.size) / (this.trial.greatestLoad || 1);
+    this.force = new Vector3();
+    this.arrows = this.trial.loads.map(() => {
+      const group = this.#added(this.root, new Group());
+      const material = phong(LOAD);
+      const arrow = this.#added(group, new Mesh(revolve(profile, 12), material));
+      this.#added(group, new Mesh(sphere(2.2 * thin, 12), material));
+      this.parts.loads.push(group);
+      return { group, arrow };
+    });
+    this.loadsShown = true;
+  }
+
+  #poseLoads(frame) {
+    this.arrows.forEach(({ group, arrow }, i) => {
+      const acts = this.trial.load(frame, i, group.position, this.force);
+      group.visible = acts && this.loadsShown;
+      if (!acts) return;
+      const size = this.force.length();
+      arrow.scale.set(1, 1, size * this.newton);
+      arrow.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.force.divideScalar(size));
+    });
+  }
+
   /** Puts everything where it is in this frame. */
   pose(frame) {
     const { trial } = this;
@@ -171,6 +203,7 @@ export class Figure {
       tube.update(trial.line(frame, k, this.point, (i, p) => tube.points[i].copy(p)));
     });
     if (this.measured) this.#poseMeasured(frame);
+    this.#poseLoads(frame);
   }
 
   #poseMeasured(frame) {

@@ -1,6 +1,8 @@
 // Everything beside and below the picture, as plain HTML elements.
 import { css, gradient } from './colors.js';
+import { el, select } from './element.js';
 import { PARTS } from './figure.js';
+import { number } from './replay.js';
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 
@@ -17,32 +19,12 @@ export const KEYS = [
   ['?', 'this list'],
 ];
 
-export function el(tag, { attributes = {}, ...properties } = {}, ...children) {
-  const element = Object.assign(document.createElement(tag), properties);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-}
-
 const section = (title, ...children) => el('section', {}, el('h2', { textContent: title }), ...children);
 
 function checkbox(label, checked, changed) {
   const input = el('input', { type: 'checkbox', checked });
   input.addEventListener('change', () => changed(input.checked));
   return { input, row: el('label', { className: 'check' }, input, el('span', { textContent: label })) };
-}
-
-function select(label, options, changed) {
-  const input = el('select', { attributes: { 'aria-label': label } }, ...options.map((o, i) => el('option', { value: i, textContent: o })));
-  input.addEventListener('change', () => changed(Number(input.value)));
-  return input;
-}
-
-/** Four significant digits, short. */
-export function number(value) {
-  if (value === null || Number.isNaN(value)) return '–';
-  const size = Math.abs(value);
-  return value.toFixed(size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3);
 }
 
 export class Panel {

@@ -1,0 +1,246 @@
+// Learning by moving: a muscle's numbers as sliders; the torque follows.
+import { el, select } from './element.js';
+import { tension } from './law.js';
+import { Plot } from './plot.js';
+import { reading } from './texts.js';
+import { text } from './series.js';
+
+const SIDE = 250;
+const LEFT = 52;
+const BASE = 34;
+
+export class Learn {
+  constructor(bench) {
+    this.bench = bench;
+    this.muscles = bench.data.muscles;
+    this.muscle = 0;
+    this.pair = [0, 2];
+    const choose = select('Muscle', this.muscles.map((m) => m.name), (i) => this.open(i));
+    this.sliders = el('div', { className: 'sliders' });
+    this.fit = el('p', { className: 'fit', attributes: { 'aria-live': 'polite' } });
+    this.map = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    this.map.setAttribute('role', 'img');
+    this.pairs = el('span');
+    this.grid = el('div', { className: 'torques' });
+    const back = el('button', { type: 'button', textContent: 'identified', title: 'Back to the identified numbers', onclick: () => this.open(this.muscle) });
+    const literature = el('button', { type: 'button', textContent: 'literature', title: 'The literature’s numbers', onclick: () => this.set(this.muscles[this.muscle].literature) });
+    this.element = el('figure', { className: 'learn', id: 'learn' },
+      el('h3', { textContent: 'What if the muscle were another?' }),
+      el('div', { className: 'learn-grid' },
+        el('div', {}, el('div', { className: 'row' }, choose, back, literature), this.sliders, this.fit),
+        el('div', {}, el('div', { className: 'row' }, this.pairs), this.map), this.grid),
+      el('details', { className: 'reading' }, el('summary', { textContent: 'How to read this' }), reading('learn')));
+    this.map.addEventListener('pointerdown', (event) => this.#drag(event));
+    this.map.addEventListener('pointermove', (event) => event.buttons && this.#drag(event));
+  }
+
+  openTrial() {
+    this.element.hidden = this.bench.trial.data.drives.length === 0;
+    if (this.element.hidden) return;
+    this.open(this.muscle, this.values);
+  }
+
+  /** Shows a muscle; its identified numbers unless others are given. */
+  open(index, values) {
+    const changed = index !== this.muscle;
+    this.muscle = index;
+    const { numbers, identified } = this.muscles[index];
+    this.values = values && !changed ? values : [...identified];
+    this.inputs = numbers.map((n) => {
+      const input = el('input', { type: 'range', min: n.lower, max: n.upper, step: (n.upper - n.lower) / 1000, attributes: { 'aria-label': `${n.name} of ${this.muscles[index].name}` } });
+      const value = el('output');
+      input.addEventListener('input', () => {
+        this.values[n.field] = Number(input.value);
+        this.update();
+      });
+      return { input, value, row: el('label', {}, el('span', {}, n.name, el('small', { textContent: ` ${n.verdict}` })), input, value) };
+    });
+    this.sliders.replaceChildren(...this.inputs.map((i) => i.row));
+    const pairs = [[0, 1], [0, 2], [1, 2]];
+    const names = pairs.map(([a, b]) => `${numbers[a].name} and ${numbers[b].name}`);
+    const choice = select('Numbers of the map', names, (i) => {
+      this.pair = pairs[i];
+      this.update();
+    });
+    choice.value = pairs.findIndex(([a, b]) => a === this.pair[0] && b === this.pair[1]);
+    this.pairs.replaceChildren(choice);
+    this.attach();
+  }
+
+  set(values) {
+    this.values = [...values];
+    this.update();
+  }
+
+  /** Makes the torque plots of the trial. */
+  attach() {
+    const { trial } = this.bench;
+    if (!this.values || trial.data.drives.length === 0) return;
+    this.torques = trial.plots.filter((p) => p.kind === 'torque' && p.curves.some((c) => c.role === 'identified'));
+    this.plots = this.torques.map((p) => {
+      const kept = p.curves.filter((c) => c.role === 'reference' || c.role === 'identified');
+      const plot = new Plot({ ...p, kind: 'learn', title: p.title, curves: kept, prefix: trial.name, height: 210 }, this.bench.on);
+      plot.domain = this.bench.domain;
+      plot.view = this.bench.view;
+      plot.kept = kept;
+      return plot;
+    });
+    this.grid.replaceChildren(...this.plots.map((p) => p.element));
+    this.resize();
+    this.update();
+  }
+
+  resize() {
+    for (const plot of this.plots || []) plot.resize(plot.element.clientWidth);
+  }
+
+  setCursor(t) {
+    for (const plot of this.plots || []) plot.setCursor(t);
+  }
+
+  setPointer(t) {
+    for (const plot of this.plots || []) plot.setPointer(t);
+  }
+
+  setView(view) {
+    for (const plot of this.plots || []) plot.setView(view);
+  }
+
+  /** The torque of one joint in a trial if the muscle had these numbers: the identified one with this muscle's part exchanged. */
+  moved(trial, identified, joint) {
+    const drive = trial.drives[this.muscle];
+    const arm = drive.arms[joint];
+    const before = this.muscles[this.muscle].identified;
+    return identified.y.map((torque, i) => {
+      const force = (p) => tension(drive.activation[i], drive.length[i], drive.velocity[i], p);
+      return torque + arm[i] * (force(this.values) - force(before));
+    });
+  }
+
+  update() {
+    const { numbers } = this.muscles[this.muscle];
+    numbers.forEach((n, k) => {
+      const value = this.values[n.field];
+      this.inputs[k].input.value = value;
+      this.inputs[k].value.textContent = `${Number(value.toPrecision(4))} ${n.unit}`;
+    });
+    const says = [];
+    (this.plots || []).forEach((plot, k) => {
+      const measured = plot.kept.find((c) => c.role === 'reference');
+      const identified = plot.kept.find((c) => c.role === 'identified');
+      const y = this.moved(this.bench.trial, identified, Math.max(0, this.torques[k].joint));
+      plot.setCurves([...plot.kept, { name: 'moved', role: 'moved', x: identified.x, y, upper: null, places: identified.places }]);
+      says.push(`${this.bench.trial.name}, ${plot.title}: ${text(rms(y, measured.y), 2)} N m rms from the measured torque (identified: ${text(rms(identified.y, measured.y), 2)})`);
+    });
+    const all = this.#allTrials();
+    if (all) says.push(`all trials: ${text(all.moved, 2)} N m rms (identified: ${text(all.identified, 2)})`);
+    this.fit.textContent = `${says.join('; ')}.`;
+    this.#map();
+  }
+
+  #allTrials() {
+    const sum = { moved: 0, identified: 0, count: 0 };
+    for (const trial of this.bench.trials) {
+      if (!trial.data.drives.length) continue;
+      for (const p of trial.plots.filter((q) => q.kind === 'torque')) {
+        const measured = p.curves.find((c) => c.role === 'reference');
+        const identified = p.curves.find((c) => c.role === 'identified');
+        if (!identified) continue;
+        const y = this.moved(trial, identified, Math.max(0, p.joint));
+        for (let i = 0; i < y.length; ++i) {
+          sum.moved += (y[i] - measured.y[i]) ** 2;
+          sum.identified += (identified.y[i] - measured.y[i]) ** 2;
+        }
+        sum.count += y.length;
+      }
+    }
+    return sum.count ? { moved: Math.sqrt(sum.moved / sum.count), identified: Math.sqrt(sum.identified / sum.count) } : null;
+  }
+
+  /** Ends of the map for a number: what the recording allows and the literature are in it. */
+  #ends(n) {
+    const m = this.muscles[this.muscle];
+    const at = m.identified[n.field];
+    const spread = Math.min(1, 3.2 * n.sd_log);
+    const known = [at * Math.exp(-spread), at * Math.exp(spread), m.literature[n.field]];
+    const margin = 0.12 * (Math.max(...known) - Math.min(...known) || at);
+    return [Math.max(n.lower, Math.min(...known) - margin), Math.min(n.upper, Math.max(...known) + margin)];
+  }
+
+  /** Place of a value pair on the map, in pixels. */
+  #place(values) {
+    const [a, b] = this.pair.map((k) => this.muscles[this.muscle].numbers[k]);
+    const share = (n) => {
+      const [lower, upper] = this.#ends(n);
+      return (values[n.field] - lower) / (upper - lower);
+    };
+    return [LEFT + share(a) * (SIDE - 8), 8 + (1 - share(b)) * (SIDE - 8)];
+  }
+
+  /** The contours of the posterior: normal in the logarithms. */
+  #map() {
+    const m = this.muscles[this.muscle];
+    const [ka, kb] = this.pair;
+    const [a, b] = [m.numbers[ka], m.numbers[kb]];
+    let out = `<clipPath id="learn-clip"><rect x="${LEFT}" y="8" width="${SIDE - 8}" height="${SIDE - 8}"/></clipPath>` +
+      `<rect x="${LEFT}" y="8" width="${SIDE - 8}" height="${SIDE - 8}" fill="#fff" stroke="#8a9097"/><g clip-path="url(#learn-clip)">`;
+    const r = m.correlation[ka][kb] || 0;
+    const known = a.sd_log > 0 && b.sd_log > 0;
+    for (const [radius, opacity] of known ? [[2.4477, 0.16], [1.1774, 0.3]] : []) {
+      let path = '';
+      for (let i = 0; i <= 72; ++i) {
+        const phi = (2 * Math.PI * i) / 72;
+        const u = radius * Math.cos(phi);
+        const w = radius * (r * Math.cos(phi) + Math.sqrt(Math.max(0, 1 - r * r)) * Math.sin(phi));
+        const values = [...m.identified];
+        values[a.field] *= Math.exp(u * a.sd_log);
+        values[b.field] *= Math.exp(w * b.sd_log);
+        const [x, y] = this.#place(values);
+        path += `${i ? 'L' : 'M'}${x.toFixed(1)} ${y.toFixed(1)}`;
+      }
+      out += `<path d="${path}Z" fill="#d1491b" fill-opacity="${opacity}" stroke="#d1491b"/>`;
+    }
+    const mark = (values, color, shape, title) => {
+      const [x, y] = this.#place(values);
+      return `<path transform="translate(${x.toFixed(1)} ${y.toFixed(1)})" d="${shape}" fill="none" stroke="${color}" stroke-width="2.2"><title>${title}</title></path>`;
+    };
+    out += mark(m.literature, '#6b6b6b', 'M-5 -5H5V5H-5Z', 'literature');
+    out += mark(m.identified, '#d1491b', 'M-6 0H6M0 -6V6', 'identified');
+    out += mark(this.values, '#7b2d8b', 'M-6 0a6 6 0 1 0 12 0a6 6 0 1 0 -12 0Z', 'moved');
+    out += '</g>';
+    const axis = (n) => `${n.name}${n.unit ? ` [${n.unit}]` : ''}`;
+    const ends = (n) => this.#ends(n).map((v) => Number(v.toPrecision(3)));
+    const base = SIDE + 12;
+    const [a0, a1] = ends(a);
+    const [b0, b1] = ends(b);
+    out += `<text x="${LEFT}" y="${base}">${a0}</text><text x="${LEFT + SIDE - 8}" y="${base}" text-anchor="end">${a1}</text>` +
+      `<text x="${LEFT + SIDE / 2}" y="${base + 16}" text-anchor="middle">${axis(a)}</text>` +
+      `<text x="${LEFT - 4}" y="${SIDE}" text-anchor="end">${b0}</text><text x="${LEFT - 4}" y="18" text-anchor="end">${b1}</text>` +
+      `<text transform="translate(12 ${SIDE / 2}) rotate(-90)" text-anchor="middle">${axis(b)}</text>`;
+    const width = LEFT + SIDE;
+    const height = SIDE + BASE;
+    for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}`, 'font-size': 10, fill: '#22262b', 'font-family': 'Helvetica, Arial, sans-serif' }))
+      this.map.setAttribute(name, value);
+    this.map.innerHTML = out;
+    this.map.setAttribute('aria-label', `${a.name} and ${b.name} of ${m.name}: correlation ${text(r, 2)} after the recording.`);
+  }
+
+  #drag(event) {
+    const box = this.map.getBoundingClientRect();
+    const numbers = this.pair.map((k) => this.muscles[this.muscle].numbers[k]);
+    const shares = [(event.clientX - box.left - LEFT) / (SIDE - 8), 1 - (event.clientY - box.top - 8) / (SIDE - 8)];
+    numbers.forEach((n, i) => {
+      const [lower, upper] = this.#ends(n);
+      this.values[n.field] = lower + Math.max(0, Math.min(1, shares[i])) * (upper - lower);
+    });
+    this.update();
+    event.preventDefault();
+  }
+}
+
+/** Root mean square of the difference. */
+function rms(a, b) {
+  let sum = 0;
+  for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
+  return Math.sqrt(sum / a.length);
+}

@@ -1,0 +1,44 @@
+// The report's sections below the workbench, folded on screen: what one asks for opens. Paper has everything.
+import { el } from './element.js';
+
+const OPEN = new Set(['numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next_recording']);
+const LONG = 12;  // rows of a table that is folded
+
+function fold(box, heading, open) {
+  box.classList.add('folds');
+  const button = el('button', { type: 'button', className: 'fold' }, ...heading.childNodes);
+  const show = (on) => {
+    box.classList.toggle('folded', !on);
+    button.setAttribute('aria-expanded', on);
+  };
+  button.addEventListener('click', () => show(box.classList.contains('folded')));
+  heading.append(button);
+  show(open);
+  return show;
+}
+
+/** Opens the section that an element is in. */
+export function unfold(element) {
+  for (let box = element.closest('.folded'); box; box = box.parentElement.closest('.folded')) {
+    box.classList.remove('folded');
+    box.querySelector('.fold').setAttribute('aria-expanded', true);
+  }
+}
+
+export function foldSections() {
+  for (const section of document.querySelectorAll('main > section:not(#workbench)')) {
+    for (const heading of [...section.querySelectorAll(':scope > h3')]) {
+      const box = el('div');
+      heading.before(box);
+      let next = heading;
+      do {
+        const here = next;
+        next = here.nextElementSibling;
+        box.append(here);
+      } while (next && !['H3', 'FIGURE'].includes(next.tagName));
+      fold(box, heading, box.querySelectorAll('tbody tr').length <= LONG);
+    }
+    const heading = section.querySelector(':scope > h2');
+    if (heading) fold(section, heading, OPEN.has(heading.id));
+  }
+}

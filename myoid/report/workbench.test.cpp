@@ -1,0 +1,94 @@
+#include "myoid/report/workbench.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/report/html.h"
+#include "myoid/report/scene_page.h"
+
+namespace myoid::report {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+Workbench one_trial() {
+  Workbench workbench;
+  WorkbenchTrial trial{.name = "slow </script>", .use = "calibration"};
+  trial.clocks = {Eigen::Vector3d(0.0, 0.5, 1.0)};
+  TimePlot plot{.kind = "angle", .title = "elbow", .unit = "deg"};
+  plot.lines.push_back(
+      {.name = "angle",
+       .value = Eigen::Vector3d(10.0, std::numeric_limits<double>::quiet_NaN(), 30.0)});
+  trial.plots.push_back(plot);
+  workbench.trials.push_back(trial);
+  return workbench;
+}
+
+/// The 16-bit codes behind base64.
+std::vector<int> codes(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    group = (group << 6U) | static_cast<unsigned>(digits.find(c));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>((group >> static_cast<unsigned>(bits -= 8)) & 255U);
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
+    result.push_back(static_cast<unsigned char>(bytes[i]) +
+                     256 * static_cast<unsigned char>(bytes[i + 1]));
+  return result;
+}
+
+TEST(Workbench, KeepsTheSeriesWithinHalfAStepOfThePacking) {
+  const std::string text = workbench_json(one_trial(), {});
+  EXPECT_THAT(text, Not(HasSubstr("</script")));
+  const json trial = json::parse(text)["trials"][0];
+  EXPECT_EQ(trial["name"], "slow </script>");
+  EXPECT_EQ(trial["clocks"][0]["step"], 0.5);
+  const json value = trial["plots"][0]["lines"][0]["value"];
+  EXPECT_EQ(value["lower"], 10.0);
+  EXPECT_EQ(value["upper"], 30.0);
+  EXPECT_EQ(codes(value["codes"]), (std::vector<int>{0, 65535, 65534}));
+}
+
+TEST(Workbench, ALineOfAnotherLengthThanItsClockIsRefused) {
+  Workbench workbench = one_trial();
+  workbench.trials[0].plots[0].lines[0].value = Eigen::Vector2d(1.0, 2.0);
+  try {
+    validate(workbench);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("slow"), HasSubstr("angle")));
+  }
+  workbench = one_trial();
+  workbench.trials[0].scene = 0;
+  EXPECT_THROW(validate(workbench), InvalidInput);
+  workbench = one_trial();
+  workbench.trials[0].clocks[0][2] = 0.1;
+  EXPECT_THROW(validate(workbench), InvalidInput);
+}
+
+TEST(Workbench, StandsInThePageOfAReportThatHasOne) {
+  if (!has_viewer()) GTEST_SKIP() << "built without three.js or esbuild";
+  Report report;
+  report.title = "S01";
+  const Workbench workbench = one_trial();
+  const std::string page = html(report, &workbench);
+  EXPECT_THAT(page, HasSubstr("id=\"workbench-data\""));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"scene\"")));
+  EXPECT_THAT(page, HasSubstr("MIT License"));
+  EXPECT_THAT(html(report), Not(HasSubstr("<script")));
+}
+
+}  // namespace
+}  // namespace myoid::report
