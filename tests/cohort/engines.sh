@@ -10,6 +10,12 @@ export MYOID; MYOID=$(realpath "$1")
 persons=${2:-6}
 shift; [ $# -gt 0 ] && shift
 [ $# -gt 0 ] || set -- parallel snakemake slurm
+declare -A needs=([parallel]=parallel [snakemake]=snakemake [slurm]=slurmctld)
+installed=0
+for engine in "$@"; do
+  if command -v "${needs[$engine]:-$engine}" >/dev/null; then installed=1; else echo "$engine: not installed"; fi
+done
+[ $installed -eq 1 ] || { echo "skipped: none of $* is installed"; exit 77; }
 work=$(mktemp -d)
 trap 'stop_slurm; rm -rf "$work"' EXIT
 cores=$(nproc)

@@ -1,0 +1,81 @@
+function test_myoid(work)
+  % Tests of the package myoid with a small virtual person; `work`: an empty folder.
+  protocol = fullfile(work, 'p.toml');
+  file = fopen(protocol, 'w');
+  fprintf(file, ['level = "L1"\n[[trial]]\nname = "mvc"\nkind = "mvc"\ndirection = "both"\n' ...
+                 '[[trial]]\nname = "lift"\nkind = "eccentric"\nheld_mass_kg = 1.0\n']);
+  fclose(file);
+  recording = fullfile(work, 'it''s here');
+  myoid.call('twin', {}, 'protocol', protocol, 'out', recording, 'quiet', true);
+  warning('off', 'myoid:gateFailed');
+
+  % Ten lines: from a study to a muscle's force, its interval and a series.
+  out = fullfile(work, 'results');
+  r = myoid.run(fullfile(recording, 'study.toml'), out);
+  p = r.parameters;
+  k = find(strcmp(p.muscle, 'BIC') & strcmp(p.parameter, 'max_isometric_force') & strcmp(p.method, 'torque'));
+  printf('F_max of BIC: %.0f N (%.0f to %.0f), %s\n', p.estimate(k), p.ci_low(k), p.ci_high(k), p.verdict{k});
+  lift = r.trials(strcmp({r.trials.name}, 'lift'));
+  angle = lift.series.ik;
+  elbow = angle.values(:, strcmp(angle.names, 'elbow_flexion'));
+  printf('elbow: %.0f to %.0f deg in %.1f s\n', min(elbow), max(elbow), angle.time(end));
+
+  assert(numel(k) == 1);
+  assert(p.ci_low(k) < p.estimate(k) && p.estimate(k) < p.ci_high(k));
+  lines = sum(fileread(fullfile(out, 'parameters.csv')) == char(10));
+  assert(numel(p.estimate), lines - 1);
+  assert(isnan(p.prior_mean(strcmp(p.method, 'paper'))(1)), 'an empty cell is NaN');
+  assert(any(~cellfun(@isempty, strfind(p.reason, ','))), 'a reason with commas is one cell');
+  assert(islogical(p.at_bound));
+  assert(iscellstr(p.fit_case));
+
+  assert(angle.in_degrees && strcmp(angle.title, 'Coordinates'));
+  assert(max(elbow) > 90 && min(elbow) > -10);
+  assert(size(angle.values), [numel(angle.time), numel(angle.names)]);
+  forces = lift.series.identified_forces;
+  assert(~forces.in_degrees && any(strcmp(forces.names, 'TRI_identified')));
+  assert(strcmp(r.run.program, 'myoid'));
+
+  % The same numbers again by read_results, and by the file itself.
+  again = myoid.read_results(out);
+  assert(isequaln(again.parameters, p));
+  assert(isequaln(myoid.read_parameters(fullfile(out, 'parameters.csv')), p));
+
+  % identify, straight from the files of the run.
+  muscles = fullfile(work, 'muscles.csv');
+  file = fopen(muscles, 'w');
+  fprintf(file, ['muscle,emg,max_isometric_force,optimal_fiber_length,force_length_width,' ...
+                 'concentric_curvature,eccentric_curvature_product,eccentric_plateau,max_shortening_speed,' ...
+                 'tendon_slack_length\n']);
+  for row = {'BIC', 'BIC', 1060, 0.1224, 0.055, 1.22, 0.21; 'TRI', 'TRI', 2047, 0.1217, 0.0548, 1.22, 0.2}'
+    fprintf(file, '%s,%s,%g,%g,%g,0.28,0.058,1.4,%g,%g\n', row{:});
+  end
+  fclose(file);
+  trial = fullfile(out, 'lift');
+  warning('off', 'all');
+  q = myoid.identify(fullfile(work, 'identified'), 'muscles', muscles, ...
+                     'activations', {fullfile(trial, 'activation.sto')}, ...
+                     'lengths', {fullfile(trial, 'MuscleAnalysis_Length.sto')}, ...
+                     'velocities', {fullfile(trial, 'MuscleAnalysis_MuscleTendonVelocity.sto')}, ...
+                     'moment_arms', {fullfile(trial, 'MuscleAnalysis_MomentArm_elbow_flexion.sto')}, ...
+                     'torques', {fullfile(trial, 'id.sto')}, 'coordinate', 'elbow_flexion', 'method', 'torque');
+  assert(any(strcmp(q.muscle, 'TRI')));
+
+  % Errors map one to one and carry the program's own words.
+  fails(@() myoid.run(fullfile(work, 'none.toml'), fullfile(work, 'x')), 'myoid:badInput', 'no such file');
+  fails(@() myoid.run(fullfile(recording, 'study.toml'), out, 'no_such_option', 1), 'myoid:commandLine', '');
+  fails(@() myoid.read_results(work), 'myoid:badInput', 'run.json');
+  fails(@() myoid.read_sto(protocol), 'myoid:badInput', 'endheader');
+  disp('matlab/+myoid: all tests passed');
+end
+
+function fails(action, identifier, words)
+  try
+    action();
+  catch problem
+    assert(strcmp(problem.identifier, identifier), [problem.identifier ': ' problem.message]);
+    assert(isempty(words) || ~isempty(strfind(problem.message, words)), problem.message);
+    return
+  end
+  error('no error where %s was expected', identifier);
+end
