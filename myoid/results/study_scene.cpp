@@ -36,6 +36,7 @@ void add_loads(const TrialResult& trial, report::Scene& scene) {
   constexpr double kLeast_n = 1.0;
   if (!trial.input.loads) return;
   const auto& loads = *trial.input.loads;
+  const bool of_file = loads.end_s > loads.start_s;  // of another source: no limits known
   for (const auto& load : loads.forces) {
     if (!load.force) continue;
     report::SceneLoad shown{load.name};
@@ -43,7 +44,7 @@ void add_loads(const TrialResult& trial, report::Scene& scene) {
     shown.force_n.setZero(scene.time_s.size(), 3);
     for (Eigen::Index f = 0; f < scene.time_s.size(); ++f) {
       const double t = scene.time_s[f];
-      if (t < loads.start_s || t > loads.end_s) continue;
+      if (of_file && (t < loads.start_s || t > loads.end_s)) continue;
       const auto& poses = scene.poses[static_cast<std::size_t>(f)];
       const auto pose = [&](int body) { return poses[static_cast<std::size_t>(body)]; };
       const Vec3 force = pose(load.force_frame).R * load.force->at(loads.data_time_s(t));

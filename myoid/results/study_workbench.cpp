@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/parameter_fields.h"
 #include "myoid/methods/torque.h"
 #include "myoid/report/typeset.h"
-#include "myoid/results/log_covariance.h"
+#include "myoid/results/movable_muscles.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/prediction_gates.h"
 
@@ -358,57 +357,6 @@ void add_drives(const StudyResult& result,
   }
 }
 
-/// The names of a muscle's numbers in the order of identification::MuscleField.
-std::vector<std::string> field_names() {
-  std::vector<std::string> names(identification::kMuscleFieldCount);
-  for (const identification::ParameterField& field : identification::parameter_fields()) {
-    if (field.scope == identification::Scope::muscle && field.field >= 0 &&
-        field.field < identification::kMuscleFieldCount)
-      names[static_cast<std::size_t>(field.field)] = std::string(field.name);
-  }
-  return names;
-}
-
-report::MovableMuscle movable(const IdentificationResult& fit,
-                              const identification::MuscleSetup& setup,
-                              std::size_t m,
-                              const std::vector<std::string>& fields) {
-  const identification::MuscleValues start =
-      identification::muscle_values(setup.start, setup.extras);
-  const identification::MuscleValues& found = fit.values.muscles[m];
-  report::MovableMuscle muscle{
-      setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}, {}, {}};
-  std::vector<std::string> names;
-  for (const int field :
-       {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
-    const auto f = static_cast<std::size_t>(field);
-    names.push_back(fields[f]);
-    report::MovableNumber number{
-        .field = field,
-        .name = report::spelled(fields[f]),
-        .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
-        .lower = 0.5 * std::min(start[f], found[f]),
-        .upper = 1.6 * std::max(start[f], found[f]),
-        .sd_log = 0.0,
-        .verdict = ""};
-    for (const identification::ParameterEstimate& e : fit.estimates) {
-      if (e.muscle == setup.name && e.parameter == fields[f])
-        number.verdict = report::spelled(identification::name(e.verdict));
-    }
-    muscle.numbers.push_back(std::move(number));
-  }
-  const Eigen::MatrixXd covariance = log_covariance(fit, setup.name, names);
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
-  muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
-  for (Eigen::Index i = 0; i < sd.size(); ++i) {
-    muscle.numbers[static_cast<std::size_t>(i)].sd_log = sd[i];
-    for (Eigen::Index j = 0; j < sd.size(); ++j)
-      if (i != j && sd[i] > 0.0 && sd[j] > 0.0)
-        muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
-  }
-  return muscle;
-}
-
 WorkbenchTrial shown_trial(const StudyResult& result,
                            const IdentificationResult* fit,
                            const std::vector<OutlyingFold>& outlying,
@@ -445,13 +393,8 @@ report::Workbench study_workbench(const StudyResult& result) {
   report::Workbench workbench{.scenes = study_scenes(result)};
   const IdentificationResult* fit = fit_of(result);
   const auto& muscles = result.fit_input.data.muscles;
-  if (fit != nullptr && fit->values.muscles.size() == muscles.size()) {
-    workbench.fields = field_names();
-    for (std::size_t m = 0; m < muscles.size(); ++m)
-      workbench.muscles.push_back(movable(*fit, muscles[m], m, workbench.fields));
-  } else {
-    fit = nullptr;
-  }
+  if (fit != nullptr && fit->values.muscles.size() != muscles.size()) fit = nullptr;
+  if (fit != nullptr) add_movable_muscles(*fit, muscles, workbench);
   const Eigen::Index most = std::max(
       kLeastSamples,
       kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
