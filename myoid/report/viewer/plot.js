@@ -123,7 +123,7 @@ export class Plot {
       out += `<line x1="${x}" x2="${x}" y1="${TOP}" y2="${base}" stroke="#e6e8eb"/>`;
       out += `<text x="${x}" y="${base + 12}" text-anchor="middle">${label}</text>`;
     }
-    for (const { at, label } of ticks(...this.range, Math.max(2, height / 42))) {
+    for (const { at, label } of ticks(...this.range, Math.max(3, height / 30))) {
       const y = this.py(at).toFixed(1);
       out += `<line x1="${LEFT}" x2="${right}" y1="${y}" y2="${y}" stroke="${Math.abs(at) < 1e-12 ? '#b5bac0' : '#e6e8eb'}"/>`;
       out += `<text x="${LEFT - 5}" y="${Number(y) + 3.5}" text-anchor="end">${label}</text>`;

@@ -2,7 +2,7 @@
 import { el } from './element.js';
 
 const OPEN = new Set(['numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next_recording']);
-const LONG = 12;  // rows of a table that is folded
+const LONG = 8;  // rows of a table that is not folded, at most
 
 function fold(box, heading, open) {
   box.classList.add('folds');
@@ -36,7 +36,7 @@ export function foldSections() {
         next = here.nextElementSibling;
         box.append(here);
       } while (next && !['H3', 'FIGURE'].includes(next.tagName));
-      fold(box, heading, box.querySelectorAll('tbody tr').length <= LONG);
+      fold(box, heading, box.querySelectorAll('tbody tr').length <= LONG && !heading.id.startsWith('nuisances'));
     }
     const heading = section.querySelector(':scope > h2');
     if (heading) fold(section, heading, OPEN.has(heading.id));

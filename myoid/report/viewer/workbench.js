@@ -1,5 +1,6 @@
 // The workbench of a report: body, EMG, torque, muscles and channels of a trial on one time cursor.
 import { Carpet } from './carpet.js';
+import { gradient } from './colors.js';
 import { el, select } from './element.js';
 import { tension } from './law.js';
 import { Learn } from './learn.js';
@@ -25,6 +26,8 @@ export const KEYS = [
   ['+ − F', 'nearer, farther, all in view'],
 ];
 const SIGNS = { good: '●', weak: '◆', bad: '▲', info: '□', none: '○' };
+
+const sentence = (says) => says.charAt(0).toUpperCase() + says.slice(1) + (/[.!?]$/.test(says) ? '' : '.');
 
 /** A trial as the page uses it; its series are unpacked when it is opened first. */
 class TrialValues {
@@ -149,10 +152,11 @@ export class Workbench {
     const speed = select('Speed', SPEEDS.map((s) => `${s} ×`), (i) => (this.speed = SPEEDS[i]));
     speed.value = SPEEDS.indexOf(1);
     this.color = el('span');
+    this.parts = el('details', { className: 'parts' });
     this.side = el('div', { className: 'left' }, this.stage,
       el('div', { className: 'row' }, this.play, this.scrub), el('div', { className: 'row' }, this.time, speed, this.color),
       el('div', { className: 'row small' }, button('Picture', 'Save the body as a PNG picture', () => this.picture()),
-        button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.#video()));
+        button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.#video(), this.parts));
     this.grid = el('div', { className: 'plots' });
     this.carpet = new Carpet(this.on);
     this.choice = el('details', { className: 'choice' });
@@ -206,6 +210,11 @@ export class Workbench {
         this.tip.textContent = says;
         this.tip.style.transform = `translate(${(x || 0) + 12}px, ${(y || 0) + 8}px)`;
       };
+      replay.opened = (index, parts) => this.parts.replaceChildren(el('summary', { textContent: 'Parts of the body' }), ...parts.map(([part, label, on]) => {
+        const input = el('input', { type: 'checkbox', checked: on });
+        input.addEventListener('change', () => replay.show(part, input.checked));
+        return el('label', { className: 'check' }, input, label);
+      }));
       replay.mount(this.canvas, this.stage);
       this.replay = replay;
     } catch (error) {
@@ -233,7 +242,7 @@ export class Workbench {
     this.view = null;
     this.playing = false;
     const facts = [...trial.remarks, ...trial.marks.map((m) => m.text)];
-    this.remarks.replaceChildren(el('b', { textContent: `${trial.name} (${trial.use})` }), facts.length ? ` ${facts.slice(0, 5).join(' ')}` : ' Nothing was found against this trial.');
+    this.remarks.replaceChildren(el('b', { textContent: `${trial.name} (${trial.use})` }), facts.length ? ` ${facts.slice(0, 6).map(sentence).join(' ')}` : ' Nothing was found against this trial.');
     [this.scrub.min, this.scrub.max] = this.domain;
     if (this.replay && trial.scene >= 0) {
       this.replay.openTrial(trial.scene);
@@ -262,7 +271,10 @@ export class Workbench {
     this.replay.paintBy(i);
     const { values } = this.replay;
     this.legend.hidden = !values;
-    if (values) this.legend.textContent = `${values.name}: dark 0, bright ${text(values.top, values.top < 10 ? 1 : 0)} ${values.unit}`;
+    if (!values) return;
+    const bar = el('i');
+    bar.style.background = gradient();
+    this.legend.replaceChildren(`${values.name}: 0 `, bar, ` ${text(values.top, values.top < 10 ? 1 : 0)} ${values.unit}`);
   }
 
   /** Makes the plots of the trial. */
@@ -274,11 +286,12 @@ export class Workbench {
       const curves = [...p.curves];
       const same = other && other.plots.find((o) => o.kind === p.kind && o.title === p.title);
       if (same && p.kind !== 'activation')
-        for (const c of same.curves.slice(0, 1)) curves.unshift({ ...c, name: other.name, role: 'other', own: true, x: c.x.map((x) => x + shift) });
+        for (const c of [same.curves.find((q) => !q.upper)]) curves.unshift({ ...c, name: other.name, role: 'other', own: true, x: c.x.map((x) => x + shift) });
       const marks = this.trial.marks.filter((m) => m.begin !== null && m.about.split(', ').includes(p.title)).map((m) => ({ from: m.begin, to: m.end, text: m.text }));
       const plot = new Plot({ ...p, curves, marks, prefix: this.trial.name, height: p.kind === 'torque' ? 168 : p.kind === 'angle' ? 168 : 118 }, this.on);
       plot.domain = this.domain;
       plot.view = this.view;
+      if (p.kind === 'force') this.#linkMuscle(plot);
       return plot;
     });
     this.grid.replaceChildren(...this.plots.map((p) => p.element));
@@ -287,6 +300,13 @@ export class Workbench {
     this.#resize();
     if (this.learn) this.learn.attach();
     for (const plot of this.plots) plot.setCursor(this.t);
+  }
+
+  /** Pointing at a muscle's force lights the muscle up in the body. */
+  #linkMuscle(plot) {
+    const index = () => (this.replay ? this.replay.trial.model.muscles.findIndex((m) => m.name === plot.title) : -1);
+    plot.element.addEventListener('pointerenter', () => this.replay?.highlight(index()));
+    plot.element.addEventListener('pointerleave', () => this.replay?.highlight(-1));
   }
 
   #isChosen(plot) {
