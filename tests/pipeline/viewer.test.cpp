@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "browser.h"
 #include "program.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
@@ -17,6 +18,7 @@ using myoid::test::Finished;
 using myoid::test::myoid;
 using myoid::test::read_text;
 using myoid::test::TemporaryFolder;
+using myoid::test::there_is;
 using myoid::test::write_text;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -48,10 +50,6 @@ std::string markers(const std::string& name, double x_mm, double y_mm, double z_
   for (int k = 0; k <= 100; ++k)
     text += fmt::format("{}\t{}\t{}\t{}\t{}\n", k + 1, 0.01 * k, x_mm, y_mm, z_mm);
   return text;
-}
-
-bool there_is(const std::string& program) {
-  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
 }
 
 /// Opens a page and returns the document as it is after `virtual_ms` of the page's own time.

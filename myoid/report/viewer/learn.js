@@ -132,10 +132,14 @@ export class Learn {
       plot.setCurves([...plot.kept, { name: 'moved', role: 'moved', x: identified.x, y, upper: null, places: identified.places }]);
       says.push(`${this.bench.trial.name}, ${plot.title}: ${text(rms(y, measured.y), 2)} N m rms from the measured torque (identified: ${text(rms(identified.y, measured.y), 2)})`);
     });
-    const all = this.#allTrials();
+    const all = this.#isMoved() ? this.#allTrials() : null;
     if (all) says.push(`all trials: ${text(all.moved, 2)} N m rms (identified: ${text(all.identified, 2)})`);
     this.fit.textContent = `${says.join('; ')}.`;
     this.#map();
+  }
+
+  #isMoved() {
+    return this.values.some((value, i) => value !== this.muscles[this.muscle].identified[i]);
   }
 
   #allTrials() {

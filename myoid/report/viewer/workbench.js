@@ -298,7 +298,6 @@ export class Workbench {
     this.carpet.element.hidden = this.hidden.has('carpet') || this.trial.carpet.rows.length === 0;
     this.#choices();
     this.#resize();
-    if (this.learn) this.learn.attach();
     for (const plot of this.plots) plot.setCursor(this.t);
   }
 

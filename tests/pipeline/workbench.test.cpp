@@ -1,0 +1,377 @@
+// The report of a run in a browser, used as a person uses it.
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/identification/muscle_law.h"
+#include "myoid/math/random.h"
+#include "myoid/tables/storage_reader.h"
+
+#include "browser.h"
+#include "program.h"
+#include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using myoid::test::Browser;
+using myoid::test::myoid;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A run of three trials of a virtual person, made once, and a browser that shows its report.
+class WorkbenchPage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (!::myoid::test::there_is("chromium")) return;
+    folder_ = std::make_unique<::myoid::test::TemporaryFolder>();
+    const std::string protocol =
+        ::myoid::test::source_dir() / "examples/protocols/three_trials.toml";
+    const auto twin = myoid({"twin", "--model", "arm4", "--protocol", protocol, "--seed", "3",
+                             "--out", *folder_ / "rec"});
+    ASSERT_EQ(twin.exit_code, 0) << twin.err;
+    const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
+    ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+    const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
+    if (text.find("id=\"workbench-data\"") == std::string::npos) return;  // built without three.js
+    browser_ = std::make_unique<Browser>(1280, 900);
+  }
+  static void TearDownTestSuite() {
+    browser_.reset();
+    folder_.reset();
+  }
+
+  void SetUp() override {
+    if (!browser_)
+      GTEST_SKIP() << "needs the packages chromium, and libjs-three and esbuild in the build";
+    browser_->resize(1280, 900);
+    open();
+  }
+  void TearDown() override {
+    if (!browser_) return;
+    EXPECT_THAT(browser_->complaints(), IsEmpty());
+  }
+
+  static void open(const std::string& wishes = "trial=swing_2kg") {
+    browser_->open("file://" + std::string(*folder_ / "result/report.html") + "#" + wishes);
+  }
+  static json js(const std::string& expression) { return browser_->evaluate(expression); }
+
+  /// Scrolls a plot into view and names it `plot` in the page; its place in the window.
+  struct Place {
+    double left, top, width, height;
+  };
+  static Place plot(const std::string& kind, const std::string& title) {
+    const json box =
+        js(fmt::format("window.plot = myoid.plots.find((p) => p.kind === '{}' && p.title === '{}');"
+                       "plot.element.scrollIntoView({{block: 'center'}});"
+                       "(({{left, top, width, height}}) => [left, top, width, height])"
+                       "(plot.svg.getBoundingClientRect())",
+                       kind, title));
+    return {box[0], box[1], box[2], box[3]};
+  }
+  /// Where in the window a time of the plot is.
+  static double x_of(const Place& place, double time_s) {
+    return place.left + js(fmt::format("plot.px({})", time_s)).get<double>();
+  }
+
+  static std::unique_ptr<::myoid::test::TemporaryFolder> folder_;
+  static std::unique_ptr<Browser> browser_;
+};
+std::unique_ptr<::myoid::test::TemporaryFolder> WorkbenchPage::folder_;
+std::unique_ptr<Browser> WorkbenchPage::browser_;
+
+/// A number as the page writes it, with a true minus.
+double number(std::string text) {
+  if (text.starts_with("−")) text = "-" + text.substr(std::string("−").size());
+  return std::stod(text);
+}
+
+TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
+  struct Case {
+    const char *kind, *title, *line, *file, *column;
+  };
+  for (const Case& c :
+       {Case{"angle", "elbow flexion", "angle", "ik.mot", "elbow_flexion"},
+        Case{"force", "BIC", "identified", "identified_forces.sto", "BIC_identified"},
+        Case{"force", "TRI", "shared", "identified_forces.sto", "TRI_reference"},
+        Case{"activation", "activation by EMG", "BRD", "activation.sto", "BRD"}}) {
+    const auto file = myoid::recording::read_storage(*folder_ / "result/swing_2kg" / c.file).data;
+    const Place place = plot(c.kind, c.title);
+    for (const double t : {2.0, 3.76, 7.5}) {
+      const double x = std::round(x_of(place, t));
+      browser_->move(x, place.top + 0.5 * place.height);
+      const json read = js(fmt::format(
+          "(() => {{ const i = plot.curves.findIndex((c) => c.name === '{}'); const c = "
+          "plot.curves[i];"
+          " return [plot.readouts[i].value.textContent, plot.atPixel({} - "
+          "plot.svg.getBoundingClientRect().left), c.places, Math.max(...c.y) - Math.min(...c.y), "
+          "[...c.x]]; }})()",
+          c.line, x));
+      // The sample that is nearest to the mouse.
+      const double at = read[1];
+      double time = read[4][0];
+      for (const json& x : read[4])
+        if (std::abs(x.get<double>() - at) < std::abs(time - at)) time = x;
+      Eigen::Index row = 0;
+      (file.time_s().array() - time).abs().minCoeff(&row);
+      ASSERT_NEAR(file.time_s()[row], time, 1e-6);
+      // Half of the last digit, and half a step of the packing. An angle's file is in radians here.
+      const double scale = file.channels()[static_cast<std::size_t>(file.index(c.column))].unit ==
+                                   myoid::Unit::radian
+                               ? 180.0 / M_PI
+                               : 1.0;
+      const double tolerance =
+          0.5 * std::pow(10.0, -read[2].get<double>()) + read[3].get<double>() / 65534.0 + 1e-9;
+      EXPECT_NEAR(number(read[0]), scale * file.column(c.column)[row], tolerance) << c.title;
+    }
+  }
+}
+
+TEST_F(WorkbenchPage, AClickAtAPeakMovesTheBodyThere) {
+  const Place place = plot("angle", "elbow flexion");
+  const double peak_s =
+      js("plot.curves[0].x[plot.curves[0].y.indexOf(Math.max(...plot.curves[0].y))]");
+  const double peak_deg = js("Math.max(...plot.curves[0].y)");
+  browser_->click(x_of(place, peak_s), place.top + 0.4 * place.height);
+  browser_->wait_for("!myoid.replay.dirty");
+  // The drawn frame is the nearest of the scene's, and the body's elbow is at the peak there.
+  const int frame = js("myoid.replay.figure.frame");
+  EXPECT_EQ(js("Number(document.body.dataset.frame)").get<int>(), frame);
+  const double frame_s = js(fmt::format("myoid.replay.trial.times[{}]", frame));
+  EXPECT_NEAR(frame_s, peak_s, 0.03);
+  const double elbow_deg = js(fmt::format(
+      "myoid.replay.trial.coordinate({}, "
+      "myoid.replay.trial.model.coordinates.findIndex((c) => c.name === 'elbow_flexion'))",
+      frame));
+  EXPECT_NEAR(elbow_deg, peak_deg, 0.5);
+  EXPECT_NEAR(js("myoid.plots[1].cursor").get<double>(), js("myoid.t").get<double>(), 1e-12);
+}
+
+TEST_F(WorkbenchPage, DraggingZoomsEveryPlotAndADoubleClickShowsTheWholeTrial) {
+  const Place place = plot("torque", "elbow flexion");
+  const double y = place.top + 0.5 * place.height;
+  browser_->drag(x_of(place, 2.0), x_of(place, 5.0), y);
+  const json view = js("myoid.view");
+  ASSERT_TRUE(view.is_array());
+  const double pixel_s = 2.0 * 10.0 / place.width;
+  EXPECT_NEAR(view[0].get<double>(), 2.0, pixel_s);
+  EXPECT_NEAR(view[1].get<double>(), 5.0, pixel_s);
+  EXPECT_EQ(js("myoid.plots.every((p) => p.shown[0] === myoid.view[0] && p.shown[1] === "
+               "myoid.view[1]) && myoid.carpet.shown[0] === myoid.view[0]"),
+            true);
+  browser_->click(x_of(place, 3.0), y, 2);
+  EXPECT_TRUE(js("myoid.view").is_null());
+}
+
+TEST_F(WorkbenchPage, KeysMoveTheCursorTheViewAndTheTrial) {
+  plot("torque", "elbow flexion");
+  browser_->press("End");
+  EXPECT_EQ(js("myoid.t === myoid.domain[1]"), true);
+  browser_->press("Home");
+  EXPECT_EQ(js("myoid.t === myoid.domain[0]"), true);
+  browser_->press(".");
+  EXPECT_EQ(js("myoid.t === myoid.steps[1]"), true);
+  browser_->press(",");
+  EXPECT_EQ(js("myoid.t === myoid.steps[0]"), true);
+  browser_->press("z");
+  EXPECT_EQ(js("myoid.view !== null"), true);
+  browser_->press("Escape");
+  EXPECT_TRUE(js("myoid.view").is_null());
+  browser_->press(" ");
+  EXPECT_EQ(js("myoid.playing"), true);
+  browser_->wait_for("myoid.t > myoid.domain[0] + 0.1");
+  browser_->press(" ");
+  EXPECT_EQ(js("myoid.playing"), false);
+  const int before = js("myoid.index");
+  browser_->press("]");
+  EXPECT_EQ(js("myoid.index").get<int>(), before + 1);
+}
+
+TEST_F(WorkbenchPage, TheAddressHoldsWhatIsShown) {
+  js("myoid.open(myoid.trials.findIndex((t) => t.name === 'lowering_4kg'))");
+  js("myoid.zoom([1, 3])");
+  js("myoid.seek(2)");
+  js("myoid.boxes.emg.querySelector('input').click()");
+  browser_->wait_for("location.hash.includes('hide=emg') && location.hash.includes('from=1.000')");
+  const std::string hash = js("location.hash.slice(1)");
+  EXPECT_THAT(hash, HasSubstr("trial=lowering_4kg"));
+  open(hash);
+  EXPECT_EQ(js("myoid.trial.name"), "lowering_4kg");
+  EXPECT_EQ(js("myoid.t"), 2.0);
+  EXPECT_EQ(js("myoid.view"), json({1, 3}));
+  EXPECT_EQ(js("myoid.plots.some((p) => p.kind === 'emg')"), false);
+  EXPECT_EQ(js("myoid.plots.some((p) => p.kind === 'torque')"), true);
+}
+
+TEST_F(WorkbenchPage, TheChooserOpensATrialInEveryPart) {
+  const json place =
+      js("(() => { const chip = myoid.chips[myoid.trials.findIndex((t) => t.name === 'ramp')];"
+         " chip.scrollIntoView({block: 'center'}); const b = chip.getBoundingClientRect();"
+         " return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+  browser_->click(place[0], place[1]);
+  EXPECT_EQ(js("myoid.trial.name"), "ramp");
+  EXPECT_EQ(js("myoid.replay.trial.name"), "ramp");
+  EXPECT_EQ(js("myoid.carpet.trial.name"), "ramp");
+  EXPECT_EQ(js("document.querySelectorAll('.chip[aria-pressed=true]').length"), 1);
+  EXPECT_THAT(js("myoid.remarks.textContent").get<std::string>(), HasSubstr("ramp"));
+}
+
+TEST_F(WorkbenchPage, SavesNumbersAndDrawings) {
+  plot("force", "BIC");
+  js("[...plot.element.querySelectorAll('.tools button')].find((b) => b.textContent === "
+     "'CSV').click()");
+  const std::string csv = js("window.myoidSaved.blob.text()");
+  EXPECT_THAT(csv, testing::StartsWith("panel,series,role,x,y,y_upper\n"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'),
+            1 + js("plot.curves.reduce((n, c) => n + c.x.length, 0)").get<std::ptrdiff_t>());
+  js("[...plot.element.querySelectorAll('.tools button')].find((b) => b.textContent === "
+     "'SVG').click()");
+  EXPECT_THAT(js("window.myoidSaved.name").get<std::string>(), testing::EndsWith(".svg"));
+  EXPECT_EQ(js("window.myoidSaved.blob.text().then((t) => new DOMParser().parseFromString(t, "
+               "'image/svg+xml').querySelectorAll('parsererror').length)"),
+            0);
+  js("myoid.carpet.saveCsv()");
+  EXPECT_THAT(js("window.myoidSaved.blob.text()").get<std::string>(),
+              HasSubstr("channel,kind,unit,begin_s,end_s,greatest"));
+  js("myoid.picture()");
+  browser_->wait_for(
+      "window.myoidSaved.name.endsWith('.png') && window.myoidSaved.blob.size > 1000");
+}
+
+TEST_F(WorkbenchPage, TheLawOfThePageIsTheProgramsLaw) {
+  namespace id = myoid::identification;
+  myoid::math::Random random(5);
+  json cases = json::array();
+  std::vector<double> expected;
+  for (int k = 0; k < 400; ++k) {
+    const auto uniform = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+    id::MuscleValues p{};
+    p[id::kMaxForce] = uniform(100.0, 2000.0);
+    p[id::kFiberLength] = uniform(0.05, 0.2);
+    p[id::kWidth] = uniform(0.3, 0.7) * p[id::kFiberLength];
+    p[id::kCurvature] = uniform(0.1, 0.5);
+    p[id::kProduct] = uniform(0.02, 0.1);
+    p[id::kPlateau] = uniform(1.1, 1.8);
+    p[id::kSpeed] = 10.0 * p[id::kFiberLength];
+    p[id::kSlack] = uniform(0.05, 0.3);
+    p[id::kPennation] = k % 2 == 0 ? 0.0 : uniform(0.0, 0.5);
+    p[id::kPassiveForce] = k % 3 == 0 ? 0.0 : uniform(0.1, 1.0);
+    p[id::kPassiveStrain] = uniform(0.4, 0.8);
+    p[id::kPassiveShape] = uniform(2.0, 5.0);
+    p[id::kLengthActivation] = k % 5 == 0 ? 0.0 : uniform(0.0, 0.2);
+    p[id::kTendonStrain] = k % 4 == 0 ? 0.0 : uniform(0.02, 0.08);
+    p[id::kShare] = uniform(0.5, 1.0);
+    const double a = uniform(0.0, 1.0);
+    const double length = p[id::kSlack] + uniform(0.4, 1.6) * p[id::kFiberLength];
+    const double velocity = uniform(-1.1, 1.1) * p[id::kSpeed];
+    cases.push_back({a, length, velocity, p});
+    expected.push_back(id::tension(a, length, velocity, p).force_n);
+  }
+  const json found = js(cases.dump() + ".map(([a, l, v, p]) => myoid.tension(a, l, v, p))");
+  // Round-off, relative to F_max: sums of a few terms, and the tendon's root to 1e-16 of its
+  // strain, whose force rises by at most some hundred F_max per unit.
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(found[k].get<double>(), expected[k], 1e-9 * cases[k][3][0].get<double>()) << k;
+}
+
+TEST_F(WorkbenchPage, TheSlidersMoveTheTorqueByTheLaw) {
+  js("myoid.learn.element.scrollIntoView({block: 'center'})");
+  // With the identified numbers the law gives the program's force, within the packing's steps.
+  EXPECT_LT(js("Math.max(...myoid.learn.muscles.map((m, i) => { const d = myoid.trial.drives[i];"
+               " const y = myoid.trial.plots.find((p) => p.kind === 'force' && p.title === m.name)"
+               ".curves.find((c) => c.role === 'identified').y;"
+               " return Math.max(...y.map((f, k) => Math.abs(f - myoid.tension(d.activation[k], "
+               "d.length[k], d.velocity[k], m.identified)))) / m.identified[0]; }))")
+                .get<double>(),
+            2e-4);
+  const double before = js("myoid.learn.plots[0].curves.find((c) => c.role === 'moved').y[200]");
+  // A maximal force of zero takes the muscle's own torque away.
+  js("myoid.learn.values[0] = 0; myoid.learn.update()");
+  const double after = js("myoid.learn.plots[0].curves.find((c) => c.role === 'moved').y[200]");
+  const double part =
+      js("(() => { const d = myoid.trial.drives[0]; return d.arms[0][200] * myoid.tension("
+         "d.activation[200], d.length[200], d.velocity[200], myoid.learn.muscles[0].identified); "
+         "})()");
+  EXPECT_NEAR(before - after, part, 1e-9);
+  // A slider changes the number and the sentence.
+  js("myoid.learn.set(myoid.learn.muscles[0].identified)");
+  const std::string sentence = js("myoid.learn.fit.textContent");
+  js("(() => { const s = myoid.learn.inputs[0].input; s.value = s.min; s.dispatchEvent(new "
+     "Event('input')); })()");
+  EXPECT_NE(js("myoid.learn.fit.textContent").get<std::string>(), sentence);
+}
+
+TEST_F(WorkbenchPage, FitsTheWindowAtEveryWidth) {
+  for (const int width : {1280, 1920, 390}) {
+    browser_->resize(width, 900);
+    open();
+    EXPECT_LE(js("document.documentElement.scrollWidth").get<int>(), width);
+    EXPECT_EQ(js("myoid.plots.every((p) => p.svg.getBoundingClientRect().width <= "
+                 "p.element.clientWidth + 1 && p.width > 200)"),
+              true)
+        << width;
+    EXPECT_GT(js("myoid.canvas.getBoundingClientRect().width").get<double>(), 250.0);
+  }
+}
+
+TEST_F(WorkbenchPage, EveryPlotHasWordsForThoseWhoDoNotSeeIt) {
+  EXPECT_EQ(js("[...document.querySelectorAll('.plot > svg')].every((s) => "
+               "s.getAttribute('role') === 'img' && s.getAttribute('aria-label').length > 20)"),
+            true);
+  EXPECT_EQ(js("[...document.querySelectorAll('.workbench .plot')].every((f) => "
+               "[...f.querySelectorAll('button')].some((b) => b.textContent === '?'))"),
+            true);
+  EXPECT_THAT(js("myoid.plots.find((p) => p.kind === 'torque').svg.getAttribute('aria-label')")
+                  .get<std::string>(),
+              testing::AllOf(HasSubstr("measured"), HasSubstr("N m")));
+}
+
+TEST_F(WorkbenchPage, PrintsOnA4) {
+  const std::string pdf = browser_->pdf();
+  ASSERT_THAT(pdf, testing::StartsWith("%PDF"));
+  // A4 is 595 x 842 points.
+  const std::size_t at = pdf.find("/MediaBox [0 0 ");
+  ASSERT_NE(at, std::string::npos);
+  std::istringstream size(pdf.substr(at + 15, 40));
+  double width = 0.0, height = 0.0;
+  size >> width >> height;
+  EXPECT_NEAR(width, 595.0, 1.5);
+  EXPECT_NEAR(height, 842.0, 1.5);
+}
+
+TEST_F(WorkbenchPage, WithoutScriptTheStaticFiguresStay) {
+  browser_->set_scripts(false);
+  const std::string page = "file://" + std::string(*folder_ / "result/report.html");
+  const auto shown = [](const std::string& what) {
+    return js(
+        fmt::format("(() => {{ const e = document.querySelector('{}'); return e !== null && "
+                    "e.getBoundingClientRect().height > 50; }})()",
+                    what));
+  };
+  js("location.href = '" + page + "?'");
+  browser_->wait_for("document.readyState === 'complete' && location.href.endsWith('?')");
+  EXPECT_EQ(shown("figure[id^=forces_torque] > svg"), true);
+  EXPECT_EQ(shown("figure[id^=curves_BIC] > svg"), true);
+  EXPECT_EQ(shown("#forest table"), true);
+  EXPECT_EQ(shown("#workbench"), false);
+  browser_->set_scripts(true);
+  open();
+  EXPECT_EQ(shown("figure[id^=forces_torque] > svg"), false);
+  EXPECT_EQ(shown("#workbench"), true);
+}
+
+TEST_F(WorkbenchPage, IsSmallAndOneFile) {
+  const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
+  EXPECT_LT(text.size(), 5'000'000U);
+  EXPECT_EQ(text.find("src=\""), std::string::npos);
+  EXPECT_EQ(text.find("url(http"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(*folder_ / "result/motion.html"));
+}
+
+}  // namespace
