@@ -205,7 +205,8 @@ export class Learn {
       out += `<path d="${path}Z" fill="#d1491b" fill-opacity="${opacity}" stroke="#d1491b"/>`;
     }
     const mark = (values, color, shape, title) => {
-      const [x, y] = this.#place(values);
+      // Beyond the map the mark stays at its edge.
+      const [x, y] = this.#place(values).map((p, k) => Math.max(k ? 14 : LEFT + 6, Math.min(k ? SIDE - 6 : LEFT + SIDE - 14, p)));
       return `<path transform="translate(${x.toFixed(1)} ${y.toFixed(1)})" d="${shape}" fill="none" stroke="${color}" stroke-width="2.2"><title>${title}</title></path>`;
     };
     out += mark(m.literature, '#6b6b6b', 'M-5 -5H5V5H-5Z', 'literature');
