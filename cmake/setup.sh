@@ -58,6 +58,18 @@ myoid_install_browser() {
     myoid_log "chromium cannot be installed: pages with a moving model are not tested in a browser"
 }
 
+# Programs that some tests run with: engines of a cohort (Snakemake, which takes longer to install, is left out), Octave
+# for matlab/+myoid, man for the manual pages. Without them these tests are skipped, and say so. CI only: on a
+# workstation Slurm's package would start services.
+myoid_install_test_programs() {
+  local wanted=(parallel slurm-wlm munge octave man-db)
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then return 0; fi
+  myoid_log "Installing: ${wanted[*]}"
+  { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends "${wanted[@]}"; } >&2 ||
+    myoid_log "${wanted[*]} cannot be installed: their tests are skipped"
+}
+
 # clang has libFuzzer. Without it the readers are not fuzzed, and CI says so.
 myoid_install_clang() {
   command -v clang++ >/dev/null && return 0
