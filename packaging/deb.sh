@@ -29,7 +29,7 @@ if [ "${2:-}" = --twice ]; then
 fi
 if command -v lintian >/dev/null; then
   # Root builds in containers too.
-  lintian --allow-root --fail-on error,warning "$out"/*.changes && echo "lintian finds nothing"
+  lintian --allow-root --fail-on error,warning "$out"/*.deb && echo "lintian finds nothing"
 else
   echo "lintian: skipped, not installed"
 fi
