@@ -1,6 +1,19 @@
 // What each kind of plot shows, how it looks if something is wrong, and what the reader does about that.
 import { el } from './element.js';
 
+/** Keys of the workbench. */
+export const KEYS = [
+  ['Space', 'play, pause'],
+  [', .', 'one sample back, on (Shift: ten)'],
+  ['Home End', 'begin, end of what is shown'],
+  ['[ ]', 'trial before, after'],
+  ['Z X', 'zoom in, out about the cursor'],
+  ['Esc', 'the whole trial'],
+  ['1 2 3 0', 'front, side, top, oblique'],
+  ['Arrows', 'turn the body (Shift: move it)'],
+  ['+ − F', 'nearer, farther, all in view'],
+];
+
 const TEXTS = {
   angle: [
     'The joint angle from inverse kinematics.',

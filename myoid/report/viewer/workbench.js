@@ -9,70 +9,17 @@ import { Plot } from './plot.js';
 import { Replay } from './replay.js';
 import { save } from './save.js';
 import { foldSections, unfold } from './sections.js';
-import { clock, curve, decimals, nearest, numbers, text } from './series.js';
+import { nearest, text } from './series.js';
+import { KEYS } from './texts.js';
+import { TrialValues } from './trial_values.js';
+import { Video } from './video.js';
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const GROUPS = [['angle', 'Angles'], ['torque', 'Torques'], ['load', 'Loads'], ['emg', 'EMG'], ['activation', 'Activation'], ['force', 'Forces'], ['carpet', 'Channels']];
 const MOST_AT_FIRST = 8;  // plots of one group
-export const KEYS = [
-  ['Space', 'play, pause'],
-  [', .', 'one sample back, on (Shift: ten)'],
-  ['Home End', 'begin, end of what is shown'],
-  ['[ ]', 'trial before, after'],
-  ['Z X', 'zoom in, out about the cursor'],
-  ['Esc', 'the whole trial'],
-  ['1 2 3 0', 'front, side, top, oblique'],
-  ['Arrows', 'turn the body (Shift: move it)'],
-  ['+ − F', 'nearer, farther, all in view'],
-];
 const SIGNS = { good: '●', weak: '◆', bad: '▲', info: '□', none: '○' };
 
 const sentence = (says) => says.charAt(0).toUpperCase() + says.slice(1) + (/[.!?]$/.test(says) ? '' : '.');
-
-/** A trial as the page uses it; its series are unpacked when it is opened first. */
-class TrialValues {
-  constructor(data) {
-    this.data = data;
-    Object.assign(this, { name: data.name, use: data.use, scene: data.scene, badge: data.badge, remarks: data.remarks, marks: data.marks });
-  }
-
-  get plots() {
-    if (!this.cache) {
-      this.clocks = this.data.clocks.map(clock);
-      this.cache = this.data.plots.map((p) => ({ ...p, curves: p.lines.map((line) => curve(line, this.clocks[line.clock])) }));
-    }
-    return this.cache;
-  }
-
-  get carpet() {
-    if (!this.rows) {
-      this.rows = this.data.carpet.rows.map((row) => {
-        const unpacked = numbers(row.value);
-        return { ...row, values: unpacked.values, places: Math.min(3, decimals(unpacked.quantum)) };
-      });
-    }
-    return { begin: this.data.carpet.begin, end: this.data.carpet.end, rows: this.rows };
-  }
-
-  /** Inputs of the muscles' law. */
-  get drives() {
-    if (!this.inputs) {
-      this.inputs = this.data.drives.map((d) => ({
-        activation: numbers(d.activation).values,
-        length: numbers(d.length).values,
-        velocity: numbers(d.velocity).values,
-        arms: d.arms.map((arm) => numbers(arm).values),
-      }));
-    }
-    return this.inputs;
-  }
-
-  /** First and last time of anything that is shown. */
-  get extent() {
-    const ends = this.plots.flatMap((p) => p.curves.flatMap((c) => [c.x[0], c.x[c.x.length - 1]]));
-    return ends.length ? [Math.min(...ends), Math.max(...ends)] : [this.data.carpet.begin, this.data.carpet.end];
-  }
-}
 
 export class Workbench {
   constructor(data, scenes) {
@@ -152,11 +99,12 @@ export class Workbench {
     const speed = select('Speed', SPEEDS.map((s) => `${s} ×`), (i) => (this.speed = SPEEDS[i]));
     speed.value = SPEEDS.indexOf(1);
     this.color = el('span');
+    this.video = new Video(() => this.#sync());
     this.parts = el('details', { className: 'parts' });
     this.side = el('div', { className: 'left' }, this.stage,
       el('div', { className: 'row' }, this.play, this.scrub), el('div', { className: 'row' }, this.time, speed, this.color),
       el('div', { className: 'row small' }, button('Picture', 'Save the body as a PNG picture', () => this.picture()),
-        button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.#video(), this.parts));
+        button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.video.element, this.parts));
     this.grid = el('div', { className: 'plots' });
     this.carpet = new Carpet(this.on);
     this.choice = el('details', { className: 'choice' });
@@ -175,29 +123,8 @@ export class Workbench {
     document.body.classList.add('live');
   }
 
-  /** A film of the recording beside the model: chosen by the reader, never sent anywhere. */
-  #video() {
-    this.film_ = el('video', { muted: true, hidden: true, playsInline: true });
-    this.offset = el('input', { type: 'number', step: 0.01, value: 0, title: 'Time of the trial at which the film begins [s]', hidden: true });
-    const file = el('input', { type: 'file', accept: 'video/*' });
-    file.addEventListener('change', () => {
-      if (!file.files[0]) return;
-      this.film_.src = URL.createObjectURL(file.files[0]);
-      this.film_.hidden = this.offset.hidden = false;
-    });
-    this.offset.addEventListener('input', () => this.#sync());
-    return el('span', {}, el('label', { className: 'file', title: 'Show a film of the recording beside the model' }, 'Video…', file), this.offset, this.film_);
-  }
-
   #sync() {
-    if (this.film_.hidden) return;
-    const t = this.t - Number(this.offset.value);
-    if (Math.abs(this.film_.currentTime - t) > (this.playing ? 0.15 : 0.005)) this.film_.currentTime = Math.max(0, t);
-    if (this.playing === this.film_.paused) {
-      this.film_.playbackRate = this.speed;
-      if (this.playing) this.film_.play().catch(() => {});
-      else this.film_.pause();
-    }
+    this.video.show(this.t, this.playing, this.speed);
   }
 
   #replay(scenes) {
