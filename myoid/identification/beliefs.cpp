@@ -10,18 +10,18 @@ namespace myoid::identification {
 namespace beliefs {
 
 constexpr std::array kAll = {
-    &kMaxForce,       &kFiberLength,        &kWidth,          &kCurvature,
-    &kProduct,        &kSlopeRatio,         &kPlateau,        &kSpeed,
-    &kTendonSlack,    &kPennation,          &kPassiveForce,   &kPassiveStrain,
-    &kPassiveShape,   &kLengthActivation,   &kTendonStrain,   &kActivationShare,
-    &kEmgDelay,       &kEmgDelayBesideLags, &kEmgGain,        &kEmgShape,
-    &kEmgExponent,    &kExcitationTime,     &kActivationTime, &kDeactivationTime,
-    &kStiffnessShare, &kOffsetShare,        &kViscosityShare, &kStiffness,
-    &kOffset,         &kViscosity,          &kInertia,        &kLeastEffort,
-    &kEmgNoise,       &kEmgBandwidth,       &kModelError,     &kRestingWeight,
-    &kRestingTissue,  &kStrengthRatio,      &kTorqueNoise,    &kTorqueNoiseTime,
-    &kMomentArm,      &kMomentArmSlope,     &kTorqueScale,    &kTendonStretch,
-    &kCrossTalk,      &kGainDrift,          &kUnknownEmgNoise};
+    &kMaxForce,         &kFiberLength,        &kWidth,          &kCurvature,
+    &kProduct,          &kSlopeRatio,         &kPlateau,        &kSpeed,
+    &kTendonSlack,      &kPennation,          &kPassiveForce,   &kPassiveStrain,
+    &kPassiveShape,     &kLengthActivation,   &kTendonStrain,   &kActivationShare,
+    &kEmgDelay,         &kEmgDelayBesideLags, &kEmgGain,        &kEmgShape,
+    &kEmgExponent,      &kExcitationTime,     &kActivationTime, &kDeactivationTime,
+    &kStiffnessShare,   &kOffsetShare,        &kViscosityShare, &kStiffness,
+    &kOffset,           &kViscosity,          &kInertia,        &kLeastEffort,
+    &kEmgNoise,         &kEmgBandwidth,       &kModelError,     &kRestingWeight,
+    &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,    &kTorqueNoiseTime,
+    &kTrialTorqueNoise, &kMomentArm,          &kMomentArmSlope, &kTorqueScale,
+    &kTendonStretch,    &kCrossTalk,          &kGainDrift,      &kUnknownEmgNoise};
 
 /// The parameters of a muscle's law whose prior stands about its starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

@@ -257,6 +257,15 @@ inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torq
                                          "s",
                                          kPosterior,
                                          "judgment"};
+inline constexpr Belief kTrialTorqueNoise{
+    "error of a trial's torque, over that of all trials",
+    "1",
+    1.0,
+    1.0,
+    logarithm,
+    "",
+    kPosterior,
+    "judgment: dynamometer and inverse dynamics in one session"};
 inline constexpr Belief kMomentArm{
     "size of a muscle's moment arms, over the model's",
     "1",

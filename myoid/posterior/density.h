@@ -23,8 +23,11 @@ class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);
 
-  /// Takes the unseen quantities at this point (Likelihood::refer_to).
-  void refer_to(const Eigen::VectorXd& x) { likelihood_.refer_to(z_of(x)); }
+  /// Takes the unseen quantities and the trials' noise at this point (Likelihood).
+  void refer_to(const Eigen::VectorXd& x) {
+    likelihood_.refer_to(z_of(x));
+    likelihood_.share_torque_noise(z_of(x), noise_of(x));
+  }
   void believe(Believed believed) { likelihood_.believe(believed); }
 
   [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }

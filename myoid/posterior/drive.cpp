@@ -12,6 +12,7 @@ namespace {
 constexpr double kRatePerCutoff = 8.0;
 constexpr double kBandHalf_hz = 0.25;      // over which the spectrum is averaged
 constexpr double kHighestPerCutoff = 1.2;  // of the frequencies at which W is found
+constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa two spreads up
 constexpr double kFilterPeriods = 6.0;     // of the cut-off, to either side of the filter's middle
 
 /// One-sided power density of evenly sampled values at each frequency, behind a Hann window.
@@ -101,8 +102,8 @@ Wiener wiener_filter(const Eigen::VectorXd& values,
   }
   std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
                    ratio.end());
-  const double lowered = std::min(1.0, ratio[ratio.size() / 2]);
-  noise *= lowered;
+  const double level = std::min(kMostNoise, ratio[ratio.size() / 2]);
+  noise *= level;
   const Eigen::VectorXd drive = (power - noise).cwiseMax(0.0);
   Wiener wiener{Eigen::VectorXd::Zero(error.spectrum().size()),
                 Eigen::VectorXd::Zero(error.spectrum().size())};
@@ -110,9 +111,9 @@ Wiener wiener_filter(const Eigen::VectorXd& values,
   wiener.gain.tail(wiener.gain.size() - count).setConstant(wiener.gain[count - 1]);
   const Eigen::ArrayXd passed = wiener.gain.head(count).array();
   // Both parts over the whole noise at that frequency.
-  wiener.left = wiener.gain.cwiseAbs2() * lowered;
+  wiener.left = wiener.gain.cwiseAbs2() * level;
   wiener.left.head(count).array() +=
-      (1.0 - passed).square() * drive.array() * lowered / noise.array();
+      (1.0 - passed).square() * drive.array() * level / noise.array();
   return wiener;
 }
 

@@ -13,7 +13,8 @@ namespace myoid::identification {
 ///   W(f) = S(f) / P(f),    S = max(P - N, 0),   P the spectrum of u, N that of its noise
 ///
 /// W falls with f (the monotone fit of least squares), N has the relative size `noise_sd` and is
-/// lowered to P in the upper half of the envelope's band, where there is hardly a drive. A model
+/// set to P in the upper half of the envelope's band, where there is hardly a drive, but to at most
+/// 3.3 times the expected power. A model
 /// that takes u for the drive finds lags that are not there, for a lag damps the noise of u, too.
 /// The error that is left has the spectrum (1 - W)^2 S + W^2 N.
 struct Drive {

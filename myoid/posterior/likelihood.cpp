@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "myoid/core/parallel.h"
+#include "myoid/identification/beliefs.h"
 
 namespace myoid::identification {
 namespace {
@@ -64,7 +65,44 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options)
       of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
   }
   torque_size_nm_ = std::sqrt(sum / static_cast<double>(rows_));
+  torque_share_.setOnes(static_cast<Eigen::Index>(runs_.size()));
   refer_to(map_.start());
+}
+
+void Likelihood::share_torque_noise(const Eigen::VectorXd& z, const NoiseValues& noise) {
+  // The greatest density of what the unseen quantities leave, for each trial by itself.
+  const Eigen::VectorXd unseen = weights(noise).cwiseProduct(unseen_mean(z, noise));
+  const ModelValues values = map_.values(z);
+  std::vector<Eigen::VectorXd> left;
+  std::vector<Eigen::MatrixXd> others, torque;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const TrialRun& run = runs_[r];
+    const RunEvaluation at(run, map_, options_.lag, values, nullptr);
+    left.emplace_back(run.measured_nm - run.reduction.apply(at.signals().torque_nm) -
+                      columns_[r] * unseen);
+    others.push_back(envelope_covariance(r, at.signals(), noise));
+    if (motion_[r].size() > 0) others.back() += motion_[r];
+    torque.emplace_back(Eigen::MatrixXd::Zero(left.back().size(), left.back().size()));
+    add_toeplitz(std::exp(2.0 * noise[kTorqueSd]) *
+                     torque_error(run.reduction, run.interval_s, noise[kTorqueTime]).correlation,
+                 torque.back());
+  }
+  for (std::size_t first = 0; first < runs_.size();) {
+    std::size_t end = first;
+    while (end < runs_.size() && runs_[end].trial == runs_[first].trial) ++end;
+    double best = 0.0, greatest = -std::numeric_limits<double>::infinity();
+    for (double ln_share = -2.4; ln_share < 1.3; ln_share += 0.2) {
+      double value = -0.5 * std::pow(ln_share / beliefs::kTrialTorqueNoise.sd, 2);
+      for (std::size_t r = first; r < end; ++r) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(others[r] + std::exp(2.0 * ln_share) * torque[r]);
+        value -= 0.5 * (left[r].dot(factor.solve(left[r])) + log_determinant(factor));
+      }
+      if (!(value > greatest)) continue;
+      greatest = value;
+      best = ln_share;
+    }
+    for (; first < end; ++first) torque_share_[static_cast<Eigen::Index>(first)] = std::exp(best);
+  }
 }
 
 void Likelihood::refer_to(const Eigen::VectorXd& z) {
@@ -113,6 +151,11 @@ Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noi
   return scale;
 }
 
+double Likelihood::torque_variance(std::size_t r, const NoiseValues& noise) const {
+  return std::exp(2.0 * noise[kTorqueSd]) *
+         std::pow(torque_share_[static_cast<Eigen::Index>(r)], 2);
+}
+
 Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
                                                 const TorqueSignals& signals,
                                                 const NoiseValues& noise) const {
@@ -132,7 +175,7 @@ bool Likelihood::fill(std::size_t r,
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
-  add_toeplitz(std::exp(2.0 * noise[kTorqueSd]) *
+  add_toeplitz(torque_variance(r, noise) *
                    torque_error(run.reduction, run.interval_s, noise[kTorqueTime]).correlation,
                a);
   if (motion_[r].size() > 0) a += motion_[r];
@@ -163,7 +206,7 @@ void Likelihood::pull_back(std::size_t r,
   const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() + spread * block.unseen_solved.transpose() -
                                       block.factor.solve(Eigen::MatrixXd::Identity(m, m)));
 
-  const double variance = std::exp(2.0 * noise[kTorqueSd]);
+  const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
   const Eigen::VectorXd sums = diagonal_sums(by_a);
   gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);

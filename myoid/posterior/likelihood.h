@@ -19,13 +19,13 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// behind the operator L of each run,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
-///   A = L [sigma_T^2 exp(-|dt|/tau_T) + Q] L' + kappa^2 sum_c sd_c^2 K_c D_c^2 K_c'
+///   A = L [b^2 sigma_T^2 exp(-|dt|/tau_T) + Q] L' + kappa^2 sum_c sd_c^2 K_c D_c^2 K_c'
 ///
 /// A is one block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken
 /// in by Woodbury's identity. K_c is L behind the filters
 /// of the envelope and the drive (EmgNoise). S and Q, the
-/// error of angle and rate, independent from sample to sample, belong to reference values of the
-/// unknowns. The constant -n/2 ln(2 pi) is left out.
+/// error of angle and rate, independent from sample to sample, and b, the share of sigma_T that a
+/// trial has, belong to reference values of the unknowns. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
   /// The reference is the start.
@@ -33,6 +33,9 @@ class Likelihood {
 
   /// Takes S and Q at these values of the unknowns.
   void refer_to(const Eigen::VectorXd& z);
+  /// Finds b, each trial's own share of sigma_T, at these values: a dynamometer errs by more than
+  /// the inverse dynamics of the same session.
+  void share_torque_noise(const Eigen::VectorXd& z, const NoiseValues& noise);
   /// Leaves out of S what is taken to be exact; at first nothing is.
   void believe(Believed believed) { believed_ = believed; }
 
@@ -74,6 +77,8 @@ class Likelihood {
  private:
   struct Block;
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
+  /// b^2 sigma_T^2 of the run.
+  [[nodiscard]] double torque_variance(std::size_t run, const NoiseValues& noise) const;
   /// kappa^2 sd_c^2 of each channel.
   [[nodiscard]] Eigen::VectorXd envelope_scale(std::size_t run, const NoiseValues& noise) const;
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
@@ -98,6 +103,7 @@ class Likelihood {
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
   std::vector<Eigen::MatrixXd> motion_;                ///< Per run: L Q L', or empty.
+  Eigen::VectorXd torque_share_;                       ///< Per run: of sigma_T.
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;
   std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.
