@@ -48,6 +48,16 @@ PosteriorDraws posterior_draws(const MadePerson& person, const DrawOptions& opti
   Mode other = find_mode(density, density.x_of(z, density.noise_of(density.start())), {});
   result.converged = modes.front().converged;
   if (other.converged && !same(density, modes.front(), other)) modes.push_back(std::move(other));
+  if (options.search_from_truth) {
+    Mode third = find_mode(density, density.x_of(person.z, person.noise), {});
+    double highest = -1e300;
+    for (const Mode& mode : modes) highest = std::max(highest, mode.log_density);
+    result.gain_from_truth = third.log_density - highest;
+    if (third.converged && std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) {
+          return same(density, mode, third);
+        }))
+      modes.push_back(std::move(third));
+  }
   double most = -1e300;
   for (Mode& mode : modes) {
     add_curvature(density, mode, {});

@@ -14,15 +14,17 @@ struct PosteriorDraws {
   bool approximate = false;
   bool converged = false;
   int modes = 0;
-  Eigen::VectorXd reference_z;  ///< Where the unseen quantities' columns belong to.
-  Eigen::VectorXd best_x;       ///< The highest mode, without bounds (Density).
-  Eigen::MatrixXd covariance;   ///< Of x there, by Laplace.
+  double gain_from_truth = 0.0;  ///< ln density that the search from the truth finds more.
+  Eigen::VectorXd reference_z;   ///< Where the unseen quantities' columns belong to.
+  Eigen::VectorXd best_x;        ///< The highest mode, without bounds (Density).
+  Eigen::MatrixXd covariance;    ///< Of x there, by Laplace.
 };
 
 /// Parts of the estimator that are replaced, to tell a cause of false intervals.
 struct DrawOptions {
   int draws = 500;                  ///< 0: of the normal approximation.
   bool reference_is_truth = false;  ///< The unseen quantities' columns at the true unknowns.
+  bool search_from_truth = false;   ///< A third search, from the truth.
 };
 
 /// The posterior of a made person by the estimator's own steps: modes from two starts, the unseen
