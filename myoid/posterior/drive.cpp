@@ -6,14 +6,20 @@
 #include <numbers>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 namespace myoid::identification {
 namespace {
 
-constexpr double kRatePerCutoff = 8.0;
+constexpr double kRatePerCutoff = 5.0;
 constexpr double kBandHalf_hz = 0.25;      // over which the spectrum is averaged
 constexpr double kHighestPerCutoff = 1.2;  // of the frequencies at which W is found
 constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa two spreads up
-constexpr double kFilterPeriods = 6.0;     // of the cut-off, to either side of the filter's middle
+constexpr double kAtOnce_s = 25.0;         // smoothed at once
+constexpr double kMargin_s = 1.0;          // of a neighbor, smoothed with it
+constexpr double kFade = 0.15;             // of the period of the frequencies, a spread
+constexpr double kJitter = 1e-5;           // of the variance
+constexpr int kPasses = 3;                 // the noise follows the drive
 
 /// One-sided power density of evenly sampled values at each frequency, behind a Hann window.
 Eigen::VectorXd power_density(const Eigen::VectorXd& values,
@@ -77,83 +83,174 @@ Eigen::VectorXd evenly(const Envelope& envelope, const Eigen::VectorXd& time_s) 
   return time_s.unaryExpr([&](double t) { return envelope.at(t).value; });
 }
 
-/// W and the error that is left over N, at the frequencies of `error`.
-struct Wiener {
-  Eigen::VectorXd gain, left;
+/// What the recording says of drive and noise at the frequencies of an EnvelopeError below the
+/// highest: one-sided power densities.
+struct Spectra {
+  Eigen::VectorXd drive, noise;
+  double level = 1.0;  ///< Power of the noise over the expected.
 };
-Wiener wiener_filter(const Eigen::VectorXd& values,
-                     double rate_hz,
-                     double noise_sd,
-                     const EnvelopeError& error,
-                     double cutoff_hz) {
+Spectra spectra_of(const Eigen::VectorXd& values,
+                   double rate_hz,
+                   double noise_sd,
+                   double rest,
+                   const EnvelopeError& error,
+                   double cutoff_hz) {
   const Eigen::Index count = std::min<Eigen::Index>(
       error.spectrum().size(),
       static_cast<Eigen::Index>(kHighestPerCutoff * cutoff_hz / error.step_hz()));
   const Eigen::VectorXd frequency = error.frequencies_hz().head(count);
   const auto half = static_cast<Eigen::Index>(std::ceil(kBandHalf_hz / error.step_hz()));
   const Eigen::VectorXd power = moving_mean(power_density(values, rate_hz, frequency), half);
-  Eigen::VectorXd noise = noise_sd * noise_sd * values.squaredNorm() /
-                          static_cast<double>(values.size()) / error.step_hz() *
-                          error.spectrum().head(count);
+  Spectra of;
+  double variance = 0.0;
+  for (const double u : values) variance += std::pow(envelope_sd_at(u, noise_sd, rest), 2);
+  of.noise = variance / static_cast<double>(values.size()) / error.step_hz() *
+             error.spectrum().head(count);
   std::vector<double> ratio;
   for (Eigen::Index i = 0; i < count; ++i) {
     if (frequency[i] > 0.5 * cutoff_hz && frequency[i] < cutoff_hz)
-      ratio.push_back(power[i] / noise[i]);
+      ratio.push_back(power[i] / of.noise[i]);
   }
   std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
                    ratio.end());
-  const double level = std::min(kMostNoise, ratio[ratio.size() / 2]);
-  noise *= level;
-  const Eigen::VectorXd drive = (power - noise).cwiseMax(0.0);
-  Wiener wiener{Eigen::VectorXd::Zero(error.spectrum().size()),
-                Eigen::VectorXd::Zero(error.spectrum().size())};
-  wiener.gain.head(count) = falling(drive.cwiseQuotient(power.cwiseMax(1e-300)), noise);
-  wiener.gain.tail(wiener.gain.size() - count).setConstant(wiener.gain[count - 1]);
-  const Eigen::ArrayXd passed = wiener.gain.head(count).array();
-  // Both parts over the whole noise at that frequency.
-  wiener.left = wiener.gain.cwiseAbs2() * level;
-  wiener.left.head(count).array() +=
-      (1.0 - passed).square() * drive.array() * level / noise.array();
-  return wiener;
+  // The median of chi-squared over its mean; a Hann window makes 1.5 of neighbors one.
+  const double freedom = std::max(
+      2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(values.size()) / rate_hz / 1.5);
+  const double median = ratio[ratio.size() / 2] / std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
+  of.level = std::min(kMostNoise, median);
+  of.noise *= of.level;
+  of.drive = falling(power - of.noise, Eigen::VectorXd::Ones(count)).cwiseMax(0.0);
+  return of;
+}
+
+/// sum_f power cos(2 pi f j interval), j = 0 ... last, faded before the sum repeats itself.
+Eigen::VectorXd covariances(const Eigen::VectorXd& power,
+                            const EnvelopeError& error,
+                            double interval_s,
+                            Eigen::Index last) {
+  const Eigen::VectorXd frequency = error.frequencies_hz();
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(last + 1);
+  for (Eigen::Index i = 0; i < power.size(); ++i)
+    c.array() += power[i] * error.step_hz() *
+                 (2.0 * std::numbers::pi * frequency[i] * interval_s *
+                  Eigen::ArrayXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)))
+                     .cos();
+  const double fade_s = kFade / error.step_hz();
+  for (Eigen::Index j = 0; j <= last; ++j)
+    c[j] *= std::exp(-0.5 * std::pow(static_cast<double>(j) * interval_s / fade_s, 2));
+  return c;
+}
+
+Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
+  const Eigen::Index n = first_column.size();
+  Eigen::MatrixXd m(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    m.col(j).tail(n - j) = first_column.head(n - j);
+    m.col(j).head(j) = first_column.segment(1, j).reverse();
+  }
+  return m;
+}
+
+/// Sums of the products of a matrix's entries with a Hann window along its diagonals.
+Eigen::VectorXd windowed_diagonals(const Eigen::MatrixXd& m) {
+  const Eigen::Index n = m.rows();
+  const Eigen::ArrayXd window =
+      0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
+                   Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5))
+                      .cos();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    sums.head(n - j).array() += window[j] * window.tail(n - j) * m.col(j).tail(n - j).array();
+  sums.tail(n - 1) *= 2.0;
+  return sums;
+}
+
+/// The drive of evenly sampled values, and the sums of its error's and of the noise's covariance
+/// along their diagonals.
+struct Smoothed {
+  Eigen::VectorXd drive, error, noise;
+};
+Smoothed smooth(const Eigen::VectorXd& values,
+                double interval_s,
+                const Spectra& spectra,
+                double noise_sd,
+                double rest,
+                const EnvelopeError& error) {
+  const Eigen::Index n = values.size();
+  const Eigen::MatrixXd prior = toeplitz(covariances(spectra.drive, error, interval_s, n - 1));
+  const Eigen::MatrixXd correlation =
+      toeplitz(covariances(error.spectrum() / error.step_hz(), error, interval_s, n - 1));
+  const double mean = values.mean(), least = 0.001 * values.maxCoeff();
+  Smoothed result;
+  result.drive = moving_mean(values, static_cast<Eigen::Index>(std::lround(0.25 / interval_s)));
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Eigen::VectorXd scale = result.drive.unaryExpr([&](double u) {
+      return std::sqrt(spectra.level) * envelope_sd_at(std::max(u, least), noise_sd, rest);
+    });
+    const Eigen::MatrixXd noise = scale.asDiagonal() * correlation * scale.asDiagonal();
+    Eigen::MatrixXd all = prior + noise;
+    all.diagonal().array() += kJitter * all.diagonal().mean();
+    const Eigen::LLT<Eigen::MatrixXd> factor(all);
+    const Eigen::VectorXd off = factor.solve((values.array() - mean).matrix());
+    result.drive = (mean + (prior * off).array()).max(0.0);
+    if (pass + 1 < kPasses) continue;
+    const Eigen::MatrixXd half = factor.matrixL().solve(prior);
+    result.error = windowed_diagonals(prior - half.transpose() * half);
+    result.noise = windowed_diagonals(noise);
+  }
+  return result;
 }
 
 }  // namespace
 
+double envelope_sd_at(double u, double noise_sd, double rest) {
+  const double certain = std::max(u, rest * std::sqrt(noise_sd));
+  return certain > 0.0 ? noise_sd * (certain + rest * rest / certain) : 0.0;
+}
+
 Drive drive_behind(const Envelope& recorded,
                    double noise_sd,
+                   double rest,
                    const EnvelopeError& error,
                    double cutoff_hz) {
   const double span_s = recorded.last_s() - recorded.first_s();
   const double rate_hz = kRatePerCutoff * cutoff_hz;
   const auto n = static_cast<Eigen::Index>(span_s * rate_hz) + 1;
-  const auto reach = static_cast<Eigen::Index>(kFilterPeriods * kRatePerCutoff);
-  if (!(noise_sd > 0.0) || n < 2 * reach)
-    return {recorded, Eigen::VectorXd::Ones(error.spectrum().size())};
+  const auto margin = static_cast<Eigen::Index>(kMargin_s * rate_hz);
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(error.spectrum().size());
+  if (!(noise_sd > 0.0) || n < 2 * margin) return {recorded, left};
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
       n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
   const Eigen::VectorXd values = evenly(recorded, time);
-  Wiener wiener = wiener_filter(values, rate_hz, noise_sd, error, cutoff_hz);
-  const Eigen::VectorXd frequency = error.frequencies_hz();
-  Eigen::VectorXd filter(reach + 1);  // from its middle
-  for (Eigen::Index j = 0; j <= reach; ++j) {
-    const double at = 2.0 * std::numbers::pi * static_cast<double>(j) / rate_hz;
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < frequency.size() && frequency[i] < 0.5 * rate_hz; ++i)
-      sum += wiener.gain[i] * std::cos(at * frequency[i]);
-    const double taper = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(j) /
-                                              static_cast<double>(reach + 1));
-    filter[j] = sum * taper;
-  }
-  Eigen::VectorXd smooth(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double sum = 0.0, all = 0.0;
-    for (Eigen::Index j = std::max(-reach, -i); j <= std::min(reach, n - 1 - i); ++j) {
-      sum += filter[std::abs(j)] * values[i + j];
-      all += filter[std::abs(j)];
+  const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
+  const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
+  Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(error.spectrum().size()),
+                            noise_power = left_power;
+  for (Eigen::Index first = 0; first < n; first += longest) {
+    const Eigen::Index end = std::min(n, first + longest),
+                       from = std::max<Eigen::Index>(0, first - margin),
+                       to = std::min(n, end + margin);
+    const Smoothed part =
+        smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
+    drive.segment(first, end - first) = part.drive.segment(first - from, end - first);
+    const Eigen::VectorXd frequency = error.frequencies_hz();
+    for (Eigen::Index i = 0; i < spectra.drive.size(); ++i) {
+      const Eigen::ArrayXd turn =
+          (2.0 * std::numbers::pi * frequency[i] / rate_hz *
+           Eigen::ArrayXd::LinSpaced(part.error.size(), 0.0,
+                                     static_cast<double>(part.error.size() - 1)))
+              .cos();
+      left_power[i] += turn.matrix().dot(part.error);
+      noise_power[i] += turn.matrix().dot(part.noise);
     }
-    smooth[i] = std::max(0.0, sum / all);
   }
-  return {Envelope(time, smooth), std::move(wiener.left)};
+  const Eigen::Index count = spectra.drive.size();
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    const Eigen::Index at = std::min(i, count - 1);
+    left[i] =
+        spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
+  }
+  return {Envelope(time, drive), std::move(left)};
 }
 
 }  // namespace myoid::identification

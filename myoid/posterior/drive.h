@@ -7,6 +7,11 @@
 
 namespace myoid::identification {
 
+/// Standard deviation of an envelope of size u from which the noise of the electrode has been taken
+/// as power, u^2 = m^2 - rest^2: du = (u + rest^2 / u) dm / m, dm / m = `noise_sd`. Below
+/// u = rest sqrt(noise_sd), where chance makes u, du stays.
+[[nodiscard]] double envelope_sd_at(double u, double noise_sd, double rest);
+
 /// The expectation of the drive of an EMG channel, given its recorded envelope u: drive and noise
 /// are stationary, and Wiener's filter tells them apart,
 ///
@@ -23,6 +28,7 @@ struct Drive {
 };
 [[nodiscard]] Drive drive_behind(const Envelope& recorded,
                                  double noise_sd,
+                                 double rest,
                                  const EnvelopeError& error,
                                  double cutoff_hz);
 

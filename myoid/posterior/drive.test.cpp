@@ -53,7 +53,7 @@ TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
     const Recorded of = recorded(noise_sd);
     const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
     const Envelope envelope(of.time, of.values);
-    const Drive drive = drive_behind(envelope, noise_sd, error, kCutoff_hz);
+    const Drive drive = drive_behind(envelope, noise_sd, 0.0, error, kCutoff_hz);
     EXPECT_LT(error_of(of, drive.envelope), 0.75 * error_of(of, envelope)) << noise_sd;
     const double said = noise_sd * std::sqrt(error.behind(drive.left).share());
     EXPECT_NEAR(said / error_of(of, drive.envelope), 1.0, 0.3) << noise_sd;
@@ -64,7 +64,7 @@ TEST(Drive, ASmoothEnvelopeIsLeftAlone) {
   // The noise is believed to be there, and is not: it is lowered to what is recorded.
   const Recorded of = recorded(0.0);
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
-  const Drive drive = drive_behind(Envelope(of.time, of.values), 0.15, error, kCutoff_hz);
+  const Drive drive = drive_behind(Envelope(of.time, of.values), 0.15, 0.0, error, kCutoff_hz);
   EXPECT_LT(error_of(of, drive.envelope), 0.03);
 }
 
@@ -73,7 +73,7 @@ TEST(Drive, WithoutNoiseOrOfAShortRecordingItIsTheEnvelope) {
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
   const Envelope envelope(of.time, of.values);
   for (const double noise_sd : {0.0, 0.1}) {
-    const Drive drive = drive_behind(envelope, noise_sd, error, kCutoff_hz);
+    const Drive drive = drive_behind(envelope, noise_sd, 0.0, error, kCutoff_hz);
     EXPECT_EQ(drive.envelope.samples(), of.values);
     EXPECT_EQ(drive.left, Eigen::VectorXd::Ones(drive.left.size()));
   }

@@ -164,7 +164,8 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m, m);
   for (Eigen::Index c = 0; c < scale.size(); ++c)
     a += envelope_noise_[r][static_cast<std::size_t>(c)].covariance(
-        scale[c] * signals.by_log_envelope.col(c).cwiseAbs2());
+        scale[c] *
+        signals.by_log_envelope.col(c).cwiseProduct(runs_[r].noise_gain.col(c)).cwiseAbs2());
   return a;
 }
 
@@ -217,9 +218,11 @@ void Likelihood::pull_back(std::size_t r,
   gradient.by_noise[kEmgFactor] = 0.0;
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
     const auto d = signals.by_log_envelope.col(c);
-    by.by_log_envelope.col(c) =
-        2.0 * scale[c] *
-        envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(by_a).cwiseProduct(d);
+    by.by_log_envelope.col(c) = 2.0 * scale[c] *
+                                envelope_noise_[r][static_cast<std::size_t>(c)]
+                                    .pull_back(by_a)
+                                    .cwiseProduct(d)
+                                    .cwiseProduct(run.noise_gain.col(c).cwiseAbs2());
     gradient.by_noise[kEmgFactor] += by.by_log_envelope.col(c).dot(d);
   }
 

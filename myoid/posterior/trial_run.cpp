@@ -75,6 +75,7 @@ TrialRun make_run(const TrialData& trial,
                .envelopes = {},
                .errors = {},
                .envelope_sd = {},
+               .noise_gain = {},
                .interval_s = 1.0 / rate_hz,
                .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz),
                .measured_nm = {}};
@@ -87,6 +88,7 @@ TrialRun make_run(const TrialData& trial,
   }
   run.measured_nm = run.reduction.apply(Eigen::VectorXd(trial.torque_nm(rows)));
   run.envelope_sd.resize(static_cast<Eigen::Index>(map.channels().size()));
+  run.noise_gain.setOnes(n, run.envelope_sd.size());
   const Eigen::VectorXd& clock = trial.activation.time_s();
   const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
   for (std::size_t c = 0; c < map.channels().size(); ++c) {
@@ -96,12 +98,15 @@ TrialRun make_run(const TrialData& trial,
     const auto bandwidth = options.emg_bandwidth_hz.find(name);
     const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
     const double spread = envelope_spread(options, name);
-    run.envelope_sd[static_cast<Eigen::Index>(c)] =
-        spread * noise_gain(recorded, run.time_s[0] - delay_s, run.time_s[n - 1] - delay_s,
-                            raw && rest != options.emg_rest.end() ? rest->second : 0.0, spread);
+    const double floor = raw && rest != options.emg_rest.end() ? rest->second : 0.0;
+    const auto column = static_cast<Eigen::Index>(c);
+    run.envelope_sd[column] = spread;
     const EnvelopeError plain(options.envelope_cutoff_hz, {});
-    Drive drive = drive_behind(recorded, run.envelope_sd[static_cast<Eigen::Index>(c)], plain,
-                               options.envelope_cutoff_hz);
+    Drive drive = drive_behind(recorded, spread, floor, plain, options.envelope_cutoff_hz);
+    for (Eigen::Index i = 0; i < n && floor > 0.0 && spread > 0.0; ++i) {
+      const double u = std::max(drive.envelope.at(run.time_s[i] - delay_s).value, 1e-3 * floor);
+      run.noise_gain(i, column) = envelope_sd_at(u, spread, floor) / (spread * u);
+    }
     run.envelopes.push_back(std::move(drive.envelope));
     run.errors.push_back(
         EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))

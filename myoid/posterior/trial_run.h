@@ -27,7 +27,10 @@ struct TrialRun {
   Eigen::VectorXd resting_nm;       ///< n: what the joint was measured to make by itself, or zeros.
   std::vector<Envelope> envelopes;  ///< Per EMG channel: of the drive (drive.h).
   std::vector<EnvelopeError> errors;  ///< Per EMG channel: of the envelope.
-  Eigen::VectorXd envelope_sd;  ///< Per EMG channel: relative sd expected of the recorded one.
+  Eigen::VectorXd
+      envelope_sd;  ///< Per EMG channel: relative sd of rectified EMG behind its filter.
+  /// n x channels: relative sd of the envelope over `envelope_sd`, by the electrode's noise.
+  Eigen::MatrixXd noise_gain;
   double interval_s = 0.0;
   Reduction reduction;
   Eigen::VectorXd measured_nm;  ///< m: L y.
