@@ -40,8 +40,7 @@ inline constexpr std::string_view kWhenFree = "where a study frees it without a 
 inline constexpr std::string_view kPublished =
     "judgment from the spread between published sets of parameters";
 inline constexpr std::string_view kNuisance =
-    "judgment; left out, the fit takes it for a property "
-    "of the muscles";
+    "judgment; left out, the fit takes it for a property of the muscles";
 
 // A muscle's parameters, about the starting values.
 inline constexpr Belief kMaxForce{
@@ -258,14 +257,7 @@ inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torq
                                          kPosterior,
                                          "judgment"};
 inline constexpr Belief kTrialTorqueNoise{
-    "error of a trial's torque, over that of all trials",
-    "1",
-    1.0,
-    1.0,
-    logarithm,
-    "",
-    kPosterior,
-    "judgment: dynamometer and inverse dynamics in one session"};
+    "torque error of a trial over all", "1", 1.0, 1.0, logarithm, "", kPosterior, "judgment"};
 inline constexpr Belief kMomentArm{
     "size of a muscle's moment arms, over the model's",
     "1",
