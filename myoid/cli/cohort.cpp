@@ -40,7 +40,7 @@ void add_cohort(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, group, engine] {
     if (*engine) {
-      commands::prepare_cohort_folder(*out, context.overwrite);
+      commands::prepare_cohort_folder(*options, *out, context.overwrite);
       fmt::print("{}\n", commands::write_cohort_workflow(*options, **engine, *out));
       return;
     }

@@ -65,7 +65,7 @@ void run_cohort(Context& context,
     context.end_progress();
     context.warn(fmt::format("{} failed: {}", each.person, each.outcome->message));
   };
-  commands::prepare_cohort_folder(folder, context.overwrite);
+  commands::prepare_cohort_folder(options, folder, context.overwrite);
   std::vector<PersonOutcome> outcomes;
   if (steps.persons) outcomes = commands::write_cohort_persons(options, folder);
   context.end_progress();

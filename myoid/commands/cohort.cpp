@@ -217,7 +217,8 @@ std::string write_cohort_workflow(const CohortOptions& o,
   return workflow.start;
 }
 
-void prepare_cohort_folder(const fs::path& folder, bool overwrite) {
+void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder, bool overwrite) {
+  (void)cohort::chosen_persons(cohort::read_manifest(o.manifest, o.study), o.persons);
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InvalidInput(fmt::format("{} is a file; name a folder", folder.string()));

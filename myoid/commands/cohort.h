@@ -45,8 +45,11 @@ std::string write_cohort_workflow(const CohortOptions& options,
                                   cohort::Engine engine,
                                   const std::filesystem::path& folder);
 
-/// Makes the folder of a cohort. Throws InvalidInput for a file, or for a folder with other content
-/// than a cohort's unless `overwrite`.
-void prepare_cohort_folder(const std::filesystem::path& folder, bool overwrite);
+/// Makes the folder of a cohort whose manifest can be read. Throws InvalidInput for a file, or for
+/// a folder with other content than a cohort's unless `overwrite`, and for the manifest as
+/// `write_cohort_persons` does; then no folder is made.
+void prepare_cohort_folder(const CohortOptions& options,
+                           const std::filesystem::path& folder,
+                           bool overwrite);
 
 }  // namespace myoid::commands

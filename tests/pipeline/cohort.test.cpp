@@ -137,6 +137,8 @@ TEST_F(Cohort, AFolderWithOtherFilesIsLeftAlone) {
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err, HasSubstr("holds other files"));
   EXPECT_EQ(read_text(folder / "other/report.html"), "mine");
+  EXPECT_EQ(cohort("new", {"--person", "P9"}).exit_code, 3);
+  EXPECT_FALSE(fs::exists(folder / "new")) << "bad input leaves no folder";
 }
 
 TEST_F(Cohort, AWorkflowIsFilesAndNoNumbers) {

@@ -116,8 +116,8 @@ TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
       // The sample that is nearest to the mouse.
       const double at = read[1];
       double time = read[4][0];
-      for (const json& x : read[4])
-        if (std::abs(x.get<double>() - at) < std::abs(time - at)) time = x;
+      for (const json& other : read[4])
+        if (std::abs(other.get<double>() - at) < std::abs(time - at)) time = other;
       Eigen::Index row = 0;
       (file.time_s().array() - time).abs().minCoeff(&row);
       ASSERT_NEAR(file.time_s()[row], time, 1e-6);
