@@ -15,7 +15,7 @@
 #include "myoid/cli/held_folders.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
-#include "myoid/files/atomic_file.h"
+#include "myoid/files/result_folder.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::cli {
@@ -48,13 +48,6 @@ struct ProgressBar {
 }  // namespace
 
 namespace {
-
-/// "run" of "myoid run study.toml --out results".
-std::string_view command_word(std::string_view command_line) {
-  const std::size_t first = command_line.find(' ');
-  if (first == std::string_view::npos) return {};
-  return command_line.substr(first + 1, command_line.find(' ', first + 1) - first - 1);
-}
 
 /// Limits the threads to --threads or the number of cores, and to the number that the system
 /// grants: the scheduler ends the program where the system refuses a thread.
@@ -161,66 +154,12 @@ void Context::tell_new_folders() const {
   }
 }
 
-void Context::protect_inputs(const std::filesystem::path& folder,
-                             const std::vector<std::string_view>& results,
-                             const std::vector<std::string>& inputs) const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  for (const std::string& input : inputs) {
-    const fs::path parent = fs::path(input).parent_path();
-    if (!fs::equivalent(parent.empty() ? fs::path(".") : parent, folder, ignored)) continue;
-    const std::string file = fs::path(input).filename().string();
-    for (const std::string_view result : results) {
-      if (file.starts_with(result)) {
-        throw InvalidInput(fmt::format(
-            "{} is an input of this command and would be replaced by a result; give another --out",
-            input));
-      }
-    }
-  }
-}
-
-void Context::remove_empty_folders() const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  for (const fs::path& folder : made_folders) {
-    if (!recording::holds_content(folder)) release_folder(folder);
-    if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
-  }
-}
-
 void Context::prepare_folder(const std::filesystem::path& folder,
                              std::string_view unless_only) const {
-  namespace fs = std::filesystem;
-  if (folder.empty()) throw InvalidInput("--out is empty; name the folder for the results");
-  std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (fs::exists(status) && !fs::is_directory(status)) {
-    throw InvalidInput(fmt::format("{} is a file; --out must name a folder", folder.string()));
-  }
-  for (fs::path part = folder; !part.empty() && !fs::exists(part, error); part = part.parent_path())
-    made_folders.push_back(part);
-  fs::create_directories(folder, error);
-  if (error)
-    throw InvalidInput(
-        fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
-  recording::FolderLock& lock = hold_folder(folder);
-  const std::optional<recording::FolderOwner>& dead = lock.left_behind();
-  const bool empty = !recording::holds_content(folder, unless_only);
-  const bool unfinished =
-      dead && dead->from_empty && command_word(dead->command) == command_word(command_line);
-  if (!overwrite && !empty && !unfinished) {
-    throw InvalidInput(fmt::format(
-        "the folder {} is not empty; give --overwrite to write into it, or another --out",
-        folder.string()));
-  }
-  const std::size_t swept = recording::sweep_temporaries(folder);
-  if (dead) {
-    log(fmt::format("note: the folder {} is taken over from a command that did not finish ({}){}",
-                    folder.string(), dead->sentence(),
-                    swept > 0 ? fmt::format("; {} half-written files are removed", swept) : ""));
-  }
-  lock.sign(command_line, empty || unfinished);
+  auto held =
+      std::make_unique<recording::ResultFolder>(folder, command_line, overwrite, unless_only);
+  if (!held->note().empty()) log(held->note());
+  hold_folder(std::move(held));
 }
 
 void add_compat_option(CLI::App& command, Context& context) {

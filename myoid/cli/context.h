@@ -57,8 +57,7 @@ struct Context {
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;   ///< That prepare_file will make.
-  mutable std::vector<std::filesystem::path> made_folders;  ///< By prepare_folder, innermost first.
+  mutable std::vector<std::filesystem::path> new_folders;     ///< That prepare_file will make.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// One line on stderr, unless --quiet.
@@ -80,15 +79,8 @@ struct Context {
   void remember_new_folder(const std::filesystem::path& folder) const;
   /// Names on stderr the folders that were made for single files, so that a slip in --out is seen.
   void tell_new_folders() const;
-  /// Creates the folder for results; one that holds anything but `unless_only` needs --overwrite.
+  /// Takes the folder for results until the program ends (`recording::ResultFolder`).
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
-  /// Removes the folders that prepare_folder made, where they are empty: bad input leaves none.
-  void remove_empty_folders() const;
-  /// Throws InvalidInput if a result would replace one of the `inputs`: it lies in `folder` and its
-  /// name begins with one of `results`.
-  void protect_inputs(const std::filesystem::path& folder,
-                      const std::vector<std::string_view>& results,
-                      const std::vector<std::string>& inputs) const;
 };
 
 /// Group of the options that are accepted and do nothing: no help shows it. (An empty group, which

@@ -1,6 +1,6 @@
 #include "myoid/commands/emg.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,21 +21,6 @@ struct EmgFlags {
   bool no_notch = false;
   bool whitening = false, no_whitening = false;
 };
-
-/// Refuses output files that exist, that are inputs, or that have the same name.
-void prepare(const commands::EmgOptions& o,
-             const std::vector<std::string>& activations,
-             const std::vector<std::string>& envelopes,
-             const Context& context) {
-  std::vector<std::string> inputs = o.mvc;
-  inputs.insert(inputs.end(), o.in.begin(), o.in.end());
-  for (const std::string& file : activations) context.prepare_file(file, inputs);
-  for (const std::string& file : envelopes) {
-    context.prepare_file(file, inputs);
-    if (std::find(activations.begin(), activations.end(), file) != activations.end())
-      throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
-  }
-}
 
 nlohmann::ordered_json emg_json(const std::vector<std::string>& out,
                                 const commands::EmgResult& result) {
@@ -75,7 +60,10 @@ void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& conte
   const std::vector<std::string> activations = commands::emg_files(o.in, asked.out, "--out");
   const std::vector<std::string> envelopes =
       commands::emg_files(o.in, asked.envelope, "--envelope");
-  prepare(o, activations, envelopes, context);
+  commands::check_emg_files(o, activations, envelopes, context.overwrite);
+  for (const std::vector<std::string>* files : {&activations, &envelopes})
+    for (const std::string& file : *files)
+      context.remember_new_folder(std::filesystem::path(file).parent_path());
   o.chain.notch = !asked.no_notch;
   if (asked.whitening || asked.no_whitening) o.chain.whitening = asked.whitening;
   o.keep_envelopes = !envelopes.empty();

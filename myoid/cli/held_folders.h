@@ -1,14 +1,14 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
-#include "myoid/files/folder_lock.h"
+#include "myoid/files/result_folder.h"
 
 namespace myoid::cli {
 
-/// Keeps a folder for this process until the program ends. Throws as FolderLock does.
-recording::FolderLock& hold_folder(const std::filesystem::path& folder);
+/// Keeps a folder for this process until the program ends.
+void hold_folder(std::unique_ptr<recording::ResultFolder> folder);
 
 /// Marks the results in all held folders as whole. Without this call a folder that was empty
 /// belongs to the unfinished command, which takes the folder over when the user repeats it.
@@ -18,7 +18,7 @@ void finish_folders();
 /// else "nothing was written into out"; empty where no folder is held.
 [[nodiscard]] std::string contents_of_folders();
 
-/// Gives back a folder that `hold_folder` keeps.
-void release_folder(const std::filesystem::path& folder);
+/// Gives all folders back. Bad input leaves no empty folder that the program made.
+void release_folders();
 
 }  // namespace myoid::cli

@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/score.h"
 #include "myoid/methods/noise_free.h"
@@ -191,8 +192,7 @@ void add_identify(CLI::App& app, Context& context) {
   command.callback([&context, &command, out] {
     auto o = read_options<commands::IdentifyOptions>(command);
     context.prepare_folder(*out);
-    context.protect_inputs(*out, {"parameters.", "fold_parameters.", "solvers."},
-                           {o.muscles.string()});
+    commands::protect_inputs(*out, commands::kIdentifyFiles, {o.muscles.string()});
     o.call = context.call();
     const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();

@@ -221,18 +221,18 @@ int main(int argc, char** argv) {
   } catch (const Interrupted&) {
     context.end_progress();
     const std::string contents = cli::contents_of_folders();
-    context.remove_empty_folders();
+    cli::release_folders();
     fmt::print(stderr, "interrupted; {}\n",
                contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();
-    context.remove_empty_folders();
+    cli::release_folders();
     fmt::print(stderr, "error: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
-    context.remove_empty_folders();
+    cli::release_folders();
     if (std::ferror(stdout) != 0) return stdout_lost(error.what());
     fmt::print(stderr,
                "internal error: {}\nPlease report this with the command line and, if you can, the "

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -53,7 +54,7 @@ void add_paths(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {
     context.prepare_folder(*out);
-    context.protect_inputs(*out, {"MuscleAnalysis_"}, {o->model, o->motion, o->surrogates});
+    commands::protect_inputs(*out, commands::kPathsFiles, {o->model, o->motion, o->surrogates});
     o->call = context.call();
     o->compat = context.compat;
     o->compare_with_opensim = !context.quiet;

@@ -21,7 +21,7 @@ void add_report(CLI::App& app, Context& context) {
   command.callback([&context, o] {
     o->call = context.call();
     const commands::ReportResult result = commands::report(*o);
-    hold_folder(o->folder).sign(context.command_line, false);
+    hold_folder(std::make_unique<recording::ResultFolder>(o->folder, context.command_line));
     commands::write_report(result, o->folder);
     context.end_progress();
     const std::string page = (std::filesystem::path(o->folder) / "report.html").string();

@@ -17,9 +17,6 @@ namespace {
 
 using identification::ParameterEstimate;
 
-/// Folder in --out with the stages that a repeated run need not compute again.
-constexpr const char* kStageFolder = ".stages";
-
 void print_method(const identification::IdentificationResult& method, std::size_t muscle_count) {
   const std::vector<EstimateLine> lines = estimate_lines(method, muscle_count);
   std::size_t owner = 6;
@@ -154,9 +151,9 @@ void add_run(CLI::App& app, Context& context) {
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out] {
     const auto begin = std::chrono::steady_clock::now();
-    context.prepare_folder(*out, kStageFolder);
+    context.prepare_folder(*out, commands::kStageFolder);
     options->call = context.call();
-    options->store = std::filesystem::path(*out) / kStageFolder;
+    options->store = std::filesystem::path(*out) / commands::kStageFolder;
     const commands::RunResult result = commands::run(*options);
     commands::write_run(result, *out);
     context.end_progress();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/results/simulation_files.h"
 
 namespace myoid::cli {
@@ -86,11 +87,7 @@ void add_simulate(CLI::App& app, Context& context) {
   command.callback([&context, o, out, paper_figures_only] {
     if (*paper_figures_only) return draw_paper_figures(*out, context);
     context.prepare_folder(*out);
-    context.protect_inputs(*out,
-                           {"motion.mot", "speeds.sto", "accelerations.sto", "excitation.sto",
-                            "activation.sto", "forces.sto", "fiber_forces.sto", "MuscleAnalysis_",
-                            "torques.sto", "states.sto", "energy.sto", "simulation.json"},
-                           {o->model, o->excitations});
+    commands::protect_inputs(*out, commands::kSimulateFiles, {o->model, o->excitations});
     o->call = context.call();
     const commands::SimulateResult result = commands::simulate(*o);
     context.end_progress();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/commands/emg_input.h"
+#include "myoid/commands/output_file.h"
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/tables/series_file.h"
@@ -106,6 +107,19 @@ EmgResult emg(const EmgOptions& o) {
   }
   result.remarks = remarks.list();
   return result;
+}
+
+void check_emg_files(const EmgOptions& options,
+                     const std::vector<std::string>& activations,
+                     const std::vector<std::string>& envelopes,
+                     bool overwrite) {
+  const std::vector<std::string> inputs = emg_paths(options);
+  for (const std::string& file : activations) check_output(file, inputs, overwrite);
+  for (const std::string& file : envelopes) {
+    check_output(file, inputs, overwrite);
+    if (std::find(activations.begin(), activations.end(), file) != activations.end())
+      throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
+  }
 }
 
 void write_emg(const EmgResult& result,

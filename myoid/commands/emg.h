@@ -45,6 +45,13 @@ struct EmgResult {
                                                  const std::string& to,
                                                  const char* option);
 
+/// Throws InvalidInput, as `check_output`, for files that exist or are inputs, and for an
+/// activation and an envelope of one name.
+void check_emg_files(const EmgOptions& options,
+                     const std::vector<std::string>& activations,
+                     const std::vector<std::string>& envelopes,
+                     bool overwrite);
+
 /// Writes an activation of each input and, where files are given for them, the envelopes (.sto,
 /// .mot or .csv).
 void write_emg(const EmgResult& result,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/identify_options.h"
@@ -33,6 +34,10 @@ struct IdentifyResult {
 
 /// parameters.json
 [[nodiscard]] std::string identify_json(const IdentifyResult& result);
+
+/// Beginnings of the names of the files that `write_identify` writes.
+inline const std::vector<std::string_view> kIdentifyFiles{"parameters.", "fold_parameters.",
+                                                          "solvers."};
 
 /// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv and
 /// solvers.csv.

@@ -27,4 +27,23 @@ void check_output(const std::filesystem::path& path,
   }
 }
 
+void protect_inputs(const std::filesystem::path& folder,
+                    const std::vector<std::string_view>& results,
+                    const std::vector<std::string>& inputs) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    const fs::path parent = fs::path(input).parent_path();
+    if (!fs::equivalent(parent.empty() ? fs::path(".") : parent, folder, ignored)) continue;
+    const std::string file = fs::path(input).filename().string();
+    for (const std::string_view result : results) {
+      if (file.starts_with(result)) {
+        throw InvalidInput(fmt::format(
+            "{} is an input of this command and would be replaced by a result; give another --out",
+            input));
+      }
+    }
+  }
+}
+
 }  // namespace myoid::commands

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace myoid::commands {
@@ -11,5 +12,11 @@ namespace myoid::commands {
 void check_output(const std::filesystem::path& path,
                   const std::vector<std::string>& inputs,
                   bool overwrite);
+
+/// For results in a folder, whose names begin with `results`. Throws InvalidInput if one of them
+/// would replace one of the `inputs`.
+void protect_inputs(const std::filesystem::path& folder,
+                    const std::vector<std::string_view>& results,
+                    const std::vector<std::string>& inputs);
 
 }  // namespace myoid::commands

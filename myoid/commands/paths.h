@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/call.h"
@@ -32,6 +33,9 @@ struct PathsResult {
 
 /// Writes the file of polynomials where it makes them, and nothing else.
 [[nodiscard]] PathsResult paths(const PathsOptions& options);
+
+/// Beginnings of the names of the files that `write_paths` writes.
+inline const std::vector<std::string_view> kPathsFiles{"MuscleAnalysis_"};
 
 /// Writes MuscleAnalysis_*.sto.
 void write_paths(const PathsResult& result, const std::filesystem::path& folder);

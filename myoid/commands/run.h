@@ -14,6 +14,9 @@
 
 namespace myoid::commands {
 
+/// Folder in the folder of the results with the stages that a repeated run need not compute again.
+inline constexpr const char* kStageFolder = ".stages";
+
 /// The whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
   Call call;

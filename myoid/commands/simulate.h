@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/call.h"
@@ -59,6 +60,12 @@ struct SimulateResult {
 /// Integrates the motion that the excitations cause. Throws InvalidInput for words, muscles and
 /// coordinates that do not exist, and for settings that only the other kind of model has.
 [[nodiscard]] SimulateResult simulate(const SimulateOptions& options);
+
+/// Beginnings of the names of the files that `write_simulate` writes.
+inline const std::vector<std::string_view> kSimulateFiles{
+    "motion.mot",     "speeds.sto", "accelerations.sto", "excitation.sto",
+    "activation.sto", "forces.sto", "fiber_forces.sto",  "MuscleAnalysis_",
+    "torques.sto",    "states.sto", "energy.sto",        "simulation.json"};
 
 /// Writes the files of `write_simulation` and `write_sensitivities`, and the figures.
 void write_simulate(const SimulateResult& result, const std::filesystem::path& folder);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/commands/call.h"
@@ -34,6 +35,9 @@ struct SoResult {
 };
 
 [[nodiscard]] SoResult so(const SoOptions& options);
+
+/// Beginnings of the names of the files that `write_so` writes.
+inline const std::vector<std::string_view> kSoFiles{"StaticOptimization_"};
 
 /// Writes StaticOptimization_force.sto, _activation.sto and _status.csv.
 void write_so(const SoResult& result, const std::filesystem::path& folder);

@@ -1,0 +1,154 @@
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "myoid/commands/convert.h"
+#include "myoid/commands/info.h"
+#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/recording.h"
+#include "myoid/tables/series_file.h"
+
+#include "bindings.h"
+#include "keywords.h"
+#include "to_python.h"
+#include "work.h"
+
+namespace myoid::python {
+namespace {
+
+using recording::AnalogChannels;
+using recording::ForcePlate;
+using recording::Recording;
+
+/// Runs an action without Python's lock.
+template <typename Action>
+auto alone(Action action) {
+  const py::gil_scoped_release others_may_run;
+  return action();
+}
+
+py::dict plate_dict(ForcePlate plate) {
+  py::dict d;
+  d["number"] = plate.number;
+  d["type"] = plate.type;
+  d["time"] = to_array(std::move(plate.time_s));
+  d["force"] = to_array(std::move(plate.force_n));
+  d["moment"] = to_array(std::move(plate.moment_nm));
+  d["pressure_center"] = to_array(std::move(plate.pressure_center_m));
+  d["free_moment"] = to_array(std::move(plate.free_moment_nm));
+  d["corners"] = to_array(Eigen::MatrixXd(plate.corners_m.transpose()));
+  return d;
+}
+
+py::list event_list(const Recording& recording) {
+  py::list list;
+  for (const recording::Event& event : recording.events) {
+    py::dict d;
+    d["time"] = event.time_s;
+    d["label"] = event.label;
+    d["context"] = event.context;
+    d["subject"] = event.subject;
+    list.append(d);
+  }
+  return list;
+}
+
+std::vector<std::pair<std::string, std::string>> channel_units(const AnalogChannels& channels) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const Channel& channel : channels.channels())
+    list.emplace_back(channel.name, std::string(symbol(channel.unit)));
+  return list;
+}
+
+const AnalogChannels& clock_of(const Recording& recording, std::size_t clock) {
+  const auto clocks = recording.clocks();
+  if (clock >= clocks.size()) throw py::index_error("no such clock");
+  return *clocks[clock];
+}
+
+/// The channels of one clock as numbers; the file's own counts until they are asked for.
+TimeSeries series_of(const Recording& recording, std::size_t clock) {
+  const AnalogChannels& channels = clock_of(recording, clock);
+  return alone([&] { return channels.series(); });
+}
+
+/// A JSON document as Python's own objects.
+py::object from_json(const nlohmann::ordered_json& json) {
+  return py::module_::import("json").attr("loads")(json.dump());
+}
+
+py::object info(py::dict given) {
+  Keywords k("info", std::move(given));
+  Work work(k);
+  commands::InfoOptions o;
+  k.take("file", o.file);
+  k.take("compat", o.compat);
+  k.take("compare_compat", o.ask.compare_compat);
+  k.count("postures", o.ask.postures, 1, 1000000);
+  k.take("jumps", o.ask.jumps);
+  k.refuse_others();
+  o.call = work.call();
+  return from_json(work.run([&] { return commands::info(o); }));
+}
+
+py::object convert(py::dict given) {
+  Keywords k("convert", std::move(given));
+  Work work(k);
+  commands::ConvertOptions o;
+  k.take("source", o.in);
+  k.take("out", o.out);
+  k.take("what", o.what);
+  k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
+  k.take("rotate", o.turns);
+  k.take("unit", o.unit);
+  k.take("channel", o.channels);
+  k.take("analog", o.analog);
+  k.take("body", o.bodies);
+  k.above_zero("least_force", o.least_force_n);
+  k.above_zero("rate", o.rate_hz);
+  k.take("subject", o.subject);
+  k.take("overwrite", o.overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  return py::cast(work.run([&] { return commands::convert(o); }).files);
+}
+
+}  // namespace
+
+void bind_recordings(py::module_& module) {
+  py::class_<Recording, std::shared_ptr<Recording>>(module, "Recording")
+      .def("markers", [](const Recording& r) { return to_python(r.markers); })
+      .def("clock_count", [](const Recording& r) { return r.clocks().size(); })
+      .def("channels",
+           [](const Recording& r, std::size_t clock) { return channel_units(clock_of(r, clock)); })
+      .def("series",
+           [](const Recording& r, std::size_t clock) { return to_python(series_of(r, clock)); })
+      .def("emg",
+           [](const Recording& r) {
+             const auto names = recording::emg_channels(r.analog.channels(), r.plates);
+             return to_python(alone([&] { return r.analog.select(names); }));
+           })
+      .def("plates",
+           [](const Recording& r) {
+             py::list list;
+             for (ForcePlate& plate : alone([&] { return r.force_plates(); }))
+               list.append(plate_dict(std::move(plate)));
+             return list;
+           })
+      .def("events", &event_list)
+      .def("notes", [](const Recording& r) { return to_texts(r.repairs); });
+  module.def("read", [](const std::string& path) {
+    return alone([&] { return std::make_shared<Recording>(recording::read_recording(path)); });
+  });
+  module.def("read_series", [](const std::string& path) {
+    recording::SeriesFile file = alone([&] { return recording::read_series(path); });
+    return py::make_tuple(to_python(std::move(file.data)), to_texts(file.repairs));
+  });
+  module.def("info", &info);
+  module.def("convert", &convert);
+}
+
+}  // namespace myoid::python

@@ -1,0 +1,302 @@
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/commands/check.h"
+#include "myoid/commands/compare.h"
+#include "myoid/commands/design.h"
+#include "myoid/commands/identify.h"
+#include "myoid/commands/output_file.h"
+#include "myoid/commands/run.h"
+#include "myoid/core/choice.h"
+#include "myoid/core/error.h"
+
+#include "bindings.h"
+#include "keywords.h"
+#include "result_out.h"
+#include "to_python.h"
+#include "work.h"
+
+namespace myoid::python {
+namespace {
+
+const char* status_name(report::GateStatus status) {
+  switch (status) {
+    case report::GateStatus::pass:
+      return "pass";
+    case report::GateStatus::warn:
+      return "warn";
+    case report::GateStatus::fail:
+      return "fail";
+    case report::GateStatus::info:
+      return "info";
+  }
+  return "info";
+}
+
+py::list gate_rows(const std::vector<report::Gate>& gates) {
+  py::list rows;
+  for (const report::Gate& gate : gates) {
+    py::dict d;
+    d["name"] = gate.name;
+    d["status"] = status_name(gate.status);
+    d["value"] = gate.value;
+    d["threshold"] = gate.threshold;
+    d["why"] = gate.why;
+    rows.append(d);
+  }
+  return rows;
+}
+
+py::dict check(py::dict given) {
+  Keywords k("check", std::move(given));
+  Work work(k);
+  commands::CheckOptions o;
+  k.take("study", o.input);
+  k.word("up", o.up, {"x", "y", "z", "-x", "-y", "-z"});
+  k.refuse_others();
+  o.call = work.call();
+  const commands::CheckResult result = work.run([&] { return commands::check(o); });
+  py::dict d;
+  d["findings"] = to_python(result.findings);
+  d["of_study"] = result.of_study;
+  d["trials"] = result.trials;
+  d["muscles"] = result.muscles;
+  d["errors"] = result.errors;
+  return d;
+}
+
+py::dict run(py::dict given) {
+  Keywords k("run", std::move(given));
+  Work work(k);
+  commands::RunOptions o;
+  std::string out, estimator;
+  bool overwrite = false;
+  k.take("study", o.study);
+  k.word("estimator", estimator, {"least_squares", "posterior"});
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);
+  o.store = std::filesystem::path(out) / commands::kStageFolder;
+  o.call = work.call();
+  struct Done {
+    std::vector<report::Gate> gates;
+    std::vector<Remark> remarks;
+    bool failed = false;
+  };
+  const Done done = work.run([&] {
+    ResultOut folder(out, o.call, overwrite, commands::kStageFolder);
+    const commands::RunResult r = commands::run(o);
+    commands::write_run(r, out);
+    folder.finish();
+    return Done{r.gates, r.remarks, r.failed(false)};
+  });
+  py::dict d;
+  d["gates"] = gate_rows(done.gates);
+  d["failed"] = done.failed;
+  d["remarks"] = to_python(done.remarks);
+  return d;
+}
+
+/// Sets the settings of a struct from the arguments of their names, with '_' for '-'.
+class KeywordReader : public FlatSettingVisitor {
+ public:
+  explicit KeywordReader(Keywords& keywords) : keywords_(&keywords) {}
+
+ protected:
+  bool met(const Setting& setting, const SettingValue& /*now*/, const Set& set) override {
+    std::string name(setting.key);
+    for (char& c : name) c = c == '-' ? '_' : c;
+    const char* const key = name.c_str();
+    if (!keywords_->object(key)) return false;
+    set(value(setting, key));
+    return true;
+  }
+
+ private:
+  SettingValue value(const Setting& setting, const char* key) {
+    if (setting.kind == SettingKind::flag) return taken<bool>(key);
+    if (setting.kind == SettingKind::number || setting.kind == SettingKind::count)
+      return taken<double>(key);
+    if (setting.kind == SettingKind::texts) return taken<std::vector<std::string>>(key);
+    return taken<std::string>(key);
+  }
+  template <typename Value>
+  SettingValue taken(const char* key) {
+    Value value{};
+    keywords_->take(key, value);
+    return value;
+  }
+
+  Keywords* keywords_;
+};
+
+py::dict identify(py::dict given) {
+  Keywords k("identify", std::move(given));
+  Work work(k);
+  commands::IdentifyOptions o;
+  KeywordReader reader(k);
+  visit(o, reader);
+  std::string out;
+  bool overwrite = false;
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  struct Done {
+    std::vector<Remark> remarks;
+    std::vector<std::string> undetermined, diagnoses;
+    std::string message;
+    bool converged = false;
+    double r2 = 0.0;
+  };
+  const Done done = work.run([&] {
+    ResultOut folder(out, o.call, overwrite);
+    commands::protect_inputs(out, commands::kIdentifyFiles, {o.muscles.string()});
+    const commands::IdentifyResult r = commands::identify(o);
+    commands::write_identify(r, out);
+    folder.finish();
+    return Done{.remarks = r.remarks,
+                .undetermined = r.fit.undetermined,
+                .diagnoses = r.fit.diagnoses,
+                .message = r.fit.message,
+                .converged = r.fit.termination == math::Termination::converged,
+                .r2 = r.fit.r2};
+  });
+  py::dict d;
+  d["remarks"] = to_python(done.remarks);
+  d["undetermined"] = done.undetermined;
+  d["diagnoses"] = done.diagnoses;
+  d["message"] = done.message;
+  d["converged"] = done.converged;
+  d["r2"] = done.r2;
+  return d;
+}
+
+py::object optional(const std::optional<double>& value) {
+  return value ? py::object(py::float_(*value)) : py::object(py::none());
+}
+
+py::dict compare(py::dict given) {
+  Keywords k("compare", std::move(given));
+  Work work(k);
+  commands::CompareOptions o;
+  std::string out;
+  bool overwrite = false;
+  k.take("first", o.first);
+  k.take("second", o.second);
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  const commands::CompareResult result = work.run([&] {
+    ResultOut folder(out, o.call, overwrite);
+    commands::CompareResult r = commands::compare(o);
+    if (!out.empty()) commands::write_compare(r, out);
+    folder.finish();
+    return r;
+  });
+  py::list rows;
+  for (const ComparedParameter& p : result.comparison.parameters) {
+    py::dict d;
+    d["muscle"] = p.muscle;
+    d["parameter"] = p.first.parameter;
+    d["unit"] = std::string(symbol(p.first.unit));
+    d["method"] = p.first.method;
+    d["case"] = p.first.fit_case;
+    d["first"] = p.first.estimate;
+    d["second"] = p.second.estimate;
+    d["difference"] = p.difference;
+    d["smallest_detectable"] = optional(p.smallest_detectable);
+    d["p_value"] = optional(p.p_value);
+    d["change"] = std::string(name(p.change));
+    rows.append(d);
+  }
+  py::dict d;
+  d["parameters"] = rows;
+  d["unlike"] = result.comparison.unlike;
+  d["notes"] = result.comparison.remarks;
+  d["remarks"] = to_python(result.remarks);
+  return d;
+}
+
+py::list expected_rows(const std::vector<identification::ParameterEstimate>& estimates) {
+  py::list rows;
+  for (const identification::ParameterEstimate& e : estimates) {
+    py::dict d;
+    d["muscle"] = e.muscle;
+    d["parameter"] = e.parameter;
+    d["unit"] = std::string(symbol(e.unit));
+    d["value"] = e.estimate;
+    d["ci_low"] = optional(e.ci_low);
+    d["ci_high"] = optional(e.ci_high);
+    d["verdict"] = std::string(identification::name(e.verdict));
+    rows.append(d);
+  }
+  return rows;
+}
+
+commands::DesignOptions design_options(Keywords& k) {
+  commands::DesignOptions o;
+  bool no_dynamometer = false;
+  k.take("study", o.study);
+  k.take("model", o.model);
+  k.take("wire", o.wire);
+  k.take("targets", o.design.targets);
+  k.take("after", o.after);
+  k.word("criterion", o.criterion, {"D", "A"});
+  k.count("movements", o.design.choice.movements, 1, 50);
+  k.count("repeat", o.design.choice.most_of_each, 1, 50);
+  k.above_zero("budget", o.design.choice.budget_s);
+  k.within("fatigue", o.design.fatigued_share, 0.001, 1.0);
+  k.take("masses", o.design.catalogue.held_masses_kg);
+  for (const double mass_kg : o.design.catalogue.held_masses_kg)
+    if (!(mass_kg >= 0.0)) throw InvalidInput("masses: expected numbers of 0 or more [kg]");
+  k.take("no_dynamometer", no_dynamometer);
+  k.count("persons", o.design.persons, 1, 1000);
+  k.above_zero("torque_noise", o.design.torque_sd_nm);
+  k.within("emg_noise", o.design.emg_cv, 0.0, 1.0);
+  o.dynamometer = !no_dynamometer;
+  return o;
+}
+
+py::dict design(py::dict given) {
+  Keywords k("design", std::move(given));
+  Work work(k);
+  commands::DesignOptions o = design_options(k);
+  k.refuse_others();
+  o.call = work.call();
+  const commands::DesignResult result = work.run([&] { return commands::design(o); });
+  py::list plan, expected;
+  for (const PlannedMovement& m : result.design.plan) {
+    py::dict d;
+    d["movement"] = m.movement.description();
+    d["duration_s"] = m.movement.duration_s;
+    d["rest_before_s"] = m.rest_before_s;
+    d["fatigued_share"] = m.fatigued_share;
+    plan.append(d);
+    expected.append(expected_rows(m.expected));
+  }
+  py::dict d;
+  d["plan"] = plan;
+  d["expected"] = expected;
+  d["beforehand"] = expected_rows(result.design.beforehand);
+  d["catalogue_size"] = result.design.catalogue_size;
+  d["remarks"] = to_python(result.remarks);
+  return d;
+}
+
+}  // namespace
+
+void bind_studies(py::module_& module) {
+  module.def("check", &check);
+  module.def("run", &run);
+  module.def("identify", &identify);
+  module.def("compare", &compare);
+  module.def("design", &design);
+}
+
+}  // namespace myoid::python

@@ -1,0 +1,122 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "myoid/commands/twin.h"
+#include "myoid/commands/twin_study.h"
+#include "myoid/core/choice.h"
+#include "myoid/core/error.h"
+
+#include "bindings.h"
+#include "keywords.h"
+#include "result_out.h"
+#include "to_python.h"
+#include "work.h"
+
+namespace myoid::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+py::dict twin(py::dict given) {
+  Keywords k("twin", std::move(given));
+  Work work(k);
+  commands::TwinPersonsOptions o;
+  std::string out;
+  bool overwrite = false;
+  k.take("protocol", o.twin.protocol);
+  k.take("model", o.twin.model);
+  k.take("level", o.twin.level);
+  k.take("truth", o.twin.truth);
+  const bool many = k.object("subjects").has_value();
+  k.count("subjects", o.persons, 1, 1000000);
+  k.take("format", o.twin.format);
+  k.take("truth_only", o.truth_only);
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  if (o.truth_only && !many)
+    throw InvalidInput("truth_only needs subjects: one person's truth is in truth.csv");
+  o.twin.call = work.call();
+  const commands::TwinPersonsResult result = work.run([&] {
+    ResultOut folder(out, o.twin.call, overwrite);
+    commands::TwinPersonsResult made;
+    if (many) {
+      made = commands::write_twin_persons(o, out);
+    } else {
+      commands::write_twin(commands::twin(o.twin), out);
+      made.table = fs::path(out) / "truth.csv";
+      made.studies = {fs::path(out) / "study.toml"};
+    }
+    folder.finish();
+    return made;
+  });
+  std::vector<std::string> studies;
+  for (const fs::path& study : result.studies) studies.push_back(study.string());
+  py::dict d;
+  d["table"] = result.table.string();
+  d["studies"] = studies;
+  return d;
+}
+
+/// The values of an enumeration that the argument names.
+template <typename Enumeration>
+void take_choices(Keywords& k, const char* name, std::vector<Enumeration>& values) {
+  std::vector<std::string> names;
+  k.take(name, names);
+  if (names.empty()) return;
+  values.clear();
+  for (const std::string& each : names) {
+    const auto value = choice_named<Enumeration>(each);
+    if (!value) throw InvalidInput(std::string(name) + ": there is no '" + each + "'");
+    values.push_back(*value);
+  }
+}
+
+py::dict twin_study(py::dict given) {
+  Keywords k("twin_study", std::move(given));
+  Work work(k);
+  commands::TwinStudyOptions o;
+  std::string out;
+  bool overwrite = false;
+  std::vector<identification::EstimatorKind> estimators;
+  k.take("protocol", o.protocol);
+  k.take("level", o.level);
+  k.take("offset", o.offset);
+  if (o.offset && !(*o.offset >= -3.0 && *o.offset <= 3.0))
+    throw InvalidInput("offset: expected -3 to 3 standard deviations");
+  k.take("truth", o.truth);
+  k.count("subjects", o.study.subjects, 1, 1000000);
+  take_choices(k, "method", o.study.methods);
+  take_choices(k, "estimator", estimators);
+  if (!estimators.empty()) o.study.estimator = estimators.front();
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  const commands::TwinStudyResult result = work.run([&] {
+    ResultOut folder(out, o.call, overwrite);
+    commands::TwinStudyResult r = commands::twin_study(o);
+    commands::write_twin_study(r, out);
+    if (!r.study.interrupted) folder.finish();
+    return r;
+  });
+  py::list failures;
+  for (const twin::TwinFailure& failure : result.study.failures)
+    failures.append(py::make_tuple(failure.seed, failure.message));
+  py::dict d;
+  d["level"] = result.study.level;
+  d["finished"] = result.study.finished;
+  d["failures"] = failures;
+  d["remarks"] = to_python(result.remarks);
+  return d;
+}
+
+}  // namespace
+
+void bind_twins(py::module_& module) {
+  module.def("twin", &twin);
+  module.def("twin_study", &twin_study);
+}
+
+}  // namespace myoid::python

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "myoid/commands/call.h"
+
+#include "keywords.h"
+
+namespace myoid::python {
+
+/// An error of the library itself, not of its caller.
+class InternalError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// One call of a command. The command works in a thread of its own. The thread that called waits
+/// without Python's lock. It passes remarks and progress to Python and asks for signals 20 times a
+/// second: Ctrl-C stops the command, and KeyboardInterrupt is raised when the command has ended. An
+/// exception of a listener stops the command likewise.
+class Work {
+ public:
+  /// Takes `command_line`, `progress`, `hear` (of a remark: severity, text), `threads`, `seed`,
+  /// `start` and `end` of the arguments.
+  explicit Work(Keywords& keywords);
+
+  /// The values for the options of the command.
+  [[nodiscard]] commands::Call call();
+
+  template <typename Action>
+  auto run(Action action) {
+    std::optional<std::invoke_result_t<Action>> result;
+    attend([&] { result.emplace(action()); });
+    return std::move(*result);
+  }
+
+ private:
+  /// Messages from the threads that work.
+  struct Told {
+    std::vector<Remark> remarks;
+    std::optional<std::pair<double, std::string>> progress;
+  };
+
+  void attend(const std::function<void()>& action);
+  void tell(const Told& told) const;
+
+  std::string command_line_;
+  py::object progress_ = py::none(), hear_ = py::none();
+  int threads_ = 0;
+  std::uint64_t seed_ = 1;
+  std::optional<double> start_s_, end_s_;
+  std::stop_source stop_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Told told_;
+  bool done_ = false;
+};
+
+}  // namespace myoid::python
