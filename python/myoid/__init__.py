@@ -1,0 +1,26 @@
+"""Myoid: muscle parameters of a person from motion capture and EMG.
+
+    import myoid
+    r = myoid.run("study.toml")
+    r.parameters.where(muscle="BIC", method="torque")
+
+Quantities are in SI units in memory (angles in radians); `read_series` gives a file's own units.
+"""
+
+from __future__ import annotations
+
+from ._native import __version__
+from .commands import *  # noqa: F403
+from .commands import __all__ as _commands
+from .errors import Error, InternalError, InvalidInput, ModelError, MyoidWarning, ReadError
+from .model import Model, MuscleKinematics
+from .recording import Event, ForcePlate, Recording, read, read_series
+from .remarks import Remark
+from .results import Result, Trial, TwinStudyResult
+from .series import Markers, Table, TimeSeries
+
+__all__ = [
+    *_commands, "read", "read_series", "Model", "Result", "Trial", "Recording", "ForcePlate", "Event", "Markers",
+    "Table", "TimeSeries", "Remark", "MuscleKinematics", "TwinStudyResult", "Error", "InvalidInput", "ReadError",
+    "ModelError", "InternalError", "MyoidWarning", "__version__",
+]  # fmt: skip

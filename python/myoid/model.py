@@ -1,0 +1,181 @@
+"""Body models."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+
+if TYPE_CHECKING:
+    import numpy as np
+
+__all__ = ["Model", "Coordinate", "Muscle", "Body", "MuscleKinematics"]
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A coordinate of a model.
+
+    Attributes:
+        name: Name in the model file.
+        unit: "rad" or "m".
+        default, lower, upper: Default value and range [rad or m].
+        clamped: The range is a limit.
+        locked: The coordinate does not move.
+        constrained: The coordinate takes no value of its own: locked, prescribed or coupled.
+    """
+
+    name: str
+    unit: str
+    default: float
+    lower: float
+    upper: float
+    clamped: bool
+    locked: bool
+    constrained: bool
+
+
+@dataclass(frozen=True)
+class Muscle:
+    """A muscle of a model.
+
+    Attributes:
+        name, class_name: As in the model file.
+        max_isometric_force: [N]
+        optimal_fiber_length, tendon_slack_length: [m]
+        pennation_at_optimal: [rad]
+        max_contraction_velocity: [optimal fiber lengths / s]
+    """
+
+    name: str
+    class_name: str
+    max_isometric_force: float
+    optimal_fiber_length: float
+    tendon_slack_length: float
+    pennation_at_optimal: float
+    max_contraction_velocity: float
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body of a model; `mass` [kg]."""
+
+    name: str
+    mass: float
+
+
+@dataclass(eq=False)
+class MuscleKinematics:
+    """Muscles at postures; columns are the muscles in the order of the model.
+
+    Attributes:
+        muscles: Names of the muscles.
+        length: Musculotendon lengths [m], postures x muscles.
+        velocity: Their rates [m/s], lengthening positive.
+        moment_arm: r = -dl/dq by coordinate [m], postures x muscles.
+    """
+
+    muscles: list[str]
+    length: np.ndarray
+    velocity: np.ndarray
+    moment_arm: dict[str, np.ndarray]
+
+
+class Model:
+    """A body model: an .osim file (OpenSim 1.6 to 4.5), or the built-in arm "arm4".
+
+    Args:
+        file: The model file, or "arm4".
+        compat: Muscle paths: "exact", or "opensim" for OpenSim 4.5.2's with its defects.
+
+    Raises:
+        ReadError: The file cannot be read.
+        ModelError: The model is inconsistent.
+    """
+
+    def __init__(self, file: str | os.PathLike[str] = "arm4", *, compat: str = "exact") -> None:
+        self._model = _native.read_model({"file": file, "compat": compat})
+        self.name: str = self._model.name()
+
+    @cached_property
+    def coordinates(self) -> dict[str, Coordinate]:
+        """The coordinates by name, in the order of the model."""
+        return {c["name"]: Coordinate(**c) for c in self._model.coordinates()}
+
+    @cached_property
+    def muscles(self) -> dict[str, Muscle]:
+        """The muscles by name, in the order of the model."""
+        return {m["name"]: Muscle(**m) for m in self._model.muscles()}
+
+    @cached_property
+    def bodies(self) -> dict[str, Body]:
+        """The bodies by name; the first is ground."""
+        return {b["name"]: Body(**b) for b in self._model.bodies()}
+
+    @cached_property
+    def markers(self) -> list[str]:
+        """Names of the markers."""
+        return self._model.markers()
+
+    @property
+    def unsupported(self) -> list[str]:
+        """Parts of the file that are left out and change results."""
+        return self._model.unsupported()
+
+    @property
+    def notes(self) -> list[str]:
+        """Repairs and omissions of the reader."""
+        return self._model.notes()
+
+    def __repr__(self) -> str:
+        return f"Model({self.name!r}: {len(self.coordinates)} coordinates, {len(self.muscles)} muscles)"
+
+    def muscle_kinematics(
+        self, posture: Mapping[str, Any] | None = None, *, speeds: Mapping[str, Any] | None = None
+    ) -> MuscleKinematics:
+        """Lengths, velocities and moment arms of all muscles at one posture or many.
+
+        Args:
+            posture: Values by coordinate [rad or m]: numbers, or arrays of one length for many postures. Other
+                coordinates have their default value.
+            speeds: Rates by coordinate [rad/s or m/s]; 0 where not given.
+
+        Raises:
+            ModelError: There is no such coordinate.
+            InvalidInput: Arrays differ in length.
+        """
+        import numpy as np
+
+        given = dict(posture or {})
+        rates = dict(speeds or {})
+        sizes = [np.size(value) for value in [*given.values(), *rates.values()]]
+        count = max(sizes, default=1)
+
+        def spread(values: Mapping[str, Any]) -> dict[str, Any]:
+            return {k: np.full(count, v) if np.ndim(v) == 0 else np.ravel(v) for k, v in values.items()}
+
+        found = self._model.muscle_kinematics(spread(given), spread(rates), count)
+        return MuscleKinematics(muscles=list(self.muscles), **found)
+
+    def lengths(self, posture: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Musculotendon lengths [m] by muscle at one posture [rad or m by coordinate]."""
+        found = self.muscle_kinematics(posture)
+        return dict(zip(found.muscles, map(float, found.length[0])))
+
+    def moment_arms(self, coordinate: str, posture: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Moment arms r = -dl/dq [m] about a coordinate by muscle at one posture [rad or m by coordinate].
+
+        Raises:
+            ModelError: The coordinate does not exist or is locked.
+        """
+        from .errors import ModelError
+
+        found = self.muscle_kinematics(posture)
+        if coordinate not in found.moment_arm:
+            names = ", ".join(found.moment_arm)
+            raise ModelError(f"there are no moment arms about {coordinate!r}; there are about {names}")
+        return dict(zip(found.muscles, map(float, found.moment_arm[coordinate][0])))

@@ -1,0 +1,229 @@
+"""Series over time, markers and tables."""
+
+from __future__ import annotations
+
+import csv
+import html
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pandas
+    import xarray
+
+__all__ = ["TimeSeries", "Markers", "Table"]
+
+
+def _package(name: str) -> Any:
+    """Imports a package that only this conversion needs."""
+    import importlib
+
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            f"this conversion needs the package {name}: pip install {name} (Debian: python3-{name})", name=name
+        ) from error
+
+
+@dataclass(eq=False)
+class TimeSeries:
+    """Samples of several channels on one clock.
+
+    Attributes:
+        time: Times of the samples [s], strictly increasing.
+        values: Samples x channels, in the units of the channels.
+        channels: Names of the channels.
+        units: Unit of each channel: "V", "N", "N m", "m", "rad", "1" (without dimension), ...
+    """
+
+    time: np.ndarray
+    values: np.ndarray
+    channels: list[str]
+    units: list[str]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __contains__(self, channel: object) -> bool:
+        return channel in self.channels
+
+    def __getitem__(self, channel: str) -> np.ndarray:
+        """The samples of one channel, in its unit."""
+        try:
+            return self.values[:, self.channels.index(channel)]
+        except ValueError:
+            raise KeyError(f"there is no channel {channel!r}; there are {', '.join(self.channels)}") from None
+
+    def __repr__(self) -> str:
+        span = f"{self.time[0]:g} to {self.time[-1]:g} s" if len(self) else "empty"
+        names = ", ".join(f"{n} [{u}]" for n, u in list(zip(self.channels, self.units))[:6])
+        more = f", and {len(self.channels) - 6} more" if len(self.channels) > 6 else ""
+        return f"TimeSeries({len(self)} samples, {span}: {names}{more})"
+
+    @property
+    def rate(self) -> float:
+        """Mean rate of the samples [Hz]; 0 with fewer than two samples."""
+        if len(self) < 2:
+            return 0.0
+        return (len(self) - 1) / float(self.time[-1] - self.time[0])
+
+    def unit(self, channel: str) -> str:
+        """The unit of one channel."""
+        if channel not in self.channels:
+            raise KeyError(f"there is no channel {channel!r}; there are {', '.join(self.channels)}")
+        return self.units[self.channels.index(channel)]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with the index `time` [s] and a column for each channel; `attrs["units"]` has the units."""
+        pandas = _package("pandas")
+        frame = pandas.DataFrame(self.values, index=pandas.Index(self.time, name="time"), columns=self.channels)
+        frame.attrs["units"] = dict(zip(self.channels, self.units))
+        return frame
+
+    def to_xarray(self) -> xarray.DataArray:
+        """An array `channel` x `time`, as pyomeca has it. `attrs["units"]` is the unit of all channels, or a dict."""
+        array = _package("xarray").DataArray(
+            self.values.T, dims=("channel", "time"), coords={"channel": self.channels, "time": self.time}
+        )
+        same = len(set(self.units)) == 1
+        array.attrs["units"] = self.units[0] if same else dict(zip(self.channels, self.units))
+        array.attrs["rate"] = self.rate
+        return array
+
+
+@dataclass(eq=False)
+class Markers:
+    """Markers over time, in the frame of the laboratory.
+
+    Attributes:
+        time: Times of the frames [s].
+        positions: Frames x markers x 3 [m]; NaN where a marker is missing.
+        names: Names of the markers.
+    """
+
+    time: np.ndarray
+    positions: np.ndarray
+    names: list[str]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """The positions of one marker, frames x 3 [m]."""
+        try:
+            return self.positions[:, self.names.index(name), :]
+        except ValueError:
+            raise KeyError(f"there is no marker {name!r}; there are {', '.join(self.names)}") from None
+
+    def __repr__(self) -> str:
+        return f"Markers({len(self)} frames, {len(self.names)} markers: {', '.join(self.names[:8])}{', ...' * (len(self.names) > 8)})"
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with the index `time` [s] and columns (marker, axis) [m]."""
+        pandas = _package("pandas")
+        columns = pandas.MultiIndex.from_product([self.names, ["x", "y", "z"]], names=["channel", "axis"])
+        frame = pandas.DataFrame(
+            self.positions.reshape(len(self), -1), index=pandas.Index(self.time, name="time"), columns=columns
+        )
+        frame.attrs["units"] = "m"
+        return frame
+
+    def to_xarray(self) -> xarray.DataArray:
+        """An array `axis` x `channel` x `time` [m], as pyomeca has it."""
+        array = _package("xarray").DataArray(
+            self.positions.transpose(2, 1, 0),
+            dims=("axis", "channel", "time"),
+            coords={"axis": ["x", "y", "z"], "channel": self.names, "time": self.time},
+        )
+        array.attrs["units"] = "m"
+        return array
+
+
+# Columns of text, whatever stands in them: the unit "1", a muscle "1".
+_TEXTS = frozenset(
+    "muscle parameter unit method case verdict reason trial joint recording channel file movement message".split()
+)
+
+
+def _cell(column: str, text: str) -> Any:
+    """A cell of a file: a number, True or False, None where it is empty, or the text."""
+    if column in _TEXTS:
+        return text
+    if text == "":
+        return None
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+class Table(Sequence[Mapping[str, Any]]):
+    """Rows with named columns, such as parameters.csv. A row is a dict; `table["estimate"]` is a column as a list.
+
+    Numbers are floats, empty cells None.
+    """
+
+    def __init__(self, rows: Sequence[Mapping[str, Any]], columns: Sequence[str] | None = None) -> None:
+        self._rows = list(rows)
+        self.columns: list[str] = list(columns if columns is not None else (rows[0] if rows else ()))
+
+    @classmethod
+    def read(cls, path: str | Path) -> Table:
+        """Reads a table (.csv) of Myoid."""
+        with open(path, encoding="utf-8", newline="") as file:
+            reader = csv.reader(line for line in file if not line.startswith("#"))
+            columns = next(reader, [])
+            return cls([{c: _cell(c, text) for c, text in zip(columns, row)} for row in reader], columns)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[Mapping[str, Any]]:
+        return iter(self._rows)
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            if key not in self.columns:
+                raise KeyError(f"there is no column {key!r}; there are {', '.join(self.columns)}")
+            return [row[key] for row in self._rows]
+        if isinstance(key, slice):
+            return Table(self._rows[key], self.columns)
+        return self._rows[key]
+
+    def where(self, **cells: Any) -> Table:
+        """The rows with these cells: `table.where(muscle="BIC", method="torque")`. A column `case` is `fit_case`."""
+        wanted = {"case" if key == "fit_case" else key: value for key, value in cells.items()}
+        unknown = [key for key in wanted if key not in self.columns]
+        if unknown:
+            raise KeyError(f"there is no column {unknown[0]!r}; there are {', '.join(self.columns)}")
+        return Table([r for r in self._rows if all(r[k] == v for k, v in wanted.items())], self.columns)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as a data frame."""
+        return _package("pandas").DataFrame(self._rows, columns=self.columns)
+
+    def __repr__(self) -> str:
+        return f"Table({len(self)} rows: {', '.join(self.columns)})"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{html.escape(column)}</th>" for column in self.columns)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(_shown(row[column]))}</td>" for column in self.columns) + "</tr>"
+            for row in self._rows
+        )
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,84 @@
+"""The module as a whole: names, documentation, stubs, the options of the command line."""
+
+import inspect
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import SOURCE, program
+
+import myoid
+
+# Options of the program that belong to a terminal: what it prints and which exit code it has.
+TERMINAL = {"help", "json", "quiet", "verbose", "strict", "each_muscle", "paper_figures", "help_files"}
+PAGE = {"html", "motion", "forces", "activations", "markers", "meshes", "up", "start", "end", "overwrite"}
+COMMANDS = [
+    "run", "identify", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate", "twin",
+    "twin_study", "run_tool", "info", "convert",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_keywords_are_the_options_of_the_command_line(command):
+    text = program(command.replace("_", "-"), "--help")
+    options = {o.replace("-", "_") for o in re.findall(r"^ +(?:-\w,)?--([a-z-]+)", text, re.MULTILINE)} - TERMINAL
+    if command == "info":
+        options -= PAGE
+    parameters = inspect.signature(getattr(myoid, command)).parameters
+    keywords = {p.name for p in parameters.values() if p.kind == p.KEYWORD_ONLY} - {"progress"}
+    positional = {p.name for p in parameters.values() if p.kind == p.POSITIONAL_OR_KEYWORD}
+    if command == "convert":
+        keywords -= {"out"}
+    assert keywords == options - positional
+
+
+def test_every_public_function_is_documented_and_called_by_a_test():
+    texts = "".join(f.read_text() for f in Path(__file__).parent.glob("*.py"))
+    for name in myoid.__all__:
+        thing = getattr(myoid, name)
+        if name.startswith("__"):
+            continue
+        assert thing.__doc__, name
+        if inspect.isfunction(thing):
+            assert f"myoid.{name}(" in texts, name
+            for keyword in set(inspect.signature(thing).parameters) - {"start", "end", "threads", "seed", "overwrite",
+                                                                      "progress"}:  # fmt: skip
+                assert re.search(rf"\b{keyword}\b", thing.__doc__), f"{name}: {keyword} is not documented"
+        elif inspect.isclass(thing):
+            for method, member in inspect.getmembers(thing):
+                if not method.startswith("_") and (inspect.isfunction(member) or isinstance(member, property)):
+                    assert member.__doc__, f"{name}.{method}"
+
+
+def test_the_version_is_the_program_s():
+    assert myoid.__version__ == program("--version").strip()
+    cmake = (SOURCE / "CMakeLists.txt").read_text()
+    assert f"VERSION {myoid.__version__} " in cmake
+
+
+def test_the_stubs_name_what_the_extension_has():
+    from myoid import _native
+
+    stub = (Path(myoid.__file__).parent / "_native.pyi").read_text()
+    names = {n for n in dir(_native) if not n.startswith("_")}
+    assert names == set(re.findall(r"^(?:def|class) (\w+)", stub, re.MULTILINE))
+    for kind in ("Recording", "Model"):
+        body = stub.split(f"class {kind}:")[1].split("\n\n")[0]
+        assert set(re.findall(r"def (\w+)", body)) == {n for n in dir(getattr(_native, kind)) if not n.startswith("_")}
+    assert (Path(myoid.__file__).parent / "py.typed").is_file()
+
+
+def test_the_page_s_ten_lines_run(result, recording, tmp_path):
+    text = (SOURCE / "docs/guide/python.md").read_text()
+    blocks = re.findall(r"\n((?:    .*\n|\n(?=    ))+)", text)
+    lines = next(block for block in blocks if "import myoid" in block)
+    script = "\n".join(line[4:] for line in lines.splitlines())
+    assert len(script.strip().splitlines()) >= 10
+    environment = {**os.environ, "PYTHONPATH": str(Path(myoid.__file__).parents[1]), "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run([sys.executable, "-c", script], cwd=recording.parent, env=environment, capture_output=True,
+                          text=True, check=False)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"BIC: \d+ N, \d+ to \d+", done.stdout)

@@ -1,0 +1,220 @@
+"""Studies: the numbers of the program, results as people read them, errors, Ctrl-C."""
+
+import _thread
+import re
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+from conftest import SOURCE, program
+
+import myoid
+
+
+def test_the_demo_gives_the_numbers_of_the_program_to_the_last_bit(tmp_path):
+    study = myoid.twin(protocol=SOURCE / "examples/demo/protocol.toml", out=tmp_path / "r", seed=1).study
+    program("run", study, "--out", tmp_path / "cli", "--quiet")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        result = myoid.run(study)
+    for file in ("parameters.csv", "fold_parameters.csv", "fast_0kg/id.sto"):
+        assert (result.path / file).read_bytes() == (tmp_path / "cli" / file).read_bytes()
+    cells = (tmp_path / "cli/parameters.csv").read_text().splitlines()[1].split(",")
+    assert result.parameters[0]["estimate"] == float(cells[6])
+    identified = result.parameters.where(method="torque", verdict="identified")
+    assert len(identified) >= 8
+    truth = {row["parameter"]: row for row in myoid.Table.read(study.parent / "truth.csv")}
+    assert truth
+    folder = result.path
+    del result
+    assert not folder.exists(), "a temporary folder goes with its result"
+
+
+def test_a_result_reads_its_folder(result, tmp_path):
+    row = result.parameter("BIC", "max_isometric_force")
+    assert row["unit"] == "N" and row["ci_low"] < row["estimate"] < row["ci_high"]
+    assert result.parameters.where(parameter="concentric_curvature")[0]["unit"] == "1"
+    assert set(result.parameters["at_bound"]) <= {True, False}
+    with pytest.raises(KeyError, match="0 rows"):
+        result.parameter("BIC", "no_such")
+    lift = result.trials["lift"]
+    assert lift.use and not lift.failure
+    angle = lift["ik"]
+    assert angle["elbow_flexion"].max() > 90 and angle.rate == pytest.approx(100, rel=0.5)
+    assert "identified_forces" in lift and len(lift) == len(list(lift))
+    with pytest.raises(KeyError, match="there are"):
+        lift["none"]
+    assert result.run["program"] == "myoid" and result.run["command"].endswith("from Python")
+    assert "parameters_torque" in result.tables
+    assert result.gates and {gate["status"] for gate in result.gates} <= {"pass", "warn", "fail", "info"}
+    assert result.model.is_file() and result.report.is_file()
+    again = myoid.Result(result.path)
+    assert list(again.parameters) == list(result.parameters) and again.gates is None
+    assert (result.save(tmp_path / "copy") / "report.html").read_bytes() == result.report.read_bytes()
+    assert "numbers identified" in repr(result)
+
+
+def test_a_notebook_shows_bars_and_the_report_without_a_server(result):
+    page = result._repr_html_()
+    assert page.count("<svg") >= 10 and "srcdoc=" in page and "http://" not in page.split("srcdoc=")[0]
+    frame = re.search(r'srcdoc="([^"]*)"', page)
+    assert frame and "&lt;html" in frame.group(1)[:200].lower().replace("&lt;!doctype html&gt;", "&lt;html")
+    assert "<table>" in result.tables["trials"]._repr_html_()
+
+
+def test_pandas_and_xarray_where_they_are(result):
+    series = result.trials["lift"]["id"]
+    try:
+        import pandas  # noqa: F401
+    except ModuleNotFoundError:
+        for conversion in (series.to_pandas, result.to_pandas):
+            with pytest.raises(ModuleNotFoundError, match="pip install pandas"):
+                conversion()
+    else:
+        frame = series.to_pandas()
+        assert frame.index.name == "time" and list(frame.columns) == series.channels
+        assert frame.attrs["units"]
+        assert len(result.to_pandas()) == len(result.parameters)
+    try:
+        import xarray  # noqa: F401
+    except ModuleNotFoundError:
+        with pytest.raises(ModuleNotFoundError, match="pip install xarray"):
+            result.to_xarray()
+    else:
+        array = series.to_xarray()
+        assert array.dims == ("channel", "time") and "units" in array.attrs
+        assert np.array_equal(array.sel(channel=series.channels[0]), series.values[:, 0])
+        assert result.to_xarray()["lift"]["id"].dims == ("channel", "time")
+
+
+def test_check_compare_design(recording, result, tmp_path):
+    found = myoid.check(recording)
+    assert found and found.of_study and found.trials == 2 and found.muscles >= 4 and found.errors == 0
+    assert all(remark.severity and str(remark) for remark in found.findings)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        other = myoid.run(recording, out=tmp_path / "other")
+        compared = myoid.compare(result, other, out=tmp_path / "compared")
+    assert {row["change"] for row in compared.parameters} <= {"no_change", "cannot_tell"}
+    assert all(row["difference"] == 0 for row in compared.parameters)
+    assert (tmp_path / "compared/report.html").is_file()
+    planned = myoid.design(model="arm4", targets="max_isometric_force", movements=2, persons=2)
+    assert len(planned.plan) == 2 and len(planned.expected) == 2 and planned.catalogue_size > 10
+    assert [row["parameter"] for row in planned.beforehand] == ["max_isometric_force"] * len(planned.beforehand)
+
+
+def test_identify_from_the_files_of_the_run(result, tmp_path):
+    names = "max_isometric_force optimal_fiber_length force_length_width concentric_curvature "
+    names += "eccentric_curvature_product eccentric_plateau max_shortening_speed tendon_slack_length"
+    (tmp_path / "muscles.csv").write_text(
+        "muscle,emg," + names.replace(" ", ",") + "\n"
+        "BIC,BIC,1060,0.1224,0.055,0.28,0.058,1.4,1.22,0.21\n"
+        "TRI,TRI,2047,0.1217,0.0548,0.28,0.058,1.4,1.22,0.2\n"
+    )
+    lift = result.path / "lift"
+    options = dict(
+        muscles=tmp_path / "muscles.csv", activations=lift / "activation.sto",
+        lengths=lift / "MuscleAnalysis_Length.sto", velocities=[lift / "MuscleAnalysis_MuscleTendonVelocity.sto"],
+        moment_arms=lift / "MuscleAnalysis_MomentArm_elbow_flexion.sto", torques=lift / "id.sto",
+        coordinate="elbow_flexion", method="torque",
+    )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        fitted = myoid.identify(**options, out=tmp_path / "out")
+    command = [f"--{key.replace('_', '-')}={str(v[0] if isinstance(v, list) else v)}" for key, v in options.items()]
+    program("identify", *command, "--out", tmp_path / "cli", "--quiet")
+    assert (tmp_path / "out/parameters.csv").read_bytes() == (tmp_path / "cli/parameters.csv").read_bytes()
+    assert {"BIC", "TRI"} <= set(fitted.parameters["muscle"]) and fitted.found["message"]
+    with pytest.raises(myoid.InvalidInput, match="run.json"):
+        fitted.run  # noqa: B018
+
+
+def test_twins_and_their_study(protocol, tmp_path):
+    many = myoid.twin(protocol=protocol, out=tmp_path / "many", subjects=3, truth_only=True, seed=7)
+    assert len(many.truth) == 3 and many.studies == [] and many.truth["seed"] == [7, 8, 9]
+    program("twin", "--protocol", protocol, "--subjects", "3", "--truth-only", "--seed", "7", "--out", tmp_path / "cli")
+    assert (tmp_path / "many/persons.csv").read_bytes() == (tmp_path / "cli/persons.csv").read_bytes()
+    told = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        study = myoid.twin_study(protocol=protocol, subjects=2, progress=lambda share, what: told.append((share, what)))
+    assert study.finished == 2 and study.failures == [] and study.level == "L1"
+    assert len(study.summary) > 4 and {1.0, 2.0} == set(study.persons["seed"])
+    assert study.predictions.columns and "2 persons" in repr(study)
+    assert told and all(0 <= share <= 1 and what for share, what in told)
+
+
+def test_mistakes_are_the_errors_of_the_library(recording, result, tmp_path):
+    with pytest.raises(myoid.ReadError, match="no such file") as missing:
+        myoid.run(tmp_path / "none.toml")
+    assert missing.value.path.endswith("none.toml") and isinstance(missing.value, (ValueError, myoid.Error))
+    study = tmp_path / "wrong.toml"
+    study.write_text("[study]\nnmae = 1\n")
+    with pytest.raises(myoid.ReadError) as wrong:
+        myoid.run(study)
+    assert wrong.value.line == 2
+    broken = tmp_path / "broken.osim"
+    broken.write_text("<OpenSimDocument")
+    with pytest.raises(myoid.InvalidInput):
+        myoid.Model(broken)
+    with pytest.raises(myoid.ModelError, match="there are"):
+        myoid.Model().muscle_kinematics({"knee": 1.0})
+    with pytest.raises(myoid.InvalidInput, match="is not empty"):
+        myoid.run(recording, out=result.path)
+    with pytest.raises(myoid.InvalidInput, match="lowpass: found -1"):
+        myoid.id(model="arm4", motion="x.mot", lowpass=-1)
+    with pytest.raises(myoid.InvalidInput, match="expected x, y"):
+        myoid.check(recording, up="upwards")
+    with pytest.raises(TypeError, match="movements: expected a whole number, found str"):
+        myoid.design(model="arm4", movements="two")
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        myoid.run(recording, no_such=1)
+    with pytest.raises(myoid.InvalidInput, match="parameters.csv"):
+        myoid.Result(tmp_path)
+    with pytest.raises(myoid.InvalidInput, match="after start"):
+        myoid.check(recording, start=2, end=1)
+
+
+def test_ctrl_c_stops_a_call_and_leaves_no_folder(protocol, tmp_path):
+    threading.Timer(0.5, _thread.interrupt_main).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt), warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        myoid.twin(protocol=protocol, subjects=1000000, truth_only=True, out=tmp_path / "many")
+    assert time.monotonic() - begin < 20
+    assert not (tmp_path / "many").exists()
+
+
+def test_a_listener_that_fails_stops_the_call(recording):
+    def listen(share, what):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        myoid.run(recording, progress=listen)
+    with pytest.raises(myoid.MyoidWarning), warnings.catch_warnings():
+        warnings.simplefilter("error", myoid.MyoidWarning)
+        myoid.run(recording)
+
+
+def test_other_threads_go_on_while_a_call_works(recording):
+    ticks = []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.wait(0.01):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.monotonic()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", myoid.MyoidWarning)
+        myoid.run(recording, threads=1)
+    end = time.monotonic()
+    stop.set()
+    thread.join()
+    inside = sum(begin < t < end for t in ticks)
+    assert inside >= 3, "the lock of Python is released"
