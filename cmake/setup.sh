@@ -58,6 +58,23 @@ myoid_install_browser() {
     myoid_log "chromium cannot be installed: pages with a moving model are not tested in a browser"
 }
 
+# The Python module and its tests. Without these packages the module is not built.
+myoid_install_python() {
+  local wanted=(pybind11-dev python3-dev python3-numpy python3-pytest) name missing=()
+  for name in "${wanted[@]}"; do
+    dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
+  done
+  [ "${#missing[@]}" -eq 0 ] && return 0
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    myoid_log "No ${missing[*]}: the Python module is not tested"
+    return 0
+  fi
+  myoid_log "Installing: ${missing[*]}"
+  { myoid_as_root apt-get update -qq && myoid_as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >&2 ||
+    myoid_log "${missing[*]} cannot be installed: the Python module is not tested"
+}
+
 # Programs that some tests run with: engines of a cohort (Snakemake, which takes longer to install, is left out), Octave
 # for matlab/+myoid, man for the manual pages. Without them these tests are skipped, and say so. CI only: on a
 # workstation Slurm's package would start services.

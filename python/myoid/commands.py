@@ -17,13 +17,14 @@ raises KeyboardInterrupt. All functions raise InvalidInput, ReadError and ModelE
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from ._call import Progress, call
-from .errors import InvalidInput
+from .errors import InvalidInput, MyoidWarning
 from .remarks import Remark
 from .results import Result, TwinStudyResult, _Folder
 from .series import Table, TimeSeries
@@ -57,7 +58,11 @@ def run(study: File, *, out: File | None = None, estimator: str | None = None, t
     """
     options = locals()
     folder = _Folder(out)
-    return Result._of(folder, call("run", {**options, "out": folder.path}))
+    result = Result._of(folder, call("run", {**options, "out": folder.path}))
+    for gate in result.gates or ():
+        if gate["status"] == "fail":
+            warnings.warn(f"quality gate failed: {gate['name']}: {gate['value']}", MyoidWarning, stacklevel=2)
+    return result
 
 
 def identify(*, muscles: File, activations: Files, lengths: Files, velocities: Files | None = None,

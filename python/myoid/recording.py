@@ -122,6 +122,9 @@ class Recording:
 def read(path: str | os.PathLike[str]) -> Recording:
     """Reads a recording: .c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto, .mot or BIDS _motion.tsv.
 
+    Args:
+        path: The file; the ending of its name decides the format.
+
     Raises:
         ReadError: The file cannot be read as its name says.
     """
@@ -132,6 +135,9 @@ def read_series(path: str | os.PathLike[str]) -> TimeSeries:
     """Reads a table (.csv, .tsv, .txt) or a storage file (.sto, .mot) as one series, in the units of the file.
 
     Angles of a .mot file stay in degrees where the file has degrees.
+
+    Args:
+        path: The file.
 
     Raises:
         ReadError: The file cannot be read.

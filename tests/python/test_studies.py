@@ -1,6 +1,7 @@
 """Studies: the numbers of the program, results as people read them, errors, Ctrl-C."""
 
 import _thread
+import os
 import re
 import threading
 import time
@@ -13,20 +14,25 @@ from conftest import SOURCE, program
 import myoid
 
 
-def test_the_demo_gives_the_numbers_of_the_program_to_the_last_bit(tmp_path):
-    study = myoid.twin(protocol=SOURCE / "examples/demo/protocol.toml", out=tmp_path / "r", seed=1).study
+# The demo itself takes a minute of processor time: MYOID_TEST_DEMO=1 tests it too.
+PROTOCOLS = ["protocols/three_trials", *(["demo/protocol"] if "MYOID_TEST_DEMO" in os.environ else [])]
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_run_gives_the_numbers_of_the_program_to_the_last_bit(tmp_path, protocol):
+    study = myoid.twin(protocol=SOURCE / f"examples/{protocol}.toml", out=tmp_path / "r", seed=1).study
     program("run", study, "--out", tmp_path / "cli", "--quiet")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
         result = myoid.run(study)
-    for file in ("parameters.csv", "fold_parameters.csv", "fast_0kg/id.sto"):
+    files = ["parameters.csv", *(f"{name}/id.sto" for name in result.trials)]
+    for file in files:
         assert (result.path / file).read_bytes() == (tmp_path / "cli" / file).read_bytes()
     cells = (tmp_path / "cli/parameters.csv").read_text().splitlines()[1].split(",")
     assert result.parameters[0]["estimate"] == float(cells[6])
     identified = result.parameters.where(method="torque", verdict="identified")
-    assert len(identified) >= 8
-    truth = {row["parameter"]: row for row in myoid.Table.read(study.parent / "truth.csv")}
-    assert truth
+    assert len(identified) >= (8 if protocol.startswith("demo") else 1)
+    assert len(myoid.Table.read(study.parent / "truth.csv")) > 10
     folder = result.path
     del result
     assert not folder.exists(), "a temporary folder goes with its result"
@@ -49,7 +55,7 @@ def test_a_result_reads_its_folder(result, tmp_path):
     assert result.run["program"] == "myoid" and result.run["command"].endswith("from Python")
     assert "parameters_torque" in result.tables
     assert result.gates and {gate["status"] for gate in result.gates} <= {"pass", "warn", "fail", "info"}
-    assert result.model.is_file() and result.report.is_file()
+    assert result.report.is_file() and (result.model is None or result.model.is_file())
     again = myoid.Result(result.path)
     assert list(again.parameters) == list(result.parameters) and again.gates is None
     assert (result.save(tmp_path / "copy") / "report.html").read_bytes() == result.report.read_bytes()
@@ -151,7 +157,7 @@ def test_mistakes_are_the_errors_of_the_library(recording, result, tmp_path):
         myoid.run(tmp_path / "none.toml")
     assert missing.value.path.endswith("none.toml") and isinstance(missing.value, (ValueError, myoid.Error))
     study = tmp_path / "wrong.toml"
-    study.write_text("[study]\nnmae = 1\n")
+    study.write_text("# a study\nnmae = 1\n")
     with pytest.raises(myoid.ReadError) as wrong:
         myoid.run(study)
     assert wrong.value.line == 2
@@ -194,9 +200,13 @@ def test_a_listener_that_fails_stops_the_call(recording):
     with pytest.raises(RuntimeError, match="enough"), warnings.catch_warnings():
         warnings.simplefilter("ignore", myoid.MyoidWarning)
         myoid.run(recording, progress=listen)
+    turned = dict(model="arm4", markers=recording.parent / "lift.trc", up="z")
+    with pytest.warns(myoid.MyoidWarning):
+        found = myoid.ik(**turned)
+    assert any(remark.severity == "warning" for remark in found.remarks)
     with pytest.raises(myoid.MyoidWarning), warnings.catch_warnings():
         warnings.simplefilter("error", myoid.MyoidWarning)
-        myoid.run(recording)
+        myoid.ik(**turned)
 
 
 def test_other_threads_go_on_while_a_call_works(recording):
