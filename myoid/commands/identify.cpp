@@ -76,24 +76,23 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
   const identification::CrossValidationOptions how{.kind = o.folds == "block"
                                                                ? identification::FoldKind::block
                                                                : identification::FoldKind::trial};
-  const identification::EstimatorOptions once = identification::of_a_fold(options);
   (void)identification::splits(data, how, &why_not);
   if (o.method == "torque") {
     return identification::cross_validate(
         data,
-        [&](StudyData& of_fold) {
+        [&](StudyData& of_fold, const identification::EstimatorOptions& once) {
           return identification::identify_torque_or_exact(of_fold, once, speed_may_be_free);
         },
         options, how);
   }
-  const identification::ForceOptions of_force{
-      .estimator = once, .detect_exact = true, .speed_may_be_free = speed_may_be_free};
   std::vector<identification::Fold> folds;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const auto more = identification::cross_validate(
         identification::force_study(data, k),
-        [&](StudyData& of_fold) {
-          return identification::identify_muscle_force(of_fold, of_force);
+        [&](StudyData& of_fold, const identification::EstimatorOptions& once) {
+          return identification::identify_muscle_force(
+              of_fold,
+              {.estimator = once, .detect_exact = true, .speed_may_be_free = speed_may_be_free});
         },
         options, how);
     folds.insert(folds.end(), more.begin(), more.end());

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"

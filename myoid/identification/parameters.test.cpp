@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/estimator.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"

@@ -14,7 +14,7 @@
 #include "myoid/dynamics/joint_capacity.h"
 #include "myoid/math/moving_mean.h"
 #include "myoid/math/statistics.h"
-#include "myoid/methods/torque.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/signals/emg_levels.h"
 
 namespace myoid {

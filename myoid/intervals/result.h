@@ -65,11 +65,15 @@ struct TrialFit {
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.
   Eigen::VectorXd literature_torque_nm;  ///< Starting parameters.
-  /// The law with the identified parameters, as it is.
+  /// The law with the identified parameters, as it is; of the posterior, its expectation.
   Eigen::VectorXd torque_fit_nm;
+  /// Standard deviation of a measured torque about the prediction: of the parameters and of the
+  /// noise. Empty: not known.
+  Eigen::VectorXd torque_sd_nm;
   double smooth_hz = 0.0;              ///< Where its noise does least harm (smooth_prediction.h).
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
+  Eigen::MatrixXd force_sd_n;  ///< n x m: of the parameters. Empty: not known.
   Score score;                         ///< Of `torque_fit_nm`.
   /// Both torques below the fit's own cut-off (EstimatorOptions::residual_cutoff_hz): without most
   /// of the noise of the EMG envelope, which the prediction carries and a muscle does not.
@@ -146,6 +150,8 @@ struct IdentificationResult {
   /// (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Its rows.
+  /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
+  Eigen::VectorXd noise;
   std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
   std::vector<PriorDistance> prior_distances;  ///< Of each muscle with priors.

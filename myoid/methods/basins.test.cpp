@@ -7,6 +7,7 @@
 
 #include "myoid/methods/force.h"
 #include "myoid/methods/paper.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"

@@ -12,6 +12,7 @@
 
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/methods/paper.h"
+#include "myoid/methods/prediction.h"
 
 namespace myoid::identification {
 namespace {
@@ -131,10 +132,10 @@ std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const s
 struct Predictors {
   const StudyData& data;
   const IdentificationResult& fit;
+  const TrialPredictions& predictions;
   std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
   double literature_delay_s = 0.0;
   double cutoff_hz = 0.0;  ///< Of the fit.
-  double envelope_cutoff_hz = 0.0;
   bool paper = false;
 };
 
@@ -194,13 +195,13 @@ Fold score_joint(const std::string& name,
   Fold fold;
   fold.trial = name;
   fold.gain = from.gain;
-  std::vector<Eigen::VectorXd> time;
+  std::vector<Eigen::VectorXd> time, deviation;
   Curves identified, smooth, band, literature, regression, paper;
   for (const TrialData& t : held) {
     const std::vector<Eigen::Index> rows = included_rows(t);
-    const FittedPrediction found = predict(by.data, t, by.fit, by.envelope_cutoff_hz);
-    const Eigen::VectorXd& torque = found.of.torque_nm;
-    if (time.empty()) fold.smooth_hz = found.smooth.cutoff_hz;
+    const TrialFit found = by.predictions.of(t);
+    const Eigen::VectorXd& torque = found.torque_fit_nm;
+    if (time.empty()) fold.smooth_hz = found.smooth_hz;
     const Eigen::VectorXd resting = resting_torque_nm(t);
     const Eigen::VectorXd muscles =
         predict(by.data, t, by.literature, by.literature_delay_s, by.fit.lag).torque_nm - resting;
@@ -208,7 +209,8 @@ Fold score_joint(const std::string& name,
     const Eigen::VectorXd measured = t.torque_nm(rows);
     time.emplace_back(t.time_s(rows));
     identified.add(measured, torque(rows));
-    smooth.add(measured, found.smooth.torque_nm(rows));
+    smooth.add(measured, below(t.time_s, torque, found.smooth_hz)(rows));
+    if (found.torque_sd_nm.size() > 0) deviation.emplace_back(found.torque_sd_nm(rows));
     band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows),
              below(t.time_s, torque, by.cutoff_hz)(rows));
     literature.add(measured, (resting + from.gain * muscles)(rows));
@@ -226,7 +228,9 @@ Fold score_joint(const std::string& name,
   fold.time_s = joined(time);
   fold.measured_nm = joined(identified.measured);
   fold.predicted_nm = joined(identified.predicted);
+  fold.predicted_sd_nm = joined(deviation);
   fold.literature_nm = joined(literature.predicted);
+  fold.covered = covered_share(fold.measured_nm, fold.predicted_nm, fold.predicted_sd_nm);
   fold.identified = identified.scored();
   fold.smooth = smooth.scored();
   fold.band = band.scored();
@@ -255,17 +259,19 @@ std::vector<Fold> score_split(Split split,
                               const SplitFit& fit_to,
                               const EstimatorOptions& options,
                               bool with_paper) {
-  const IdentificationResult fit = fit_to(split.data);
+  EstimatorOptions of_fold = of_a_fold(options);
+  const IdentificationResult fit = fit_to(split.data, of_fold);
+  const TrialPredictions predictions(split.data, of_fold, fit);
   std::vector<muscle::HillParameters<double>> literature;
   for (const MuscleSetup& setup : split.data.muscles) literature.push_back(setup.start);
   Predictors by{.data = split.data,
                 .fit = fit,
+                .predictions = predictions,
                 .literature = literature,
                 .shortening = literature,
                 .lengthening = literature,
                 .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
-                .cutoff_hz = options.residual_cutoff_hz.value_or(0.0),
-                .envelope_cutoff_hz = options.envelope_cutoff_hz};
+                .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
   std::vector<TrialData> training, held;
   for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
   by.paper = with_paper && std::all_of(training.begin(), training.end(), [](const TrialData& t) {
@@ -397,9 +403,7 @@ std::vector<Fold> cross_validate(const StudyData& data,
 std::vector<Fold> cross_validate(const StudyData& data,
                                  const TorqueOptions& options,
                                  const CrossValidationOptions& how) {
-  const TorqueOptions once = of_a_fold(options);
-  return cross_validate(
-      data, [&](StudyData& of_fold) { return identify_torque(of_fold, once); }, options, how);
+  return cross_validate(data, identify_torque, options, how);
 }
 
 }  // namespace myoid::identification

@@ -42,7 +42,7 @@ struct Split {
 struct Fold {
   std::string trial;  ///< Or the condition, or "block 2 of 5".
   std::string joint;  ///< The joint whose torque is predicted.
-  /// Parameters of the fit without this part. They alone make the prediction.
+  /// Parameters of the fit without this part.
   std::vector<ParameterEstimate> parameters;
   EmgLag lag = EmgLag::delay;
   bool converged = true;
@@ -59,19 +59,20 @@ struct Fold {
   std::optional<Score> paper;  ///< Score of method paper on the others, if there are forces.
   double gain = 1.0;           ///< Gain of the literature's parameters.
   double lag_s = 0.0;          ///< Lag of the identified prediction.
+  double covered = 0.0;        ///< Share of the samples within the prediction's 95 % band.
   UnseenEffort unseen;         ///< Effort beyond that of the fitted trials.
-  Eigen::VectorXd time_s, measured_nm, predicted_nm,
-      literature_nm;  ///< Trials one after another.
+  /// Trials one after another; the standard deviation is empty where it is not known.
+  Eigen::VectorXd time_s, measured_nm, predicted_nm, predicted_sd_nm, literature_nm;
 };
 
-/// Fits the calibration trials of a split. It may first update data that depend on the fitted
-/// trials, such as activations relative to the greatest effort in them.
-using SplitFit = std::function<IdentificationResult(StudyData& data)>;
+/// Fits the calibration trials of a split. It may first update data and options that depend on the
+/// fitted trials, such as activations relative to the greatest effort in them.
+using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOptions& options)>;
 
 /// Leaves out and predicts one part after another, folds in parallel; samples are never shuffled.
-/// `fit` is the reported fit on fewer trials, without anything from another fit. A prediction is
-/// the muscles' law with the fold's parameters, not smoothed. One entry for each part and joint;
-/// empty where `splits` is.
+/// `fit` is the reported fit on fewer trials, without anything from another fit; it gets
+/// `of_a_fold(options)`. Predictions are those of TrialPredictions, not smoothed. One entry for
+/// each part and joint; empty where `splits` is.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
                                                const SplitFit& fit,
                                                const EstimatorOptions& options,

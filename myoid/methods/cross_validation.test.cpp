@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/methods/prediction.h"
+
 #include "tests/support/elbow_study.h"
 
 namespace myoid::identification {

@@ -7,7 +7,7 @@
 
 #include "myoid/identification/beliefs.h"
 #include "myoid/intervals/score.h"
-#include "myoid/methods/torque.h"
+#include "myoid/methods/prediction.h"
 
 namespace myoid::identification {
 namespace {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 #include "myoid/methods/trial_fit.h"
 

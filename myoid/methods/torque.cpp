@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "myoid/identification/estimator.h"
-#include "myoid/identification/muscle_activation.h"
 #include "myoid/intervals/estimates.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/noise_free.h"
-#include "myoid/methods/trial_fit.h"
-#include "myoid/muscle/hill_muscle.h"
+#include "myoid/methods/prediction.h"
+#include "myoid/methods/smooth_prediction.h"
 #include "myoid/posterior/posterior.h"
 
 namespace myoid::identification {
@@ -28,27 +27,14 @@ void add_predictions(const StudyData& data,
     channel[kShape] = 0.0;
     channel[kExponent] = 1.0;
   }
+  const TrialPredictions predictions(data, options, result);
   for (const TrialData& whole : data.trials) {
     for (std::size_t j = 0; j < joint_count(whole); ++j) {
       const TrialData trial = of_joint(whole, j);
-      TrialFit fit = unfitted_trial(trial);
+      TrialFit& fit = result.trials.emplace_back(predictions.of(trial));
       Prediction before = predict(data, trial, literature, options.lag);
-      auto [after, smooth] = predict(data, trial, result, options.envelope_cutoff_hz);
-      fit.smooth_hz = smooth.cutoff_hz;
-      if (after.torque_nm.size() == trial.torque_nm.size()) {
-        const std::vector<Eigen::Index> rows = included_rows(trial);
-        const Eigen::VectorXd measured = trial.torque_nm(rows);
-        const Eigen::VectorXd predicted = after.torque_nm(rows);
-        fit.score = score(measured, predicted);
-        const double cutoff_hz = options.residual_cutoff_hz.value_or(0.0);
-        fit.band = score(below(trial.time_s, trial.torque_nm, cutoff_hz)(rows),
-                         below(trial.time_s, after.torque_nm, cutoff_hz)(rows));
-      }
       fit.literature_force_n = std::move(before.force_n);
       fit.literature_torque_nm = std::move(before.torque_nm);
-      fit.force_fit_n = std::move(after.force_n);
-      fit.torque_fit_nm = std::move(after.torque_nm);
-      result.trials.push_back(std::move(fit));
     }
   }
 }
@@ -131,115 +117,6 @@ Estimator::Solution best_solution(const Estimator& estimator,
 }
 
 }  // namespace
-
-Prediction predict(const StudyData& data,
-                   const TrialData& trial,
-                   const std::vector<muscle::HillParameters<double>>& muscles,
-                   double delay_s,
-                   EmgLag lag) {
-  Prediction p;
-  p.activation = muscle_activation(data, trial, trial.time_s, delay_s);
-  if (lag != EmgLag::delay) {
-    ChannelValues as_it_is{};
-    as_it_is[kDelay] = delay_s;
-    as_it_is[kGain] = as_it_is[kExponent] = 1.0;
-    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      const Envelope envelope(trial.activation.time_s(),
-                              trial.activation.column(data.muscles[k].emg_channel));
-      const std::vector<Activation> a = activation(envelope, trial.time_s, as_it_is, lag);
-      for (std::size_t i = 0; i < a.size(); ++i)
-        p.activation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = a[i].value;
-    }
-  }
-  p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
-  for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
-    const auto& parameters = muscles[static_cast<std::size_t>(k)];
-    for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
-      p.force_n(i, k) = muscle::hill_force(p.activation(i, k),
-                                           trial.length_m(i, k) - parameters.tendon_slack_length_m,
-                                           trial.velocity_mps(i, k), parameters);
-    }
-  }
-  if (trial.moment_arm_m.rows() == trial.time_s.size()) {
-    p.torque_nm =
-        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
-  }
-  return p;
-}
-
-Prediction predict(const StudyData& data,
-                   const TrialData& trial,
-                   const ModelValues& values,
-                   EmgLag lag) {
-  const Eigen::Index n = trial.time_s.size();
-  Prediction p;
-  p.force_n.resize(n, trial.length_m.cols());
-  p.activation.resize(n, trial.length_m.cols());
-  p.channel_torque_nm.setZero(n, static_cast<Eigen::Index>(values.channels.size()));
-  const bool with_torque = trial.moment_arm_m.rows() == n;
-  std::vector<std::string> channels;
-  std::vector<std::vector<Activation>> activations;
-  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const std::string& name = data.muscles[k].emg_channel;
-    auto it = std::find(channels.begin(), channels.end(), name);
-    const auto c = static_cast<std::size_t>(it - channels.begin());
-    if (it == channels.end()) {
-      channels.push_back(name);
-      activations.push_back(
-          activation(Envelope(trial.activation.time_s(), trial.activation.column(name)),
-                     trial.time_s, values.channels[c], lag));
-    }
-    const auto column = static_cast<Eigen::Index>(k);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Activation& a = activations[c][static_cast<std::size_t>(i)];
-      p.activation(i, column) = a.value;
-      p.force_n(i, column) = tension_n(a.value, trial.length_m(i, column),
-                                       trial.velocity_mps(i, column), values.muscles[k]);
-      if (!with_torque || !(a.value > 0.0)) continue;
-      // Force is nearly proportional to activation.
-      p.channel_torque_nm(i, static_cast<Eigen::Index>(c)) +=
-          trial.moment_arm_m(i, column) * p.force_n(i, column) * a.by_log_envelope / a.value;
-    }
-  }
-  if (with_torque) {
-    p.torque_nm =
-        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
-    const std::vector<std::string> joints = joint_names(data);
-    const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
-                                             joints.begin());
-    if (at < values.joints.size()) {
-      const JointValues& joint = values.joints[at];
-      p.torque_nm.array() += joint[kOffset];
-      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n &&
-          trial.acceleration_radps2.size() == n) {
-        p.torque_nm -= joint[kViscosity] * trial.velocity_radps +
-                       joint[kInertia] * trial.acceleration_radps2 +
-                       joint[kStiffness] * trial.angle_rad;
-      }
-    }
-  }
-  return p;
-}
-
-FittedPrediction predict(const StudyData& data,
-                         const TrialData& trial,
-                         const IdentificationResult& fit,
-                         double envelope_cutoff_hz) {
-  FittedPrediction result{predict(data, trial, fit.values, fit.lag), {}};
-  const Eigen::MatrixXd& torque = result.of.channel_torque_nm;
-  EnvelopeNoise noise{.cutoff_hz = envelope_cutoff_hz};
-  if (torque.cols() == fit.envelope_variance.size() && torque.rows() > 0) {
-    const Eigen::VectorXd variance_nm2 =
-        torque.cwiseAbs2().colwise().mean().transpose().cwiseProduct(fit.envelope_variance);
-    noise.variance_nm2 = variance_nm2.sum();
-    // Channels may lag differently: take the channel with the most noise.
-    Eigen::Index loudest = 0;
-    variance_nm2.maxCoeff(&loudest);
-    noise.lag_s = lag_times_s(fit.values.channels[static_cast<std::size_t>(loudest)], fit.lag);
-  }
-  result.smooth = smooth_prediction(trial.time_s, result.of.torque_nm, noise);
-  return result;
-}
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
   if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {

@@ -5,7 +5,6 @@
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
-#include "myoid/methods/smooth_prediction.h"
 
 namespace myoid::identification {
 
@@ -45,32 +44,5 @@ using TorqueOptions = EstimatorOptions;
     const StudyData& data,
     const TorqueOptions& options = {},
     const std::vector<std::string>& speed_may_be_free = {});
-
-/// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
-struct Prediction {
-  Eigen::MatrixXd force_n;            ///< n x m
-  Eigen::VectorXd torque_nm;          ///< n
-  Eigen::MatrixXd activation;         ///< n x m: of each muscle's EMG channel.
-  Eigen::MatrixXd channel_torque_nm;  ///< n x channels: change by a relative error of an envelope.
-};
-[[nodiscard]] Prediction predict(const StudyData& data,
-                                 const TrialData& trial,
-                                 const std::vector<muscle::HillParameters<double>>& muscles,
-                                 double delay_s,
-                                 EmgLag lag = EmgLag::delay);
-/// With all numbers of the model, of the trial's first joint (others: `of_joint`).
-[[nodiscard]] Prediction predict(const StudyData& data,
-                                 const TrialData& trial,
-                                 const ModelValues& values,
-                                 EmgLag lag);
-/// Predicts by the values of a fit; the torque is low-passed where the EMG's noise does least harm.
-struct FittedPrediction {
-  Prediction of;
-  SmoothPrediction smooth;
-};
-[[nodiscard]] FittedPrediction predict(const StudyData& data,
-                                       const TrialData& trial,
-                                       const IdentificationResult& fit,
-                                       double envelope_cutoff_hz);
 
 }  // namespace myoid::identification

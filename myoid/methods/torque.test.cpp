@@ -9,6 +9,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/methods/prediction.h"
 
 #include "tests/support/elbow_study.h"
 

@@ -55,23 +55,21 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options)
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
       motion_(runs_.size()),
-      columns_(runs_.size()) {
-  double sum = 0.0;
+      columns_(runs_.size()),
+      recorded_(recorded(runs_, map_.held().muscles)) {
   for (const TrialRun& run : runs_) {
     rows_ += run.measured_nm.size();
-    sum += run.measured_nm.squaredNorm();
     auto& of_channels = envelope_noise_.emplace_back();
     for (const EnvelopeError& error : run.errors)
       of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
   }
-  torque_size_nm_ = std::sqrt(sum / static_cast<double>(rows_));
   torque_share_.setOnes(static_cast<Eigen::Index>(runs_.size()));
   refer_to(map_.start());
 }
 
 void Likelihood::share_torque_noise(const Eigen::VectorXd& z, const NoiseValues& noise) {
   // The greatest density of what the unseen quantities leave, for each trial by itself.
-  const Eigen::VectorXd unseen = weights(noise).cwiseProduct(unseen_mean(z, noise));
+  const Eigen::VectorXd unseen = weights(noise).cwiseProduct(unseen_given(z, noise).mean);
   const ModelValues values = map_.values(z);
   std::vector<Eigen::VectorXd> left;
   std::vector<Eigen::MatrixXd> others, torque;
@@ -110,7 +108,7 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
   for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
-  unseen_ = unseen_quantities(data_, options_, map_, runs_, values, at);
+  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
@@ -327,20 +325,69 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
   return result;
 }
 
-Eigen::VectorXd Likelihood::unseen_mean(const Eigen::VectorXd& z, const NoiseValues& noise) const {
-  const ModelValues values = map_.values(z);
+Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
+                                                 const NoiseValues& noise) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, &chains);
+  const ChainsByOwner by_owner(map_, chains);
   const Eigen::VectorXd w = weights(noise);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(w.size(), w.size());
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(w.size());
+  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block block;
     block.evaluation =
-        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, nullptr);
+        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
     if (!fill(r, w, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
+    cross += block.unseen_solved.transpose() *
+             runs_[r].reduction.apply(block.evaluation->jacobian(map_.size()));
   }
-  return gram.llt().solve(projected);
+  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+  return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())),
+          -factor.solve(cross)};
+}
+
+Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
+                                             const Eigen::VectorXd& z,
+                                             const NoiseValues& noise,
+                                             const UnseenGiven& unseen) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, &chains);
+  const ChainsByOwner by_owner(map_, chains);
+  std::vector<RunEvaluation> at;
+  at.emplace_back(run, map_, options_.lag, values, &by_owner);
+  const RunEvaluation& here = at.front();
+  const Eigen::MatrixXd columns =
+      unseen_quantities(data_, options_, map_, recorded_, {run}, values, at).columns.front() *
+      weights(noise).asDiagonal();
+  RunForecast of;
+  of.mean_nm = here.signals().torque_nm + columns * unseen.mean;
+  of.by_z = here.jacobian(map_.size()) + columns * unseen.by_z;
+  of.variance_nm2 = (columns * unseen.covariance).cwiseProduct(columns).rowwise().sum();
+  of.variance_nm2.array() += std::exp(2.0 * noise[kTorqueSd]);
+  for (std::size_t c = 0; c < run.errors.size(); ++c) {
+    const auto channel = static_cast<Eigen::Index>(c);
+    const double scale = std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) *
+                         run.errors[c].share();
+    of.variance_nm2 += scale * here.signals()
+                                   .by_log_envelope.col(channel)
+                                   .cwiseProduct(run.noise_gain.col(channel))
+                                   .cwiseAbs2();
+  }
+  if (options_.angle_sd_rad > 0.0 || options_.angle_rate_sd_radps > 0.0)
+    of.variance_nm2 += motion_variance(run, here);
+  of.force_n.resize(run.time_s.size(), run.arm_m.cols());
+  for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
+    const MuscleRows& rows = here.muscle(k);
+    of.force_n.col(static_cast<Eigen::Index>(k)) = rows.force_n;
+    Eigen::MatrixXd& by_z =
+        of.force_by_z.emplace_back(Eigen::MatrixXd::Zero(run.time_s.size(), map_.size()));
+    for (std::size_t v = 0; v < rows.variables.size(); ++v)
+      by_z.col(rows.variables[v]) += rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose();
+  }
+  return of;
 }
 
 Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {

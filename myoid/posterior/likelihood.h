@@ -44,7 +44,7 @@ class Likelihood {
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
   /// Root mean square of the measured torque.
-  [[nodiscard]] double torque_size_nm() const { return torque_size_nm_; }
+  [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 
   struct Gradient {
     Eigen::VectorXd by_z;
@@ -64,9 +64,27 @@ class Likelihood {
   };
   [[nodiscard]] Information information(const Eigen::VectorXd& z, const NoiseValues& noise) const;
 
-  /// The expectation of the unseen quantities given the torque, each over its standard deviation.
-  [[nodiscard]] Eigen::VectorXd unseen_mean(const Eigen::VectorXd& z,
-                                            const NoiseValues& noise) const;
+  /// The unseen quantities given the torque and z, each over its standard deviation.
+  struct UnseenGiven {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+    Eigen::MatrixXd by_z;  ///< d mean / d z with Sigma held, quantities x unknowns.
+  };
+  [[nodiscard]] UnseenGiven unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const;
+
+  /// The torque of a run, fitted or not, and its parts that are uncertain.
+  struct RunForecast {
+    Eigen::VectorXd mean_nm;                  ///< n: T^ and the unseen quantities' expectation.
+    Eigen::MatrixXd by_z;                     ///< d mean / d z, n x unknowns.
+    Eigen::VectorXd variance_nm2;             ///< n: of what is measured about it, z apart.
+    Eigen::MatrixXd force_n;                  ///< n x muscles
+    std::vector<Eigen::MatrixXd> force_by_z;  ///< Per muscle, n x unknowns.
+  };
+  /// `unseen` is `unseen_given` at these values, which are also the reference.
+  [[nodiscard]] RunForecast forecast(const TrialRun& run,
+                                     const Eigen::VectorXd& z,
+                                     const NoiseValues& noise,
+                                     const UnseenGiven& unseen) const;
 
   struct Residuals {
     Eigen::VectorXd measured_nm;   ///< L y, all runs one after the other.
@@ -108,7 +126,7 @@ class Likelihood {
   Believed believed_ = Believed::nothing_exact;
   std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.
   Eigen::Index rows_ = 0;
-  double torque_size_nm_ = 0.0;
+  Recorded recorded_;
 };
 
 }  // namespace myoid::identification

@@ -124,6 +124,7 @@ TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
     Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(rows, rows);
     Eigen::VectorXd residual(rows);
     Eigen::MatrixXd shapes(rows, static_cast<Eigen::Index>(likelihood.unseen().quantities.size()));
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(shapes.cols());
     Eigen::Index first = 0;
     for (std::size_t r = 0; r < runs.size(); ++r) {
       const TrialRun& run = runs[r];
@@ -190,12 +191,21 @@ TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
       if (believed == Believed::geometry_and_sensors_exact && !of.of_the_model) continue;
       const double weight = of.weight * (of.of_the_model ? std::exp(kNoise[kModelErrorSize]) : 1.0);
       sigma += weight * weight * shapes.col(i) * shapes.col(i).transpose();
+      weights[i] = weight;
     }
     const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);
     const double direct =
         -0.5 * residual.dot(factor.solve(residual)) - 0.5 * factor.vectorD().array().log().sum();
     // The program's derivatives by ln u, length and rate are secants.
     EXPECT_NEAR(likelihood.value(z, kNoise), direct, 1e-5 * std::abs(direct));
+    // The unseen quantities given the torque: conditional moments of a joint normal density.
+    const Eigen::MatrixXd weighted = shapes * weights.asDiagonal();
+    const Eigen::MatrixXd gain = factor.solve(weighted);
+    const Likelihood::UnseenGiven given = likelihood.unseen_given(z, kNoise);
+    EXPECT_LT((given.mean - gain.transpose() * residual).cwiseAbs().maxCoeff(), 1e-4);
+    const Eigen::MatrixXd left =
+        Eigen::MatrixXd::Identity(weights.size(), weights.size()) - weighted.transpose() * gain;
+    EXPECT_LT((given.covariance - left).cwiseAbs().maxCoeff(), 1e-4);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -59,8 +60,55 @@ std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& r
   return found;
 }
 
+/// An EMG channel's resting level over its full level, where that of raw EMG is known; else 0.
+double floor_of(const std::string& channel, const EstimatorOptions& options) {
+  const auto rest = options.emg_rest.find(channel);
+  const auto bandwidth = options.emg_bandwidth_hz.find(channel);
+  const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
+  return raw && rest != options.emg_rest.end() ? rest->second : 0.0;
+}
+
+/// The drive behind the envelope of each channel.
+std::vector<Drive> drives_of(const TrialData& trial,
+                             const EstimatorOptions& options,
+                             const ParameterMap& map) {
+  const EnvelopeError plain(options.envelope_cutoff_hz, {});
+  std::vector<Drive> drives;
+  for (const std::string& name : map.channels()) {
+    const Envelope recorded(trial.activation.time_s(), trial.activation.column(name));
+    drives.push_back(drive_behind(recorded, envelope_spread(options, name), floor_of(name, options),
+                                  plain, options.envelope_cutoff_hz));
+  }
+  return drives;
+}
+
+void add_envelopes(const std::vector<Drive>& drives,
+                   const EstimatorOptions& options,
+                   const ParameterMap& map,
+                   TrialRun& run) {
+  const Eigen::Index n = run.time_s.size();
+  run.envelope_sd.resize(static_cast<Eigen::Index>(drives.size()));
+  run.noise_gain.setOnes(n, run.envelope_sd.size());
+  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
+  for (std::size_t c = 0; c < drives.size(); ++c) {
+    const std::string& name = map.channels()[c];
+    const double spread = envelope_spread(options, name), floor = floor_of(name, options);
+    const auto column = static_cast<Eigen::Index>(c);
+    run.envelope_sd[column] = spread;
+    for (Eigen::Index i = 0; i < n && floor > 0.0 && spread > 0.0; ++i) {
+      const double u = std::max(drives[c].envelope.at(run.time_s[i] - delay_s).value, 1e-3 * floor);
+      run.noise_gain(i, column) = envelope_sd_at(u, spread, floor) / (spread * u);
+    }
+    run.envelopes.push_back(drives[c].envelope);
+    run.errors.push_back(
+        EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
+            .behind(drives[c].left));
+  }
+}
+
 TrialRun make_run(const TrialData& trial,
                   const std::vector<Eigen::Index>& rows,
+                  const std::vector<Drive>& drives,
                   const EstimatorOptions& options,
                   const ParameterMap& map) {
   const auto n = static_cast<Eigen::Index>(rows.size());
@@ -87,31 +135,7 @@ TrialRun make_run(const TrialData& trial,
         trial.acceleration_radps2(rows);
   }
   run.measured_nm = run.reduction.apply(Eigen::VectorXd(trial.torque_nm(rows)));
-  run.envelope_sd.resize(static_cast<Eigen::Index>(map.channels().size()));
-  run.noise_gain.setOnes(n, run.envelope_sd.size());
-  const Eigen::VectorXd& clock = trial.activation.time_s();
-  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
-  for (std::size_t c = 0; c < map.channels().size(); ++c) {
-    const std::string& name = map.channels()[c];
-    const Envelope recorded(clock, trial.activation.column(name));
-    const auto rest = options.emg_rest.find(name);
-    const auto bandwidth = options.emg_bandwidth_hz.find(name);
-    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
-    const double spread = envelope_spread(options, name);
-    const double floor = raw && rest != options.emg_rest.end() ? rest->second : 0.0;
-    const auto column = static_cast<Eigen::Index>(c);
-    run.envelope_sd[column] = spread;
-    const EnvelopeError plain(options.envelope_cutoff_hz, {});
-    Drive drive = drive_behind(recorded, spread, floor, plain, options.envelope_cutoff_hz);
-    for (Eigen::Index i = 0; i < n && floor > 0.0 && spread > 0.0; ++i) {
-      const double u = std::max(drive.envelope.at(run.time_s[i] - delay_s).value, 1e-3 * floor);
-      run.noise_gain(i, column) = envelope_sd_at(u, spread, floor) / (spread * u);
-    }
-    run.envelopes.push_back(std::move(drive.envelope));
-    run.errors.push_back(
-        EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
-            .behind(drive.left));
-  }
+  add_envelopes(drives, options, map, run);
   return run;
 }
 
@@ -136,11 +160,12 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
           "take the estimator least_squares",
           trial.name));
     const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
+    const std::vector<Drive> drives = drives_of(trial, options, map);
     for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
       if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
       for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
         if (static_cast<Eigen::Index>(rows.size()) < kFewest) continue;
-        TrialRun& run = runs.emplace_back(make_run(trial, rows, options, map));
+        TrialRun& run = runs.emplace_back(make_run(trial, rows, drives, options, map));
         run.trial = static_cast<int>(i);
         const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
         run.session = (before + middle / span) / static_cast<double>(trials) - 0.5;
@@ -152,6 +177,24 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
     throw InvalidInput(
         "identification: no calibration sample is left; EMG and motion must overlap in time");
   return runs;
+}
+
+TrialRun whole_run(const TrialData& trial,
+                   const StudyData& data,
+                   const EstimatorOptions& options,
+                   const ParameterMap& map) {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(trial.time_s.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  TrialRun run = make_run(trial, rows, drives_of(trial, options, map), options, map);
+  const auto is_fitted = [](const TrialData& other) { return other.calibration; };
+  const auto here = std::find_if(data.trials.begin(), data.trials.end(),
+                                 [&](const TrialData& of) { return of.name == trial.name; });
+  const auto before = static_cast<double>(std::count_if(data.trials.begin(), here, is_fitted));
+  const auto all =
+      static_cast<double>(std::count_if(data.trials.begin(), data.trials.end(), is_fitted));
+  run.trial = static_cast<int>(here - data.trials.begin());
+  run.session = std::min((before + 0.5) / all, 1.0) - 0.5;
+  return run;
 }
 
 }  // namespace myoid::identification

@@ -43,4 +43,11 @@ struct TrialRun {
                                                const EstimatorOptions& options,
                                                const ParameterMap& map);
 
+/// All samples of a trial as one run, to predict it. It stands in the session where the trial of
+/// its name stands in `data`; at its end without one.
+[[nodiscard]] TrialRun whole_run(const TrialData& trial,
+                                 const StudyData& data,
+                                 const EstimatorOptions& options,
+                                 const ParameterMap& map);
+
 }  // namespace myoid::identification

@@ -21,57 +21,27 @@ bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
                      [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
 }
 
-/// Recorded lengths and speeds of a muscle over all runs.
-struct Range {
-  double shortest = 1e9, longest = -1e9, fastest = 1e-9;
-  [[nodiscard]] double span() const { return std::max(longest - shortest, 1e-6); }
-  [[nodiscard]] Eigen::ArrayXd place(const Eigen::ArrayXd& l) const {
-    return 2.0 * (l - shortest) / span() - 1.0;
-  }
-};
-
-/// A range is at least half an optimal fiber length: over less a muscle's law and its moment arm
-/// cannot err by as much.
-std::vector<Range> ranges(const std::vector<TrialRun>& runs,
-                          const std::vector<MuscleValues>& muscles) {
-  std::vector<Range> found(muscles.size());
-  for (const TrialRun& run : runs) {
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      Range& range = found[k];
-      range.shortest = std::min(range.shortest, run.length_m.col(column).minCoeff());
-      range.longest = std::max(range.longest, run.length_m.col(column).maxCoeff());
-      range.fastest = std::max(range.fastest, run.velocity_mps.col(column).cwiseAbs().maxCoeff());
-    }
-  }
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const double more = std::max(0.0, 0.5 * muscles[k][kFiberLength] - found[k].span());
-    found[k].shortest -= 0.5 * more;
-    found[k].longest += 0.5 * more;
-  }
-  return found;
-}
-
 /// Collects quantities one after the other.
 class Collector {
  public:
   Collector(const StudyData& data,
             const ParameterMap& map,
+            const Recorded& recorded,
             const std::vector<TrialRun>& runs,
             const ModelValues& values,
             const std::vector<RunEvaluation>& at)
       : data_(data),
         map_(map),
+        recorded_(recorded),
         runs_(runs),
         values_(values),
         at_(at),
-        ranges_(ranges(runs, map.held().muscles)),
         columns_(runs.size()) {}
 
   void add_geometry(std::size_t k, bool priors) {
     const std::string& name = data_.muscles[k].name;
-    const Range& range = ranges_[k];
-    const double mean = 0.5 * (range.shortest + range.longest);
+    const Recorded::Range& range = recorded_.muscles[k];
+    const double mean = 0.5 * (range.shortest_m + range.longest_m);
     add(name + ".moment_arm", Source::geometry, beliefs::kMomentArm.sd);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       column += of.torque + of.by_length * (of.length - mean) + of.by_velocity * of.velocity;
@@ -79,7 +49,7 @@ class Collector {
     add(name + ".moment_arm_slope", Source::geometry, beliefs::kMomentArmSlope.sd);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd x = range.place(of.length);
-      column += of.torque * x + of.by_length * 0.25 * range.span() * (x.square() - 1.0 / 3.0) +
+      column += of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
                 of.by_velocity * x * of.velocity;
     });
     add_tendon(k, priors);
@@ -112,7 +82,7 @@ class Collector {
     const std::string& name = data_.muscles[k].name;
     const int channel = map_.channel_of_muscle(k);
     const auto c = static_cast<std::size_t>(channel);
-    const Range& range = ranges_[k];
+    const Recorded::Range& range = recorded_.muscles[k];
     const auto shape = [&](const char* of_what, double weight, const auto& factor) {
       add(name + ".error_" + of_what, Source::model, weight, true);
       for_runs(k, [&](const OfMuscle& of, auto column) { column += of.torque * factor(of); });
@@ -129,18 +99,14 @@ class Collector {
       shape("effort", 1.0, [&](const OfMuscle& of) {
         return (1.0 + activation_of(of.at, c).max(kLeastActivation).log() / kLogRange).eval();
       });
-    shape("speed", 1.0, [&](const OfMuscle& of) { return (of.velocity / range.fastest).eval(); });
+    shape("speed", 1.0,
+          [&](const OfMuscle& of) { return (of.velocity / range.fastest_mps).eval(); });
     shape("lag", 1.0, [&](const OfMuscle& of) { return lag_effect(of.at, c); });
   }
 
   /// A constant and a slope of the joint, of the size of the measured torque.
   void add_joint_errors() {
-    double sum = 0.0, count = 0.0;
-    for (const TrialRun& run : runs_) {
-      sum += run.measured_nm.squaredNorm();
-      count += static_cast<double>(run.measured_nm.size());
-    }
-    const double size_nm = std::sqrt(sum / count);
+    const double size_nm = recorded_.torque_nm;
     if (!is_free(map_, Scope::joint, kOffset, 0)) {
       add("joint.error_constant", Source::model, 1.0, true);
       for (auto& columns : columns_) columns.back().setConstant(size_nm);
@@ -148,7 +114,7 @@ class Collector {
     if (!is_free(map_, Scope::joint, kStiffness, 0)) {
       add("joint.error_slope", Source::model, 1.0, true);
       for (std::size_t r = 0; r < runs_.size(); ++r)
-        columns_[r].back() = size_nm * ranges_[0].place(runs_[r].length_m.col(0));
+        columns_[r].back() = size_nm * recorded_.muscles[0].place(runs_[r].length_m.col(0));
     }
   }
 
@@ -241,23 +207,55 @@ class Collector {
 
   const StudyData& data_;
   const ParameterMap& map_;
+  const Recorded& recorded_;
   const std::vector<TrialRun>& runs_;
   const ModelValues& values_;
   const std::vector<RunEvaluation>& at_;
-  std::vector<Range> ranges_;
   std::vector<UnseenQuantity> quantities_;
   std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
 };
 
 }  // namespace
 
+double Recorded::Range::span_m() const { return std::max(longest_m - shortest_m, 1e-6); }
+
+Eigen::ArrayXd Recorded::Range::place(const Eigen::ArrayXd& length_m) const {
+  return 2.0 * (length_m - shortest_m) / span_m() - 1.0;
+}
+
+Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleValues>& muscles) {
+  Recorded found{std::vector<Recorded::Range>(muscles.size()), 0.0};
+  double sum = 0.0, count = 0.0;
+  for (const TrialRun& run : runs) {
+    sum += run.measured_nm.squaredNorm();
+    count += static_cast<double>(run.measured_nm.size());
+    for (std::size_t k = 0; k < muscles.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      Recorded::Range& range = found.muscles[k];
+      range.shortest_m = std::min(range.shortest_m, run.length_m.col(column).minCoeff());
+      range.longest_m = std::max(range.longest_m, run.length_m.col(column).maxCoeff());
+      range.fastest_mps =
+          std::max(range.fastest_mps, run.velocity_mps.col(column).cwiseAbs().maxCoeff());
+    }
+  }
+  found.torque_nm = std::sqrt(sum / count);
+  for (std::size_t k = 0; k < muscles.size(); ++k) {
+    Recorded::Range& range = found.muscles[k];
+    const double more = std::max(0.0, 0.5 * muscles[k][kFiberLength] - range.span_m());
+    range.shortest_m -= 0.5 * more;
+    range.longest_m += 0.5 * more;
+  }
+  return found;
+}
+
 Unseen unseen_quantities(const StudyData& data,
                          const EstimatorOptions& options,
                          const ParameterMap& map,
+                         const Recorded& recorded,
                          const std::vector<TrialRun>& runs,
                          const ModelValues& values,
                          const std::vector<RunEvaluation>& at) {
-  Collector collector(data, map, runs, values, at);
+  Collector collector(data, map, recorded, runs, values, at);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);

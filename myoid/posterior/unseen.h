@@ -42,10 +42,30 @@ struct Unseen {
   std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n x quantities [N m].
 };
 
-/// `at` are the runs evaluated at the reference values `values`.
+/// Lengths and speeds that were recorded of a muscle, and the torque: by these the shapes of the
+/// errors are scaled, in fitted and in predicted trials.
+struct Recorded {
+  struct Range {
+    double shortest_m = 1e9, longest_m = -1e9, fastest_mps = 1e-9;
+    [[nodiscard]] double span_m() const;
+    /// The place of each length in the range, -1 to 1.
+    [[nodiscard]] Eigen::ArrayXd place(const Eigen::ArrayXd& length_m) const;
+  };
+  std::vector<Range> muscles;
+  double torque_nm = 0.0;  ///< Root mean square of L y.
+};
+
+/// A range is at least half an optimal fiber length: over less a muscle's law and its moment arm
+/// cannot err by as much.
+[[nodiscard]] Recorded recorded(const std::vector<TrialRun>& runs,
+                                const std::vector<MuscleValues>& muscles);
+
+/// `at` are the runs evaluated at the reference values `values`; `recorded` is that of the fitted
+/// runs.
 [[nodiscard]] Unseen unseen_quantities(const StudyData& data,
                                        const EstimatorOptions& options,
                                        const ParameterMap& map,
+                                       const Recorded& recorded,
                                        const std::vector<TrialRun>& runs,
                                        const ModelValues& values,
                                        const std::vector<RunEvaluation>& at);

@@ -40,7 +40,7 @@ struct AtStart {
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
     for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
-    return unseen_quantities(data, {}, map, runs, values, at);
+    return unseen_quantities(data, {}, map, recorded(runs, map.held().muscles), runs, values, at);
   }
 
   /// The column of S of this name, all runs one after the other.

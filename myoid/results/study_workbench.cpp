@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "myoid/methods/torque.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/movable_muscles.h"
+#include "myoid/results/prediction_files.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/prediction_gates.h"
 
@@ -65,6 +66,13 @@ class TrialPlots {
                               const Eigen::VectorXd& time_s,
                               const Eigen::Ref<const Eigen::VectorXd>& values) {
     return {std::move(name), role, clock(time_s), thinned(values), {}};
+  }
+
+  [[nodiscard]] TimeLine band(std::string name,
+                              const Eigen::VectorXd& time_s,
+                              const Eigen::VectorXd& low,
+                              const Eigen::VectorXd& high) {
+    return {std::move(name), Role::band, clock(time_s), thinned(low), thinned(high)};
   }
 
   void add(TimePlot plot) {
@@ -170,8 +178,14 @@ void add_torques(const StudyResult& result,
             plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
       if (fitted->torque_fit_nm.size() == t.size())
         plot.lines.push_back(plots.line("identified", Role::identified, t, fitted->torque_fit_nm));
-      if (const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size()))
+      const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size());
+      const Band band = fold != nullptr
+                            ? prediction_band(fold->predicted_nm, fold->predicted_sd_nm)
+                            : prediction_band(fitted->torque_fit_nm, fitted->torque_sd_nm);
+      if (fold != nullptr)
         plot.lines.push_back(plots.line("left out", Role::unseen, t, fold->predicted_nm));
+      if (band.low.size() == t.size())
+        plot.lines.insert(plot.lines.begin(), plots.band("95 % band", t, band.low, band.high));
     } else if (trial.has_motion() &&
                static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
       const TimeSeries& torque = trial.forces.muscle_torque;

@@ -8,6 +8,7 @@
 #include "myoid/methods/basins.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/paper.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 
 namespace myoid {

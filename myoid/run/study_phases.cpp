@@ -7,6 +7,7 @@
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intake/trial_emg.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 #include "myoid/phases/find_phases.h"
 #include "myoid/signals/emg_envelope.h"

@@ -46,12 +46,14 @@ StudyValidation study_validation(const FitSource& source,
                                  const FitInput& input,
                                  const Progress& progress) {
   const identification::CrossValidationOptions how{.kind = source.study.identify.folds};
-  const auto fit = [&](identification::StudyData& split) {
-    if (how.kind == identification::FoldKind::block)
-      return identification::identify_torque(split, identification::of_a_fold(input.options));
-    FitInput of_fold = without_left_out(source, split, progress);
-    split = std::move(of_fold.data);
-    return identification::identify_torque(split, identification::of_a_fold(of_fold.options));
+  const auto fit = [&](identification::StudyData& split,
+                       identification::EstimatorOptions& options) {
+    if (how.kind != identification::FoldKind::block) {
+      FitInput of_fold = without_left_out(source, split, progress);
+      split = std::move(of_fold.data);
+      options = identification::of_a_fold(std::move(of_fold.options));
+    }
+    return identification::identify_torque(split, options);
   };
   StudyValidation found;
   found.folds = identification::cross_validate(input.data, fit, input.options, how);

@@ -314,7 +314,8 @@ class Maker {
     }
     // The shapes of the joint have the size of the measured torque: runs with the torque.
     const std::vector<TrialRun> measured = trial_runs(data, plain, map);
-    const Unseen unseen = unseen_quantities(data, person_.options, map, measured, values, at);
+    const Unseen unseen = unseen_quantities(
+        data, person_.options, map, recorded(measured, map.held().muscles), measured, values, at);
     const double s = std::exp(person_.noise[kModelErrorSize]);
     Eigen::VectorXd x(static_cast<Eigen::Index>(unseen.quantities.size()));
     for (Eigen::Index i = 0; i < x.size(); ++i) {

@@ -1,0 +1,287 @@
+#include "myoid/methods/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "myoid/identification/muscle_activation.h"
+#include "myoid/identification/muscle_rows.h"
+#include "myoid/math/statistics.h"
+#include "myoid/methods/smooth_prediction.h"
+#include "myoid/methods/trial_fit.h"
+#include "myoid/muscle/hill_muscle.h"
+#include "myoid/posterior/likelihood.h"
+
+namespace myoid::identification {
+
+Prediction predict(const StudyData& data,
+                   const TrialData& trial,
+                   const std::vector<muscle::HillParameters<double>>& muscles,
+                   double delay_s,
+                   EmgLag lag) {
+  Prediction p;
+  p.activation = muscle_activation(data, trial, trial.time_s, delay_s);
+  if (lag != EmgLag::delay) {
+    ChannelValues as_it_is{};
+    as_it_is[kDelay] = delay_s;
+    as_it_is[kGain] = as_it_is[kExponent] = 1.0;
+    for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+      const Envelope envelope(trial.activation.time_s(),
+                              trial.activation.column(data.muscles[k].emg_channel));
+      const std::vector<Activation> a = activation(envelope, trial.time_s, as_it_is, lag);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        p.activation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = a[i].value;
+    }
+  }
+  p.force_n.resize(trial.time_s.size(), trial.length_m.cols());
+  for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
+    const auto& parameters = muscles[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
+      p.force_n(i, k) = muscle::hill_force(p.activation(i, k),
+                                           trial.length_m(i, k) - parameters.tendon_slack_length_m,
+                                           trial.velocity_mps(i, k), parameters);
+    }
+  }
+  if (trial.moment_arm_m.rows() == trial.time_s.size()) {
+    p.torque_nm =
+        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
+  }
+  return p;
+}
+
+Prediction predict(const StudyData& data,
+                   const TrialData& trial,
+                   const ModelValues& values,
+                   EmgLag lag) {
+  const Eigen::Index n = trial.time_s.size();
+  Prediction p;
+  p.force_n.resize(n, trial.length_m.cols());
+  p.activation.resize(n, trial.length_m.cols());
+  p.channel_torque_nm.setZero(n, static_cast<Eigen::Index>(values.channels.size()));
+  const bool with_torque = trial.moment_arm_m.rows() == n;
+  std::vector<std::string> channels;
+  std::vector<std::vector<Activation>> activations;
+  for (std::size_t k = 0; k < data.muscles.size(); ++k) {
+    const std::string& name = data.muscles[k].emg_channel;
+    auto it = std::find(channels.begin(), channels.end(), name);
+    const auto c = static_cast<std::size_t>(it - channels.begin());
+    if (it == channels.end()) {
+      channels.push_back(name);
+      activations.push_back(
+          activation(Envelope(trial.activation.time_s(), trial.activation.column(name)),
+                     trial.time_s, values.channels[c], lag));
+    }
+    const auto column = static_cast<Eigen::Index>(k);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Activation& a = activations[c][static_cast<std::size_t>(i)];
+      p.activation(i, column) = a.value;
+      p.force_n(i, column) = tension_n(a.value, trial.length_m(i, column),
+                                       trial.velocity_mps(i, column), values.muscles[k]);
+      if (!with_torque || !(a.value > 0.0)) continue;
+      // Force is nearly proportional to activation.
+      p.channel_torque_nm(i, static_cast<Eigen::Index>(c)) +=
+          trial.moment_arm_m(i, column) * p.force_n(i, column) * a.by_log_envelope / a.value;
+    }
+  }
+  if (with_torque) {
+    p.torque_nm =
+        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
+    const std::vector<std::string> joints = joint_names(data);
+    const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
+                                             joints.begin());
+    if (at < values.joints.size()) {
+      const JointValues& joint = values.joints[at];
+      p.torque_nm.array() += joint[kOffset];
+      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n &&
+          trial.acceleration_radps2.size() == n) {
+        p.torque_nm -= joint[kViscosity] * trial.velocity_radps +
+                       joint[kInertia] * trial.acceleration_radps2 +
+                       joint[kStiffness] * trial.angle_rad;
+      }
+    }
+  }
+  return p;
+}
+
+namespace {
+
+/// The cut-off at which the law's torque is expected to come closest to the torque without the
+/// noise of the envelopes (smooth_prediction.h); 0: not smoothed.
+double smooth_hz(const TrialData& trial,
+                 const Prediction& predicted,
+                 const IdentificationResult& fit,
+                 double envelope_cutoff_hz) {
+  const Eigen::MatrixXd& torque = predicted.channel_torque_nm;
+  EnvelopeNoise noise{.cutoff_hz = envelope_cutoff_hz};
+  if (torque.cols() == fit.envelope_variance.size() && torque.rows() > 0) {
+    const Eigen::VectorXd variance_nm2 =
+        torque.cwiseAbs2().colwise().mean().transpose().cwiseProduct(fit.envelope_variance);
+    noise.variance_nm2 = variance_nm2.sum();
+    // Channels may lag differently: take the channel with the most noise.
+    Eigen::Index loudest = 0;
+    variance_nm2.maxCoeff(&loudest);
+    noise.lag_s = lag_times_s(fit.values.channels[static_cast<std::size_t>(loudest)], fit.lag);
+  }
+  return smooth_prediction(trial.time_s, predicted.torque_nm, noise).cutoff_hz;
+}
+
+EstimatorOptions with_lag(EstimatorOptions options, EmgLag lag) {
+  options.lag = lag;
+  options.progress = {};
+  return options;
+}
+
+/// diag(J C J'), J n x p.
+Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
+  return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
+}
+
+/// What a joint's own torque changes by with one of its numbers; empty without motion.
+Eigen::VectorXd by_joint_field(const TrialData& trial, int field) {
+  const Eigen::Index n = trial.time_s.size();
+  if (field == kOffset) return Eigen::VectorXd::Ones(n);
+  const Eigen::VectorXd& motion = field == kViscosity ? trial.velocity_radps
+                                  : field == kInertia ? trial.acceleration_radps2
+                                                      : trial.angle_rad;
+  return motion.size() == n ? Eigen::VectorXd(-motion) : Eigen::VectorXd::Zero(n);
+}
+
+}  // namespace
+
+/// The law at the fit's values and its derivatives by the unknowns.
+struct TrialPredictions::ByLaw {
+  ByLaw(const StudyData& of_data,
+        const EstimatorOptions& of_options,
+        const IdentificationResult& of)
+      : data(of_data), options(with_lag(of_options, of.lag)), fit(of) {
+    if (fit.solution.size() == 0 || !fit.covariance.allFinite() ||
+        fit.covariance.rows() != fit.solution.size() || fit.exact)
+      return;
+    map = std::make_unique<ParameterMap>(data, options);
+    if (map->size() != fit.solution.size()) map.reset();
+  }
+
+  /// Standard deviations by the covariance of the unknowns.
+  void add_deviations(const TrialData& trial, const Prediction& predicted, TrialFit& found) const {
+    std::vector<ParameterMap::Chain> chains;
+    const ModelValues values = map->values(fit.solution, &chains);
+    const ChainsByOwner by_owner(*map, chains);
+    const Eigen::Index n = trial.time_s.size();
+    const bool with_torque = predicted.torque_nm.size() == n;
+    std::vector<std::vector<Activation>> activations;
+    for (std::size_t c = 0; c < map->channels().size(); ++c)
+      activations.push_back(activation(
+          Envelope(trial.activation.time_s(), trial.activation.column(map->channels()[c])),
+          trial.time_s, values.channels[c], fit.lag));
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(n, map->size());
+    found.force_sd_n.resize(n, trial.length_m.cols());
+    MuscleRows rows;
+    for (Eigen::Index k = 0; k < trial.length_m.cols(); ++k) {
+      const auto muscle = static_cast<std::size_t>(k);
+      const auto c = static_cast<std::size_t>(map->channel_of_muscle(muscle));
+      evaluate_muscle(activations[c], trial.length_m.col(k), trial.velocity_mps.col(k),
+                      values.muscles[muscle], by_owner.of_muscle[muscle], by_owner.of_channel[c],
+                      rows);
+      const Eigen::MatrixXd own = rows.by_variable.transpose();
+      found.force_sd_n.col(k) =
+          variance_by(own, fit.covariance(rows.variables, rows.variables)).cwiseSqrt();
+      for (std::size_t v = 0; v < rows.variables.size() && with_torque; ++v)
+        jacobian.col(rows.variables[v]) +=
+            own.col(static_cast<Eigen::Index>(v)).cwiseProduct(trial.moment_arm_m.col(k));
+    }
+    if (!with_torque) return;
+    const auto joint = static_cast<std::size_t>(
+        std::find(map->joints().begin(), map->joints().end(), trial.joint) - map->joints().begin());
+    if (joint < by_owner.of_joint.size()) {
+      for (const ParameterMap::Chain& chain : by_owner.of_joint[joint])
+        jacobian.col(chain.variable) += chain.slope * by_joint_field(trial, chain.field);
+    }
+    Eigen::VectorXd variance = variance_by(jacobian, fit.covariance);
+    variance.array() += fit.torque_sd_nm * fit.torque_sd_nm;
+    if (predicted.channel_torque_nm.cols() == fit.envelope_variance.size())
+      variance += predicted.channel_torque_nm.cwiseAbs2() * fit.envelope_variance;
+    found.torque_sd_nm = variance.cwiseSqrt();
+  }
+
+  const StudyData& data;
+  EstimatorOptions options;
+  const IdentificationResult& fit;
+  std::unique_ptr<ParameterMap> map;  ///< Null: no standard deviations.
+};
+
+/// The posterior at the fit's values, given the torque of the fitted trials.
+struct TrialPredictions::ByPosterior {
+  ByPosterior(const StudyData& of_data,
+              const EstimatorOptions& of_options,
+              const IdentificationResult& of)
+      : data(of_data), options(with_lag(of_options, of.lag)), fit(of), likelihood(data, options) {
+    std::copy_n(fit.noise.data(), noise.size(), noise.begin());
+    likelihood.refer_to(fit.solution);
+    likelihood.share_torque_noise(fit.solution, noise);
+    unseen = likelihood.unseen_given(fit.solution, noise);
+  }
+
+  const StudyData& data;
+  EstimatorOptions options;
+  const IdentificationResult& fit;
+  Likelihood likelihood;
+  NoiseValues noise{};
+  Likelihood::UnseenGiven unseen;
+};
+
+TrialPredictions::TrialPredictions(const StudyData& data,
+                                   const EstimatorOptions& options,
+                                   const IdentificationResult& fit)
+    : by_law_(std::make_unique<ByLaw>(data, options, fit)),
+      residual_cutoff_hz_(options.residual_cutoff_hz.value_or(0.0)) {
+  if (fit.noise.size() > 0) by_posterior_ = std::make_unique<ByPosterior>(data, options, fit);
+}
+TrialPredictions::~TrialPredictions() = default;
+TrialPredictions::TrialPredictions(TrialPredictions&&) noexcept = default;
+
+TrialFit TrialPredictions::of(const TrialData& trial) const {
+  TrialFit found = unfitted_trial(trial);
+  if (by_posterior_) {
+    const ByPosterior& by = *by_posterior_;
+    const TrialRun run = whole_run(trial, by.data, by.options, by.likelihood.parameters());
+    const Likelihood::RunForecast forecast =
+        by.likelihood.forecast(run, by.fit.solution, by.noise, by.unseen);
+    const Eigen::MatrixXd& covariance = by.fit.covariance;
+    found.torque_fit_nm = forecast.mean_nm;
+    found.torque_sd_nm =
+        (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
+    found.force_fit_n = forecast.force_n;
+    found.force_sd_n.resizeLike(forecast.force_n);
+    for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)
+      found.force_sd_n.col(static_cast<Eigen::Index>(k)) =
+          variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();
+  } else {
+    const ByLaw& by = *by_law_;
+    Prediction predicted = predict(by.data, trial, by.fit.values, by.fit.lag);
+    found.smooth_hz = smooth_hz(trial, predicted, by.fit, by.options.envelope_cutoff_hz);
+    if (by.map) by.add_deviations(trial, predicted, found);
+    found.force_fit_n = std::move(predicted.force_n);
+    found.torque_fit_nm = std::move(predicted.torque_nm);
+  }
+  if (found.torque_fit_nm.size() == trial.torque_nm.size()) {
+    const std::vector<Eigen::Index> rows = included_rows(trial);
+    found.score = score(trial.torque_nm(rows), found.torque_fit_nm(rows));
+    found.band = score(below(trial.time_s, trial.torque_nm, residual_cutoff_hz_)(rows),
+                       below(trial.time_s, found.torque_fit_nm, residual_cutoff_hz_)(rows));
+  }
+  return found;
+}
+
+double covered_share(const Eigen::VectorXd& measured_nm,
+                     const Eigen::VectorXd& predicted_nm,
+                     const Eigen::VectorXd& sd_nm) {
+  if (sd_nm.size() == 0 || sd_nm.size() != measured_nm.size())
+    return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::ArrayXd off = (measured_nm - predicted_nm).array().abs();
+  return static_cast<double>((off <= math::normal_quantile(0.975) * sd_nm.array()).count()) /
+         static_cast<double>(sd_nm.size());
+}
+
+}  // namespace myoid::identification

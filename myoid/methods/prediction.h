@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "myoid/identification/options.h"
+#include "myoid/identification/study_data.h"
+#include "myoid/intervals/result.h"
+
+namespace myoid::identification {
+
+/// Torque of each muscle set over a trial with given parameters, delay and gains of 1.
+struct Prediction {
+  Eigen::MatrixXd force_n;            ///< n x m
+  Eigen::VectorXd torque_nm;          ///< n
+  Eigen::MatrixXd activation;         ///< n x m: of each muscle's EMG channel.
+  Eigen::MatrixXd channel_torque_nm;  ///< n x channels: change by a relative error of an envelope.
+};
+[[nodiscard]] Prediction predict(const StudyData& data,
+                                 const TrialData& trial,
+                                 const std::vector<muscle::HillParameters<double>>& muscles,
+                                 double delay_s,
+                                 EmgLag lag = EmgLag::delay);
+/// With all numbers of the model, of the trial's first joint (others: `of_joint`).
+[[nodiscard]] Prediction predict(const StudyData& data,
+                                 const TrialData& trial,
+                                 const ModelValues& values,
+                                 EmgLag lag);
+/// Predicts trials by a fit, those that it used and others: by this one way every number of a
+/// validation is made.
+///
+/// Least squares: the torque is the law with the identified parameters. Its standard deviation is
+/// that of J C J' + s_T^2 + sum_c v_c D_c^2, with J = dT^/dz, C the covariance of the unknowns, and
+/// D_c the torque's change by a relative error of an envelope of variance v_c.
+///
+/// The posterior: the expectation of a torque that is measured, given that of the fitted trials,
+///
+///   T* = T^(z) + S W x,   x the expectation of the unseen quantities (posterior/unseen.h),
+///
+/// from the drives behind the envelopes; its variance is that of z, of x given z, and of the noise.
+///
+/// The standard deviation of a force is that of the parameters.
+class TrialPredictions {
+ public:
+  /// Of `fit` it needs `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
+  /// `envelope_variance` and `noise`. Without a finite covariance there are no standard deviations.
+  /// References must outlive it.
+  TrialPredictions(const StudyData& data,
+                   const EstimatorOptions& options,
+                   const IdentificationResult& fit);
+  ~TrialPredictions();
+  TrialPredictions(TrialPredictions&&) noexcept;
+
+  /// `trial` is one joint's view (`of_joint`). Literature's torque and forces stay empty.
+  [[nodiscard]] TrialFit of(const TrialData& trial) const;
+
+ private:
+  struct ByLaw;
+  struct ByPosterior;
+  std::unique_ptr<ByLaw> by_law_;
+  std::unique_ptr<ByPosterior> by_posterior_;
+  double residual_cutoff_hz_ = 0.0;
+};
+
+/// Share of measured torques within 1.96 standard deviations of the prediction; NaN without these.
+[[nodiscard]] double covered_share(const Eigen::VectorXd& measured_nm,
+                                   const Eigen::VectorXd& predicted_nm,
+                                   const Eigen::VectorXd& sd_nm);
+
+}  // namespace myoid::identification
