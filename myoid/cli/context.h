@@ -114,6 +114,7 @@ void add_info(CLI::App& app, Context& context);
 void add_init(CLI::App& app, Context& context);
 void add_muscle(CLI::App& app, Context& context);
 void add_paths(CLI::App& app, Context& context);
+void add_predict(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_settings(CLI::App& app, Context& context);

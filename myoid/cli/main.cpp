@@ -101,6 +101,7 @@ constexpr Command kCommands[] = {
     {"twin", myoid::cli::add_twin},
     {"twin-study", myoid::cli::add_twin_study},
     {"design", myoid::cli::add_design},
+    {"predict", myoid::cli::add_predict},
     {"report", myoid::cli::add_report},
     {"run-tool", myoid::cli::add_run_tool},
     {"update-file", myoid::cli::add_update_file},

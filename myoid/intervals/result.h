@@ -73,7 +73,7 @@ struct TrialFit {
   double smooth_hz = 0.0;              ///< Where its noise does least harm (smooth_prediction.h).
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
-  Eigen::MatrixXd force_sd_n;  ///< n x m: of the parameters. Empty: not known.
+  Eigen::MatrixXd force_sd_n;          ///< n x m: of the parameters. Empty: not known.
   Score score;                         ///< Of `torque_fit_nm`.
   /// Both torques below the fit's own cut-off (EstimatorOptions::residual_cutoff_hz): without most
   /// of the noise of the EMG envelope, which the prediction carries and a muscle does not.

@@ -13,6 +13,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/report/json_values.h"
 #include "myoid/run/prediction_gates.h"
 
@@ -114,6 +115,10 @@ ordered_json basins_json(const identification::BasinTable& table) {
   return object;
 }
 
+std::vector<double> list_of(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
 ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
   ordered_json rows = ordered_json::array();
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
@@ -161,7 +166,9 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
           {"smoothed_below_hz", number(t.smooth_hz)},
           {"band_rmse_nm", number(t.band.rmse_nm())},
           {"band_nrmse_range", number(t.band.nrmse_range())},
-          {"band_r2", number(t.band.r2())}};
+          {"band_r2", number(t.band.r2())},
+          {"covered",
+           number(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
 }
 
 ordered_json method_json(const IdentificationResult& method) {
@@ -198,8 +205,11 @@ ordered_json method_json(const IdentificationResult& method) {
   m["branch_tests"] = array_of(method.branch_tests, branch_test_json);
   m["searches"] = array_of(method.basins, basins_json);
   m["covariance"] = {{"parameters", method.free_parameters},
+                     {"mean", list_of(method.solution)},
                      {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"},
                      {"matrix", matrix_json(method.covariance)}};
+  m["envelope_variance"] = list_of(method.envelope_variance);
+  m["noise"] = list_of(method.noise);
   m["trials"] = array_of(method.trials, [&](const identification::TrialFit& t) {
     return trial_json(t, unless_paper);
   });
@@ -237,6 +247,7 @@ ordered_json fold_json(const identification::Fold& f) {
           {"constant", score_json(f.constant)},
           {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
           {"lag_s", report::number_or_null(f.lag_s)},
+          {"covered", report::number_or_null(f.covered)},
           {"unseen_effort",
            {{"channel", f.unseen.channel}, {"ratio", report::number_or_null(f.unseen.ratio)}}},
           {"converged", f.converged},
@@ -256,12 +267,11 @@ ordered_json phase_json(const std::string& trial, const Phase& phase) {
 }
 
 ordered_json resting_json(const identification::RestingJoint& joint) {
-  const Eigen::VectorXd& c = joint.torque.coefficient_nm;
   return {{"joint", joint.joint},
           {"trials", joint.trials},
           {"lowest_rad", joint.torque.lowest_rad},
           {"highest_rad", joint.torque.highest_rad},
-          {"legendre_nm", std::vector<double>(c.data(), c.data() + c.size())},
+          {"legendre_nm", list_of(joint.torque.coefficient_nm)},
           {"weight_sin_nm", joint.torque.weight_sin_nm},
           {"weight_cos_nm", joint.torque.weight_cos_nm},
           {"viscosity_nms", joint.torque.viscosity_nms},

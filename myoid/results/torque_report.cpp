@@ -1,11 +1,14 @@
 #include "myoid/results/torque_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/methods/prediction.h"
+#include "myoid/results/prediction_files.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -42,15 +45,23 @@ std::string title_of(const StudyResult& result,
                                                             : fmt::format("{}, {}", trial, joint);
 }
 
-/// Measured, literature's and identified torque.
+/// Measured, literature's and identified torque, and the band about the last.
 Panel torque_panel(std::string title,
                    const Eigen::VectorXd& time_s,
                    const Eigen::VectorXd& measured_nm,
                    const Eigen::VectorXd& literature_nm,
                    const Eigen::VectorXd& identified_nm,
+                   const Eigen::VectorXd& identified_sd_nm,
                    double delay_s) {
   Panel panel{std::move(title), {"time", "s", {}, {}, {}}, {"torque", "N m", {}, {}, {}}, {}};
   const std::vector<double> t = to_vector(time_s);
+  if (const Band band = prediction_band(identified_nm, identified_sd_nm); band.low.size() > 0)
+    panel.series.push_back({"95 % band",
+                            t,
+                            after_delay(band.low, time_s, delay_s),
+                            Role::band,
+                            {},
+                            after_delay(band.high, time_s, delay_s)});
   panel.series.push_back({"inverse dynamics", t, to_vector(measured_nm), Role::reference, {}, {}});
   panel.series.push_back(
       {"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature, {}, {}});
@@ -80,7 +91,7 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
   for (const identification::Fold* f : folds) {
     figure.panels.push_back(torque_panel(
         fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()),
-        f->time_s, f->measured_nm, f->literature_nm, f->predicted_nm, delay_s));
+        f->time_s, f->measured_nm, f->literature_nm, f->predicted_nm, f->predicted_sd_nm, delay_s));
   }
   return figure;
 }
@@ -96,15 +107,20 @@ std::string smoothed_text(const identification::Score& score, double cutoff_hz) 
                          : fmt::format("{:.3f}", score.r2());
 }
 
+/// "94 %"; "-" where it is not known.
+std::string share_text(double share) {
+  return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("-");
+}
+
 Table folds_table(const StudyResult& result) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
   Table table{
       "leave_one_trial_out",
       fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
       fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
-          "NRMSE is RMSE over the "
-          "range. The prediction uses the muscles' law with the parameters of a fit without this "
-          "part (fold_parameters.csv); smoothed, it is low-passed where the noise of its EMG does "
+          "NRMSE is RMSE over the range. The prediction is that of a fit without this part "
+          "(fold_parameters.csv); in band: share of the samples within the prediction's 95 % band; "
+          "smoothed, it is low-passed where the noise of its EMG does "
           "least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
           "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
           "Baselines, "
@@ -113,7 +129,7 @@ Table folds_table(const StudyResult& result) {
           "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
           "torque.",
       {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
-       "R2 below 1.5 Hz", "VAF", "lag [ms]", "literature x gain", "regression", "paper",
+       "R2 below 1.5 Hz", "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper",
        "constant"},
       {}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
@@ -133,6 +149,7 @@ Table folds_table(const StudyResult& result) {
          {fmt::format("{:.1f} %", 100.0 * f.band.nrmse_range())},
          {fmt::format("{:.3f}", f.band.r2())},
          {fmt::format("{:.3f}", f.identified.vaf())},
+         {share_text(f.covered)},
          {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
          {error_and_r2(f.literature)},
          {error_and_r2(f.regression)},
@@ -149,7 +166,7 @@ Table held_back_table(const StudyResult& result,
               "Trials held back for validation",
               "Joint torque predicted with the muscles identified on the calibration trials.",
               {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
-               "R2 below 1.5 Hz"},
+               "R2 below 1.5 Hz", "in band"},
               {}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
@@ -160,7 +177,9 @@ Table held_back_table(const StudyResult& result,
          {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
          {smoothed_text(smoothed_score(t), t.smooth_hz)},
          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
-         {fmt::format("{:.3f}", t.band.r2())}});
+         {fmt::format("{:.3f}", t.band.r2())},
+         {share_text(
+             identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}});
   }
   return table;
 }
@@ -179,7 +198,7 @@ Figure held_back_figure(const StudyResult& result,
     if (t.calibration) continue;
     figure.panels.push_back(torque_panel(
         fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.score.r2()), t.time_s,
-        t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, method.delay_s));
+        t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, t.torque_sd_nm, method.delay_s));
   }
   return figure;
 }

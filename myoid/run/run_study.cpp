@@ -132,27 +132,16 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
   return design_study(study, *source.model, options);
 }
 
-}  // namespace
-
-StudyResult run_study(const Study& whole, const RunOptions& options) {
+StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& stages) {
   Study study = whole;
   restrict_trials(study, options.start_s, options.end_s);
-  options.progress.tell(0.0, "reading");
-  const auto begin = std::chrono::steady_clock::now();
-  StudyInputs inputs = read_inputs(study);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  StudyResult result = analyse(std::move(inputs), options);
-  result.start_s = options.start_s;
-  result.end_s = options.end_s;
-  result.times.insert(result.times.begin(), {"reading", elapsed.count()});
-  return result;
+  return stages.run("reading", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
 }
 
-StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
-  Stages stages(options.progress);
+/// The stages from the activation to the data.
+StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
   StudySource& source = inputs.source;
   const Study& study = source.study;
-
   StudyActivation activation = stages.run("activation", 0.15, 0.25, [&](const Progress&) {
     return study_activation(study, emg_of(inputs.trials));
   });
@@ -167,10 +156,27 @@ StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
   std::vector<TrialResult> trials =
       joined(study, std::move(inputs.trials), std::move(activation.trials), std::move(motion),
              std::move(forces.trials), recordings);
+  FitInput input = stages.run("data", 0.7, 0.72, [&](const Progress& progress) {
+    return fit_input(fit_source(source, trials, forces.resting, activation.scale), progress);
+  });
+  return {.start_s = options.start_s,
+          .end_s = options.end_s,
+          .source = std::move(source),
+          .trials = std::move(trials),
+          .emg = std::move(activation.scale),
+          .level_faults = std::move(recordings.levels),
+          .resting = std::move(forces.resting),
+          .fit_input = std::move(input),
+          .fit = {},
+          .folds = {},
+          .next = {},
+          .times = {}};
+}
 
-  const FitSource fit_from = fit_source(source, trials, forces.resting, activation.scale);
-  FitInput input = stages.run(
-      "data", 0.7, 0.72, [&](const Progress& progress) { return fit_input(fit_from, progress); });
+/// The stages from the fit on.
+void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
+  const Study& study = result.source.study;
+  const FitInput& input = result.fit_input;
   StudyFit fit = stages.run("fit", 0.72, 0.8, [&](const Progress& progress) {
     return study_fit(study, input, progress);
   });
@@ -181,27 +187,45 @@ StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
-      return study_validation(fit_from, input, progress);
+      return study_validation(fit_source(result.source, result.trials, result.resting, result.emg),
+                              input, progress);
     });
-  std::optional<DesignStudyResult> next;
   if (study.identify.next_movements > 0 && wants_torque(study))
-    next = stages.run("next recording", 0.95, 1.0, [&](const Progress& progress) {
-      return next_recording(source, fit, progress);
+    result.next = stages.run("next recording", 0.95, 1.0, [&](const Progress& progress) {
+      return next_recording(result.source, fit, progress);
     });
-  fit.methods = judged(std::move(fit.methods), validation, study, trials, fit.exchanged);
+  fit.methods = judged(std::move(fit.methods), validation, study, result.trials, fit.exchanged);
+  result.fit = std::move(fit);
+  result.folds = std::move(validation.folds);
+}
+
+}  // namespace
+
+StudyResult study_data(const Study& study, const RunOptions& options) {
+  Stages stages(options.progress);
+  StudyInputs inputs = read_stage(study, options, stages);
+  StudyResult result = up_to_data(std::move(inputs), options, stages);
+  result.times = std::move(stages).times();
+  return result;
+}
+
+StudyResult run_study(const Study& study, const RunOptions& options) {
+  Stages stages(options.progress);
+  StudyInputs inputs = read_stage(study, options, stages);
+  StudyResult result = up_to_data(std::move(inputs), options, stages);
+  fit_and_validate(result, options, stages);
   options.progress.tell(1.0, "done");
-  return {.start_s = {},
-          .end_s = {},
-          .source = std::move(source),
-          .trials = std::move(trials),
-          .emg = std::move(activation.scale),
-          .level_faults = std::move(recordings.levels),
-          .resting = std::move(forces.resting),
-          .fit_input = std::move(input),
-          .fit = std::move(fit),
-          .folds = std::move(validation.folds),
-          .next = std::move(next),
-          .times = std::move(stages).times()};
+  result.times = std::move(stages).times();
+  return result;
+}
+
+StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
+  Stages stages(options.progress);
+  StudyResult result = up_to_data(std::move(inputs), options, stages);
+  fit_and_validate(result, options, stages);
+  options.progress.tell(1.0, "done");
+  result.times = std::move(stages).times();
+  return result;
 }
 
 }  // namespace myoid

@@ -24,6 +24,10 @@ struct RunOptions {
 /// as `run_study`.
 [[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
+/// Runs the stages up to the data of the fit: everything that a prediction by an earlier fit needs.
+/// `fit`, `folds` and `next` stay empty. Throws as `run_study`.
+[[nodiscard]] StudyResult study_data(const Study& study, const RunOptions& options = {});
+
 /// Runs all stages in order: reading, activation, motion, forces, data, fit, validation, findings;
 /// trials in parallel, the same numbers for every number of threads. Throws ReadError or
 /// InvalidInput for input that cannot be used (nothing is computed then: all files are read first),

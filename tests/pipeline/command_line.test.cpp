@@ -27,9 +27,9 @@ using testing::Not;
 const std::string kProtocols = myoid::test::source_dir() / "examples/protocols/";
 
 constexpr const char* kCommands[] = {
-    "run",     "check",  "info",     "emg",        "ik",     "id",          "muscle",
-    "paths",   "so",     "identify", "twin",       "report", "convert",     "simulate",
-    "compare", "design", "run-tool", "twin-study", "init",   "update-file", "settings"};
+    "run",    "check",    "info",       "emg",  "ik",          "id",      "muscle",   "paths",
+    "so",     "predict",  "identify",   "twin", "report",      "convert", "simulate", "compare",
+    "design", "run-tool", "twin-study", "init", "update-file", "settings"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {

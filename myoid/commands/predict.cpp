@@ -1,0 +1,70 @@
+#include "myoid/commands/predict.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/json_text.h"
+#include "myoid/files/atomic_file.h"
+#include "myoid/methods/prediction.h"
+#include "myoid/report/json_values.h"
+#include "myoid/results/prediction_files.h"
+#include "myoid/results/read_fit.h"
+#include "myoid/run/prediction_input.h"
+#include "myoid/study/study_text.h"
+
+namespace myoid::commands {
+PredictResult predict(const PredictOptions& o) {
+  Remarks remarks(o.call);
+  const PredictionInput input = prediction_input(o.folder, {.study = o.study,
+                                                            .trials = o.trials,
+                                                            .start_s = o.call.start_s,
+                                                            .end_s = o.call.end_s,
+                                                            .progress = o.call.progress});
+  for (const std::string& warning : input.warnings) remarks.warn(warning);
+  PredictResult result;
+  result.provenance.command = o.call.command;
+  result.provenance.inputs = input.files;
+  result.provenance.options_json = study_json(input.study);
+  const identification::IdentificationResult fit =
+      read_fit(o.folder, input.fit.data, input.fit.options);
+  const identification::TrialPredictions predictions(input.fit.data, input.fit.options, fit);
+  for (const identification::TrialData& trial : input.trials) {
+    if (trial.calibration) remarks.note(fmt::format("trial {} took part in the fit", trial.name));
+    for (std::size_t j = 0; j < identification::joint_count(trial); ++j)
+      result.trials.push_back(predictions.of(identification::of_joint(trial, j)));
+  }
+  for (const identification::MuscleSetup& muscle : input.fit.data.muscles)
+    result.muscles.push_back(muscle.name);
+  result.remarks = remarks.list();
+  return result;
+}
+
+std::string predict_json(const PredictResult& result) {
+  nlohmann::ordered_json object;
+  object["provenance"] = report::provenance_json(result.provenance);
+  object["trials"] = nlohmann::ordered_json::array();
+  for (const identification::TrialFit& t : result.trials) {
+    object["trials"].push_back({{"trial", t.trial},
+                                {"joint", t.joint},
+                                {"fitted", t.calibration},
+                                {"samples", t.score.n},
+                                {"rmse_nm", report::number_or_null(t.score.rmse_nm())},
+                                {"r2", report::number_or_null(t.score.r2())},
+                                {"band_rmse_nm", report::number_or_null(t.band.rmse_nm())},
+                                {"band_r2", report::number_or_null(t.band.r2())},
+                                {"covered", report::number_or_null(identification::covered_share(
+                                                t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}});
+  }
+  return json_text(object) + "\n";
+}
+
+void write_predict(const PredictResult& result, const std::filesystem::path& folder) {
+  const std::vector<std::string> comments{
+      fmt::format("Made by myoid {}.", result.provenance.version)};
+  for (const identification::TrialFit& trial : result.trials)
+    write_prediction(trial, result.muscles, folder / trial.trial, comments);
+  recording::write_file(folder / "predictions.csv", predictions_csv(result.trials));
+  recording::write_file(folder / "predictions.json", predict_json(result));
+}
+
+}  // namespace myoid::commands

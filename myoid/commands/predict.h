@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/commands/call.h"
+#include "myoid/core/provenance.h"
+#include "myoid/intervals/result.h"
+
+namespace myoid::commands {
+
+/// The torque and the muscle forces of trials by the fit of a finished run.
+struct PredictOptions {
+  Call call;
+  std::string folder;               ///< Folder of the run, with run.json and parameters.json.
+  std::string study;                ///< With the trials; empty: the study of the run.
+  std::vector<std::string> trials;  ///< Names; none: all that took no part in the fit.
+};
+
+struct PredictResult {
+  std::vector<identification::TrialFit> trials;  ///< One for each trial and joint.
+  std::vector<std::string> muscles;
+  Provenance provenance;
+  std::vector<Remark> remarks;
+};
+
+/// Computes motion, torque and activation of the study as the run did, and predicts the trials by
+/// identification::TrialPredictions. A trial of another study is scaled by that study's own maximal
+/// contractions. Throws ReadError for a folder without a run and for recordings that changed since,
+/// InvalidInput for names of trials that are not there and for another study of other muscles.
+[[nodiscard]] PredictResult predict(const PredictOptions& options);
+
+/// Writes predictions.csv and predictions.json, and into a folder of each trial
+/// predicted_torque_<joint>.sto and predicted_forces.sto.
+void write_predict(const PredictResult& result, const std::filesystem::path& folder);
+
+/// predictions.json
+[[nodiscard]] std::string predict_json(const PredictResult& result);
+
+}  // namespace myoid::commands

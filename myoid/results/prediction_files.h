@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "myoid/intervals/result.h"
+
+namespace myoid {
+
+/// The ends of a 95 % band, mean -+ 1.96 standard deviations.
+struct Band {
+  Eigen::VectorXd low, high;
+};
+/// Empty where there is no standard deviation.
+[[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
+
+/// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`,
+/// `_high` [N m]) and predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0
+/// [N]) of one trial.
+void write_prediction(const identification::TrialFit& prediction,
+                      const std::vector<std::string>& muscles,
+                      const std::filesystem::path& folder,
+                      const std::vector<std::string>& comments);
+
+/// The table predictions.csv, a row for each trial and joint: trial, joint, fitted (whether the
+/// trial took part in the fit), samples, rmse_nm, nrmse_range, r2, band_rmse_nm and band_r2 (both
+/// torques below the cut-off of the fit), covered (share of the samples within the band).
+[[nodiscard]] std::string predictions_csv(const std::vector<identification::TrialFit>& predictions);
+
+}  // namespace myoid

@@ -1,0 +1,48 @@
+#include "myoid/results/prediction_files.h"
+
+#include <gtest/gtest.h>
+
+#include "myoid/tables/storage_reader.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid {
+namespace {
+
+identification::TrialFit prediction() {
+  identification::TrialFit fit;
+  fit.trial = "fast, heavy";
+  fit.joint = "elbow_flexion";
+  fit.calibration = false;
+  fit.time_s = Eigen::VectorXd::LinSpaced(3, 0.0, 0.2);
+  fit.torque_nm = Eigen::Vector3d(1.0, 2.0, 9.0);
+  fit.torque_fit_nm = Eigen::Vector3d(1.5, 2.0, 3.0);
+  fit.torque_sd_nm = Eigen::Vector3d::Constant(0.5);
+  fit.force_fit_n = Eigen::Vector3d(0.5, 20.0, 30.0);
+  fit.force_sd_n = Eigen::Vector3d(1.0, 2.0, 3.0);
+  fit.score = identification::score(fit.torque_nm, fit.torque_fit_nm);
+  return fit;
+}
+
+TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
+  const test::TemporaryFolder folder;
+  write_prediction(prediction(), {"BIC"}, folder.path(), {});
+  const TimeSeries torque =
+      recording::read_storage(folder.path() / "predicted_torque_elbow_flexion.sto").data;
+  EXPECT_NEAR(torque.column("elbow_flexion_high")[1], 2.0 + 1.959964 * 0.5, 1e-6);
+  EXPECT_NEAR(torque.column("elbow_flexion_low")[2], 3.0 - 1.959964 * 0.5, 1e-6);
+  EXPECT_EQ(torque.column("elbow_flexion_measured")[2], 9.0);
+  const TimeSeries forces = recording::read_storage(folder.path() / "predicted_forces.sto").data;
+  EXPECT_EQ(forces.column("BIC_low")[0], 0.0);
+  EXPECT_NEAR(forces.column("BIC_high")[2], 30.0 + 1.959964 * 3.0, 1e-5);
+}
+
+TEST(PredictionFiles, TheTableHasARowForEachTrialAndJoint) {
+  const std::string text = predictions_csv({prediction()});
+  EXPECT_NE(text.find("\"fast, heavy\",elbow_flexion,false,3,"), std::string::npos) << text;
+  // Two of three samples lie within the band.
+  EXPECT_NE(text.find(",0.6666666666666666\n"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace myoid

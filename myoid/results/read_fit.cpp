@@ -1,0 +1,91 @@
+#include "myoid/results/read_fit.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
+#include "myoid/identification/parameters.h"
+
+namespace myoid {
+namespace {
+
+using identification::EmgLag;
+using nlohmann::json;
+
+double number(const json& cell) {
+  return cell.is_number() ? cell.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+Eigen::VectorXd vector_of(const json& list) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = number(list.at(static_cast<std::size_t>(i)));
+  return values;
+}
+
+EmgLag lag_of(const json& method) {
+  const json& word = method.at("emg_lag");
+  for (const EmgLag lag : {EmgLag::shared, EmgLag::equation_1}) {
+    if (word.is_string() && word.get<std::string>() == identification::name(lag)) return lag;
+  }
+  return EmgLag::delay;
+}
+
+identification::IdentificationResult fit_of(const json& method) {
+  identification::IdentificationResult fit;
+  fit.method = "torque";
+  fit.lag = lag_of(method);
+  fit.exact = method.at("exact_data").get<bool>();
+  fit.torque_sd_nm = number(method.at("torque_sd_nm"));
+  fit.envelope_variance = vector_of(method.at("envelope_variance"));
+  fit.noise = vector_of(method.at("noise"));
+  const json& covariance = method.at("covariance");
+  fit.free_parameters = covariance.at("parameters").get<std::vector<std::string>>();
+  fit.solution = vector_of(covariance.at("mean"));
+  const auto n = static_cast<Eigen::Index>(fit.free_parameters.size());
+  fit.covariance.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    fit.covariance.row(i) = vector_of(covariance.at("matrix").at(static_cast<std::size_t>(i)));
+  return fit;
+}
+
+}  // namespace
+
+identification::IdentificationResult read_fit(const std::filesystem::path& folder,
+                                              const identification::StudyData& data,
+                                              const identification::EstimatorOptions& options) {
+  const std::filesystem::path path = folder / "parameters.json";
+  try {
+    const json content = json::parse(recording::read_text_file(path));
+    for (const json& method : content.at("methods")) {
+      if (method.at("method") != "torque") continue;
+      identification::IdentificationResult fit = fit_of(method);
+      identification::EstimatorOptions as_fitted = options;
+      as_fitted.lag = fit.lag;
+      const identification::ParameterMap map(data, as_fitted);
+      std::vector<std::string> labels;
+      for (const identification::Unknown& unknown : map.free()) labels.push_back(unknown.label);
+      if (labels != fit.free_parameters || fit.solution.size() != map.size())
+        throw InvalidInput(fmt::format(
+            "{} has {} unknowns, the study {} or others: its settings are not those of the run; "
+            "run the study again",
+            path.string(), fit.free_parameters.size(), labels.size()));
+      fit.values = map.values(fit.solution);
+      fit.delay_s = fit.values.channels.front()[identification::kDelay];
+      return fit;
+    }
+  } catch (const json::exception& error) {
+    throw ReadError(path, 0,
+                    fmt::format("is no result of a run of this version: {}; run the study again",
+                                error.what()));
+  }
+  throw InvalidInput(
+      fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
+}
+
+}  // namespace myoid

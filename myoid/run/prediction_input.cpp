@@ -1,0 +1,127 @@
+#include "myoid/run/prediction_input.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "myoid/core/error.h"
+#include "myoid/run/effort_prior.h"
+#include "myoid/run/run_study.h"
+#include "myoid/study/read_study.h"
+#include "myoid/study/run_record.h"
+
+namespace myoid {
+namespace {
+
+using identification::TrialData;
+
+bool is_fitted(Use use) { return use == Use::calibration || use == Use::isometric; }
+
+/// The use that a trial had in the run; empty: it was not there. A trial that pauses was there in
+/// parts, whose names begin with its own.
+std::optional<Use> use_in(const RunRecord& run, const std::string& trial) {
+  const auto found = run.uses.lower_bound(trial);
+  if (found == run.uses.end() || !found->first.starts_with(trial)) return std::nullopt;
+  return choice_named<Use>(found->second);
+}
+
+/// The study of the run: its trials have the uses that they had, further ones are held back.
+Study study_of_run(const RunRecord& run) {
+  Study study = read_study(run.study);
+  if (run.estimator) study.identify.estimator = *run.estimator;
+  study.identify.methods = {identification::Method::torque};
+  for (const auto& [name, use] : run.uses) {
+    const auto is_it = [&recorded = name](const TrialSpec& trial) {
+      return recorded.starts_with(trial.name);
+    };
+    if (std::none_of(study.trials.begin(), study.trials.end(), is_it))
+      throw InvalidInput(
+          fmt::format("{}: the trial '{}' of the run is missing; run the study again",
+                      run.study.string(), name));
+  }
+  for (TrialSpec& trial : study.trials)
+    trial.use =
+        use_in(run, trial.name).value_or(is_fitted(trial.use) ? Use::validation : trial.use);
+  return study;
+}
+
+/// "BIC by biceps"
+std::vector<std::string> muscles_of(const FitInput& input) {
+  std::vector<std::string> list;
+  for (const identification::MuscleSetup& muscle : input.data.muscles)
+    list.push_back(fmt::format("{} by {}", muscle.name, muscle.emg_channel));
+  return list;
+}
+
+/// The trials of another study of the same muscles, all of them held back.
+std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionInput& input) {
+  Study study = read_study(choice.study);
+  study.identify.methods = {identification::Method::torque};
+  if (!from_maximal_effort(study.emg))
+    input.warnings.push_back(fmt::format(
+        "{}: its EMG is not relative to a maximal contraction of its own; the prediction takes the "
+        "greatest effort of both studies for the same",
+        choice.study));
+  StudyResult other = study_data(study, {.start_s = choice.start_s,
+                                         .end_s = choice.end_s,
+                                         .progress = choice.progress,
+                                         .share_forces = false});
+  input.files.insert(input.files.end(), other.source.files.begin(), other.source.files.end());
+  const std::vector<std::string> found = muscles_of(other.fit_input),
+                                 wanted = muscles_of(input.fit);
+  if (found != wanted)
+    throw InvalidInput(fmt::format("{}: found the muscles {}, expected those of the run: {}",
+                                   choice.study, fmt::join(found, ", "), fmt::join(wanted, ", ")));
+  for (TrialData& trial : other.fit_input.data.trials) trial.calibration = false;
+  return std::move(other.fit_input.data.trials);
+}
+
+/// The trials of these names; without names those that took no part in the fit.
+std::vector<TrialData> chosen(const std::vector<TrialData>& trials,
+                              const std::vector<std::string>& names) {
+  std::vector<TrialData> found;
+  for (const TrialData& trial : trials) {
+    if (names.empty() && !trial.calibration) found.push_back(trial);
+  }
+  if (names.empty() && found.empty())
+    throw InvalidInput(
+        "every trial of the study took part in the fit: name with --trials which to predict, add "
+        "trials with use = \"validation\" to the study, or give another study with --study");
+  for (const std::string& name : names) {
+    const auto at = std::find_if(trials.begin(), trials.end(),
+                                 [&](const TrialData& trial) { return trial.name == name; });
+    if (at == trials.end()) {
+      std::vector<std::string> there;
+      for (const TrialData& trial : trials) there.push_back(trial.name);
+      throw InvalidInput(fmt::format("--trials: no trial '{}' has motion and EMG; there are {}",
+                                     name, fmt::join(there, ", ")));
+    }
+    found.push_back(*at);
+  }
+  return found;
+}
+
+}  // namespace
+
+PredictionInput prediction_input(const std::filesystem::path& folder,
+                                 const PredictionChoice& choice) {
+  const RunRecord run = read_run_record(folder);
+  StudyResult base = study_data(study_of_run(run), {.start_s = run.start_s,
+                                                    .end_s = run.end_s,
+                                                    .progress = choice.progress,
+                                                    .share_forces = false});
+  refuse_changed(base.source.files, run, run.study);
+  PredictionInput input{.study = std::move(base.source.study),
+                        .fit = std::move(base.fit_input),
+                        .trials = {},
+                        .files = std::move(base.source.files),
+                        .warnings = {}};
+  const std::vector<TrialData> all =
+      choice.study.empty() ? input.fit.data.trials : other_trials(choice, input);
+  input.trials = chosen(all, choice.trials);
+  return input;
+}
+
+}  // namespace myoid
