@@ -8,6 +8,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "myoid/math/spline.h"
+
 namespace myoid::identification {
 namespace {
 
@@ -18,7 +20,9 @@ constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa
 constexpr double kAtOnce_s = 25.0;         // smoothed at once
 constexpr double kMargin_s = 1.0;          // of a neighbor, smoothed with it
 constexpr double kFade = 0.15;             // of the period of the frequencies, a spread
+constexpr double kLeastDrive = 1e-3;       // of the resting level: noise acts on it, too
 constexpr double kJitter = 1e-5;           // of the variance
+constexpr Eigen::Index kFiner = 6;         // samples of the drive for one that is smoothed
 constexpr int kPasses = 3;                 // the noise follows the drive
 
 /// One-sided power density of evenly sampled values at each frequency, behind a Hann window.
@@ -192,7 +196,7 @@ Smoothed smooth(const Eigen::VectorXd& values,
     all.diagonal().array() += kJitter * all.diagonal().mean();
     const Eigen::LLT<Eigen::MatrixXd> factor(all);
     const Eigen::VectorXd off = factor.solve((values.array() - mean).matrix());
-    result.drive = (mean + (prior * off).array()).max(0.0);
+    result.drive = mean + (prior * off).array();
     if (pass + 1 < kPasses) continue;
     const Eigen::MatrixXd half = factor.matrixL().solve(prior);
     result.error = windowed_diagonals(prior - half.transpose() * half);
@@ -206,6 +210,13 @@ Smoothed smooth(const Eigen::VectorXd& values,
 double envelope_sd_at(double u, double noise_sd, double rest) {
   const double certain = std::max(u, rest * std::sqrt(noise_sd));
   return certain > 0.0 ? noise_sd * (certain + rest * rest / certain) : 0.0;
+}
+
+NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
+  const double chance = rest * std::sqrt(noise_sd), least = kLeastDrive * rest;
+  if (u >= chance) return {1.0 + std::pow(rest / u, 2), -2.0 * rest * rest / (u * u * u)};
+  const double by_chance = chance + rest * rest / chance;
+  return {by_chance / std::max(u, least), u > least ? -by_chance / (u * u) : 0.0};
 }
 
 Drive drive_behind(const Envelope& recorded,
@@ -250,7 +261,15 @@ Drive drive_behind(const Envelope& recorded,
     left[i] =
         spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
   }
-  return {Envelope(time, drive), std::move(left)};
+  // The kinks at zero lie where the drive has them, not at the samples: a search for the delay
+  // would see the samples otherwise.
+  const Eigen::VectorXd fine =
+      Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
+  return {
+      Envelope(
+          fine,
+          math::Spline::interpolate(time, drive).evaluate(fine).value.cwiseMax(kLeastDrive * rest)),
+      std::move(left)};
 }
 
 }  // namespace myoid::identification

@@ -12,6 +12,12 @@ namespace myoid::identification {
 /// u = rest sqrt(noise_sd), where chance makes u, du stays.
 [[nodiscard]] double envelope_sd_at(double u, double noise_sd, double rest);
 
+/// That standard deviation over `noise_sd` u, and its slope in u.
+struct NoiseOverEnvelope {
+  double value = 1.0, slope = 0.0;
+};
+[[nodiscard]] NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest);
+
 /// The expectation of the drive of an EMG channel, given its recorded envelope u: drive and noise
 /// are stationary, and Wiener's filter tells them apart,
 ///

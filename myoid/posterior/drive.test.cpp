@@ -79,5 +79,20 @@ TEST(Drive, WithoutNoiseOrOfAShortRecordingItIsTheEnvelope) {
   }
 }
 
+TEST(NoiseOverEnvelope, IsThatOfTheStandardDeviationAndHasItsSlope) {
+  constexpr double kSd = 0.15, kRest = 0.02;
+  for (const double u : {1e-4, 0.003, 0.0077, 0.0078, 0.05, 0.8}) {
+    const NoiseOverEnvelope noise = noise_over_envelope(u, kSd, kRest);
+    EXPECT_NEAR(noise.value, envelope_sd_at(u, kSd, kRest) / (kSd * u), 1e-12 * noise.value);
+    const double h = 1e-7 * u;
+    const double slope = (noise_over_envelope(u + h, kSd, kRest).value -
+                          noise_over_envelope(u - h, kSd, kRest).value) /
+                         (2.0 * h);
+    EXPECT_NEAR(noise.slope, slope, 1e-5 * (1.0 + std::abs(slope)));
+  }
+  // Without rest the noise is in proportion.
+  EXPECT_EQ(noise_over_envelope(0.1, kSd, 0.0).value, 1.0);
+}
+
 }  // namespace
 }  // namespace myoid::identification

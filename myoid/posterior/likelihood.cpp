@@ -162,8 +162,7 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m, m);
   for (Eigen::Index c = 0; c < scale.size(); ++c)
     a += envelope_noise_[r][static_cast<std::size_t>(c)].covariance(
-        scale[c] *
-        signals.by_log_envelope.col(c).cwiseProduct(runs_[r].noise_gain.col(c)).cwiseAbs2());
+        scale[c] * signals.by_noise.col(c).cwiseAbs2());
   return a;
 }
 
@@ -212,16 +211,14 @@ void Likelihood::pull_back(std::size_t r,
   gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
 
   const Eigen::VectorXd scale = envelope_scale(r, noise);
-  TorqueSignals by{run.reduction.transposed(w), Eigen::MatrixXd(signals.by_log_envelope)};
+  TorqueSignals by{run.reduction.transposed(w), Eigen::MatrixXd(signals.by_noise)};
   gradient.by_noise[kEmgFactor] = 0.0;
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
-    const auto d = signals.by_log_envelope.col(c);
-    by.by_log_envelope.col(c) = 2.0 * scale[c] *
-                                envelope_noise_[r][static_cast<std::size_t>(c)]
-                                    .pull_back(by_a)
-                                    .cwiseProduct(d)
-                                    .cwiseProduct(run.noise_gain.col(c).cwiseAbs2());
-    gradient.by_noise[kEmgFactor] += by.by_log_envelope.col(c).dot(d);
+    const auto d = signals.by_noise.col(c);
+    by.by_noise.col(c) =
+        2.0 * scale[c] *
+        envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(by_a).cwiseProduct(d);
+    gradient.by_noise[kEmgFactor] += by.by_noise.col(c).dot(d);
   }
 
   gradient.by_noise[kModelErrorSize] = 0.0;
@@ -371,10 +368,7 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
     const auto channel = static_cast<Eigen::Index>(c);
     const double scale = std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) *
                          run.errors[c].share();
-    of.variance_nm2 += scale * here.signals()
-                                   .by_log_envelope.col(channel)
-                                   .cwiseProduct(run.noise_gain.col(channel))
-                                   .cwiseAbs2();
+    of.variance_nm2 += scale * here.signals().by_noise.col(channel).cwiseAbs2();
   }
   if (options_.angle_sd_rad > 0.0 || options_.angle_rate_sd_radps > 0.0)
     of.variance_nm2 += motion_variance(run, here);

@@ -1,6 +1,7 @@
 #include "myoid/posterior/torque_signals.h"
 
 #include "myoid/identification/muscle_law.h"
+#include "myoid/posterior/drive.h"
 
 namespace myoid::identification {
 namespace {
@@ -57,14 +58,24 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
   const Eigen::Index n = run.time_s.size();
   const auto channels = static_cast<Eigen::Index>(run.envelopes.size());
   signals_.torque_nm = run.resting_nm;
-  signals_.by_log_envelope.setZero(n, channels);
+  signals_.by_noise.setZero(n, channels);
   const JointValues& joint = values.joints.front();
   for (int field = 0; field < kJointFieldCount; ++field) {
     const double value = joint[static_cast<std::size_t>(field)];
     if (value != 0.0) signals_.torque_nm += value * by_joint_field(run, field);
   }
   std::vector<std::vector<Activation>> more;
+  gain_.setOnes(n, channels);
+  gain_by_delay_.setZero(n, channels);
   for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    for (Eigen::Index i = 0; i < n && run.rest[column] > 0.0; ++i) {
+      const Envelope::Value u = run.envelopes[c].at(run.time_s[i] - values.channels[c][kDelay]);
+      const NoiseOverEnvelope noise =
+          noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
+      gain_(i, column) = noise.value;
+      gain_by_delay_(i, column) = -noise.slope * u.slope;
+    }
     activations_.push_back(activation(run.envelopes[c], run.time_s, values.channels[c], lag));
     more.push_back(more_active(activations_.back(), values.channels[c][kExponent]));
   }
@@ -83,8 +94,9 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
     evaluate(more[c], m.more_active);
     const auto arm = run.arm_m.col(column).array();
     signals_.torque_nm.array() += arm * m.at.force_n.array();
-    signals_.by_log_envelope.col(m.channel).array() +=
-        arm * (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
+    signals_.by_noise.col(m.channel).array() += gain_.col(m.channel).array() * arm *
+                                                (m.more_active.force_n - m.at.force_n).array() /
+                                                kActivationStep;
   }
 }
 
@@ -94,9 +106,20 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
     const Muscle& m = muscles_[static_cast<std::size_t>(k)];
     const auto arm = run_.arm_m.col(k).array();
-    const Eigen::ArrayXd more = arm * by.by_log_envelope.col(m.channel).array() / kActivationStep;
+    const Eigen::ArrayXd more =
+        arm * by.by_noise.col(m.channel).array() * gain_.col(m.channel).array() / kActivationStep;
     add_gradient(m.at, arm * by.torque_nm.array() - more, by_z);
     add_gradient(m.more_active, more, by_z);
+  }
+  // The noise goes with the envelope, which the delay moves.
+  for (std::size_t c = 0; c < chains_->of_channel.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    const double by_delay =
+        (by.by_noise.col(column).array() * signals_.by_noise.col(column).array() *
+         gain_by_delay_.col(column).array() / gain_.col(column).array())
+            .sum();
+    for (const ParameterMap::Chain& chain : chains_->of_channel[c])
+      if (chain.field == kDelay) by_z[chain.variable] += chain.slope * by_delay;
   }
 }
 

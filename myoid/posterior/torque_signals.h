@@ -12,8 +12,10 @@ namespace myoid::identification {
 
 /// What the model says of one run at all n samples, or a function's gradient by it.
 struct TorqueSignals {
-  Eigen::VectorXd torque_nm;        ///< n: T^.
-  Eigen::MatrixXd by_log_envelope;  ///< n x channels: D_c = d T^ / d ln u_c.
+  Eigen::VectorXd torque_nm;  ///< n: T^.
+  /// n x channels: D_c, the change by one standard deviation of rectified EMG, relative to the
+  /// envelope (TrialRun::envelope_sd), d T^ / d ln u_c n(u) / (sd u), n that of relative_noise.
+  Eigen::MatrixXd by_noise;
 };
 
 /// The derivative of the numbers of the model by the unknowns, by whose they are.
@@ -25,8 +27,8 @@ struct ChainsByOwner {
 /// The torque signals of one run at one point, with all that takes a gradient back from them to the
 /// unknowns.
 ///
-/// D_c is a secant, of the activation from a to a (1 + 0.02 p), p the exponent of the channel: its
-/// gradient needs first derivatives of the muscles' law only, and is exact.
+/// dT^/d ln u is a secant, of the activation from a to a (1 + 0.02 p), p the exponent of the
+/// channel: its gradient needs first derivatives of the muscles' law only, and is exact.
 class RunEvaluation {
  public:
   /// `chains` null: no gradient will be asked for.
@@ -59,6 +61,7 @@ class RunEvaluation {
   std::vector<std::vector<Activation>> activations_;
   std::vector<Muscle> muscles_;
   TorqueSignals signals_;
+  Eigen::MatrixXd gain_, gain_by_delay_;  ///< n x channels: n(u) / (sd u), and its slope.
 };
 
 }  // namespace myoid::identification

@@ -11,8 +11,12 @@ namespace {
 
 TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
   const StudyData data = test::elbow_study({.trials = 1, .seconds = 6.0, .with_priors = true}).data;
-  const ParameterMap map(data, {});
-  const std::vector<TrialRun> runs = trial_runs(data, {}, map);
+  EstimatorOptions options;
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"})
+    options.emg_bandwidth_hz[channel] = 150.0;
+  options.emg_rest["BIC"] = options.emg_rest["TRI"] = 0.03;
+  const ParameterMap map(data, options);
+  const std::vector<TrialRun> runs = trial_runs(data, options, map);
   const Eigen::VectorXd z = map.start();
   for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
     const auto at = [&](const Eigen::VectorXd& point) {
@@ -28,18 +32,16 @@ TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
       return std::sin(0.3 * static_cast<double>(i) + 1.7 * static_cast<double>(j));
     };
     by.torque_nm = Eigen::MatrixXd::NullaryExpr(by.torque_nm.size(), 1, wave);
-    by.by_log_envelope =
-        Eigen::MatrixXd::NullaryExpr(by.by_log_envelope.rows(), by.by_log_envelope.cols(), wave);
+    by.by_noise = Eigen::MatrixXd::NullaryExpr(by.by_noise.rows(), by.by_noise.cols(), wave);
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(z.size());
     evaluation.pull_back(by, gradient);
     const Eigen::MatrixXd jacobian = evaluation.jacobian(z.size());
     for (Eigen::Index j = 0; j < z.size(); ++j) {
       const Eigen::VectorXd step = 1e-5 * Eigen::VectorXd::Unit(z.size(), j);
       const TorqueSignals above = at(z + step), below = at(z - step);
-      const double sum =
-          (by.torque_nm.dot(above.torque_nm - below.torque_nm) +
-           by.by_log_envelope.cwiseProduct(above.by_log_envelope - below.by_log_envelope).sum()) /
-          2e-5;
+      const double sum = (by.torque_nm.dot(above.torque_nm - below.torque_nm) +
+                          by.by_noise.cwiseProduct(above.by_noise - below.by_noise).sum()) /
+                         2e-5;
       EXPECT_NEAR(gradient[j], sum, 1e-4 * (1.0 + std::abs(sum))) << j;
       const Eigen::VectorXd change = (above.torque_nm - below.torque_nm) / 2e-5;
       EXPECT_LT((jacobian.col(j) - change).norm(), 1e-5 * (1.0 + change.norm())) << j;
@@ -54,7 +56,7 @@ TEST(RunEvaluation, WhatALargerEnvelopeMakesIsItsSecant) {
   const std::vector<TrialRun> runs = trial_runs(data, {}, map);
   const TorqueSignals signals =
       RunEvaluation(runs[0], map, EmgLag::delay, map.values(map.start()), nullptr).signals();
-  EXPECT_LT((signals.by_log_envelope.rowwise().sum() - signals.torque_nm).norm(),
+  EXPECT_LT((signals.by_noise.rowwise().sum() - signals.torque_nm).norm(),
             1e-10 * signals.torque_nm.norm());
 }
 

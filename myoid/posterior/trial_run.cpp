@@ -86,19 +86,13 @@ void add_envelopes(const std::vector<Drive>& drives,
                    const EstimatorOptions& options,
                    const ParameterMap& map,
                    TrialRun& run) {
-  const Eigen::Index n = run.time_s.size();
   run.envelope_sd.resize(static_cast<Eigen::Index>(drives.size()));
-  run.noise_gain.setOnes(n, run.envelope_sd.size());
-  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
+  run.rest.resizeLike(run.envelope_sd);
   for (std::size_t c = 0; c < drives.size(); ++c) {
     const std::string& name = map.channels()[c];
-    const double spread = envelope_spread(options, name), floor = floor_of(name, options);
     const auto column = static_cast<Eigen::Index>(c);
-    run.envelope_sd[column] = spread;
-    for (Eigen::Index i = 0; i < n && floor > 0.0 && spread > 0.0; ++i) {
-      const double u = std::max(drives[c].envelope.at(run.time_s[i] - delay_s).value, 1e-3 * floor);
-      run.noise_gain(i, column) = envelope_sd_at(u, spread, floor) / (spread * u);
-    }
+    run.envelope_sd[column] = envelope_spread(options, name);
+    run.rest[column] = floor_of(name, options);
     run.envelopes.push_back(drives[c].envelope);
     run.errors.push_back(
         EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
@@ -123,7 +117,7 @@ TrialRun make_run(const TrialData& trial,
                .envelopes = {},
                .errors = {},
                .envelope_sd = {},
-               .noise_gain = {},
+               .rest = {},
                .interval_s = 1.0 / rate_hz,
                .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz),
                .measured_nm = {}};

@@ -28,9 +28,8 @@ struct TrialRun {
   std::vector<Envelope> envelopes;  ///< Per EMG channel: of the drive (drive.h).
   std::vector<EnvelopeError> errors;  ///< Per EMG channel: of the envelope.
   Eigen::VectorXd
-      envelope_sd;  ///< Per EMG channel: relative sd of rectified EMG behind its filter.
-  /// n x channels: relative sd of the envelope over `envelope_sd`, by the electrode's noise.
-  Eigen::MatrixXd noise_gain;
+      envelope_sd;       ///< Per EMG channel: relative sd of rectified EMG behind its filter.
+  Eigen::VectorXd rest;  ///< Per EMG channel: resting over full level, 0 where not known.
   double interval_s = 0.0;
   Reduction reduction;
   Eigen::VectorXd measured_nm;  ///< m: L y.

@@ -13,8 +13,9 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kLogRange = 2.3;
-constexpr double kLag_s = 0.15;  // a model's relative error of 10 % is a lag of 15 ms
-constexpr double kLeastActivation = 0.02;
+constexpr double kLag_s = 0.15;            // a model's relative error of 10 % is a lag of 15 ms
+constexpr double kLeastActivation = 0.02;  // of the logarithm
+constexpr double kNoneActs = 1e-4;         // force over activation is finite down to it
 
 bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
   return std::any_of(map.free().begin(), map.free().end(),
@@ -65,8 +66,8 @@ class Collector {
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]),
             Source::electrodes, beliefs::kCrossTalk.sd);
         for_channel(c, [&](const OfMuscle& of, auto column) {
-          column += of.torque * activation_of(of.at, other) /
-                    activation_of(of.at, c).max(kLeastActivation);
+          column +=
+              of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
         });
       }
     }
@@ -149,7 +150,7 @@ class Collector {
     Eigen::ArrayXd late(static_cast<Eigen::Index>(a.size()));
     for (Eigen::Index i = 0; i < late.size(); ++i) {
       const Activation& here = a[static_cast<std::size_t>(i)];
-      late[i] = -kLag_s * here.by_field[kDelay] / std::max(here.value, kLeastActivation);
+      late[i] = -kLag_s * here.by_field[kDelay] / std::max(here.value, kNoneActs);
     }
     return late;
   }
