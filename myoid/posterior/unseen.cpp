@@ -103,6 +103,24 @@ class Collector {
     shape("speed", 1.0,
           [&](const OfMuscle& of) { return (of.velocity / range.fastest_mps).eval(); });
     shape("lag", 1.0, [&](const OfMuscle& of) { return lag_effect(of.at, c); });
+    lags_.push_back(quantities_.size() - 1);
+  }
+
+  /// A delay that is free takes the lag that its muscles have in common: the model errs by the
+  /// rest.
+  void center_lags() {
+    for (const Unknown& delay : map_.free()) {
+      if (!delay.is(Scope::channel, kDelay)) continue;
+      std::vector<std::size_t> shared;
+      for (std::size_t k = 0; k < lags_.size(); ++k)
+        if (delay.acts_on(map_.channel_of_muscle(k))) shared.push_back(lags_[k]);
+      for (auto& columns : columns_) {
+        Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(columns.front().size());
+        for (const std::size_t lag : shared)
+          mean += columns[lag] / static_cast<double>(shared.size());
+        for (const std::size_t lag : shared) columns[lag] -= mean;
+      }
+    }
   }
 
   /// A constant and a slope of the joint, of the size of the measured torque.
@@ -213,6 +231,7 @@ class Collector {
   const ModelValues& values_;
   const std::vector<RunEvaluation>& at_;
   std::vector<UnseenQuantity> quantities_;
+  std::vector<std::size_t> lags_;                     ///< Per muscle: the quantity of its lag.
   std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
 };
 
@@ -261,6 +280,7 @@ Unseen unseen_quantities(const StudyData& data,
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);
   }
+  collector.center_lags();
   collector.add_electrodes();
   collector.add_torque_scale();
   collector.add_joint_errors();

@@ -36,7 +36,8 @@ struct UnseenQuantity {
 /// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque. Gain drift: the
 /// channel's torque times the place in the session. Cross-talk: the channel's torque times the
 /// ratio of another's activation to its own. Model error: the muscle's torque times polynomials of
-/// length, ln(activation), speed and lag, and a constant and a slope of the joint, as ErrorShapes.
+/// length, ln(activation), speed and lag, and a constant and a slope of the joint, as ErrorShapes;
+/// where the muscles share a free delay, a lag is its difference from their mean.
 struct Unseen {
   std::vector<UnseenQuantity> quantities;
   std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n x quantities [N m].

@@ -16,8 +16,11 @@ StudyData two_trials() { return test::elbow_study({.trials = 2, .seconds = 6.0})
 
 /// A study, its runs, and where they are evaluated: at the start.
 struct AtStart {
-  explicit AtStart(StudyData of)
-      : data(std::move(of)), map(data, {}), runs(trial_runs(data, {}, map)) {}
+  explicit AtStart(StudyData of, EstimatorOptions with = {})
+      : data(std::move(of)),
+        options(std::move(with)),
+        map(data, options),
+        runs(trial_runs(data, options, map)) {}
 
   /// The torque of all runs, one after the other; `change` gets each run and the model's numbers.
   template <typename Change>
@@ -40,7 +43,8 @@ struct AtStart {
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
     for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
-    return unseen_quantities(data, {}, map, recorded(runs, map.held().muscles), runs, values, at);
+    return unseen_quantities(data, options, map, recorded(runs, map.held().muscles), runs, values,
+                             at);
   }
 
   /// The column of S of this name, all runs one after the other.
@@ -58,6 +62,7 @@ struct AtStart {
   }
 
   StudyData data;
+  EstimatorOptions options;
   ParameterMap map;
   std::vector<TrialRun> runs;
 };
@@ -173,8 +178,20 @@ TEST(Unseen, TheModelsErrorsAreTheMusclesTorqueTimesTheirShapes) {
   };
   const Eigen::VectorXd torque = alone(1.0) - alone(0.0);
   EXPECT_LT((at.column("TRI.error_strength") - torque).norm(), 1e-9 * torque.norm());
-  // Earlier by 150 ms: the sign is that of ln a.
-  expect_derivative(at, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
+}
+
+TEST(Unseen, ALagIsThatOfOneMuscleAgainstTheMuscles) {
+  // Earlier by 150 ms: the sign is that of ln a. Of a common delay the mean of the muscles is
+  // taken.
+  const AtStart common(two_trials());
+  expect_derivative(common, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
+    for (std::size_t c = 0; c < 4; ++c)
+      values.channels[c][kDelay] -= 0.15 * by * ((c == 3 ? 1.0 : 0.0) - 0.25);
+  });
+  EstimatorOptions held;
+  held.delay_s = 0.06;
+  const AtStart alone(two_trials(), held);
+  expect_derivative(alone, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
     values.channels[3][kDelay] -= 0.15 * by;
   });
 }
