@@ -16,11 +16,11 @@ from .errors import Error, InternalError, InvalidInput, ModelError, MyoidWarning
 from .model import Model, MuscleKinematics
 from .recording import Event, ForcePlate, Recording, read, read_series
 from .remarks import Remark
-from .results import Result, Trial, TwinStudyResult
+from .results import PredictResult, Result, Trial, TwinStudyResult
 from .series import Markers, Table, TimeSeries
 
 __all__ = [
     *_commands, "read", "read_series", "Model", "Result", "Trial", "Recording", "ForcePlate", "Event", "Markers",
-    "Table", "TimeSeries", "Remark", "MuscleKinematics", "TwinStudyResult", "Error", "InvalidInput", "ReadError",
-    "ModelError", "InternalError", "MyoidWarning", "__version__",
+    "Table", "TimeSeries", "Remark", "MuscleKinematics", "PredictResult", "TwinStudyResult", "Error", "InvalidInput",
+    "ReadError", "ModelError", "InternalError", "MyoidWarning", "__version__",
 ]  # fmt: skip

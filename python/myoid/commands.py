@@ -26,15 +26,15 @@ from typing import TYPE_CHECKING, Any, Union
 from ._call import Progress, call
 from .errors import InvalidInput, MyoidWarning
 from .remarks import Remark
-from .results import Result, TwinStudyResult, _Folder
+from .results import PredictResult, Result, TwinStudyResult, _Folder
 from .series import Table, TimeSeries
 
 if TYPE_CHECKING:
     import numpy as np
 
 __all__ = [
-    "run", "identify", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate", "twin",
-    "twin_study", "run_tool", "scale", "info", "convert",
+    "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate",
+    "twin", "twin_study", "run_tool", "scale", "info", "convert",
     "CheckResult", "CompareResult", "DesignResult", "EmgResult", "IkResult", "IdResult", "PathsResult", "SoResult",
     "MuscleResult", "SimulateResult", "TwinResult", "ToolResult",
 ]  # fmt: skip
@@ -107,6 +107,23 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
     options = locals()
     folder = _Folder(out)
     return Result._of(folder, call("identify", {**options, "out": folder.path}))
+
+
+def predict(folder: File | Result, *, study: File | None = None, trials: Texts | None = None, out: File | None = None,
+            threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
+            progress: Report = None) -> PredictResult:  # fmt: skip
+    """Torque and muscle forces, with 95 % bands, of trials that took no part in the fit of a run.
+
+    Args:
+        folder: Folder of a run with method "torque", or its result.
+        study: Another study of the same person and muscles, with the trials; None: the study of the run.
+        trials: Names of the trials; None: all that took no part in the fit.
+        out: Folder of the predictions; None: a temporary folder that lives as long as the result.
+    """
+    options = locals()
+    options["folder"] = folder.path if isinstance(folder, Result) else folder
+    place = _Folder(out)
+    return PredictResult(place, call("predict", {**options, "out": place.path}))
 
 
 @dataclass(eq=False)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-__all__ = ["Result", "Trial", "TwinStudyResult"]
+__all__ = ["Result", "Trial", "PredictResult", "TwinStudyResult"]
 
 _COLORS = {
     "identified": "#2a7",
@@ -71,6 +71,11 @@ class Trial(Mapping[str, TimeSeries]):
 
     def __repr__(self) -> str:
         return f"Trial({self.name!r}: {', '.join(self._files)})"
+
+
+def series_of(trials: Mapping[str, Trial]) -> dict[str, dict[str, xarray.DataArray]]:
+    """All series of trials by trial and name."""
+    return {name: {series: trial[series].to_xarray() for series in trial} for name, trial in trials.items()}
 
 
 class Result:
@@ -147,9 +152,7 @@ class Result:
 
     def to_xarray(self) -> dict[str, dict[str, xarray.DataArray]]:
         """All series by trial and name, `channel` x `time`."""
-        return {
-            name: {series: trial[series].to_xarray() for series in trial} for name, trial in self.trials.items()
-        }
+        return series_of(self.trials)
 
     @property
     def report(self) -> Path:
@@ -218,6 +221,43 @@ def parameters_html(parameters: Table) -> str:
         )
     head = "".join(f"<th>{c}</th>" for c in ("muscle", "parameter", "estimate", "95 % low", "high", "", "verdict"))
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+class PredictResult:
+    """Torques and muscle forces of trials by the fit of a run, with 95 % bands.
+
+    Attributes:
+        path: The folder of the files.
+        trials: By name, with the series "predicted_torque_<joint>" (channels <joint>_measured, _predicted, _low, _high
+            [N m]) and "predicted_forces" (each muscle, _low, _high [N]).
+        remarks: Remarks of the call.
+    """
+
+    def __init__(self, folder: _Folder, found: Mapping[str, Any]) -> None:
+        self._folder = folder
+        self.path = folder.path
+        self.trials = {name: Trial(self.path / name, name) for name in found["trials"]}
+        self.remarks = found["remarks"]
+
+    @cached_property
+    def scores(self) -> Table:
+        """A row for each trial and joint: samples, rmse_nm [N m], r2, the same below the fit's cut-off (band_rmse_nm,
+        band_r2), and `covered`, the share of the samples within the band."""
+        return Table.read(self.path / "predictions.csv")
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """`scores` as a data frame."""
+        return self.scores.to_pandas()
+
+    def to_xarray(self) -> dict[str, dict[str, xarray.DataArray]]:
+        """All series by trial and name, `channel` x `time`."""
+        return series_of(self.trials)
+
+    def _repr_html_(self) -> str:
+        return self.scores._repr_html_()
+
+    def __repr__(self) -> str:
+        return f"PredictResult({', '.join(self.trials)})"
 
 
 class TwinStudyResult:

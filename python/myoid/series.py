@@ -123,7 +123,8 @@ class Markers:
             raise KeyError(f"there is no marker {name!r}; there are {', '.join(self.names)}") from None
 
     def __repr__(self) -> str:
-        return f"Markers({len(self)} frames, {len(self.names)} markers: {', '.join(self.names[:8])}{', ...' * (len(self.names) > 8)})"
+        names = ", ".join([*self.names[:8], *["..."] * (len(self.names) > 8)])
+        return f"Markers({len(self)} frames, {len(self.names)} markers: {names})"
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with the index `time` [s] and columns (marker, axis) [m]."""

@@ -9,6 +9,7 @@
 #include "myoid/commands/design.h"
 #include "myoid/commands/identify.h"
 #include "myoid/commands/output_file.h"
+#include "myoid/commands/predict.h"
 #include "myoid/commands/run.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/error.h"
@@ -223,6 +224,39 @@ py::dict compare(py::dict given) {
   return d;
 }
 
+py::dict predict(py::dict given) {
+  Keywords k("predict", std::move(given));
+  Work work(k);
+  commands::PredictOptions o;
+  std::string out;
+  bool overwrite = false;
+  k.take("folder", o.folder);
+  k.take("study", o.study);
+  k.take("trials", o.trials);
+  k.take("out", out);
+  k.take("overwrite", overwrite);
+  k.refuse_others();
+  o.call = work.call();
+  struct Done {
+    std::vector<std::string> trials;
+    std::vector<Remark> remarks;
+  };
+  const Done done = work.run([&] {
+    ResultOut folder(out, o.call, overwrite);
+    const commands::PredictResult r = commands::predict(o);
+    commands::write_predict(r, out);
+    folder.finish();
+    std::vector<std::string> trials;
+    for (const identification::TrialFit& trial : r.trials)
+      if (trials.empty() || trials.back() != trial.trial) trials.push_back(trial.trial);
+    return Done{.trials = trials, .remarks = r.remarks};
+  });
+  py::dict d;
+  d["trials"] = done.trials;
+  d["remarks"] = to_python(done.remarks);
+  return d;
+}
+
 py::list expected_rows(const std::vector<identification::ParameterEstimate>& estimates) {
   py::list rows;
   for (const identification::ParameterEstimate& e : estimates) {
@@ -295,6 +329,7 @@ void bind_studies(py::module_& module) {
   module.def("check", &check);
   module.def("run", &run);
   module.def("identify", &identify);
+  module.def("predict", &predict);
   module.def("compare", &compare);
   module.def("design", &design);
 }

@@ -16,8 +16,8 @@ import myoid
 TERMINAL = {"help", "json", "quiet", "verbose", "strict", "each_muscle", "paper_figures", "help_files"}
 PAGE = {"html", "motion", "forces", "activations", "markers", "meshes", "up", "start", "end", "overwrite"}
 COMMANDS = [
-    "run", "identify", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate", "twin",
-    "twin_study", "run_tool", "info", "convert",
+    "run", "identify", "predict", "check", "compare", "design", "emg", "ik", "id", "paths", "so", "muscle", "simulate",
+    "twin", "twin_study", "run_tool", "info", "convert",
 ]  # fmt: skip
 
 

@@ -111,6 +111,26 @@ def test_check_compare_design(recording, result, tmp_path):
     assert [row["parameter"] for row in planned.beforehand] == ["max_isometric_force"] * len(planned.beforehand)
 
 
+def test_predict_gives_the_files_of_the_program(result, tmp_path):
+    found = myoid.predict(result, trials="lift", out=tmp_path / "p")
+    program("predict", result.path, "--trials", "lift", "--out", tmp_path / "cli", "--quiet")
+    files = ["predictions.csv", "lift/predicted_torque_elbow_flexion.sto", "lift/predicted_forces.sto"]
+    for file in files:
+        assert (found.path / file).read_bytes() == (tmp_path / "cli" / file).read_bytes()
+    (score,) = found.scores
+    assert score["trial"] == "lift" and score["fitted"] is True and "lift" in repr(found)
+    torque = found.trials["lift"]["predicted_torque_elbow_flexion"]
+    names = [f"elbow_flexion_{part}" for part in ("measured", "predicted", "low", "high")]
+    measured, predicted, low, high = (torque[name] for name in names)
+    assert np.all((low < predicted) & (predicted < high)) and len(torque) == score["samples"]
+    # The share of the samples within the band, from the columns.
+    assert np.mean((low <= measured) & (measured <= high)) == pytest.approx(score["covered"], abs=1.5 / len(torque))
+    assert np.sqrt(np.mean((measured - predicted) ** 2)) == pytest.approx(score["rmse_nm"], rel=1e-9)
+    assert "rmse_nm" in found._repr_html_()
+    with pytest.raises(myoid.InvalidInput, match="none"):
+        myoid.predict(result, trials=["none"])
+
+
 def test_identify_from_the_files_of_the_run(result, tmp_path):
     names = "max_isometric_force optimal_fiber_length force_length_width concentric_curvature "
     names += "eccentric_curvature_product eccentric_plateau max_shortening_speed tendon_slack_length"
