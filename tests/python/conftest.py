@@ -23,13 +23,13 @@ held_mass_kg = 1.0
 """
 
 
-def program(*arguments, fails=False):
-    """Runs the program; returns its standard output."""
+def program(*arguments, fails=False, stderr=False):
+    """Runs the program; returns its standard output, or with `stderr` its messages."""
     done = subprocess.run(
         [os.environ["MYOID"], *map(os.fspath, arguments)], capture_output=True, text=True, check=False
     )
     assert fails or done.returncode in (0, 4), done.stderr
-    return done.stdout
+    return done.stderr if stderr else done.stdout
 
 
 @pytest.fixture(scope="session")

@@ -47,34 +47,33 @@ def test_arrays_show_the_library_s_own_memory_and_keep_it(recording):
 
 
 def test_c3d_files_equal_convert(data, tmp_path):
-    files = sorted((data / "c3d").glob("sample0[18]/*.c3d"))[:4]
-    assert files
-    for file in files:
-        out = tmp_path / file.stem
-        program("convert", file, out, "--quiet")
-        read = myoid.read(file)
+    readable = 0
+    for file in sorted((data / "c3d").rglob("*.c3d")):
+        try:
+            read = myoid.read(file)
+        except myoid.ReadError:
+            assert "error" in program("convert", file, tmp_path / "x.trc", "--overwrite", fails=True, stderr=True)
+            continue
+        readable += 1
         assert read.path == str(file) and "markers" in repr(read)
-        trc = list(out.glob("*.trc"))
         if read.markers.names:
-            written = myoid.read(trc[0]).markers
+            program("convert", file, tmp_path / "x.trc", "--overwrite", "--quiet")
+            written = myoid.read(tmp_path / "x.trc").markers
             assert [n.replace(" ", "_") for n in read.markers.names] == written.names
-            # Force plates can turn the laboratory: distances from the first marker stay.
-            np.testing.assert_allclose(
-                np.linalg.norm(read.markers.positions - read.markers.positions[:, :1], axis=2),
-                np.linalg.norm(written.positions - written.positions[:, :1], axis=2), atol=1e-8,
-            )  # fmt: skip
+            # The file has millimetres: the product and the quotient by 1000 are rounded once each.
+            np.testing.assert_allclose(written.positions, read.markers.positions, rtol=5e-16, atol=0)
         if len(read.analog):
-            program("convert", file, out / "all.csv", "--what", "channels", "--quiet")
-            written = myoid.read_series(out / "all.csv")
+            program("convert", file, tmp_path / "x.csv", "--what", "channels", "--overwrite", "--quiet")
+            written = myoid.read_series(tmp_path / "x.csv")
             assert written.channels == read.analog.channels
             np.testing.assert_array_equal(written.values, read.analog.values)
-            assert read.units == dict(zip(read.analog.channels, read.analog.units))
-        told = json.loads(program("info", file, "--json"))[0]
-        assert myoid.info(file) == told
+        assert set(read.analog.channels) <= set(read.units)
+        assert myoid.info(file) == json.loads(program("info", file, "--json"))[0]
         for plate in read.plates:
             assert plate.force.shape == plate.moment.shape == (len(plate.time), 3) and plate.corners.shape == (4, 3)
         assert all(event.time >= 0 or event.label for event in read.events)
         assert isinstance(read.notes, list) and isinstance(read.other_clocks, list)
+    assert readable >= 10
 
 
 def test_emg_of_a_c3d_is_in_volts(data):
