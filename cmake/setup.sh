@@ -60,7 +60,7 @@ myoid_install_browser() {
 
 # The Python module and its tests. Without these packages the module is not built.
 myoid_install_python() {
-  local wanted=(pybind11-dev python3-dev python3-numpy python3-pytest) name missing=()
+  local wanted=(pybind11-dev python3-dev python3-numpy python3-pandas python3-xarray python3-pytest python3-pip) name missing=()
   for name in "${wanted[@]}"; do
     dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
   done

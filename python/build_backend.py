@@ -1,0 +1,199 @@
+"""Makes the wheel and the source distribution of the module (PEP 517), with Python's own library and CMake.
+
+    pip wheel . --no-build-isolation --no-deps
+    pip wheel . --no-build-isolation --no-deps --config-settings build-dir=build/release
+
+The first builds in build/wheel, the second links what that tree has compiled. The wheel holds the program and every
+shared library that the two need, but for the C and C++ libraries of the system. The same tree gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import hashlib
+import io
+import os
+import platform
+import re
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import time
+import tomllib
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+# Libraries that every Linux system with the wheel's C library has.
+SYSTEM = re.compile(r"(libc|libm|libpthread|libdl|librt|libstdc\+\+|libgcc_s|linux-vdso|ld-linux[-\w]*)\.so")
+STARTER = """#!python
+import importlib.util
+import os
+import sys
+
+program = os.path.join(os.path.dirname(importlib.util.find_spec("myoid").origin), "bin", "myoid")
+os.execv(program, [program, *sys.argv[1:]])
+"""
+
+Settings = Mapping[str, str] | None
+
+
+def project() -> dict:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
+def version() -> str:
+    found = re.search(r"^project\(myoid VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M)
+    if not found:
+        raise RuntimeError("CMakeLists.txt states no version of the project")
+    return found[1]
+
+
+def metadata() -> str:
+    p = project()
+    lines = [
+        "Metadata-Version: 2.1", f"Name: {p['name']}", f"Version: {version()}", f"Summary: {p['description']}",
+        f"License: {p['license']['text']}", f"Requires-Python: {p['requires-python']}",
+        *(f"Requires-Dist: {d}" for d in p["dependencies"]),
+    ]  # fmt: skip
+    for extra, packages in p["optional-dependencies"].items():
+        lines += [f"Provides-Extra: {extra}", *(f'Requires-Dist: {d}; extra == "{extra}"' for d in packages)]
+    readme = (ROOT / p["readme"]).read_text(encoding="utf-8")
+    return "\n".join([*lines, "Description-Content-Type: text/markdown", "", readme])
+
+
+def tag() -> str:
+    """The interpreter, and the C library that is needed at least: the one of this system."""
+    python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
+    name, number = platform.libc_ver()
+    system = f"manylinux_{number.replace('.', '_')}" if name == "glibc" else "linux"
+    return f"{python}-{python}-{system}_{platform.machine()}"
+
+
+def build_time() -> int:
+    """SOURCE_DATE_EPOCH, else the time of the last commit, else of pyproject.toml [s since 1970]."""
+    if "SOURCE_DATE_EPOCH" in os.environ:
+        return int(os.environ["SOURCE_DATE_EPOCH"])
+    git = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False)
+    return int(git.stdout) if git.returncode == 0 else int((ROOT / "pyproject.toml").stat().st_mtime)
+
+
+def linked(settings: Settings) -> Path:
+    """Builds the program and the module; returns the folder of the package."""
+    given = (settings or {}).get("build-dir")
+    tree = ROOT / given if given else ROOT / "build" / "wheel"
+    if not given:
+        options = ["MYOID_TESTS=OFF", "MYOID_BENCHMARKS=OFF", "MYOID_UNITY=ON", "CMAKE_BUILD_TYPE=Release",
+                   "CMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", f"MYOID_PYTHON={sys.executable}"]  # fmt: skip
+        subprocess.run(["cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", *(f"-D{o}" for o in options)], check=True)
+    subprocess.run(["cmake", "--build", tree, "--target", "myoid_wheel"], check=True)
+    package = tree / "wheel" / "myoid"
+    suffix = sysconfig.get_config_var("EXT_SUFFIX")
+    if not (package / f"_native{suffix}").is_file():
+        raise RuntimeError(f"{tree} is built for another Python than {sys.executable} ({suffix})")
+    return package
+
+
+def libraries(binary: Path) -> dict[str, Path]:
+    """The shared libraries that a binary needs and that are not the system's, by name."""
+    told = subprocess.run(["ldd", binary], capture_output=True, text=True, check=True).stdout
+    found = dict(re.findall(r"^\s*(\S+) => (/\S+)", told, re.M))
+    if "not found" in told:
+        raise RuntimeError(f"{binary} needs libraries that are not there:\n{told}")
+    return {name: Path(path) for name, path in found.items() if not SYSTEM.match(name)}
+
+
+def contents(package: Path) -> dict[str, tuple[bytes, bool]]:
+    """The files of the wheel but for its record: bytes, and whether a file is a program."""
+    files = {}
+    for file in sorted((ROOT / "python" / "myoid").iterdir()):
+        if file.is_file():
+            files[f"myoid/{file.name}"] = (file.read_bytes(), False)
+    binaries = [next(package.glob("_native*")), package / "bin" / "myoid"]
+    files[f"myoid/{binaries[0].name}"] = (binaries[0].read_bytes(), True)
+    files["myoid/bin/myoid"] = (binaries[1].read_bytes(), True)
+    for name, path in sorted({**libraries(binaries[0]), **libraries(binaries[1])}.items()):
+        files[f"myoid.libs/{name}"] = (path.read_bytes(), True)
+        notice = Path(f"/usr/share/doc/lib{re.sub(r'^lib|[.]so[.]?', '', name)}/copyright")
+        if notice.is_file():
+            files[f"myoid.libs/{name}.copyright"] = (notice.read_bytes(), False)
+    files[f"myoid-{version()}.data/scripts/myoid"] = (STARTER.encode(), True)
+    info = f"myoid-{version()}.dist-info"
+    for name in ("LICENSE", "NOTICE"):
+        files[f"{info}/{name}"] = ((ROOT / name).read_bytes(), False)
+    files[f"{info}/METADATA"] = (metadata().encode(), False)
+    files[f"{info}/WHEEL"] = (wheel_file().encode(), False)
+    return files
+
+
+def wheel_file() -> str:
+    return f"Wheel-Version: 1.0\nGenerator: myoid\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+
+
+def record(files: Mapping[str, tuple[bytes, bool]], name: str) -> str:
+    lines = []
+    for path, (data, _) in files.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+        lines.append(f"{path},sha256={digest},{len(data)}")
+    return "\n".join([*lines, f"{name},,", ""])
+
+
+def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
+    return []
+
+
+def get_requires_for_build_sdist(config_settings: Settings = None) -> list[str]:
+    return []
+
+
+def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: Settings = None) -> str:
+    folder = Path(metadata_directory) / f"myoid-{version()}.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text(metadata(), encoding="utf-8")
+    (folder / "WHEEL").write_text(wheel_file(), encoding="utf-8")
+    return folder.name
+
+
+def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata_directory: str | None = None) -> str:
+    files = contents(linked(config_settings))
+    listed = f"myoid-{version()}.dist-info/RECORD"
+    files[listed] = (record(files, listed).encode(), False)
+    name = f"myoid-{version()}-{tag()}.whl"
+    date = time.gmtime(max(build_time(), 315532800))[:6]  # a .zip begins at 1980
+    with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path, (data, program) in files.items():
+            entry = zipfile.ZipInfo(path, date)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = (0o100755 if program else 0o100644) << 16
+            archive.writestr(entry, data)
+    return name
+
+
+def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
+    """Packs the files that git lists; of an unpacked source distribution all files but build/."""
+    base = f"myoid-{version()}"
+    git = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=False)
+    names = [n for n in git.stdout.split("\0") if n]
+    if git.returncode != 0:
+        files = (p.relative_to(ROOT) for p in ROOT.rglob("*") if p.is_file() or p.is_symlink())
+        names = [str(p) for p in files if p.parts[0] != "build" and p.name != "PKG-INFO"]
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
+
+        def cleaned(entry: tarfile.TarInfo) -> tarfile.TarInfo:
+            entry.uid = entry.gid = 0
+            entry.uname = entry.gname = ""
+            entry.mtime = build_time()
+            return entry
+
+        for name in sorted(names):
+            archive.add(ROOT / name, f"{base}/{name}", recursive=False, filter=cleaned)
+        told = metadata().encode()
+        entry = tarfile.TarInfo(f"{base}/PKG-INFO")
+        entry.size = len(told)
+        archive.addfile(cleaned(entry), io.BytesIO(told))
+    (Path(sdist_directory) / f"{base}.tar.gz").write_bytes(gzip.compress(buffer.getvalue(), 6, mtime=0))
+    return f"{base}.tar.gz"

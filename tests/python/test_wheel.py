@@ -1,0 +1,110 @@
+"""The wheel: what it needs, and the demo from it in an empty virtual environment."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+from conftest import SOURCE, program
+
+import myoid
+
+TREE = Path(myoid.__file__).resolve().parents[2]
+SYSTEM = {"libc.so.6", "libm.so.6", "libstdc++.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+
+
+def pip(*arguments):
+    done = subprocess.run([sys.executable, "-m", "pip", *arguments], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"})  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The wheel, linked from what the build tree has compiled."""
+    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, check=False).returncode != 0:
+        pytest.skip(f"{sys.executable} has no pip")
+    folder = tmp_path_factory.mktemp("wheel")
+    pip("wheel", SOURCE, "--no-build-isolation", "--no-deps", "--config-settings", f"build-dir={TREE}", "-w", folder)
+    (file,) = folder.glob("myoid-*.whl")
+    return file
+
+
+def test_the_wheel_needs_nothing_but_the_libraries_of_the_system(wheel, tmp_path):
+    if not shutil.which("objdump"):
+        pytest.skip("needs objdump")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path)
+        assert archive.testzip() is None
+    included = {file.name for file in (tmp_path / "myoid.libs").glob("*.so*") if file.suffix != ".copyright"}
+    binaries = [f for f in tmp_path.rglob("*") if f.is_file() and f.read_bytes()[:4] == b"\x7fELF"]
+    assert {tmp_path / "myoid/bin/myoid", *(tmp_path / "myoid").glob("_native*.so")} <= set(binaries)
+    allowed = int(re.search(r"manylinux_2_(\d+)_", wheel.name)[1])
+    for file in binaries:
+        told = subprocess.run(["objdump", "-p", file], capture_output=True, text=True, check=True).stdout
+        needed = set(re.findall(r"NEEDED +(\S+)", told))
+        assert needed and needed <= SYSTEM | included, file.name
+        # The name of the wheel states the oldest C library.
+        assert all(int(v) <= allowed for v in re.findall(r"GLIBC_2\.(\d+)", told))
+        if needed & included:
+            assert re.search(r"RUNPATH +\$ORIGIN/(?:\.\./)+myoid\.libs\n", told), file.name
+    for name in included:
+        assert (tmp_path / f"myoid.libs/{name}.copyright").is_file()
+
+
+def test_the_version_stands_in_one_place(wheel):
+    number = program("--version").strip()
+    assert wheel.name.startswith(f"myoid-{number}-")
+    with zipfile.ZipFile(wheel) as archive:
+        assert f"\nVersion: {number}\n" in archive.read(f"myoid-{number}.dist-info/METADATA").decode()
+
+
+def test_a_second_wheel_has_the_same_bytes_and_the_sdist_the_sources(wheel, tmp_path):
+    # The backend is called in a process of its own, as pip does.
+    code = (
+        "import sys; sys.path.insert(0, 'python'); import build_backend as b; "
+        f"b.build_wheel({str(tmp_path)!r}, {{'build-dir': {str(TREE)!r}}}); b.build_sdist({str(tmp_path)!r})"
+    )
+    subprocess.run([sys.executable, "-c", code], cwd=SOURCE, check=True, capture_output=True)
+    assert (tmp_path / wheel.name).read_bytes() == wheel.read_bytes()
+    (sdist,) = tmp_path.glob("*.tar.gz")
+    base = sdist.name.removesuffix(".tar.gz")
+    with tarfile.open(sdist) as archive:
+        names = set(archive.getnames())
+    assert {f"{base}/{n}" for n in ("PKG-INFO", "pyproject.toml", "CMakeLists.txt", "python/src/module.cpp")} <= names
+    assert not any(name.startswith(f"{base}/build/") for name in names)
+
+
+def test_the_demo_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
+    environment = tmp_path / "env"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
+    pip("--python", environment / "bin/python", "install", "--no-index", "--no-deps", wheel)
+
+    def run(*command):
+        done = subprocess.run([environment / "bin" / command[0], *command[1:]], cwd=tmp_path, capture_output=True,
+                              text=True, check=False, env={"PATH": "/usr/bin:/bin"})  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    assert run("myoid", "--version") == program("--version")
+    run("myoid", "twin", "--model", "arm4", "--protocol", SOURCE / "examples/demo/protocol.toml", "--seed", "1",
+        "--out", "recording", "--quiet")  # fmt: skip
+    script = (
+        "import myoid, warnings\n"
+        "warnings.simplefilter('ignore', myoid.MyoidWarning)\n"
+        "r = myoid.run('recording/study.toml', out='results')\n"
+        "print(len(r.parameters.where(method='torque', verdict='identified')))\n"
+        "print(myoid.__file__, *{l.split()[-1] for l in open('/proc/self/maps') if 'tbb' in l or 'fmt' in l})\n"
+    )
+    identified, places = run("python", "-c", script).splitlines()
+    assert int(identified) >= 8
+    assert all(place.startswith(str(environment)) for place in places.split())
+    # The same study by the program of the build tree: the last bit of every number.
+    program("run", tmp_path / "recording/study.toml", "--out", tmp_path / "program", "--quiet")
+    for file in ("parameters.csv", "medium_1p5kg/id.sto"):
+        assert (tmp_path / "results" / file).read_bytes() == (tmp_path / "program" / file).read_bytes()
