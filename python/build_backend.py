@@ -180,13 +180,13 @@ def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
     if git.returncode != 0:
         files = (p.relative_to(ROOT) for p in ROOT.rglob("*") if p.is_file() or p.is_symlink())
         names = [str(p) for p in files if p.parts[0] != "build" and p.name != "PKG-INFO"]
-    buffer = io.BytesIO()
+    buffer, date = io.BytesIO(), build_time()
     with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
 
         def cleaned(entry: tarfile.TarInfo) -> tarfile.TarInfo:
             entry.uid = entry.gid = 0
             entry.uname = entry.gname = ""
-            entry.mtime = build_time()
+            entry.mtime = date
             return entry
 
         for name in sorted(names):

@@ -20,7 +20,8 @@ def test_run_gives_the_numbers_of_the_program_to_the_last_bit(recording, result,
         assert (result.path / file).read_bytes() == (tmp_path / "cli" / file).read_bytes()
     head, first = (line.split(",") for line in (tmp_path / "cli/parameters.csv").read_text().splitlines()[:2])
     assert result.parameters.columns == head and result.parameters[0]["estimate"] == float(first[6])
-    assert len(result.parameters.where(method="torque", verdict="identified")) >= 1
+    verdicts = {"identified", "weak", "prior_dominated", "not_identifiable", "non_physical"}
+    assert set(result.parameters["verdict"]) <= verdicts and len(result.parameters.where(method="torque")) > 20
     assert len(myoid.Table.read(recording.parent / "truth.csv")) > 10
 
 
