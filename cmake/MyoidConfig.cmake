@@ -1,0 +1,16 @@
+# find_package(Myoid): the target Myoid::Myoid is every command as a function (myoid/commands/*.h) and all rooms below;
+# Myoid::c is the C interface for real time (myoid.h).
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4 NO_MODULE)
+find_dependency(fmt 9)
+find_dependency(pugixml)
+find_dependency(nlohmann_json 3.11)
+find_dependency(TBB)
+find_dependency(OpenSSL 3 COMPONENTS Crypto)
+find_dependency(Boost 1.74)
+include(${CMAKE_CURRENT_LIST_DIR}/MyoidTargets.cmake)
+if(NOT TARGET Myoid::Myoid)
+  add_library(Myoid::Myoid INTERFACE IMPORTED)
+  target_link_libraries(Myoid::Myoid INTERFACE Myoid::commands Myoid::realtime)
+  target_compile_features(Myoid::Myoid INTERFACE cxx_std_20)
+endif()

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# usage: tests/installed/run.sh BUILD PROGRAM   Installs headers and libraries of a build into an empty folder, builds the
+# project beside this script against that folder alone, and runs its programs.
+set -euo pipefail
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$1" --component dev --prefix "$work/prefix" >"$work/log"
+[ ! -e "$work/prefix/bin" ] || { echo "the component dev holds programs"; exit 1; }
+cmake -S "$(dirname "$0")" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log"
+cmake --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }
+version=$("$2" --version)
+{
+  printf 'motion\nversion=1\nnRows=51\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_flexion\n'
+  awk 'BEGIN { for (i = 0; i <= 50; ++i) printf "%.17g\t%.17g\n", i / 50, 0.5 + i / 100 }'
+} >"$work/motion.sto"
+"$work/build/moment_arms" "$work/motion.sto" | tee "$work/said"
+grep -q "^$version: 4 muscles" "$work/said"
+"$work/build/real_time" | grep "^$version: "
