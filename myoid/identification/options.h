@@ -126,6 +126,7 @@ struct EstimatorOptions {
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
   int posterior_draws = 0;  ///< To check the posterior by; 0: its normal approximation alone.
+  bool marginals = true;    ///< That approximation with the skewness of each unknown.
 };
 
 }  // namespace myoid::identification

@@ -381,6 +381,7 @@ EstimatorOptions of_a_fold(EstimatorOptions options) {
   options.predictions = false;
   options.intervals = {};
   options.posterior_draws = 0;
+  options.marginals = false;
   options.progress.report = nullptr;
   return options;
 }

@@ -18,6 +18,7 @@
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/density.h"
 #include "myoid/posterior/importance.h"
+#include "myoid/posterior/marginals.h"
 #include "myoid/posterior/mode.h"
 #include "myoid/posterior/verdicts.h"
 
@@ -27,7 +28,7 @@ namespace {
 constexpr double kLeastWeight = 0.02;  // of a mode
 constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
 constexpr int kMostReferences = 4;
-constexpr Eigen::Index kUncheckedDraws = 400;
+constexpr Eigen::Index kUncheckedDraws = 4000;
 constexpr int kOtherStarts = 1;
 constexpr std::uint64_t kSeed = 20;
 
@@ -120,7 +121,8 @@ struct Sample {
   bool approximate = false;
 };
 
-Sample sample(const std::vector<Candidate>& candidates, int draws) {
+Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& options) {
+  const int draws = options.posterior_draws;
   std::vector<Draws> parts;
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -131,8 +133,15 @@ Sample sample(const std::vector<Candidate>& candidates, int draws) {
     const auto log_density = [&](const Eigen::VectorXd& x) {
       return checked ? c.density->value(x) : 0.0;
     };
-    parts.push_back(checked ? draw(log_density, c.mode.x, c.mode.covariance, wanted, kSeed + 10 * i)
-                            : draw_normal(c.mode.x, c.mode.covariance, wanted, kSeed + 10 * i));
+    const auto with_gradient = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
+      return c.density->value(x, gradient);
+    };
+    const std::uint64_t seed = kSeed + 10 * i;
+    parts.push_back(
+        checked ? draw(log_density, c.mode.x, c.mode.covariance, wanted, seed)
+        : options.marginals
+            ? draw_about(c.mode, marginals(with_gradient, c.mode, options.progress), wanted, seed)
+            : draw_normal(c.mode.x, c.mode.covariance, wanted, seed));
     count += wanted;
   }
   Sample all;
@@ -409,7 +418,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   }
   weigh(candidates, options.progress);
   const Candidate& best = candidates.front();
-  const Sample drawn = sample(candidates, options.posterior_draws);
+  const Sample drawn = sample(candidates, options);
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
