@@ -7,7 +7,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$1"
 out=$(realpath "$1")
 command -v dpkg-buildpackage >/dev/null && command -v dh >/dev/null ||
-  { echo "Please install: apt-get install debhelper dpkg-dev fakeroot" >&2; exit 3; }
+  { echo "Please install: apt-get install debhelper dh-python dpkg-dev fakeroot" >&2; exit 3; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

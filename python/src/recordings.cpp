@@ -120,7 +120,10 @@ py::object convert(py::dict given) {
 
 void bind_recordings(py::module_& module) {
   py::class_<Recording, std::shared_ptr<Recording>>(module, "Recording")
-      .def("markers", [](const Recording& r) { return to_python(r.markers); })
+      .def("markers",
+           [](const std::shared_ptr<Recording>& r) {
+             return to_python(std::shared_ptr<recording::MarkerSeries>(r, &r->markers));
+           })
       .def("clock_count", [](const Recording& r) { return r.clocks().size(); })
       .def("channels",
            [](const Recording& r, std::size_t clock) { return channel_units(clock_of(r, clock)); })

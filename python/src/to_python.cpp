@@ -54,8 +54,7 @@ py::object to_python(TimeSeries series) {
       units);
 }
 
-py::object to_python(recording::MarkerSeries markers) {
-  const auto kept = std::make_shared<recording::MarkerSeries>(std::move(markers));
+py::object to_python(std::shared_ptr<recording::MarkerSeries> kept) {
   const py::capsule owner = keeper(kept);
   const py::ssize_t frames = kept->frame_count();
   return attribute("myoid.series", "Markers")(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ namespace py = pybind11;
 
 /// A `myoid.TimeSeries`.
 [[nodiscard]] py::object to_python(TimeSeries series);
-/// A `myoid.Markers`: positions are frames x markers x 3 [m].
-[[nodiscard]] py::object to_python(recording::MarkerSeries markers);
+/// A `myoid.Markers` that shows this memory: positions are frames x markers x 3 [m].
+[[nodiscard]] py::object to_python(std::shared_ptr<recording::MarkerSeries> markers);
 /// A `myoid.Remark`.
 [[nodiscard]] py::object to_python(const Remark& remark);
 [[nodiscard]] py::list to_python(const std::vector<Remark>& remarks);
