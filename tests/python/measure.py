@@ -63,7 +63,8 @@ def main():
         markers, channels, file = (Path(folder) / name for name in ("m.trc", "a.edf", "large.c3d"))
         write_markers(markers)
         write_channels(channels)
-        subprocess.run([sys.argv[1], "convert", markers, file, "--analog", channels, "--quiet"], check=True)
+        subprocess.run([sys.argv[1], "convert", markers, file, "--analog", channels, "--quiet"], check=True,
+                       stdout=subprocess.DEVNULL)  # fmt: skip
         size = file.stat().st_size / 1e6
         reading = least(lambda: myoid.read(file).markers.positions.shape)
         print(f"read, {size:.0f} MB: {reading:.3f} s, {size / reading:.0f} MB/s")
