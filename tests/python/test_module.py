@@ -57,6 +57,9 @@ def test_the_version_is_the_program_s():
     assert myoid.__version__ == program("--version").strip()
     cmake = (SOURCE / "CMakeLists.txt").read_text()
     assert f"VERSION {myoid.__version__} " in cmake
+    # Files whose formats need the number written out.
+    assert (SOURCE / "debian/changelog").read_text().startswith(f"myoid ({myoid.__version__}) ")
+    assert f'{{% set version = "{myoid.__version__}" %}}' in (SOURCE / "packaging/conda/meta.yaml").read_text()
 
 
 def test_the_stubs_name_what_the_extension_has():
