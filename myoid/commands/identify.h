@@ -37,10 +37,10 @@ struct IdentifyResult {
 
 /// Beginnings of the names of the files that `write_identify` writes.
 inline const std::vector<std::string_view> kIdentifyFiles{"parameters.", "fold_parameters.",
-                                                          "solvers."};
+                                                          "posterior.", "predictions.", "solvers."};
 
-/// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv and
-/// solvers.csv.
+/// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv,
+/// posterior.csv, solvers.csv, predictions.csv and the folders of predicted trials.
 void write_identify(const IdentifyResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid::commands

@@ -197,6 +197,11 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
                   "`trial`; a `block`, a fifth of every trial of 3.3 s or more with half a second "
                   "on either side; or `none`.",
           .words = kFolds});
+  v.texts("validate", o.validate,
+          {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its "
+                   "file of lengths, or that file's name without ending. Written as "
+                   "[`predict`](predict.md) writes them.",
+           .otherwise = "none"});
 }
 
 }  // namespace
@@ -252,6 +257,8 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
+  tell(!torque && !o.validate.empty(), "--validate",
+       "trials are predicted by the joint torque, of method torque");
   tell(torque && !o.files.forces.empty(), "--forces",
        "method torque fits joint torques (--torques)");
   return found;

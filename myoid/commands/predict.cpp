@@ -59,11 +59,7 @@ std::string predict_json(const PredictResult& result) {
 }
 
 void write_predict(const PredictResult& result, const std::filesystem::path& folder) {
-  const std::vector<std::string> comments{
-      fmt::format("Made by myoid {}.", result.provenance.version)};
-  for (const identification::TrialFit& trial : result.trials)
-    write_prediction(trial, result.muscles, folder / trial.trial, comments);
-  recording::write_file(folder / "predictions.csv", predictions_csv(result.trials));
+  write_predictions(result.trials, result.muscles, result.provenance, folder);
   recording::write_file(folder / "predictions.json", predict_json(result));
 }
 

@@ -11,6 +11,7 @@
 #include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/score.h"
+#include "myoid/intervals/variance_sources.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -52,6 +53,7 @@ struct ParameterEstimate {
                                          ///< (of the logarithm where the prior is on that).
   std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance; negative where
                                     ///< the model's own error makes it less sure than that.
+  std::optional<SourceShares> variance_shares;  ///< Of the posterior; else empty.
   bool at_bound = false;
   Verdict verdict = Verdict::not_identifiable;
   std::string reason;  ///< One sentence.
@@ -150,6 +152,10 @@ struct IdentificationResult {
   /// (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Its rows.
+  /// Draws from the posterior, one column each, of the values of `free_parameters` (SI), and their
+  /// weights, which add to 1; else empty.
+  Eigen::MatrixXd draws;
+  Eigen::VectorXd draw_weights;
   /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
   Eigen::VectorXd noise;
   std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.

@@ -29,6 +29,7 @@ constexpr double kLeastWeight = 0.02;  // of a mode
 constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
 constexpr int kMostReferences = 4;
 constexpr Eigen::Index kUncheckedDraws = 4000;
+constexpr Eigen::Index kDrawStride = 4;  // of the draws that are written
 constexpr int kOtherStarts = 1;
 constexpr std::uint64_t kSeed = 20;
 
@@ -251,6 +252,7 @@ void judge_row(const Reporting& of,
   facts.nuisance_gain = p.field->scope == Scope::channel && p.field->field == kGain;
   facts.is_delay = p.field->scope == Scope::channel && p.field->field == kDelay;
   facts.shares = of.shares[unknown];
+  e.variance_shares = facts.shares;
   if (p.field->scope == Scope::muscle && p.field->field == kWidth) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
     facts.possible = VerdictRules{}.possible(muscle[kWidth] / muscle[kFiberLength]);
@@ -371,6 +373,20 @@ void fill_fit(const Candidate& best,
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 
+/// Every kDrawStride-th draw, as values.
+void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationResult& result) {
+  const Eigen::Index count = (sample.z.cols() + kDrawStride - 1) / kDrawStride;
+  result.draws.resize(sample.z.rows(), count);
+  result.draw_weights.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < sample.z.rows(); ++j)
+      result.draws(j, i) =
+          map.free()[static_cast<std::size_t>(j)].to_value(sample.z(j, i * kDrawStride));
+    result.draw_weights[i] = sample.weight[i * kDrawStride];
+  }
+  result.draw_weights /= result.draw_weights.sum();
+}
+
 void add_warnings(const std::vector<Candidate>& candidates,
                   const Sample& sample,
                   IdentificationResult& result) {
@@ -427,6 +443,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   add_estimates(
       {data, best.density->parameters(), drawn, shares, given, result, best.mode.converged},
       result);
+  if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

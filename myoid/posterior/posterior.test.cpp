@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
+#include "myoid/posterior/importance.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -70,6 +71,30 @@ TEST(IdentifyByPosterior, OfANoiseThatIsNoMusclesNothingIsIdentified) {
   const IdentificationResult result = identify_by_posterior(study.data, options);
   for (const ParameterEstimate& e : result.estimates)
     EXPECT_NE(e.verdict, Verdict::identified) << e.muscle << " " << e.parameter << ": " << e.reason;
+}
+
+TEST(IdentifyByPosterior, DrawsThatAreKeptHaveTheIntervals) {
+  const IdentificationResult result = identify_by_posterior(person(6).data, {});
+  ASSERT_EQ(result.draws.rows(), static_cast<Eigen::Index>(result.free_parameters.size()));
+  ASSERT_GE(result.draws.cols(), 1000);
+  EXPECT_NEAR(result.draw_weights.sum(), 1.0, 1e-12);
+  for (std::size_t j = 0; j < result.free_parameters.size(); ++j) {
+    const std::string& label = result.free_parameters[j];
+    const auto dot = label.find('.');
+    if (label.find('+') != std::string::npos) continue;  // tied: a row for each owner
+    const ParameterEstimate& e = find(result, label.substr(0, dot), label.substr(dot + 1));
+    const Eigen::VectorXd drawn = result.draws.row(static_cast<Eigen::Index>(j));
+    const double width = *e.ci_high - *e.ci_low;
+    // 1000 of 4000 draws: the quantile at 2.5 % is known to 4 % of the interval.
+    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.025), *e.ci_low, 0.12 * width)
+        << label;
+    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.975), *e.ci_high, 0.12 * width)
+        << label;
+    ASSERT_TRUE(e.variance_shares) << label;
+    double sum = 0.0;
+    for (const double share : *e.variance_shares) sum += share;
+    EXPECT_NEAR(sum, 1.0, 1e-9) << label;
+  }
 }
 
 TEST(IdentifyByPosterior, NeedsPriors) {

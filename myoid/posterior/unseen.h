@@ -7,14 +7,11 @@
 
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/study_data.h"
+#include "myoid/intervals/variance_sources.h"
 #include "myoid/posterior/torque_signals.h"
 #include "myoid/posterior/trial_run.h"
 
 namespace myoid::identification {
-
-/// Where an uncertainty comes from.
-enum class Source { noise, literature, geometry, electrodes, torque_scale, model };
-inline constexpr int kSourceCount = 6;
 
 /// A quantity x ~ N(0, weight^2) that the residuals can hardly tell, in which the torque is linear:
 /// it adds x S(t) to the torque, and W S S' W to the covariance, for all trials at once.

@@ -1,6 +1,7 @@
 #include "myoid/posterior/verdicts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 
 #include "myoid/intervals/result.h"
-#include "myoid/posterior/unseen.h"
+#include "myoid/intervals/variance_sources.h"
 
 namespace myoid::identification {
-
-/// Shares of a variance by source, which add to 1.
-using SourceShares = std::array<double, kSourceCount>;
 
 /// What the posterior says of one number.
 struct PosteriorFacts {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/json_text.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/methods/prediction.h"
@@ -77,18 +78,39 @@ ordered_json estimate_json(const ParameterEstimate& e) {
                       {"ci_high", report::number_or_null(r.high)}});
   }
   object["intervals"] = routes;
+  if (e.variance_shares) {
+    for (std::size_t s = 0; s < identification::kSourceColumns.size(); ++s)
+      object["variance_shares"][std::string(identification::kSourceColumns[s])] =
+          (*e.variance_shares)[s];
+  }
   return object;
 }
 
+/// The routes with columns of their own, and whether the sources of the variance have some.
+struct MoreColumns {
+  std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
+  bool shares = false;
+};
+
+MoreColumns more_columns(const std::vector<IdentificationResult>& methods) {
+  MoreColumns more;
+  for (const IdentificationResult& method : methods) {
+    for (const ParameterEstimate& e : method.estimates)
+      more.shares = more.shares || e.variance_shares.has_value();
+  }
+  if (more.shares) more.routes.emplace_back("geometry_and_sensors_exact");
+  return more;
+}
+
 /// A row of parameters.csv without its end of line.
-std::string estimate_row(const ParameterEstimate& e, const std::vector<std::string>& routes) {
+std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   std::vector<std::string> cells;
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
     cells.push_back(column.kind == EstimateColumn::Kind::sentence ? quoted(cell) : cell);
   }
-  for (const std::string& route : routes) {
+  for (const std::string& route : more.routes) {
     const auto it = std::find_if(e.routes.begin(), e.routes.end(),
                                  [&](const auto& r) { return r.route == route; });
     const bool known = it != e.routes.end();
@@ -96,6 +118,8 @@ std::string estimate_row(const ParameterEstimate& e, const std::vector<std::stri
     cells.push_back(known ? number_or_empty(it->high) : "");
   }
   cells.push_back(CsvCell{}(e.routes_disagree));
+  for (std::size_t s = 0; more.shares && s < identification::kSourceColumns.size(); ++s)
+    cells.push_back(e.variance_shares ? number_or_empty((*e.variance_shares)[s]) : "");
   return fmt::format("{}", fmt::join(cells, ","));
 }
 
@@ -281,15 +305,31 @@ ordered_json resting_json(const identification::RestingJoint& joint) {
 }  // namespace
 
 std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
-  const std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
+  const MoreColumns more = more_columns(methods);
   std::string text;
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind != EstimateColumn::Kind::json) text += std::string(column.name) + ",";
   }
-  for (const std::string& route : routes) text += fmt::format("ci_low_{0},ci_high_{0},", route);
-  text += "routes_disagree\n";
+  for (const std::string& route : more.routes)
+    text += fmt::format("ci_low_{0},ci_high_{0},", route);
+  text += "routes_disagree";
+  for (std::size_t s = 0; more.shares && s < identification::kSourceColumns.size(); ++s)
+    text += fmt::format(",variance_{}", identification::kSourceColumns[s]);
+  text += "\n";
   for (const IdentificationResult& method : methods) {
-    for (const ParameterEstimate& e : method.estimates) text += estimate_row(e, routes) + "\n";
+    for (const ParameterEstimate& e : method.estimates) text += estimate_row(e, more) + "\n";
+  }
+  return text;
+}
+
+std::string posterior_csv(const IdentificationResult& method) {
+  std::string text = "weight";
+  for (const std::string& name : method.free_parameters) text += "," + name;
+  text += "\n";
+  for (Eigen::Index i = 0; i < method.draws.cols(); ++i) {
+    text += fmt::format("{:.6g}", method.draw_weights[i]);
+    for (const double value : method.draws.col(i)) text += fmt::format(",{:.6g}", value);
+    text += "\n";
   }
   return text;
 }
@@ -341,6 +381,28 @@ ParameterContext parameter_context(const StudyResult& result) {
           .left_out = std::string(choice_name(result.source.study.identify.folds)),
           .max_rate_hz = result.source.study.identify.max_rate_hz,
           .force_loop = result.fit.force_loop ? &*result.fit.force_loop : nullptr};
+}
+
+void write_parameter_files(const std::vector<IdentificationResult>& methods,
+                           const std::vector<identification::Fold>& folds,
+                           const Provenance& provenance,
+                           const ParameterContext& context,
+                           const std::filesystem::path& folder) {
+  recording::write_file(folder / "parameters.json",
+                        parameters_json(methods, folds, provenance, context));
+  recording::write_file(folder / "parameters.csv", parameters_csv(methods));
+  const auto write_or_remove = [&](const char* name, bool there, const auto& text) {
+    std::error_code ignored;
+    if (there)
+      recording::write_file(folder / name, text());
+    else
+      std::filesystem::remove(folder / name, ignored);  // of an earlier run
+  };
+  write_or_remove("fold_parameters.csv", !folds.empty(),
+                  [&] { return fold_parameters_csv(folds); });
+  const auto drawn = std::find_if(methods.begin(), methods.end(),
+                                  [](const auto& method) { return method.draws.size() > 0; });
+  write_or_remove("posterior.csv", drawn != methods.end(), [&] { return posterior_csv(*drawn); });
 }
 
 }  // namespace myoid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ namespace myoid {
 /// left-out R2 can be computed anew (docs/theory/identification.md).
 [[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
 
+/// Returns the draws from the posterior of a method, one row each: `weight`, and every unknown in
+/// SI.
+[[nodiscard]] std::string posterior_csv(const identification::IdentificationResult& method);
+
 /// The content of parameters.json beside the estimates and the folds.
 struct ParameterContext {
   std::vector<TrialPhases> phases;
@@ -43,6 +48,14 @@ struct ParameterContext {
     const std::vector<identification::Fold>& folds,
     const Provenance& provenance,
     const ParameterContext& context = {});
+
+/// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv and
+/// posterior.csv; files of these names from an earlier run go.
+void write_parameter_files(const std::vector<identification::IdentificationResult>& methods,
+                           const std::vector<identification::Fold>& folds,
+                           const Provenance& provenance,
+                           const ParameterContext& context,
+                           const std::filesystem::path& folder);
 
 /// Returns the context of a finished study; `result` has to outlive it.
 [[nodiscard]] ParameterContext parameter_context(const StudyResult& result);

@@ -52,6 +52,42 @@ TEST(ParametersCsv, ANumberReadsBackTheSameAndWhatIsAbsentOrInfiniteIsAnEmptyCel
   EXPECT_EQ(cell("reason"), "known to \"12 %\", about");
 }
 
+TEST(ParametersCsv, ThePosteriorHasTheSourcesOfTheVarianceAndItsSecondInterval) {
+  const std::string plain = parameters_csv({one_estimate()});
+  EXPECT_EQ(plain.find("variance_"), std::string::npos);
+  identification::IdentificationResult result = one_estimate();
+  result.estimates[0].variance_shares = {0.5, 0.25, 0.125, 0.0625, 0.0625, 0.0};
+  result.estimates[0].routes = {{"posterior", 0.2, 0.4}, {"geometry_and_sensors_exact", 0.25, 0.3}};
+  const test::TemporaryFolder folder;
+  recording::write_file(folder / "p.csv", parameters_csv({result}));
+  const recording::CsvTable table = recording::read_csv_table(folder / "p.csv");
+  const auto cell = [&](const std::string& name) {
+    const auto it = std::find(table.names.begin(), table.names.end(), name);
+    return table.rows.at(0).at(static_cast<std::size_t>(it - table.names.begin()));
+  };
+  EXPECT_EQ(cell("variance_noise"), "0.5");
+  EXPECT_EQ(cell("variance_geometry"), "0.125");
+  EXPECT_EQ(cell("variance_model"), "0");
+  EXPECT_EQ(cell("ci_low_geometry_and_sensors_exact"), "0.25");
+}
+
+TEST(PosteriorCsv, HasARowForEachDrawAndAColumnForEachUnknown) {
+  identification::IdentificationResult result = one_estimate();
+  result.free_parameters = {"BIC.optimal_fiber_length", "subject.emg_delay"};
+  result.draws.resize(2, 3);
+  result.draws << 0.125, 0.25, 0.5, 0.0625, 0.03125, 0.5;
+  result.draw_weights.resize(3);
+  result.draw_weights << 0.5, 0.25, 0.25;
+  EXPECT_EQ(posterior_csv(result),
+            "weight,BIC.optimal_fiber_length,subject.emg_delay\n0.5,0.125,0.0625\n"
+            "0.25,0.25,0.03125\n0.25,0.5,0.5\n");
+  const test::TemporaryFolder folder;
+  write_parameter_files({result}, {}, {}, {}, folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder / "posterior.csv"));
+  write_parameter_files({one_estimate()}, {}, {}, {}, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / "posterior.csv"));
+}
+
 TEST(ParametersJson, ARowReadsBackTheSameInEveryColumn) {
   identification::IdentificationResult result = one_estimate();
   identification::ParameterEstimate& e = result.estimates.front();

@@ -1,11 +1,13 @@
 #include "myoid/results/prediction_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/time_series.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
@@ -74,6 +76,19 @@ void write_prediction(const identification::TrialFit& prediction,
   recording::write_storage(folder / "predicted_forces.sto",
                            std::move(forces).series(prediction.time_s),
                            {.title = "Predicted forces", .comments = comments});
+}
+
+void write_predictions(const std::vector<identification::TrialFit>& predictions,
+                       const std::vector<std::string>& muscles,
+                       const Provenance& provenance,
+                       const std::filesystem::path& folder) {
+  const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
+  for (const identification::TrialFit& trial : predictions) {
+    std::string name = trial.trial;
+    std::replace(name.begin(), name.end(), '/', '_');
+    write_prediction(trial, muscles, folder / name, comments);
+  }
+  recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
 }
 
 std::string predictions_csv(const std::vector<identification::TrialFit>& predictions) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/provenance.h"
 #include "myoid/intervals/result.h"
 
 namespace myoid {
@@ -22,6 +23,12 @@ void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments);
+
+/// Writes each trial's `write_prediction` into a folder of its name, and predictions.csv.
+void write_predictions(const std::vector<identification::TrialFit>& predictions,
+                       const std::vector<std::string>& muscles,
+                       const Provenance& provenance,
+                       const std::filesystem::path& folder);
 
 /// The table predictions.csv, a row for each trial and joint: trial, joint, fitted (whether the
 /// trial took part in the fit), samples, rmse_nm, nrmse_range, r2, band_rmse_nm and band_r2 (both

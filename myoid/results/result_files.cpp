@@ -222,14 +222,8 @@ void write_results(const StudyResult& result,
     write_informed_forces(result, forces, folder / forces.trial,
                           with_emg(torque == result.fit.methods.end() ? nullptr : &*torque));
   write_identified_model(result, folder);
-  recording::write_file(
-      folder / "parameters.json",
-      parameters_json(result.fit.methods, result.folds, provenance, parameter_context(result)));
-  recording::write_file(folder / "parameters.csv", parameters_csv(result.fit.methods));
-  std::error_code ignored;
-  std::filesystem::remove(folder / "fold_parameters.csv", ignored);  // of an earlier run
-  if (!result.folds.empty())
-    recording::write_file(folder / "fold_parameters.csv", fold_parameters_csv(result.folds));
+  write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result),
+                        folder);
   recording::write_file(folder / "run.json", json_text(run_json(result, provenance)) + "\n");
 }
 

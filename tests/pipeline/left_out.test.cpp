@@ -152,6 +152,21 @@ void expect_reproducible(const fs::path& muscles_csv,
       ++compared;
     }
     EXPECT_GT(compared, 5);
+    if (left > 0) continue;
+    // --validate is the same fit, and predicts the trial by the law.
+    const std::string held = folder / "held";
+    ASSERT_NE(identify(muscles_csv, trials, held, {"--folds", "none", "--validate", "1"}).exit_code,
+              3);
+    const std::map<std::string, Numbers> fitted = estimates(fs::path(held) / "parameters.csv");
+    ASSERT_EQ(fitted.size(), alone.size());
+    for (const auto& [owner, numbers] : alone) {
+      for (const auto& [parameter, value] : numbers.value)
+        EXPECT_NEAR(fitted.at(owner).value.at(parameter), value, 1e-6 * std::abs(value) + 1e-9);
+    }
+    const std::vector<Row> predictions = read_rows(fs::path(held) / "predictions.csv");
+    ASSERT_EQ(predictions.size(), 1U);
+    EXPECT_EQ(predictions[0].at("fitted"), "false");
+    EXPECT_NEAR(std::stod(predictions[0].at("r2")), myoid::test::r2_of(on_clock, torque), kSame);
   }
 }
 
