@@ -1,11 +1,7 @@
 #include "myoid/commands/identify.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -39,32 +35,6 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
     data.rules.push_back(rule);
   }
   return data;
-}
-
-/// The trial of a number from 1, a file of lengths or that file's name without ending. Throws
-/// InvalidInput where that is none or several.
-std::size_t trial_named(const std::string& name, const std::vector<std::string>& lengths) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if (name == lengths[i] || name == std::filesystem::path(lengths[i]).stem() ||
-        name == std::to_string(i + 1))
-      found.push_back(i);
-  }
-  if (found.size() == 1) return found.front();
-  throw InvalidInput(fmt::format(
-      "--validate {}: {}; give a number from 1 to {}, or one of the files of --lengths: {}", name,
-      found.empty() ? "no trial has that name" : "several trials have that name", lengths.size(),
-      fmt::join(lengths, ", ")));
-}
-
-/// Takes the trials of `--validate` out of the fit.
-void hold_back(const IdentifyOptions& o, StudyData& data) {
-  if (o.method != "torque") return;
-  for (const std::string& name : o.validate)
-    data.trials[trial_named(name, o.files.lengths)].calibration = false;
-  if (std::none_of(data.trials.begin(), data.trials.end(),
-                   [](const auto& trial) { return trial.calibration; }))
-    throw InvalidInput("--validate names every trial; leave out one at least for the fit");
 }
 
 /// Frees in the data the v_max that the fit freed, for validation and comparison of solvers.
@@ -154,8 +124,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
   const MuscleTable table = read_muscles_csv(o.muscles, o.method != "paper");
   refuse_impossible(o, table);
   for (const std::string& text : without_effect(o)) remarks.warn(text);
-  StudyData as_read = read_data(o, table, remarks);
-  hold_back(o, as_read);
+  const StudyData as_read = read_data(o, table, remarks);
   const identification::EstimatorOptions as_asked = estimator_options(o, as_read, remarks);
 
   IdentifyResult result;
@@ -190,12 +159,7 @@ std::string identify_json(const IdentifyResult& result) {
 
 void write_identify(const IdentifyResult& result, const std::filesystem::path& folder) {
   write_parameter_files({result.fit}, result.folds, result.provenance, result.told, folder);
-  std::vector<identification::TrialFit> held_back;
-  std::copy_if(result.fit.trials.begin(), result.fit.trials.end(), std::back_inserter(held_back),
-               [](const auto& trial) { return !trial.calibration; });
-  std::vector<std::string> muscles;
-  for (const auto& muscle : result.data.muscles) muscles.push_back(muscle.name);
-  if (!held_back.empty()) write_predictions(held_back, muscles, result.provenance, folder);
+  write_held_back(result.fit, result.data, result.provenance, folder);
   if (!result.contests.empty())
     recording::write_file(folder / "solvers.csv", solvers_csv(result.contests));
 }

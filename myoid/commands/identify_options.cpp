@@ -197,7 +197,7 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
                   "`trial`; a `block`, a fifth of every trial of 3.3 s or more with half a second "
                   "on either side; or `none`.",
           .words = kFolds});
-  v.texts("validate", o.validate,
+  v.texts("validate", o.files.held_back,
           {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its "
                    "file of lengths, or that file's name without ending. Written as "
                    "[`predict`](predict.md) writes them.",
@@ -257,7 +257,7 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
-  tell(!torque && !o.validate.empty(), "--validate",
+  tell(!torque && !o.files.held_back.empty(), "--validate",
        "trials are predicted by the joint torque, of method torque");
   tell(torque && !o.files.forces.empty(), "--forces",
        "method torque fits joint torques (--torques)");

@@ -34,7 +34,6 @@ struct IdentifyOptions {
   bool compare_solvers = false;
   std::optional<int> starts;  ///< Empty: one, of the comparison of solvers three.
   std::string folds = "trial";
-  std::vector<std::string> validate;  ///< Trials that are predicted and not fitted.
 };
 
 /// Names every option of `myoid identify` once: key, allowed values, default and meaning. The

@@ -108,6 +108,14 @@ void compare_activations(const StudyData& data,
   }
 }
 
+void hold_back(const IdentifySources& sources, StudyData& data) {
+  for (const std::string& name : sources.held_back)
+    data.trials[trial_named(name, sources.lengths)].calibration = false;
+  if (std::none_of(data.trials.begin(), data.trials.end(),
+                   [](const TrialData& trial) { return trial.calibration; }))
+    throw InvalidInput("--validate names every trial; leave out one at least for the fit");
+}
+
 }  // namespace
 
 StudyData read_identify_data(const IdentifySources& sources,
@@ -126,6 +134,7 @@ StudyData read_identify_data(const IdentifySources& sources,
       remark(text);
     data.trials.push_back(std::move(trial));
   }
+  if (sources.torque) hold_back(sources, data);
   require_something_to_fit(data, sources);
   compare_activations(data, sources, remark);
   compare_trials(data, sources, remark);

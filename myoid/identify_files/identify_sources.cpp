@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/counted.h"
 #include "myoid/core/error.h"
@@ -77,6 +78,20 @@ std::string trial_label(const std::vector<std::string>& lengths, std::size_t num
   while (folders < kMostFolders && !is_alone(folders)) ++folders;
   const std::string label = tail(lengths[number], is_alone(folders) ? folders : 0);
   return lengths.size() > 1 ? fmt::format("{} ({})", number + 1, label) : label;
+}
+
+std::size_t trial_named(const std::string& name, const std::vector<std::string>& lengths) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (name == lengths[i] || name == std::filesystem::path(lengths[i]).stem() ||
+        name == std::to_string(i + 1))
+      found.push_back(i);
+  }
+  if (found.size() == 1) return found.front();
+  throw InvalidInput(fmt::format(
+      "--validate {}: {}; give a number from 1 to {}, or one of the files of --lengths: {}", name,
+      found.empty() ? "no trial has that name" : "several trials have that name", lengths.size(),
+      fmt::join(lengths, ", ")));
 }
 
 }  // namespace myoid

@@ -17,7 +17,8 @@ struct IdentifySources {
   std::optional<double>
       motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
   std::vector<std::string> coordinates;  ///< Columns of the torque files; empty: the only column.
-  bool torque = true;                    ///< Fitted to torques; else to forces.
+  std::vector<std::string> held_back;  ///< Trials that are not fitted, as `trial_named` takes them.
+  bool torque = true;                  ///< Fitted to torques; else to forces.
   std::optional<double> start_s, end_s;  ///< [s]
 };
 
@@ -38,5 +39,10 @@ void require_counts(const IdentifySources& sources);
 /// Returns "walk" for a single file of lengths, "2 (walk)" for one of several. Files of equal name
 /// get as many folders as distinguish them: "2 (fast/walk)".
 [[nodiscard]] std::string trial_label(const std::vector<std::string>& lengths, std::size_t number);
+
+/// Returns the trial of a number from 1, of a file of lengths, or of that file's name without
+/// ending. Throws InvalidInput where that is none or several.
+[[nodiscard]] std::size_t trial_named(const std::string& name,
+                                      const std::vector<std::string>& lengths);
 
 }  // namespace myoid

@@ -13,6 +13,15 @@ TEST(IdentifySources, ATrialIsCalledAsItsFileAndFilesOfOneNameAsTheirFolders) {
   EXPECT_EQ(trial_label({"fast/walk.sto", "slow/walk.sto"}, 0), "1 (fast/walk)");
 }
 
+TEST(TrialNamed, TakesNumberFileAndNameAndRefusesWhatIsNoneOrSeveral) {
+  const std::vector<std::string> lengths{"fast/walk.sto", "slow/walk.sto", "run.sto"};
+  EXPECT_EQ(trial_named("2", lengths), 1U);
+  EXPECT_EQ(trial_named("slow/walk.sto", lengths), 1U);
+  EXPECT_EQ(trial_named("run", lengths), 2U);
+  for (const char* name : {"walk", "4", "0", "jump", ""})
+    EXPECT_THROW((void)trial_named(name, lengths), InvalidInput) << name;
+}
+
 TEST(IdentifySources, EveryTrialHasAFileOfEachKind) {
   IdentifySources sources;
   sources.activations = sources.lengths = sources.torques = {"1.sto", "2.sto"};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -89,6 +90,19 @@ void write_predictions(const std::vector<identification::TrialFit>& predictions,
     write_prediction(trial, muscles, folder / name, comments);
   }
   recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
+}
+
+void write_held_back(const identification::IdentificationResult& fit,
+                     const identification::StudyData& data,
+                     const Provenance& provenance,
+                     const std::filesystem::path& folder) {
+  std::vector<identification::TrialFit> held_back;
+  std::copy_if(fit.trials.begin(), fit.trials.end(), std::back_inserter(held_back),
+               [](const identification::TrialFit& trial) { return !trial.calibration; });
+  if (held_back.empty()) return;
+  std::vector<std::string> muscles;
+  for (const identification::MuscleSetup& muscle : data.muscles) muscles.push_back(muscle.name);
+  write_predictions(held_back, muscles, provenance, folder);
 }
 
 std::string predictions_csv(const std::vector<identification::TrialFit>& predictions) {

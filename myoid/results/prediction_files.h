@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/core/provenance.h"
+#include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 
 namespace myoid {
@@ -29,6 +30,12 @@ void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,
                        const std::filesystem::path& folder);
+
+/// The same for the trials of a fit that took no part in it; nothing where there are none.
+void write_held_back(const identification::IdentificationResult& fit,
+                     const identification::StudyData& data,
+                     const Provenance& provenance,
+                     const std::filesystem::path& folder);
 
 /// The table predictions.csv, a row for each trial and joint: trial, joint, fitted (whether the
 /// trial took part in the fit), samples, rmse_nm, nrmse_range, r2, band_rmse_nm and band_r2 (both
