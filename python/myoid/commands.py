@@ -72,9 +72,9 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
              estimator: str | None = None, loss: str | None = None, bootstrap: int | None = None,
              profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
-             folds: str | None = None, out: File | None = None, threads: int | None = None, seed: int | None = None,
-             start: float | None = None, end: float | None = None, overwrite: bool = False,
-             progress: Report = None) -> Result:  # fmt: skip
+             folds: str | None = None, validate: Texts | None = None, out: File | None = None,
+             threads: int | None = None, seed: int | None = None, start: float | None = None,
+             end: float | None = None, overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
@@ -102,6 +102,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         compare_solvers: Also writes solvers.csv.
         starts: Starts of the search.
         folds: The part that is left out and predicted: "trial", "block" or "none".
+        validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
         out: Folder of the results; None: a temporary folder.
     """
     options = locals()
