@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/report/svg_path.h"
 #include "myoid/report/typeset.h"
 
 namespace myoid::report {
@@ -200,16 +201,13 @@ class PanelDrawing {
   [[nodiscard]] std::string curve(const Series& series) const {
     if (series.role == Role::band || series.role == Role::range) return band(series);
     if (series.role == Role::points) return points(series);
-    std::string path;
-    bool pen_down = false;
+    SvgPath path;
     for (const std::size_t k : decimate(series.y, kBinsPerPanel)) {
-      if (!std::isfinite(series.x[k]) || !std::isfinite(series.y[k])) {
-        pen_down = false;
-        continue;
+      if (std::isfinite(series.x[k]) && std::isfinite(series.y[k])) {
+        path.line(px(series.x[k]), py(series.y[k]));
+      } else {
+        path.lift();
       }
-      path +=
-          fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", px(series.x[k]), py(series.y[k]));
-      pen_down = true;
     }
     const Style style = style_of(series.role);
     const std::string dash =
@@ -217,12 +215,12 @@ class PanelDrawing {
     return fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
         "stroke-linejoin=\"round\"{}/>\n",
-        path, style.color, style.width, dash);
+        path.text(), style.color, style.width, dash);
   }
 
   /// Returns the stretches without gaps, each as a closed area.
   [[nodiscard]] std::string band(const Series& series) const {
-    std::string path;
+    SvgPath path;
     std::size_t k = 0;
     const auto good = [&](std::size_t i) {
       return std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
@@ -236,8 +234,7 @@ class PanelDrawing {
       std::size_t end = k;
       while (end < series.y.size() && good(end)) ++end;
       const std::size_t step = std::max<std::size_t>(1, (end - k) / (2 * kBinsPerPanel));
-      std::string there;
-      std::string back;
+      std::vector<std::pair<double, double>> upper_edge;
       for (std::size_t i = k; i < end; i += step) {
         // A coarser band must still enclose the whole range.
         const std::size_t next = std::min(i + step, end);
@@ -247,15 +244,16 @@ class PanelDrawing {
           low = std::min(low, series.y[j]);
           high = std::max(high, series.y_upper[j]);
         }
-        there +=
-            fmt::format("{}{:.1f} {:.1f}", there.empty() ? "M" : "L", px(series.x[i]), py(low));
-        back.insert(0, fmt::format("L{:.1f} {:.1f}", px(series.x[i]), py(high)));
+        path.line(px(series.x[i]), py(low));
+        upper_edge.emplace_back(px(series.x[i]), py(high));
       }
-      path += there + back + "Z";
+      for (auto at = upper_edge.rbegin(); at != upper_edge.rend(); ++at)
+        path.line(at->first, at->second);
+      path.close();
       k = end;
     }
-    return fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.16\" stroke=\"none\"/>\n", path,
-                       style_of(series.role).color);
+    return fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.16\" stroke=\"none\"/>\n",
+                       path.text(), style_of(series.role).color);
   }
 
   [[nodiscard]] std::string points(const Series& series) const {
