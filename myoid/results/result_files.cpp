@@ -12,6 +12,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/report/json_values.h"
+#include "myoid/results/methods_text.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/run/effort_prior.h"
@@ -224,6 +225,9 @@ void write_results(const StudyResult& result,
   write_identified_model(result, folder);
   write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result),
                         folder);
+  const MethodsText methods = methods_text(result, provenance);
+  recording::write_file(folder / "methods.txt", methods_file(methods));
+  recording::write_file(folder / "methods.bib", methods_bibtex(methods));
   recording::write_file(folder / "run.json", json_text(run_json(result, provenance)) + "\n");
 }
 

@@ -12,6 +12,7 @@
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/math/statistics.h"
 #include "myoid/report/typeset.h"
+#include "myoid/results/methods_text.h"
 #include "myoid/results/parameter_tables.h"
 #include "myoid/results/phases_report.h"
 #include "myoid/results/study_figures.h"
@@ -77,8 +78,6 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   }
   const signals::EmgChain chain = emg_chain(result, nullptr);
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
-  if (!chain.methods.empty())
-    list.push_back(fmt::format("For a methods section: {}", fmt::join(chain.methods, " ")));
   if (result.source.study.emg.has_mvc) {
     const EmgSpec& emg = result.source.study.emg;
     list.push_back(
@@ -263,6 +262,7 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
     sections.push_back(informed_section(result));
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
+  sections.push_back(methods_section(methods_text(result, provenance)));
 
   report.assumptions = assumptions(result);
   report.provenance = provenance_rows(result, provenance);
