@@ -121,10 +121,11 @@ void say_motion(const StudyResult& result, Writer& out) {
 }
 
 void say_torque(const StudyResult& result, Writer& out) {
-  std::vector<std::string> forces;
+  std::vector<std::string> from;
   const auto add = [&](const auto& is, std::string_view what) {
-    if (count_trials(result, is) > 0) forces.emplace_back(what);
+    if (count_trials(result, is) > 0) from.emplace_back(what);
   };
+  add([](const TrialResult& t) { return t.has_motion(); }, "the motion");
   add([](const TrialResult& t) { return t.spec.external_torque.has_value(); },
       "measured torques of the dynamometer");
   add([](const TrialResult& t) { return t.spec.plates.has_value(); }, "forces of force plates");
@@ -132,9 +133,9 @@ void say_torque(const StudyResult& result, Writer& out) {
   add([](const TrialResult& t) { return t.spec.external_loads.has_value(); },
       "measured external forces");
   add([](const TrialResult& t) { return t.spec.held_mass_kg > 0.0; }, "held masses");
-  out.say(fmt::format(
-      "The torque of the muscles about {} was found by inverse dynamics{}.", joints_of(result),
-      forces.empty() ? "" : fmt::format(" from the motion and {}", listed(forces))));
+  out.say(fmt::format("The torque of the muscles about {} was found by inverse dynamics{}.",
+                      joints_of(result),
+                      from.empty() ? "" : fmt::format(" from {}", listed(from))));
 }
 
 /// True if the joint hardly moves in any maximal contraction; false if that is not known.
