@@ -12,6 +12,7 @@ from __future__ import annotations
 from ._native import __version__
 from .commands import *  # noqa: F403
 from .commands import __all__ as _commands
+from .draws import Draws
 from .errors import Error, InternalError, InvalidInput, ModelError, MyoidWarning, ReadError
 from .model import Model, MuscleKinematics
 from .recording import Event, ForcePlate, Recording, read, read_series
@@ -20,7 +21,7 @@ from .results import PredictResult, Result, Trial, TwinStudyResult
 from .series import Markers, Table, TimeSeries
 
 __all__ = [
-    *_commands, "read", "read_series", "Model", "Result", "Trial", "Recording", "ForcePlate", "Event", "Markers",
-    "Table", "TimeSeries", "Remark", "MuscleKinematics", "PredictResult", "TwinStudyResult", "Error", "InvalidInput",
-    "ReadError", "ModelError", "InternalError", "MyoidWarning", "__version__",
+    *_commands, "read", "read_series", "Model", "Result", "Trial", "Draws", "Recording", "ForcePlate", "Event",
+    "Markers", "Table", "TimeSeries", "Remark", "MuscleKinematics", "PredictResult", "TwinStudyResult", "Error",
+    "InvalidInput", "ReadError", "ModelError", "InternalError", "MyoidWarning", "__version__",
 ]  # fmt: skip

@@ -12,6 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .draws import Draws
 from .errors import InvalidInput
 from .series import Table, TimeSeries
 
@@ -134,6 +135,22 @@ class Result:
     def tables(self) -> dict[str, Table]:
         """The tables of the report by the names of their files."""
         return {p.stem: Table.read(p) for p in sorted((self.path / "tables").glob("*.csv"))}
+
+    @cached_property
+    def draws(self) -> Draws:
+        """Draws from the posterior (posterior.csv), which the estimator "posterior" writes.
+
+        Raises:
+            InvalidInput: The run has no draws.
+        """
+        file = self.path / "posterior.csv"
+        if not file.is_file():
+            raise InvalidInput(f'{self.path} holds no posterior.csv; run the study with estimator="posterior"')
+        return Draws.read(file, dict(zip(self.parameters["parameter"], self.parameters["unit"])))
+
+    def to_inference_data(self) -> Any:
+        """The draws for ArviZ, see `Draws.to_inference_data`."""
+        return self.draws.to_inference_data()
 
     def parameter(self, muscle: str, parameter: str, method: str = "torque") -> Mapping[str, Any]:
         """The row of one number, such as ("BIC", "max_isometric_force").

@@ -17,16 +17,15 @@ if TYPE_CHECKING:
 __all__ = ["TimeSeries", "Markers", "Table"]
 
 
-def _package(name: str) -> Any:
-    """Imports a package that only this conversion needs."""
+def _package(name: str, debian: bool = True) -> Any:
+    """Imports a package that only this conversion needs. `debian`: Debian 12 has a package of it."""
     import importlib
 
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(
-            f"this conversion needs the package {name}: pip install {name} (Debian: python3-{name})", name=name
-        ) from error
+        remedy = f"pip install {name}" + (f" (Debian: python3-{name})" if debian else "")
+        raise ModuleNotFoundError(f"this conversion needs the package {name}: {remedy}", name=name) from error
 
 
 @dataclass(eq=False)
