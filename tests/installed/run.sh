@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # usage: tests/installed/run.sh BUILD PROGRAM   Installs headers and libraries of a build into an empty folder, builds the
-# project beside this script against that folder alone, and runs its programs.
+# project beside this script and the numbered examples against that folder alone, and runs their programs.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -16,3 +16,10 @@ version=$("$2" --version)
 "$work/build/moment_arms" "$work/motion.sto" | tee "$work/said"
 grep -q "^$version: 4 muscles" "$work/said"
 "$work/build/real_time" | grep "^$version: "
+
+examples=$(dirname "$0")/../../examples
+cmake -S "$examples" -B "$work/examples" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Debug >"$work/log"
+cmake --build "$work/examples" >"$work/log" || { cat "$work/log"; exit 1; }
+[ "$(find "$work/examples" -maxdepth 1 -type f -executable | wc -l)" -eq 6 ] || { echo "not six examples"; exit 1; }
+"$work/examples/muscle_forces" "$examples/03_muscle_forces/triceps.toml" "$examples/03_muscle_forces/lengths.csv" \
+  | grep -q '^at 0.0 s, fiber 0.1200 m, 0.0000 m/s: 1000.0000 N$'  # half active at the optimal length
