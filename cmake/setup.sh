@@ -15,7 +15,7 @@ MYOID_PACKAGES=(
   "libsundials-dev:ODE integration" "libboost-dev:Sobol points and distribution functions (headers)"
   "libjs-three:three.js, for pages with a moving model" "esbuild:bundles it with our viewer"
   "libgtest-dev:tests" "libgmock-dev:tests" "libbenchmark-dev:benchmarks"
-  "libsimbody-dev:test oracle of the multibody engine"
+  "libsimbody-dev:test oracle of the multibody engine" "libmatio-dev:MATLAB files (--mat)"
 )
 
 myoid_log() { printf '%s\n' "$*" >&2; }
@@ -60,7 +60,8 @@ myoid_install_browser() {
 
 # The Python module and its tests. Without these packages the module is not built.
 myoid_install_python() {
-  local wanted=(pybind11-dev python3-dev python3-numpy python3-pandas python3-xarray python3-pytest python3-pip) name missing=()
+  local wanted=(pybind11-dev python3-dev python3-numpy python3-pandas python3-xarray python3-pytest python3-pip
+                python3-scipy) name missing=()
   for name in "${wanted[@]}"; do
     dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
   done

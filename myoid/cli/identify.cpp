@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/mat_option.h"
 #include "myoid/cli/options.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/intervals/estimate_remarks.h"
@@ -187,16 +188,19 @@ void add_identify(CLI::App& app, Context& context) {
   command.get_option("--free")->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder for parameters.csv, parameters.json")->required();
+  const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
-  command.callback([&context, &command, out] {
+  command.callback([&context, &command, out, mat] {
     auto o = read_options<commands::IdentifyOptions>(command);
+    mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
     commands::protect_inputs(*out, commands::kIdentifyFiles, {o.muscles.string()});
     o.call = context.call();
     const commands::IdentifyResult result = commands::identify(o);
     context.end_progress();
     commands::write_identify(result, *out);
+    mat.write(*out);
     if (context.json) {
       fmt::print("{}", identify_json(result));
     } else {

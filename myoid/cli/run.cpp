@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
+#include "myoid/cli/mat_option.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -147,15 +148,18 @@ void add_run(CLI::App& app, Context& context) {
                   "least_squares or posterior, in place of the study's")
       ->transform(one_of<identification::EstimatorKind>());
   command.add_option("--out", *out, "Folder of the results")->required();
+  const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context, {.seed = false});
-  command.callback([&context, options, out] {
+  command.callback([&context, options, out, mat] {
     const auto begin = std::chrono::steady_clock::now();
+    mat.prepare(context, {options->study});
     context.prepare_folder(*out, commands::kStageFolder);
     options->call = context.call();
     options->store = std::filesystem::path(*out) / commands::kStageFolder;
     const commands::RunResult result = commands::run(*options);
     commands::write_run(result, *out);
+    mat.write(*out);
     context.end_progress();
     tell_gates(result.gates, context);
     if (result.reading_remarks > 0 && !context.verbose)

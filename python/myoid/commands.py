@@ -46,14 +46,15 @@ Numbers = Union[Mapping[str, float], Sequence[str]]
 Report = Union[Progress, bool, None]
 
 
-def run(study: File, *, out: File | None = None, estimator: str | None = None, threads: int | None = None,
-        start: float | None = None, end: float | None = None, overwrite: bool = False,
+def run(study: File, *, out: File | None = None, mat: File | None = None, estimator: str | None = None,
+        threads: int | None = None, start: float | None = None, end: float | None = None, overwrite: bool = False,
         progress: Report = None) -> Result:  # fmt: skip
     """The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.
 
     Args:
         study: study.toml
         out: Folder of the results; None: a temporary folder that lives as long as the result (`Result.save` copies it).
+        mat: Parameters, series, remarks and draws also as one MATLAB file, which ends in .mat.
         estimator: "least_squares" or "posterior", in place of the study's.
     """
     options = locals()
@@ -73,7 +74,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              estimator: str | None = None, loss: str | None = None, bootstrap: int | None = None,
              profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
              folds: str | None = None, validate: Texts | None = None, out: File | None = None,
-             threads: int | None = None, seed: int | None = None, start: float | None = None,
+             mat: File | None = None, threads: int | None = None, seed: int | None = None, start: float | None = None,
              end: float | None = None, overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
@@ -104,6 +105,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         folds: The part that is left out and predicted: "trial", "block" or "none".
         validate: Trials that are not fitted but predicted, each by its number or its file of lengths.
         out: Folder of the results; None: a temporary folder.
+        mat: Parameters, series and draws also as one MATLAB file, which ends in .mat.
     """
     options = locals()
     folder = _Folder(out)

@@ -58,11 +58,11 @@ class Trial(Mapping[str, TimeSeries]):
 
     def __getitem__(self, name: str) -> TimeSeries:
         """One series, in the units of its file: angles in degrees."""
-        from .recording import read_series
+        from ._native import read_result
 
         if name not in self._files:
             raise KeyError(f"trial {self.name!r} has no series {name!r}; there are {', '.join(self._files)}")
-        return read_series(self._files[name])
+        return read_result(os.fspath(self._files[name]))
 
     def __iter__(self) -> Any:
         return iter(self._files)

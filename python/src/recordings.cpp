@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -9,7 +10,9 @@
 #include "myoid/commands/info.h"
 #include "myoid/recording/emg_channels.h"
 #include "myoid/recording/recording.h"
+#include "myoid/tables/result_units.h"
 #include "myoid/tables/series_file.h"
+#include "myoid/tables/storage_reader.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -149,6 +152,16 @@ void bind_recordings(py::module_& module) {
   module.def("read_series", [](const std::string& path) {
     recording::SeriesFile file = alone([&] { return recording::read_series(path); });
     return py::make_tuple(to_python(std::move(file.data)), to_texts(file.repairs));
+  });
+  module.def("read_result", [](const std::string& path) {
+    recording::Storage file = alone([&] { return recording::read_storage(path); });
+    py::list units;
+    for (const Channel& channel : file.data.channels())
+      units.append(recording::result_unit(std::filesystem::path(path).stem().string(), channel.name,
+                                          file.in_degrees));
+    py::object series = to_python(std::move(file.data));
+    series.attr("units") = units;
+    return series;
   });
   module.def("info", &info);
   module.def("convert", &convert);

@@ -13,6 +13,7 @@
 #include "myoid/commands/run.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/error.h"
+#include "myoid/mat/results_mat.h"
 
 #include "bindings.h"
 #include "keywords.h"
@@ -69,15 +70,23 @@ py::dict check(py::dict given) {
   return d;
 }
 
+/// Refuses a MATLAB file that cannot be written, before anything is computed.
+void prepare_mat(const std::string& file, const std::string& input, bool overwrite) {
+  if (file.empty()) return;
+  check_mat_file(file);
+  commands::check_output(file, {input}, overwrite);
+}
+
 py::dict run(py::dict given) {
   Keywords k("run", std::move(given));
   Work work(k);
   commands::RunOptions o;
-  std::string out, estimator;
+  std::string out, estimator, mat;
   bool overwrite = false;
   k.take("study", o.study);
   k.word("estimator", estimator, {"least_squares", "posterior"});
   k.take("out", out);
+  k.take("mat", mat);
   k.take("overwrite", overwrite);
   k.refuse_others();
   if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);
@@ -89,9 +98,11 @@ py::dict run(py::dict given) {
     bool failed = false;
   };
   const Done done = work.run([&] {
+    prepare_mat(mat, o.study, overwrite);
     ResultOut folder(out, o.call, overwrite, commands::kStageFolder);
     const commands::RunResult r = commands::run(o);
     commands::write_run(r, out);
+    if (!mat.empty()) write_results_mat(out, mat);
     folder.finish();
     return Done{r.gates, r.remarks, r.failed(false)};
   });
@@ -141,9 +152,10 @@ py::dict identify(py::dict given) {
   commands::IdentifyOptions o;
   KeywordReader reader(k);
   visit(o, reader);
-  std::string out;
+  std::string out, mat;
   bool overwrite = false;
   k.take("out", out);
+  k.take("mat", mat);
   k.take("overwrite", overwrite);
   k.refuse_others();
   o.call = work.call();
@@ -155,10 +167,12 @@ py::dict identify(py::dict given) {
     double r2 = 0.0;
   };
   const Done done = work.run([&] {
+    prepare_mat(mat, o.muscles.string(), overwrite);
     ResultOut folder(out, o.call, overwrite);
     commands::protect_inputs(out, commands::kIdentifyFiles, {o.muscles.string()});
     const commands::IdentifyResult r = commands::identify(o);
     commands::write_identify(r, out);
+    if (!mat.empty()) write_results_mat(out, mat);
     folder.finish();
     return Done{.remarks = r.remarks,
                 .undetermined = r.fit.undetermined,

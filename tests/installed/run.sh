@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # usage: tests/installed/run.sh BUILD PROGRAM   Installs headers and libraries of a build into an empty folder, builds the
-# project beside this script and the numbered examples against that folder alone, and runs their programs.
+# project beside this script and the numbered examples against that folder alone, and runs their programs. BUILD `system`:
+# against what a package has installed.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cmake --install "$1" --component dev --prefix "$work/prefix" >"$work/log"
+[ "$1" = system ] || cmake --install "$1" --component dev --prefix "$work/prefix" >"$work/log"
 [ ! -e "$work/prefix/bin" ] || { echo "the component dev holds programs"; exit 1; }
 cmake -S "$(dirname "$0")" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log"
 cmake --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }

@@ -41,6 +41,8 @@ function test_myoid(work)
   assert(isequaln(again.parameters, p));
   assert(isequaln(myoid.read_parameters(fullfile(out, 'parameters.csv')), p));
 
+  has_the_same_in_one_file(fullfile(recording, 'study.toml'), work);
+
   % identify, straight from the files of the run.
   muscles = fullfile(work, 'muscles.csv');
   file = fopen(muscles, 'w');
@@ -67,6 +69,43 @@ function test_myoid(work)
   fails(@() myoid.read_results(work), 'myoid:badInput', 'run.json');
   fails(@() myoid.read_sto(protocol), 'myoid:badInput', 'endheader');
   disp('matlab/+myoid: all tests passed');
+end
+
+function has_the_same_in_one_file(study, work)
+  % --mat FILE has what read_results reads from the folder: every number to the bit, every text.
+  out = fullfile(work, 'with mat');
+  file = fullfile(work, 'results.mat');
+  try
+    r = myoid.run(study, out, 'mat', file, 'estimator', 'posterior');
+  catch problem
+    assert(~isempty(strfind(problem.message, 'libmatio')), problem.message);
+    disp('skipped: there is no libmatio');
+    return
+  end
+  m = load(file);
+  assert(isequaln(m.parameters, r.parameters));
+  assert(numel(m.trials) == numel(r.trials) && numel(r.trials) == 2);
+  for k = 1:numel(r.trials)
+    assert(strcmp(m.trials(k).name, r.trials(k).name) && strcmp(m.trials(k).use, r.trials(k).use));
+    names = fieldnames(r.trials(k).series);
+    assert(isequal(sort(names), sort(fieldnames(m.trials(k).series))) && numel(names) >= 3);
+    for j = 1:numel(names)
+      found = m.trials(k).series.(names{j});
+      wanted = r.trials(k).series.(names{j});
+      assert(isequal(found.names, wanted.names) && isequal(found.title, wanted.title));
+      assert(isequaln(found.time, wanted.time) && isequaln(found.values, wanted.values), names{j});
+      assert(islogical(found.in_degrees) && found.in_degrees == wanted.in_degrees);
+      assert(numel(found.units) == numel(found.names) && ~any(cellfun(@isempty, found.units)));
+    end
+  end
+  lift = m.trials(strcmp({m.trials.name}, 'lift')).series;
+  assert(strcmp(lift.ik.units{1}, 'deg') && strcmp(lift.id.units{1}, 'N m'));
+  table = dlmread(fullfile(out, 'posterior.csv'), ',', 1, 0);
+  assert(isequal(table, [m.draws.weights, m.draws.values]));
+  assert(strcmp(m.draws.units{strcmp(m.draws.names, 'BIC.max_isometric_force')}, 'N'));
+  assert(numel(m.remarks.text) == numel(m.remarks.trial) && strcmp(m.run.version, r.run.version));
+  fails(@() myoid.run(study, fullfile(work, 'x'), 'mat', file), 'myoid:badInput', 'results.mat');
+  fails(@() myoid.run(study, fullfile(work, 'x'), 'mat', 'r.txt'), 'myoid:badInput', 'ends in .mat');
 end
 
 function fails(action, identifier, words)

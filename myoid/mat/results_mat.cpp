@@ -1,0 +1,260 @@
+#include "myoid/mat/results_mat.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
+#include "myoid/files/text_file.h"
+#include "myoid/tables/csv_reader.h"
+#include "myoid/tables/result_units.h"
+#include "myoid/tables/storage_reader.h"
+
+namespace myoid {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using recording::CsvTable;
+
+/// A name of MATLAB for a field: other characters become '_', and it has 63 characters at most.
+std::string field_name(const std::string& text, std::set<std::string>& taken) {
+  constexpr std::size_t kMost = 63, kRoomForNumber = 4;
+  std::string name = text;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) name = "x" + name;
+  name.resize(std::min(name.size(), kMost));
+  const std::string stem = name.substr(0, kMost - kRoomForNumber);
+  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
+  return name;
+}
+
+std::size_t column_of(const CsvTable& table, const std::string& name, const fs::path& path) {
+  const auto it = std::find(table.names.begin(), table.names.end(), name);
+  if (it == table.names.end())
+    throw ReadError(path, table.header_line, fmt::format("has no column '{}'", name));
+  return static_cast<std::size_t>(it - table.names.begin());
+}
+
+/// A column of texts, of `true` and `false`, or of numbers with NaN for an empty cell.
+MatValue column(const CsvTable& table, std::size_t c) {
+  static const std::set<std::string> texts{"muscle", "parameter", "unit",  "method",
+                                           "case",   "verdict",   "reason"};
+  static const std::set<std::string> flags{"at_bound", "routes_disagree"};
+  if (texts.contains(table.names[c])) {
+    MatTexts cells;
+    for (const auto& row : table.rows) cells.texts.push_back(row[c]);
+    return cells;
+  }
+  if (flags.contains(table.names[c])) {
+    std::vector<bool> cells;
+    for (const auto& row : table.rows) cells.push_back(row[c] == "true");
+    return cells;
+  }
+  Eigen::MatrixXd cells(static_cast<Eigen::Index>(table.rows.size()), 1);
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    cells(static_cast<Eigen::Index>(i), 0) =
+        recording::parse_number(table.rows[i][c]).value_or(kNan);
+  return cells;
+}
+
+MatStruct parameters_of(const CsvTable& table) {
+  MatStruct parameters;
+  std::set<std::string> taken;
+  for (std::size_t c = 0; c < table.names.size(); ++c) {
+    const std::string name = table.names[c] == "case" ? "fit_case" : table.names[c];
+    parameters.fields.emplace_back(field_name(name, taken), column(table, c));
+  }
+  return parameters;
+}
+
+MatStruct draws_of(const fs::path& path, const CsvTable& parameters, const fs::path& units_path) {
+  std::map<std::string, std::string> units;
+  const std::size_t name = column_of(parameters, "parameter", units_path);
+  const std::size_t unit = column_of(parameters, "unit", units_path);
+  for (const auto& row : parameters.rows) units[row[name]] = row[unit];
+  const CsvTable table = recording::read_csv_table(path);
+  const std::size_t weight = column_of(table, "weight", path);
+  MatTexts names{.row = true}, name_units{.row = true};
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(table.rows.size()),
+                         static_cast<Eigen::Index>(table.names.size()) - 1);
+  Eigen::Index k = 0;
+  for (std::size_t c = 0; c < table.names.size(); ++c) {
+    if (c == weight) continue;
+    names.texts.push_back(table.names[c]);
+    name_units.texts.push_back(units[table.names[c].substr(table.names[c].rfind('.') + 1)]);
+    values.col(k++) = std::get<Eigen::MatrixXd>(column(table, c));
+  }
+  return {{{"names", names},
+           {"units", name_units},
+           {"values", values},
+           {"weights", column(table, weight)}}};
+}
+
+MatStruct series_of(const fs::path& path) {
+  const recording::Storage file = recording::read_storage(path);
+  MatTexts names{.row = true}, units{.row = true};
+  for (const Channel& channel : file.data.channels()) {
+    names.texts.push_back(channel.name);
+    units.texts.push_back(
+        recording::result_unit(path.stem().string(), channel.name, file.in_degrees));
+  }
+  return {{{"names", names},
+           {"units", units},
+           {"time", Eigen::MatrixXd(file.data.time_s())},
+           {"values", Eigen::MatrixXd(file.data.values())},
+           {"in_degrees", std::vector<bool>{file.in_degrees}},
+           {"title", file.title}}};
+}
+
+/// All series in the folder of a trial, in the order of their names.
+MatStruct all_series(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path ending = entry.path().extension();
+      if (ending == ".sto" || ending == ".mot") files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  MatStruct all;
+  std::set<std::string> taken;
+  for (const fs::path& file : files)
+    all.fields.emplace_back(field_name(file.stem().string(), taken),
+                            std::vector<MatStruct>{series_of(file)});
+  return all;
+}
+
+MatStruct trial(const fs::path& folder,
+                const std::string& name,
+                const std::string& use,
+                const std::string& failure) {
+  return {{{"name", name},
+           {"use", use},
+           {"failure", failure},
+           {"series", std::vector<MatStruct>{all_series(folder / name)}}}};
+}
+
+/// The trials of a folder that has no run.json: the folders with series.
+std::vector<MatStruct> trials_by_folder(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::vector<MatStruct> trials;
+  for (const std::string& name : names) {
+    if (!all_series(folder / name).fields.empty()) trials.push_back(trial(folder, name, "", ""));
+  }
+  return trials;
+}
+
+/// The remarks of a run as columns.
+class Remarks {
+ public:
+  void add_faults(const std::string& trial, const json& faults) {
+    for (const json& fault : faults)
+      add(trial, fault.at("fault").get<std::string>(), fault.at("level").get<std::string>(),
+          fault.at("channel").get<std::string>(), fault.at("begin_s").get<double>(),
+          fault.at("end_s").get<double>(), fault.at("message").get<std::string>());
+  }
+  void add_note(const std::string& trial, const std::string& text) {
+    add(trial, "", "note", "", kNan, kNan, text);
+  }
+  [[nodiscard]] MatStruct columns() const {
+    const auto vector = [](const std::vector<double>& values) {
+      return Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(
+          values.data(), static_cast<Eigen::Index>(values.size())));
+    };
+    return {{{"trial", trials_},
+             {"code", codes_},
+             {"level", levels_},
+             {"channel", channels_},
+             {"begin_s", vector(begin_s_)},
+             {"end_s", vector(end_s_)},
+             {"text", texts_}}};
+  }
+
+ private:
+  void add(const std::string& trial,
+           const std::string& code,
+           const std::string& level,
+           const std::string& channel,
+           double begin_s,
+           double end_s,
+           const std::string& text) {
+    trials_.texts.push_back(trial);
+    codes_.texts.push_back(code);
+    levels_.texts.push_back(level);
+    channels_.texts.push_back(channel);
+    begin_s_.push_back(begin_s);
+    end_s_.push_back(end_s);
+    texts_.texts.push_back(text);
+  }
+
+  MatTexts trials_, codes_, levels_, channels_, texts_;
+  std::vector<double> begin_s_, end_s_;
+};
+
+/// Trials, remarks and the run itself, of run.json.
+void add_run(const fs::path& folder, MatStruct& variables) {
+  const json run = json::parse(recording::read_text_file(folder / "run.json"));
+  std::vector<MatStruct> trials;
+  Remarks remarks;
+  remarks.add_faults("", run.at("faults"));
+  for (const json& t : run.at("trials")) {
+    const auto name = t.at("name").get<std::string>();
+    trials.push_back(
+        trial(folder, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
+    remarks.add_faults(name, t.at("faults"));
+    for (const json& note : t.at("notes")) remarks.add_note(name, note.get<std::string>());
+  }
+  if (!trials.empty()) variables.fields.emplace_back("trials", std::move(trials));
+  variables.fields.emplace_back("remarks", std::vector<MatStruct>{remarks.columns()});
+  MatStruct about;
+  for (const char* key : {"program", "version", "command", "study"})
+    about.fields.emplace_back(key, run.at(key).get<std::string>());
+  variables.fields.emplace_back("run", std::vector<MatStruct>{std::move(about)});
+}
+
+}  // namespace
+
+MatStruct matlab_results(const fs::path& folder) {
+  const fs::path file = folder / "parameters.csv";
+  const CsvTable parameters = recording::read_csv_table(file);
+  MatStruct variables;
+  variables.fields.emplace_back("parameters", std::vector<MatStruct>{parameters_of(parameters)});
+  if (fs::exists(folder / "posterior.csv"))
+    variables.fields.emplace_back(
+        "draws", std::vector<MatStruct>{draws_of(folder / "posterior.csv", parameters, file)});
+  if (fs::exists(folder / "run.json")) {
+    try {
+      add_run(folder, variables);
+    } catch (const json::exception& error) {
+      throw ReadError(folder / "run.json", 0,
+                      fmt::format("is no record of a run of this version: {}", error.what()));
+    }
+  } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
+    variables.fields.emplace_back("trials", std::move(trials));
+  }
+  return variables;
+}
+
+void check_mat_file(const fs::path& file) {
+  if (file.extension() != ".mat")
+    throw InvalidInput(
+        fmt::format("{}: expected the name of a MATLAB file, which ends in .mat", file.string()));
+  require_matio();
+}
+
+void write_results_mat(const fs::path& folder, const fs::path& file) {
+  write_mat_file(file, matlab_results(folder));
+}
+
+}  // namespace myoid
