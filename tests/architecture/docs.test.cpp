@@ -36,6 +36,20 @@ TEST(Documentation, EveryLinkLeadsToAFile) {
   EXPECT_GT(seen, 20);  // that the pattern still finds them
 }
 
+TEST(Documentation, PicturesAreSmallAndShown) {
+  std::string all;
+  for (const fs::path& page : pages()) all += content(page);
+  int seen = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs" / "figures")) {
+    if (entry.path().extension() != ".webp") continue;
+    EXPECT_LT(fs::file_size(entry.path()), 200'000U) << entry.path();
+    EXPECT_NE(all.find("figures/" + entry.path().filename().string()), std::string::npos)
+        << entry.path() << " is on no page";
+    ++seen;
+  }
+  EXPECT_GT(seen, 5);
+}
+
 TEST(Documentation, EveryCommandHasItsPage) {
   const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
   std::set<std::string> commands;

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""usage: docs/figures/make_figures.py PROGRAM WORK [NAME...]
+
+Makes the pictures of README, tutorial and gallery with headless Chromium, from the results that PROGRAM finds in WORK or
+makes there. Pictures whose recordings are not at hand (folder of $MYOID_DATA, else ../shared/data beside the checkout)
+stay as they are, and the script says so. With names only these pictures are made. Python's own library is enough.
+"""
+
+import base64
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+FIGURES = Path(__file__).resolve().parent
+SOURCE = FIGURES.parents[1]
+DATA = Path(os.environ.get("MYOID_DATA", SOURCE / ".." / "shared" / "data")).resolve()
+MOST_BYTES = 200_000
+QUALITY = 82
+
+
+@dataclass
+class Picture:
+    """A part of a page: from the top of one element to the end of another, `width` wide."""
+
+    name: str
+    page: str  # folder of results, or a page in WORK
+    wishes: str = ""  # after the # of the address
+    begin: str = "body"
+    end: str = ""  # none: `height` below the beginning
+    width: int = 1280
+    height: int = 900
+    script: str = ""  # a step before the picture
+
+
+# Moves the first slider of the workbench, the optimal fiber length, to the literature's value [m].
+MOVE_LENGTH = """
+const slider = document.querySelector('#learn input[type=range]');
+slider.value = 0.1224;
+slider.dispatchEvent(new Event('input'));
+"""
+
+PICTURES = [
+    Picture("report_top.webp", "demo", height=1010),
+    Picture("workbench.webp", "demo", "trial=lowering_4kg&t=6.2", begin="#workbench", height=920),
+    Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
+    Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
+    Picture("elbow_numbers.webp", "elbow_emg", height=1010),
+    Picture("elbow_workbench.webp", "elbow_emg", "trial=load2p75_T3&t=11", begin="#workbench", height=1042),
+    Picture("elbow_what_if.webp", "elbow_emg", "trial=load2p75_T3&t=11", begin="#learn", end="#learn",
+            script=MOVE_LENGTH),
+    Picture("elbow_quality.webp", "elbow_emg", begin="#quality", height=610),
+    Picture("elbow_next.webp", "elbow_emg", begin="#next", height=410, width=800,
+            script="document.querySelector('#next .fold').click()"),
+]  # fmt: skip
+
+
+class Browser:
+    """Headless Chromium, driven over its debugging protocol through two pipes."""
+
+    def __init__(self):
+        self._profile = tempfile.TemporaryDirectory(prefix="myoid.", ignore_cleanup_errors=True)
+        to_browser, self._to = os.pipe()
+        self._from, from_browser = os.pipe()
+
+        def pipes():
+            commands, answers = os.dup(to_browser), os.dup(from_browser)
+            os.dup2(commands, 3)
+            os.dup2(answers, 4)
+
+        self._process = subprocess.Popen(
+            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
+             "--remote-debugging-pipe", f"--user-data-dir={self._profile.name}", "about:blank"],
+            close_fds=False, preexec_fn=pipes, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)  # fmt: skip
+        os.close(to_browser)
+        os.close(from_browser)
+        self._received, self._last, self._session = b"", 0, None
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.call("Page.enable")
+
+    def close(self):
+        os.close(self._to)
+        self._process.terminate()
+        self._process.wait(10)
+        self._profile.cleanup()
+
+    def call(self, method, **parameters):
+        self._last += 1
+        command = {"id": self._last, "method": method, "params": parameters}
+        if self._session:
+            command["sessionId"] = self._session
+        text = json.dumps(command).encode() + b"\0"
+        while text:
+            text = text[os.write(self._to, text) :]
+        while True:
+            answer = self._message()
+            if answer.get("id") == self._last:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']}")
+                return answer["result"]
+
+    def _message(self):
+        while b"\0" not in self._received:
+            read = os.read(self._from, 1 << 16)
+            if not read:
+                raise RuntimeError("the browser ended")
+            self._received += read
+        text, self._received = self._received.split(b"\0", 1)
+        return json.loads(text)
+
+    def value(self, expression):
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in answer:
+            raise RuntimeError(f"{expression}: {answer['exceptionDetails']}")
+        return answer["result"].get("value")
+
+    def open(self, address, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.call("Page.navigate", url="about:blank")
+        self.call("Page.navigate", url=address)
+        for _ in range(1500):
+            if self.value("document.readyState === 'complete' && document.body?.dataset.state === 'ready'"):
+                return
+            time.sleep(0.04)
+        raise RuntimeError(f"{address} is never ready")
+
+    def picture(self, p, address):
+        """The bytes of a picture."""
+        self.open(address, p.width, p.height)
+        if p.script:
+            self.value(f"(async () => {{{p.script}}})()")
+        time.sleep(1.0)  # the body is drawn in the next frames
+        top = self.value(f"scrollY + document.querySelector('{p.begin}').getBoundingClientRect().top")
+        height = p.height
+        if p.end:
+            height = self.value(f"scrollY + document.querySelector('{p.end}').getBoundingClientRect().bottom") - top
+        clip = {"x": 0, "y": top, "width": p.width, "height": height, "scale": 1}
+        kind = p.name.rsplit(".", 1)[1]
+        found = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True, format=kind, quality=QUALITY)
+        return base64.b64decode(found["data"])
+
+
+def myoid(program, *arguments, may_fail=False):
+    done = subprocess.run([program, *map(str, arguments), "--quiet"], cwd=SOURCE, stdout=subprocess.DEVNULL, check=False)
+    if done.returncode not in ((0, 4) if may_fail else (0,)):
+        sys.exit(f"{arguments[0]} ended with {done.returncode}")
+
+
+def make_demo(program, work):
+    protocol = SOURCE / "examples/demo/protocol.toml"
+    myoid(program, "twin", "--model", "arm4", "--protocol", protocol, "--seed", 1, "--out", work / "recording")
+    myoid(program, "run", work / "recording/study.toml", "--out", work / "demo", may_fail=True)
+
+
+def make_example(name):
+    def make(program, work):
+        myoid(program, "run", SOURCE / "examples" / name / "study.toml", "--out", work / name, may_fail=True)
+
+    return make
+
+
+def make_walk(program, work):
+    data, motion, forces = DATA / "gait-emg", work / "walk.mot", work / "walk_so"
+    model = data / "subject_walk_scaled.osim"
+    myoid(program, "ik", "--model", model, "--markers", data / "markers_walk.trc", "--out", motion)
+    myoid(program, "so", "--model", model, "--motion", motion, "--loads", data / "grf_walk.xml", "--lowpass", 6,
+          "--reserve", 10, "--out", forces, may_fail=True)  # fmt: skip
+    myoid(program, "info", model, "--html", work / "walk.html", "--motion", motion, "--activations",
+          forces / "StaticOptimization_activation.sto", "--markers", data / "markers_walk.trc")  # fmt: skip
+
+
+# For each page: the file, how it is made, the recordings that this takes.
+PAGES = {
+    "demo": ("demo/report.html", make_demo, None),
+    "elbow_emg": ("elbow_emg/report.html", make_example("elbow_emg"), "elbow-emg"),
+    "box_lift": ("box_lift/report.html", make_example("box_lift"), "box-lift"),
+    "walk": ("walk.html", make_walk, "gait-emg"),
+}
+
+
+def page_of(name, program, work):
+    """The page's file; made where it is not there, None without its recordings."""
+    file, make, data = PAGES[name]
+    if not (work / file).is_file():
+        if data and not (DATA / data).is_dir():
+            return None
+        make(program, work)
+    return work / file
+
+
+def main(program, work, *names):
+    unknown = set(names) - {p.name for p in PICTURES}
+    if unknown:
+        sys.exit(f"no picture {sorted(unknown)[0]}; there are {', '.join(p.name for p in PICTURES)}")
+    program, work = Path(program).resolve(), Path(work).resolve()
+    work.mkdir(parents=True, exist_ok=True)
+    browser = Browser()
+    for p in PICTURES:
+        if names and p.name not in names:
+            continue
+        page = page_of(p.page, program, work)
+        if page is None:
+            print(f"{p.name} stays as it is: there is no {DATA / PAGES[p.page][2]}")
+            continue
+        bytes_ = browser.picture(p, f"{page.as_uri()}#{p.wishes}")
+        if len(bytes_) > MOST_BYTES:
+            sys.exit(f"{p.name} has {len(bytes_)} bytes, at most {MOST_BYTES} are allowed")
+        (FIGURES / p.name).write_bytes(bytes_)
+        print(f"{p.name}: {len(bytes_) / 1000:.0f} kB")
+    browser.close()
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
