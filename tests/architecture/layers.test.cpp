@@ -234,5 +234,17 @@ TEST(Architecture, EveryHeaderIsListedForItsTarget) {
   }
 }
 
+TEST(Architecture, EveryRoomHasAGroupInTheApiReference) {
+  const std::string groups = content(kRoot / "docs" / "api" / "rooms.dox");
+  std::set<std::string> found;
+  const std::regex group(R"(@defgroup (\w+) \w)");
+  for (std::sregex_iterator it(groups.begin(), groups.end(), group), end; it != end; ++it)
+    found.insert((*it)[1]);
+  std::set<std::string> rooms;
+  for (const auto& [room, allowed] : allowed_layers()) rooms.insert(room);
+  rooms.erase("cli");  // the program is no library
+  EXPECT_EQ(found, rooms);
+}
+
 }  // namespace
 }  // namespace myoid::architecture
