@@ -50,6 +50,41 @@ TEST(Documentation, PicturesAreSmallAndShown) {
   EXPECT_GT(seen, 5);
 }
 
+/// The keys are those of the Citation File Format 1.2.0; four of them must be there.
+TEST(Documentation, TheCitationFileIsValid) {
+  const std::set<std::string> known{"abstract",
+                                    "authors",
+                                    "cff-version",
+                                    "commit",
+                                    "contact",
+                                    "date-released",
+                                    "doi",
+                                    "identifiers",
+                                    "keywords",
+                                    "license",
+                                    "license-url",
+                                    "message",
+                                    "preferred-citation",
+                                    "references",
+                                    "repository",
+                                    "repository-artifact",
+                                    "repository-code",
+                                    "title",
+                                    "type",
+                                    "url",
+                                    "version"};
+  const std::string text = content(kRoot / "CITATION.cff");
+  const std::regex key(R"((?:^|\n)([a-z-]+):)");
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), key), end; it != end; ++it) {
+    EXPECT_TRUE(found.insert((*it)[1]).second) << "twice: " << (*it)[1];
+    EXPECT_TRUE(known.contains((*it)[1])) << (*it)[1];
+  }
+  for (const char* required : {"authors", "cff-version", "message", "title"})
+    EXPECT_TRUE(found.contains(required)) << required;
+  EXPECT_NE(text.find("cff-version: 1.2.0\n"), std::string::npos);
+}
+
 TEST(Documentation, EveryCommandHasItsPage) {
   const std::regex subcommand(R"re(add_subcommand\(\s*"([\w-]+)")re");
   std::set<std::string> commands;
