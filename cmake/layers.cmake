@@ -1,7 +1,7 @@
 # The layers, lowest first, and which lower layers each may use: written here once. The targets link
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
-    dynamics forces simulation identification intervals posterior methods report phases study intake checks
+    dynamics forces simulation beliefs identification intervals posterior methods report phases study intake checks
     design run scene results draft contents identify_files opensim_tools twin cohort realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
@@ -18,10 +18,11 @@ set(MYOID_LAYER_kinematics core math files tables signals model)
 set(MYOID_LAYER_dynamics core math files tables recording signals model osim kinematics)
 set(MYOID_LAYER_forces core muscle model osim kinematics dynamics)
 set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
-set(MYOID_LAYER_identification core math muscle)
-set(MYOID_LAYER_intervals core math muscle signals identification)
-set(MYOID_LAYER_posterior core math muscle identification intervals)
-set(MYOID_LAYER_methods core math muscle forces identification intervals posterior)
+set(MYOID_LAYER_beliefs core)
+set(MYOID_LAYER_identification core math muscle beliefs)
+set(MYOID_LAYER_intervals core math muscle signals beliefs identification)
+set(MYOID_LAYER_posterior core math muscle beliefs identification intervals)
+set(MYOID_LAYER_methods core math muscle forces beliefs identification intervals posterior)
 set(MYOID_LAYER_report core files)
 set(MYOID_LAYER_phases core math)
 set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forces identification
@@ -31,8 +32,8 @@ set(MYOID_LAYER_checks core math files tables recording signals model kinematics
     intake)
 set(MYOID_LAYER_design core muscle arm kinematics dynamics simulation identification intervals
     methods report study)
-set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces identification
-    intervals methods report phases study intake checks design)
+set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
+    identification intervals methods report phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim report)
 set(MYOID_LAYER_results core math files muscle tables model kinematics forces simulation
     identification intervals methods report phases study design run scene)
@@ -42,8 +43,8 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation identification
-    intervals study run)
+set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation beliefs
+    identification intervals study run)
 set(MYOID_LAYER_cohort core math files tables recording report study)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)

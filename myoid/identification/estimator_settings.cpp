@@ -1,6 +1,6 @@
 #include "myoid/identification/estimator_settings.h"
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid::identification {
 namespace {

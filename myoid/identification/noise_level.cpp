@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid::identification {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/identification/emg_lag.h"
 
 namespace myoid::identification {

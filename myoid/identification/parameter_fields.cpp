@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/beliefs.h"
 
 namespace myoid::identification {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
 
 namespace myoid::identification {
@@ -25,6 +26,13 @@ TEST(ParameterFields, EveryNumberOfTheModelHasOneRowAndOneName) {
   }
   for (int f = 0; f < kChannelFieldCount; ++f) EXPECT_TRUE(numbers.contains({Scope::channel, f}));
   for (int f = 0; f < kJointFieldCount; ++f) EXPECT_TRUE(numbers.contains({Scope::joint, f}));
+}
+
+TEST(ParameterFields, EveryOneHasABelief) {
+  std::set<std::string_view> names;
+  for (const Belief* belief : all_beliefs()) names.insert(belief->name);
+  for (const ParameterField& field : parameter_fields())
+    EXPECT_TRUE(names.contains(field.name)) << field.name;
 }
 
 TEST(ParameterFields, ANameThatIsNoneIsAnsweredWithThoseThatAre) {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/identification/trial_rows.h"
 #include "myoid/muscle/force_velocity.h"
 

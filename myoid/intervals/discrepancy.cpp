@@ -7,9 +7,9 @@
 
 #include <Eigen/Cholesky>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/intervals/score.h"
 #include "myoid/methods/prediction.h"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid::identification {
 namespace {

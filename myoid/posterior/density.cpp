@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid::identification {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/parallel.h"
-#include "myoid/identification/beliefs.h"
 
 namespace myoid::identification {
 namespace {

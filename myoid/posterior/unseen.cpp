@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/intervals/held_tendon.h"
 

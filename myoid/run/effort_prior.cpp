@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 namespace myoid {
 namespace {

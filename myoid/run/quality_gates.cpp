@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/intake/limits.h"
 #include "myoid/run/prediction_gates.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/muscle/force_velocity.h"
 
 namespace myoid::twin {

@@ -31,7 +31,7 @@ struct BesideMuscles {
   PerMuscle emg_exponent = {1.0, 1.0, 1.0, 1.0};
 };
 
-/// As a fit expects it beforehand (identification/beliefs.h), `spec.spread` times: gamma 0.1,
+/// As a fit expects it beforehand (beliefs/beliefs.h), `spec.spread` times: gamma 0.1,
 /// torque 1 N m, stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2; gamma and
 /// viscosity are sizes of normal numbers, since no fit lets them be negative. Nothing unless
 /// `spec.beside_muscles`.

@@ -5,8 +5,8 @@
 
 #include "myoid/arm/arm7.h"
 #include "myoid/arm/arm_osim.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/units.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/twin/departures.h"
 #include "myoid/twin/draw_truth.h"
 #include "myoid/twin/virtual_arm.h"

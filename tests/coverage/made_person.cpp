@@ -8,7 +8,7 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/identification/parameters.h"

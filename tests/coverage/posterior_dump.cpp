@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/posterior/density.h"
 

@@ -11,8 +11,8 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/units.h"
-#include "myoid/identification/beliefs.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/math/butterworth.h"
 #include "myoid/math/zero_phase.h"

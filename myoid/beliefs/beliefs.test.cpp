@@ -1,11 +1,9 @@
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
-#include <set>
-#include <string>
+#include <optional>
 
 #include <gtest/gtest.h>
 
-#include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/hill_parameters.h"
 
 #include "tests/support/printed_page.h"
@@ -17,15 +15,11 @@ TEST(Beliefs, AreTheOnesThatThePagePrints) {
   test::expect_printed("docs/theory/priors.md", "beliefs", beliefs_markdown());
 }
 
-TEST(Beliefs, EveryParameterThatCanBeIdentifiedHasOne) {
-  std::set<std::string_view> names;
+TEST(Beliefs, StateTheirUseAndTheirSource) {
   for (const Belief* belief : all_beliefs()) {
-    names.insert(belief->name);
     EXPECT_FALSE(belief->source.empty()) << belief->name;
     EXPECT_FALSE(belief->when.empty()) << belief->name;
   }
-  for (const ParameterField& field : parameter_fields())
-    EXPECT_TRUE(names.contains(field.name)) << field.name;
 }
 
 TEST(LiteraturePrior, OfAMuscleStandsAboutTheStart) {

@@ -1,4 +1,4 @@
-#include "myoid/identification/beliefs.h"
+#include "myoid/beliefs/beliefs.h"
 
 #include <algorithm>
 #include <array>
