@@ -70,6 +70,10 @@ std::optional<ParameterEstimate> estimate_of_json(const nlohmann::json& row) {
     std::visit([&](const auto member) { read(row.at(column.name), e.*member); }, column.member);
   }
   e.tied_to = row.value("tied_to", std::string());
+  if (const auto shares = row.find("variance_shares"); shares != row.end()) {
+    SourceShares& of = e.variance_shares.emplace();
+    for (std::size_t s = 0; s < of.size(); ++s) of[s] = shares->at(kSourceColumns[s]).get<double>();
+  }
   return e;
 }
 

@@ -87,6 +87,19 @@ bool told(const ParameterEstimate& e) {
          *e.std_error > 0.0;
 }
 
+/// The standard error of a number from session to session of one person. Moment arms, tendons and
+/// the scale of the torque err alike in both sessions: their shares of the variance cancel in the
+/// difference.
+double repeat_error(const ParameterEstimate& e) {
+  double own = 1.0;
+  if (e.variance_shares) {
+    for (const identification::Source same :
+         {identification::Source::geometry, identification::Source::torque_scale})
+      own -= (*e.variance_shares)[static_cast<std::size_t>(same)];
+  }
+  return *e.std_error * std::sqrt(std::max(own, 0.0));
+}
+
 /// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
 void adjust_p_values(std::vector<ComparedParameter*> compared) {
   std::sort(compared.begin(), compared.end(),
@@ -181,7 +194,7 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
   p.difference = p.second.estimate - p.first.estimate;
   if (told(p.first) && told(p.second)) {
-    const double se = std::hypot(*p.first.std_error, *p.second.std_error);
+    const double se = std::hypot(repeat_error(p.first), repeat_error(p.second));
     p.smallest_detectable = kNormal95 * se;
     p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
   }

@@ -45,10 +45,11 @@ struct RunComparison {
 
 /// Compares two finished runs number by number, of one person on two days or of one recording by
 /// two studies: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the
-/// p-values adjusted for their number by Holm's method. A parameter that either verdict calls
-/// prior_dominated, not_identifiable or non_physical is not compared: both may agree on the
-/// prior alone. The sessions count as independent; a shared prior makes the test cautious.
-/// Throws ReadError if a folder holds no parameters.json of a run.
+/// p-values adjusted for their number by Holm's method. Of the estimator `posterior`, se leaves
+/// out what errs alike in both sessions: moment arms, tendons, the scale of the torque. A parameter
+/// that either verdict calls prior_dominated, not_identifiable or non_physical is not compared:
+/// both may agree on the prior alone. The sessions count as independent; a shared prior makes the
+/// test cautious. Throws ReadError if a folder holds no parameters.json of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first,
                                          const std::filesystem::path& second);
 

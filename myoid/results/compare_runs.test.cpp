@@ -18,6 +18,7 @@ struct Row {
   double estimate, std_error;
   const char* verdict;
   const char* tied_to = "";
+  double geometry = 0.0, torque_scale = 0.0;  ///< Shares of the variance.
 };
 
 /// A run's folder with one method and these estimates of F_max.
@@ -28,9 +29,12 @@ std::filesystem::path run(const std::filesystem::path& folder,
   for (const Row& r : rows) {
     estimates += fmt::format(
         R"({}{{"muscle": "{}", "parameter": "max_isometric_force", "unit": "N", "method": "torque", "case": "both",
-            "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}", "tied_to": "{}"}})",
+            "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}", "tied_to": "{}",
+            "variance_shares": {{"noise": {}, "literature": 0, "geometry": {}, "electrodes": 0,
+                                 "torque_scale": {}, "model": 0}}}})",
         estimates.empty() ? "" : ",", r.muscle, r.estimate, r.std_error,
-        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict, r.tied_to);
+        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict, r.tied_to,
+        1.0 - r.geometry - r.torque_scale, r.geometry, r.torque_scale);
   }
   std::filesystem::create_directories(folder);
   recording::write_file(folder / "parameters.json",
@@ -54,6 +58,17 @@ TEST(CompareRuns, OneUnknownOfSeveralMusclesIsOneNumberAndCountsOnce) {
   EXPECT_EQ(c.parameters[0].muscle, "BIC, BRA, BRD");
   // z = 17 / (5 sqrt 2) = 2.404, p = 0.0162, of two numbers, not of four.
   EXPECT_NEAR(*c.parameters[0].p_value, 2 * 0.01621, 2e-4);
+  EXPECT_EQ(c.parameters[0].change, Change::differs);
+}
+
+TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {
+  const test::TemporaryFolder folder;
+  const auto session = [&](const char* name, double strength) {
+    return run(folder.path() / name, {{"BIC", strength, 100, "weak", "", 0.64, 0.11}}, 1.0);
+  };
+  const RunComparison c = compare_runs(session("one", 600), session("two", 750));
+  // A quarter of the variance is the session's own: 50 N each, z = 150 / 70.7.
+  EXPECT_NEAR(*c.parameters[0].smallest_detectable, 1.96 * 50.0 * std::sqrt(2.0), 0.01);
   EXPECT_EQ(c.parameters[0].change, Change::differs);
 }
 
