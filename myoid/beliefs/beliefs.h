@@ -258,24 +258,35 @@ inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torq
                                          "judgment"};
 inline constexpr Belief kTrialTorqueNoise{
     "torque error of a trial over all", "1", 1.0, 1.0, logarithm, "", kPosterior, "judgment"};
-inline constexpr Belief kMomentArm{
-    "size of a muscle's moment arms, over the model's",
-    "1",
-    1.0,
-    0.10,
-    logarithm,
-    "",
-    kPosterior,
-    "judgment from the spread between published sets of moment arms"};
-inline constexpr Belief kMomentArmSlope{
-    "change of that over half of the recorded range of lengths",
-    "0",
+inline constexpr Belief kCommonStrength{
+    "share of the variance of F_max about the model's that a person's muscles have in common",
+    "0.5",
+    0.5,
     0.0,
-    0.10,
     value,
     "",
     kPosterior,
-    "judgment from the spread between published sets of moment arms"};
+    "judgment: a strong person is strong in every muscle"};
+inline constexpr std::string_view kMomentArmSource =
+    "of 40 moment arms, two public models differ by ln 0.13 in size and by 0.17 in this slope "
+    "(robust), by 0.26 and 0.25 (root mean square): 0.09 to 0.18 and 0.12 to 0.18 to each "
+    "(`tests/coverage/moment_arms.py`)";
+inline constexpr Belief kMomentArm{"size of a muscle's moment arms, over the model's",
+                                   "1",
+                                   1.0,
+                                   0.15,
+                                   logarithm,
+                                   "",
+                                   kPosterior,
+                                   kMomentArmSource};
+inline constexpr Belief kMomentArmSlope{"change of that over half of the recorded range of lengths",
+                                        "0",
+                                        0.0,
+                                        0.12,
+                                        value,
+                                        "",
+                                        kPosterior,
+                                        kMomentArmSource};
 inline constexpr Belief kTorqueScale{
     "scale of the torque, over the true one",
     "1",
@@ -322,6 +333,20 @@ inline constexpr Belief kUnknownEmgNoise{
     "judgment"};
 
 }  // namespace beliefs
+
+/// The spreads of estimator `posterior` that a study may state for its person, model and
+/// instruments (`[beliefs]`). 0: the quantity is exact.
+struct UnseenSpreads {
+  double moment_arm = beliefs::kMomentArm.sd;             ///< Of its logarithm.
+  double moment_arm_slope = beliefs::kMomentArmSlope.sd;  ///< Over half the range of lengths.
+  double tendon_strain = 0.053;  ///< About no strain: of kTendonStretch, the root mean square.
+  double torque_scale = beliefs::kTorqueScale.sd;
+  double crosstalk = beliefs::kCrossTalk.sd;
+  double gain_drift = beliefs::kGainDrift.sd;
+  double model_error = beliefs::kModelError.sd;             ///< Half normal.
+  double common_strength = beliefs::kCommonStrength.value;  ///< A share, below 1.
+  bool operator==(const UnseenSpreads&) const = default;
+};
 
 /// All of them, in the order of the page.
 [[nodiscard]] std::span<const Belief* const> all_beliefs();

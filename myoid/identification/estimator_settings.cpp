@@ -24,6 +24,7 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
   options.priors = settings.priors;
   options.weights = settings.priors;
   options.estimator = settings.estimator;
+  options.unseen = settings.unseen;
   follow_emg(settings.lag, options);
   options.delay_s = settings.delay_s;
   options.delay_per_channel = settings.delay_per_channel;

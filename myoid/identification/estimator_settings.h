@@ -27,6 +27,7 @@ struct EstimatorSettings {
   std::vector<std::string> muscles;  ///< To identify; empty: all.
   bool priors = true;                ///< False: the data alone, by plain least squares.
   EstimatorKind estimator = EstimatorKind::least_squares;
+  UnseenSpreads unseen;
   LagChoice lag = LagChoice::automatic;
   std::optional<double> delay_s;  ///< Held at this; empty: estimated.
   bool delay_per_channel = false;

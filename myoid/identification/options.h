@@ -125,6 +125,7 @@ struct EstimatorOptions {
   IntervalOptions intervals;
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
+  UnseenSpreads unseen;     ///< Of the estimator `posterior`.
   int posterior_draws = 0;  ///< To check the posterior by; 0: its normal approximation alone.
   bool marginals = true;    ///< That approximation with the skewness of each unknown.
 };

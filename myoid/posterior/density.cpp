@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 #include "myoid/beliefs/beliefs.h"
 
 namespace myoid::identification {
@@ -16,7 +18,39 @@ constexpr double kStartingTorqueError = 0.3;  // of the root mean square
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
+/// The muscles' F_max that rest on the literature; none where it is one muscle's.
+std::vector<std::size_t> strengths(const std::vector<Unknown>& free) {
+  std::vector<std::size_t> found;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const Unknown& of = free[j];
+    if (of.is(Scope::muscle, kMaxForce) && of.prior.sd > 0.0 && !of.prior_is_given)
+      found.push_back(j);
+  }
+  return found.size() > 1 ? found : std::vector<std::size_t>{};
+}
+
 }  // namespace
+
+Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double common_share) {
+  const auto p = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
+  for (Eigen::Index j = 0; j < p; ++j)
+    precision(j, j) = free[static_cast<std::size_t>(j)].prior_precision();
+  const std::vector<std::size_t> members = strengths(free);
+  if (members.empty()) return precision;
+  const auto n = static_cast<Eigen::Index>(members.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd spread(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double sd = free[members[static_cast<std::size_t>(i)]].prior.sd;
+    spread[i] = std::min(sd, beliefs::kMaxForce.sd);
+    covariance(i, i) = sd * sd - common_share * spread[i] * spread[i];
+  }
+  covariance += common_share * spread * spread.transpose();
+  const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  precision(members, members) = inverse;
+  return precision;
+}
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
     : likelihood_(data, options) {
@@ -25,14 +59,12 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   lower_.resize(p);
   range_.resize(p);
   prior_mean_.setZero(p);
-  prior_precision_.setZero(p);
+  precision_ = prior_precision(free, options.unseen.common_strength);
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
     lower_[j] = of.bounds.lower;
     range_[j] = of.bounds.upper - of.bounds.lower;
-    if (!(of.prior.sd > 0.0)) continue;
-    prior_mean_[j] = of.prior.mean;
-    prior_precision_[j] = 1.0 / (of.prior.sd * of.prior.sd);
+    if (of.prior.sd > 0.0) prior_mean_[j] = of.prior.mean;
   }
   const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
                                  [&](const std::string& name) {
@@ -46,7 +78,7 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   noise_sd_[kTorqueTime] = beliefs::kTorqueNoiseTime.sd;
   noise_sd_[kEmgFactor] = (known ? beliefs::kEmgNoise : beliefs::kUnknownEmgNoise).sd;
   noise_mean_[kModelErrorSize] = std::log(kStartingModelError);
-  noise_sd_[kModelErrorSize] = beliefs::kModelError.sd;
+  noise_sd_[kModelErrorSize] = options.unseen.model_error;
 }
 
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
@@ -90,8 +122,8 @@ Eigen::VectorXd Density::longest_step(const Eigen::VectorXd& x) const {
   Eigen::VectorXd longest = Eigen::VectorXd::Constant(size(), kLongest);
   const Eigen::VectorXd by_x = slope(x);
   for (Eigen::Index j = 0; j < lower_.size(); ++j) {
-    if (prior_precision_[j] > 0.0 && by_x[j] > 0.0)
-      longest[j] = std::min(kLongest, 1.0 / (std::sqrt(prior_precision_[j]) * by_x[j]));
+    const double sd = parameters().free()[static_cast<std::size_t>(j)].prior.sd;
+    if (sd > 0.0 && by_x[j] > 0.0) longest[j] = std::min(kLongest, sd / by_x[j]);
   }
   return longest;
 }
@@ -107,20 +139,20 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   if (!std::isfinite(result)) return -std::numeric_limits<double>::infinity();
   if (gradient != nullptr) gradient->setZero(size());
   const Eigen::VectorXd by_x = slope(x);
+  const Eigen::VectorXd off = z - prior_mean_, pull = precision_ * off;
+  result -= 0.5 * off.dot(pull);
   for (Eigen::Index j = 0; j < p; ++j) {
-    const double off = z[j] - prior_mean_[j];
-    result -= 0.5 * prior_precision_[j] * off * off;
     // ln dz/dx = ln range + ln q + ln (1 - q), q the logistic function; its slope is 1 - 2 q.
     const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
     result += below;
     if (gradient == nullptr) continue;
-    (*gradient)[j] =
-        by_x[j] * (by.by_z[j] - prior_precision_[j] * off) + 1.0 - 2.0 * logistic(x[j]);
+    (*gradient)[j] = by_x[j] * (by.by_z[j] - pull[j]) + 1.0 - 2.0 * logistic(x[j]);
   }
   for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor}) {
-    const double off = (noise[field] - noise_mean_[field]) / noise_sd_[field];
-    result -= 0.5 * off * off;
-    if (gradient != nullptr) (*gradient)[p + field] = by.by_noise[field] - off / noise_sd_[field];
+    const double scaled = (noise[field] - noise_mean_[field]) / noise_sd_[field];
+    result -= 0.5 * scaled * scaled;
+    if (gradient != nullptr)
+      (*gradient)[p + field] = by.by_noise[field] - scaled / noise_sd_[field];
   }
   // Half normal in s; ds = s d ln s.
   const double s = std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize];
@@ -135,7 +167,7 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   const Eigen::VectorXd by_x = slope(x);
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(size(), size());
   Eigen::MatrixXd of_z = likelihood_.information(z_of(x), noise_of(x)).information;
-  of_z.diagonal() += prior_precision_;
+  of_z += precision_;
   h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
   for (Eigen::Index j = 0; j < p; ++j) h(j, j) += 2.0 * logistic(x[j]) * logistic(-x[j]);
   for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor})

@@ -9,6 +9,17 @@
 
 namespace myoid::identification {
 
+/// The inverse covariance of the priors of z. Of the F_max that the literature states and the study
+/// does not, a share of the variance is common to the person's muscles
+/// (UnseenSpreads::common_strength):
+///
+///   cov(z_i, z_j) = common_share s_i s_j,    var(z_i) = sd_i^2,    s_i the belief's spread, at
+///   most sd_i.
+///
+/// A spread that a missing maximal contraction adds (sd_i > s_i) is each muscle's own.
+[[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
+                                              double common_share);
+
 /// The posterior's density over unknowns x without bounds: one for each entry of the solver's z,
 ///
 ///   z = lower + (upper - lower) / (1 + exp(-x)),
@@ -17,8 +28,8 @@ namespace myoid::identification {
 ///
 ///   ln p(x | y) = ln p(y | z, phi) + ln p(z) + ln p(phi) + sum ln dz/dx
 ///
-/// The priors of z are the study's (ParameterMap), those of phi in beliefs.h: ln sigma_T, ln tau_T
-/// and ln kappa normal, s half normal.
+/// The priors of z are the study's (ParameterMap), joined over muscles by prior_precision; those of
+/// phi in beliefs.h: ln sigma_T, ln tau_T and ln kappa normal, s half normal.
 class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);
@@ -33,6 +44,8 @@ class Density {
   [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
   [[nodiscard]] const ParameterMap& parameters() const { return likelihood_.parameters(); }
   [[nodiscard]] Eigen::Index size() const { return parameters().size() + kNoiseFieldCount; }
+  /// Of the priors of z (prior_precision).
+  [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
   [[nodiscard]] Eigen::VectorXd z_of(const Eigen::VectorXd& x) const;
   [[nodiscard]] NoiseValues noise_of(const Eigen::VectorXd& x) const;
   /// dz/dx, one for each entry of z.
@@ -58,7 +71,8 @@ class Density {
   [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
 
   Likelihood likelihood_;
-  Eigen::VectorXd lower_, range_, prior_mean_, prior_precision_;
+  Eigen::VectorXd lower_, range_, prior_mean_;
+  Eigen::MatrixXd precision_;
   NoiseValues noise_mean_{}, noise_sd_{};  ///< Of the normal ones.
 };
 

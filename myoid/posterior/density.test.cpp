@@ -1,8 +1,13 @@
 #include "myoid/posterior/density.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "myoid/identification/parameters.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -53,6 +58,39 @@ TEST(Density, TheGradientIsThatOfDifferences) {
       EXPECT_NEAR(gradient[j], difference, 1e-4 * (1.0 + std::abs(gradient[j]))) << j;
     }
   }
+}
+
+/// A muscle's number with the literature's prior of this spread.
+Unknown number_of(const ParameterField& field, double sd) {
+  Unknown of;
+  of.field = &field;
+  of.prior = {.mean = 0.1, .sd = sd, .logarithmic = field.logarithmic};
+  return of;
+}
+
+TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
+  // z_i = mean + sqrt(rho) s_i person + own_i, person N(0, 1): the person is integrated over by
+  // hand, -2 ln p = sum off_i^2 / v_i - (sum c_i off_i / v_i)^2 / (1 + sum c_i^2 / v_i).
+  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
+  const ParameterMap map(study.data, {});
+  const auto at = std::find_if(map.free().begin(), map.free().end(),
+                               [](const Unknown& u) { return u.is(Scope::muscle, kMaxForce); });
+  ASSERT_NE(at, map.free().end());
+  std::vector<Unknown> free = {number_of(*at->field, 0.25), number_of(*at->field, 0.2),
+                               number_of(*at->field, 0.9), number_of(*at->field, 0.3)};
+  free[3].prior_is_given = true;
+  const Eigen::Vector4d off(0.3, -0.1, 0.7, 0.2);
+  const double rho = 0.4;
+  double squares = off[3] * off[3] / 0.09, along = 0.0, share = 1.0;
+  const std::array<double, 3> spread = {0.25, 0.2, 0.25}, sd = {0.25, 0.2, 0.9};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double common = std::sqrt(rho) * spread[i], own = sd[i] * sd[i] - common * common;
+    const double o = off[static_cast<Eigen::Index>(i)];
+    squares += o * o / own;
+    along += common * o / own;
+    share += common * common / own;
+  }
+  EXPECT_NEAR(off.dot(prior_precision(free, rho) * off), squares - along * along / share, 1e-12);
 }
 
 TEST(Density, XAndZAreOneAnother) {

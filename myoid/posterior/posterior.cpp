@@ -166,23 +166,20 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   const Likelihood::Information of = best.density->likelihood().information(
       best.density->z_of(best.mode.x), best.density->noise_of(best.mode.x));
   const auto p = static_cast<Eigen::Index>(free.size());
-  Eigen::VectorXd precision = Eigen::VectorXd::Zero(p);
-  for (Eigen::Index j = 0; j < p; ++j) {
-    const double sd = free[static_cast<std::size_t>(j)].prior.sd;
-    if (sd > 0.0) precision[j] = 1.0 / (sd * sd);
-  }
-  Eigen::MatrixXd all = of.information;
-  all.diagonal() += precision;
+  Eigen::MatrixXd all = of.information + best.density->precision();
   all.diagonal() *= 1.0 + 1e-10;
   const Eigen::MatrixXd covariance = all.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   Eigen::MatrixXd part(p, kSourceCount);
   for (int s = 0; s < kSourceCount; ++s)
     part.col(s) = (covariance * of.by_source[static_cast<std::size_t>(s)] * covariance).diagonal();
+  // No prior joins a channel's number with another's: the precision is one block for each source.
+  const Eigen::MatrixXd pulled = best.density->precision() * covariance;
   for (Eigen::Index j = 0; j < p; ++j) {
     const Source source = free[static_cast<std::size_t>(j)].field->scope == Scope::channel
                               ? Source::electrodes
                               : Source::literature;
-    part.col(static_cast<Eigen::Index>(source)) += precision[j] * covariance.col(j).cwiseAbs2();
+    part.col(static_cast<Eigen::Index>(source)) +=
+        covariance.col(j).cwiseProduct(pulled.row(j).transpose());
   }
   std::vector<SourceShares> shares(free.size());
   for (Eigen::Index j = 0; j < p; ++j) {

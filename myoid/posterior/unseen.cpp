@@ -26,12 +26,14 @@ bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
 class Collector {
  public:
   Collector(const StudyData& data,
+            const UnseenSpreads& spreads,
             const ParameterMap& map,
             const Recorded& recorded,
             const std::vector<TrialRun>& runs,
             const ModelValues& values,
             const std::vector<RunEvaluation>& at)
       : data_(data),
+        spreads_(spreads),
         map_(map),
         recorded_(recorded),
         runs_(runs),
@@ -43,11 +45,11 @@ class Collector {
     const std::string& name = data_.muscles[k].name;
     const Recorded::Range& range = recorded_.muscles[k];
     const double mean = 0.5 * (range.shortest_m + range.longest_m);
-    add(name + ".moment_arm", Source::geometry, beliefs::kMomentArm.sd);
+    add(name + ".moment_arm", Source::geometry, spreads_.moment_arm);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       column += of.torque + of.by_length * (of.length - mean) + of.by_velocity * of.velocity;
     });
-    add(name + ".moment_arm_slope", Source::geometry, beliefs::kMomentArmSlope.sd);
+    add(name + ".moment_arm_slope", Source::geometry, spreads_.moment_arm_slope);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd x = range.place(of.length);
       column += of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
@@ -59,12 +61,12 @@ class Collector {
   void add_electrodes() {
     const std::size_t channels = map_.channels().size();
     for (std::size_t c = 0; c < channels; ++c) {
-      add(map_.channels()[c] + ".gain_drift", Source::electrodes, beliefs::kGainDrift.sd);
+      add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift);
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
       for (std::size_t other = 0; other < channels; ++other) {
         if (other == c) continue;
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]),
-            Source::electrodes, beliefs::kCrossTalk.sd);
+            Source::electrodes, spreads_.crosstalk);
         for_channel(c, [&](const OfMuscle& of, auto column) {
           column +=
               of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
@@ -74,7 +76,7 @@ class Collector {
   }
 
   void add_torque_scale() {
-    add("torque_scale", Source::torque_scale, beliefs::kTorqueScale.sd);
+    add("torque_scale", Source::torque_scale, spreads_.torque_scale);
     for (std::size_t r = 0; r < runs_.size(); ++r)
       columns_[r].back() = at_[r].signals().torque_nm.array();
   }
@@ -186,8 +188,7 @@ class Collector {
     if (is_free(map_, Scope::muscle, kTendonStrain, muscle) || !(now[kSlack] > 0.0)) return;
     const double elastic = now[kTendonStrain];
     add(setup.name + ".tendon_strain", Source::geometry,
-        elastic > 0.0 ? elastic * beliefs::kTendonStrain.sd
-                      : std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd));
+        elastic > 0.0 ? elastic * beliefs::kTendonStrain.sd : spreads_.tendon_strain);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd force = of.at.muscle(k).force_n.array() / now[kMaxForce];
       column -= of.by_length * now[kSlack] * (1.0 + 5.0 * force).log() / std::log(6.0);
@@ -225,6 +226,7 @@ class Collector {
   }
 
   const StudyData& data_;
+  const UnseenSpreads& spreads_;
   const ParameterMap& map_;
   const Recorded& recorded_;
   const std::vector<TrialRun>& runs_;
@@ -275,7 +277,7 @@ Unseen unseen_quantities(const StudyData& data,
                          const std::vector<TrialRun>& runs,
                          const ModelValues& values,
                          const std::vector<RunEvaluation>& at) {
-  Collector collector(data, map, recorded, runs, values, at);
+  Collector collector(data, options.unseen, map, recorded, runs, values, at);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);

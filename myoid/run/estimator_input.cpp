@@ -90,6 +90,7 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
   return {.muscles = spec.muscles,
           .priors = spec.priors,
           .estimator = spec.estimator,
+          .unseen = study.beliefs,
           .lag = spec.dynamics ? identification::LagChoice::equation_1 : spec.lag,
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,

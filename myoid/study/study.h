@@ -246,6 +246,7 @@ struct Study {
   SharingSpec sharing;
   PhasesSpec phases;
   IdentifySpec identify;
+  identification::UnseenSpreads beliefs;
   std::optional<LoadCellSpec> load_cell;
   std::optional<SyncSpec> sync;  ///< Of the trials that have none of their own.
   std::vector<MuscleSpec> muscles;

@@ -359,6 +359,34 @@ void visit(IdentifySpec& identify, SettingVisitor& v) {
   visit_data(identify, v);
 }
 
+void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
+  constexpr SettingLimits kSpread = within(0.0, 1.0);
+  v.number("moment_arm_sd", beliefs.moment_arm,
+           {.says = "Relative error of the size of a muscle's moment arms; 0 where they were "
+                    "measured.",
+            .limits = kSpread});
+  v.number("moment_arm_slope_sd", beliefs.moment_arm_slope,
+           {.says = "Change of that error from the middle to an end of the recorded lengths.",
+            .limits = kSpread});
+  v.number("tendon_strain", beliefs.tendon_strain,
+           {.says = "Strain at F_max of a tendon that is taken to be rigid.",
+            .limits = within(0.0, 0.2)});
+  v.number("torque_scale_sd", beliefs.torque_scale,
+           {.says = "Relative error of the scale of all torques.", .limits = kSpread});
+  v.number("crosstalk_sd", beliefs.crosstalk,
+           {.says = "Share of another electrode's envelope in an envelope.", .limits = kSpread});
+  v.number(
+      "gain_drift_sd", beliefs.gain_drift,
+      {.says = "Relative change of an EMG channel's gain over the session.", .limits = kSpread});
+  v.number("model_error_sd", beliefs.model_error,
+           {.says = "Relative size of the muscle law's systematic errors.",
+            .limits = {.lower = 0.0, .upper = 1.0, .above_lower = true}});
+  v.number("common_strength", beliefs.common_strength,
+           {.says = "Share of the variance of F_max about the literature that all muscles of the "
+                    "person have in common.",
+            .limits = within(0.0, 0.95)});
+}
+
 void visit(Study& study, SettingVisitor& v) {
   v.table("subject", study.subject, {.says = "The person."});
   v.table("model", study.model, {.says = "The model of the body."});
@@ -373,6 +401,9 @@ void visit(Study& study, SettingVisitor& v) {
   v.table("sharing", study.sharing, {.says = "Force sharing, for method `paper`."});
   v.table("phases", study.phases, {.says = "Warm-up and fatigue."});
   v.table("identify", study.identify, {.says = "The identification."});
+  v.table("beliefs", study.beliefs,
+          {.says = "What is believed about errors that residuals hardly show: estimator "
+                   "`posterior`."});
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
   v.tables("trial", study.trials, {.says = "A recording."});
   v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});

@@ -19,6 +19,7 @@ void visit(LoadCellSpec& cell, SettingVisitor& v);
 void visit(SharingSpec& sharing, SettingVisitor& v);
 void visit(PhasesSpec& phases, SettingVisitor& v);
 void visit(IdentifySpec& identify, SettingVisitor& v);
+void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v);
 
 /// Every table of a study.
 void visit(Study& study, SettingVisitor& v);

@@ -137,6 +137,15 @@ delay_per_channel = true
 angle_sd_deg = 0.1
 angle_rate_sd_degps = 0.7
 max_rate_hz = 50
+[beliefs]
+moment_arm_sd = 0.02
+moment_arm_slope_sd = 0.03
+tendon_strain = 0
+torque_scale_sd = 0.01
+crosstalk_sd = 0
+gain_drift_sd = 0.3
+model_error_sd = 0.05
+common_strength = 0.8
 [[muscle]]
 name = "BIC"
 osim = ["BIClong", "BICshort"]

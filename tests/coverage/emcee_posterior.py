@@ -53,7 +53,11 @@ class Posterior:
         self.unknowns, self.muscles = dump["unknowns"], dump["muscles"]
         get = lambda key: np.array([u[key] for u in self.unknowns])
         self.lower, self.range = get("lower"), get("upper") - get("lower")
-        self.mean, self.sd = get("mean"), get("sd")
+        self.mean, sd = get("mean"), get("sd")
+        strength = get("name") == "max_isometric_force"
+        alike = np.outer(strength, strength) * dump["common_strength"]
+        np.fill_diagonal(alike, 1.0)
+        self.precision = np.linalg.inv(alike * np.outer(sd, sd))
         self.logarithmic = get("logarithmic")
         self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"])
         self.torque_size = dump["torque_size"]
@@ -109,7 +113,8 @@ class Posterior:
         q = 1.0 / (1.0 + np.exp(-x[:p]))
         z = self.lower + self.range * q
         ln_sd, ln_time, ln_kappa, ln_s = x[p:]
-        result = -0.5 * np.sum(((z - self.mean) / self.sd) ** 2) + np.sum(np.log(q * (1.0 - q)))
+        off = z - self.mean
+        result = -0.5 * off @ self.precision @ off + np.sum(np.log(q * (1.0 - q)))
         result -= 0.5 * ((ln_sd - np.log(0.05 * self.torque_size)) / 1.5) ** 2
         result -= 0.5 * (ln_time - np.log(0.3)) ** 2 + 0.5 * (ln_kappa / 0.3) ** 2
         s = np.exp(ln_s)

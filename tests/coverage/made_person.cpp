@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <Eigen/Cholesky>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/arm/planar_elbow.h"
@@ -24,13 +27,24 @@ using namespace identification;
 constexpr double kMargin_s = 0.8;  // of the EMG, before and behind the motion
 constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
 
-/// Draws from the prior of an unknown within its bounds.
-double draw_unknown(const Unknown& of, math::Random& random) {
+/// Draws from the prior of the unknowns within their bounds.
+Eigen::VectorXd draw_unknowns(const std::vector<Unknown>& free, math::Random& random) {
+  const auto p = static_cast<Eigen::Index>(free.size());
+  const Eigen::LLT<Eigen::MatrixXd> precision(
+      prior_precision(free, beliefs::kCommonStrength.value));
   for (int i = 0; i < 10000; ++i) {
-    const double z = of.prior.mean + of.prior.sd * random.normal();
-    if (z > of.bounds.lower && z < of.bounds.upper) return z;
+    Eigen::VectorXd z(p);
+    for (Eigen::Index j = 0; j < p; ++j) z[j] = random.normal();
+    z = precision.matrixU().solve(z).eval();  // of covariance (U'U)^-1
+    bool inside = true;
+    for (Eigen::Index j = 0; j < p; ++j) {
+      const Unknown& of = free[static_cast<std::size_t>(j)];
+      z[j] += of.prior.mean;
+      inside = inside && z[j] > of.bounds.lower && z[j] < of.bounds.upper;
+    }
+    if (inside) return z;
   }
-  return of.start;
+  throw std::runtime_error("no draw of the priors lies within the bounds");
 }
 
 /// Weights of a Gaussian low-pass of -3 dB at this frequency.
@@ -88,9 +102,7 @@ class Maker {
   MadePerson make() {
     set_up();
     const ParameterMap map(person_.data, person_.options);
-    person_.z.resize(map.size());
-    for (Eigen::Index j = 0; j < map.size(); ++j)
-      person_.z[j] = draw_unknown(map.free()[static_cast<std::size_t>(j)], random_);
+    person_.z = draw_unknowns(map.free(), random_);
     const ModelValues values = map.values(person_.z);
     draw_noise();
     if (o_.linear) {

@@ -67,7 +67,7 @@ void write(std::uint64_t seed) {
         j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower,
         u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic);
   }
-  fmt::print("],\"muscles\":[");
+  fmt::print("],\"common_strength\":{:.17g},\"muscles\":[", beliefs::kCommonStrength.value);
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
     fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}",
