@@ -9,6 +9,7 @@ stay as they are, and the script says so. With names only these pictures are mad
 import base64
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -199,6 +200,10 @@ def main(program, work, *names):
     unknown = set(names) - {p.name for p in PICTURES}
     if unknown:
         sys.exit(f"no picture {sorted(unknown)[0]}; there are {', '.join(p.name for p in PICTURES)}")
+    if not shutil.which("chromium"):
+        sys.exit("chromium is not installed (Debian: apt install chromium)")
+    if not Path(program).is_file():
+        sys.exit(f"there is no program {program}; build it first")
     program, work = Path(program).resolve(), Path(work).resolve()
     work.mkdir(parents=True, exist_ok=True)
     browser = Browser()
