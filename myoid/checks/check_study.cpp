@@ -31,6 +31,7 @@
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/plate_quality.h"
 #include "myoid/study/study_model.h"
+#include "myoid/study/trial_videos.h"
 #include "myoid/tables/csv_reader.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -61,6 +62,7 @@ class StudyCheck {
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
     }
+    attempt("video", [&] { require_videos(study_); });
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }

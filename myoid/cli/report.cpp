@@ -6,6 +6,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/held_folders.h"
 #include "myoid/cli/mat_option.h"
+#include "myoid/cli/video_options.h"
 #include "myoid/core/json_text.h"
 
 namespace myoid::cli {
@@ -18,6 +19,7 @@ void add_report(CLI::App& app, Context& context) {
                           "Example: myoid report results");
   const auto o = std::make_shared<commands::ReportOptions>();
   command.add_option("folder", o->folder, "Folder of a run (with run.json)")->required();
+  add_video_options(command, o->video);
   const MatOption mat(command);
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o, mat] {

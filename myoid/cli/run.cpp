@@ -9,6 +9,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/cli/mat_option.h"
+#include "myoid/cli/video_options.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -148,6 +149,7 @@ void add_run(CLI::App& app, Context& context) {
                   "least_squares or posterior, in place of the study's")
       ->transform(one_of<identification::EstimatorKind>());
   command.add_option("--out", *out, "Folder of the results")->required();
+  add_video_options(command, options->video);
   const MatOption mat(command);
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context, {.seed = false});

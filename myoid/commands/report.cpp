@@ -4,16 +4,16 @@
 #include "myoid/results/study_report.h"
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/run_study.h"
-#include "myoid/study/read_study.h"
 #include "myoid/study/run_record.h"
 #include "myoid/study/study_text.h"
+#include "myoid/study/trial_videos.h"
 
 namespace myoid::commands {
 ReportResult report(const ReportOptions& o) {
   const RunRecord run = read_run_record(o.folder);
   ReportResult result;
   result.study =
-      run_study(read_study(run.study),
+      run_study(read_filmed_study(run.study, o.video),
                 {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress});
   refuse_changed(result.study.source.files, run);
   result.provenance.command = run.command.empty() ? o.call.command : run.command;
@@ -23,7 +23,7 @@ ReportResult report(const ReportOptions& o) {
 }
 
 void write_report(const ReportResult& result, const std::filesystem::path& folder) {
-  const report::Workbench workbench = study_workbench(result.study);
+  const report::Workbench workbench = study_workbench(result.study, folder);
   report::write_report(study_report(result.study, result.provenance), folder, &workbench);
 }
 

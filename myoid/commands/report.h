@@ -13,6 +13,7 @@ namespace myoid::commands {
 struct ReportOptions {
   Call call;
   std::string folder;  ///< Folder of the run, with run.json.
+  VideoChoice video;   ///< In place of the films that the study names.
 };
 
 struct ReportResult {

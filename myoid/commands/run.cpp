@@ -11,8 +11,8 @@
 #include "myoid/results/study_workbench.h"
 #include "myoid/run/quality_gates.h"
 #include "myoid/run/run_study.h"
-#include "myoid/study/read_study.h"
 #include "myoid/study/study_text.h"
+#include "myoid/study/trial_videos.h"
 
 namespace myoid::commands {
 namespace {
@@ -59,7 +59,7 @@ bool RunResult::failed(bool strict) const {
 RunResult run(const RunOptions& o) {
   Remarks remarks(o.call);
   RunResult result;
-  Study study = read_study(o.study);
+  Study study = read_filmed_study(o.study, o.video);
   if (o.estimator) study.identify.estimator = *o.estimator;
   result.study = run_study(study, {.start_s = o.call.start_s,
                                    .end_s = o.call.end_s,
@@ -77,7 +77,7 @@ RunResult run(const RunOptions& o) {
 void write_run(const RunResult& result, const std::filesystem::path& folder) {
   remove_results(folder);
   write_results(result.study, result.provenance, folder);
-  const report::Workbench workbench = study_workbench(result.study);
+  const report::Workbench workbench = study_workbench(result.study, folder);
   report::write_report(study_report(result.study, result.provenance), folder, &workbench);
 }
 

@@ -22,6 +22,7 @@ struct RunOptions {
   Call call;
   std::string study;                                       ///< study.toml
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
+  VideoChoice video;                                       ///< In place of the study's films.
   std::optional<std::filesystem::path> store;  ///< Where stages are kept between runs; or nowhere.
 };
 
@@ -39,8 +40,7 @@ struct RunResult {
 
 [[nodiscard]] RunResult run(const RunOptions& options);
 
-/// Writes all results, the report and the page with the moving model, in the place of the files of
-/// an earlier run.
+/// Writes all results and the report, in the place of the files of an earlier run.
 void write_run(const RunResult& result, const std::filesystem::path& folder);
 
 }  // namespace myoid::commands

@@ -95,6 +95,7 @@ ordered_json trial_json(const WorkbenchTrial& trial) {
          {"text", mark.text}});
   }
   for (const MuscleDrive& drive : trial.drives) j["drives"].push_back(drive_json(drive));
+  if (!trial.video.empty()) j["video"] = {{"file", trial.video}, {"offset", trial.video_offset_s}};
   return j;
 }
 

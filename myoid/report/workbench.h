@@ -67,6 +67,8 @@ struct WorkbenchTrial {
   std::vector<CarpetRow> carpet{};
   std::vector<TrialMark> marks{};
   std::vector<MuscleDrive> drives{};  ///< One for each of Workbench::muscles, or empty.
+  std::string video{};                ///< Path of a film, from the report's folder; empty: none.
+  double video_offset_s = 0.0;        ///< Time of the trial at which the film begins.
 };
 
 /// A number of a muscle that the page can move.

@@ -401,9 +401,17 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   return shown;
 }
 
+/// A browser takes the parts of a path as they are written, without looking for links.
+std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  return whole(file).lexically_relative(whole(folder / "")).generic_string();
+}
+
 }  // namespace
 
-report::Workbench study_workbench(const StudyResult& result) {
+report::Workbench study_workbench(const StudyResult& result, const std::filesystem::path& folder) {
   report::Workbench workbench{.scenes = study_scenes(result)};
   const IdentificationResult* fit = fit_of(result);
   const auto& muscles = result.fit_input.data.muscles;
@@ -417,6 +425,8 @@ report::Workbench study_workbench(const StudyResult& result) {
   for (const TrialResult& trial : result.trials) {
     WorkbenchTrial shown = shown_trial(result, fit, outlying, trial, most);
     if (trial.has_motion()) shown.scene = scene++;
+    if (trial.spec.video) shown.video = path_from(folder, *trial.spec.video);
+    shown.video_offset_s = trial.spec.video_offset_s;
     if (!shown.plots.empty() || shown.scene >= 0 || shown.badge == Badge::bad)
       workbench.trials.push_back(std::move(shown));
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "myoid/report/workbench.h"
 #include "myoid/run/study_result.h"
 
@@ -9,7 +11,9 @@ namespace myoid {
 /// EMG, activations and muscle forces as the result files hold them, its channels at a glance, the
 /// faults found in them, and the muscles whose numbers the reader can move. A plot has at most
 /// 15,000 samples over all trials (of one trial at least 250): every k-th sample of the file, raw
-/// EMG as its least and greatest value in equal stretches.
-[[nodiscard]] report::Workbench study_workbench(const StudyResult& result);
+/// EMG as its least and greatest value in equal stretches. A trial's film has its path from
+/// `folder`, in which the report lies.
+[[nodiscard]] report::Workbench study_workbench(const StudyResult& result,
+                                                const std::filesystem::path& folder);
 
 }  // namespace myoid

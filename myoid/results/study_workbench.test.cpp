@@ -44,7 +44,7 @@ StudyResult one_trial() {
 }
 
 TEST(StudyWorkbench, ShowsEverySampleOrEveryNthOfTheFiles) {
-  const report::Workbench workbench = study_workbench(one_trial());
+  const report::Workbench workbench = study_workbench(one_trial(), "results");
   EXPECT_NO_THROW(report::validate(workbench));
   ASSERT_EQ(workbench.trials.size(), 1U);
   const report::WorkbenchTrial& trial = workbench.trials[0];
@@ -58,7 +58,7 @@ TEST(StudyWorkbench, ShowsEverySampleOrEveryNthOfTheFiles) {
   // Of many trials the same samples are thinned to values of the files.
   StudyResult many = one_trial();
   many.trials.resize(30, many.trials[0]);
-  const report::WorkbenchTrial thin = study_workbench(many).trials[7];
+  const report::WorkbenchTrial thin = study_workbench(many, "results").trials[7];
   const report::TimeLine& few = plot(thin, "torque").lines[0];
   const Eigen::VectorXd& times = thin.clocks[static_cast<std::size_t>(few.clock)];
   EXPECT_LE(times.size(), 500);
@@ -67,7 +67,7 @@ TEST(StudyWorkbench, ShowsEverySampleOrEveryNthOfTheFiles) {
 }
 
 TEST(StudyWorkbench, MarksAFaultOnItsChannelAndOnTheTrial) {
-  const report::WorkbenchTrial trial = study_workbench(one_trial()).trials[0];
+  const report::WorkbenchTrial trial = study_workbench(one_trial(), "results").trials[0];
   EXPECT_EQ(trial.badge, report::Badge::weak);
   ASSERT_EQ(trial.marks.size(), 1U);
   EXPECT_EQ(trial.marks[0].about, "BIC");
@@ -85,10 +85,23 @@ TEST(StudyWorkbench, ATrialThatFailedIsListedWithItsReason) {
   result.trials[0] = TrialResult{};
   result.trials[0].spec.name = "lost";
   result.trials[0].motion.failure = "no markers";
-  const report::WorkbenchTrial trial = study_workbench(result).trials.at(0);
+  const report::WorkbenchTrial trial = study_workbench(result, "results").trials.at(0);
   EXPECT_EQ(trial.badge, report::Badge::bad);
   EXPECT_EQ(trial.scene, -1);
   EXPECT_THAT(trial.remarks.at(0), testing::HasSubstr("no markers"));
+}
+
+TEST(StudyWorkbench, AFilmHasItsPathFromTheReport) {
+  StudyResult result = one_trial();
+  const auto path = [&](const char* video, const char* folder) {
+    result.trials[0].spec.video = video;
+    return study_workbench(result, folder).trials[0].video;
+  };
+  EXPECT_EQ(path("rec/films/a b.mp4", "out/first"), "../../rec/films/a b.mp4");
+  EXPECT_EQ(path("rec/a.mp4", "rec/"), "a.mp4");
+  EXPECT_EQ(path("/rec/a.mp4", "/rec/out/."), "../a.mp4");
+  result.trials[0].spec.video_offset_s = -2.5;
+  EXPECT_EQ(study_workbench(result, "out").trials[0].video_offset_s, -2.5);
 }
 
 }  // namespace

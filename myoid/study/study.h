@@ -186,9 +186,17 @@ struct TrialSpec {
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
   std::string condition;  ///< Trials of one condition are left out together by folds = "condition".
-  std::optional<double> start_s, end_s;  ///< On the clock of the motion.
+  std::optional<double> start_s, end_s;        ///< On the clock of the motion.
+  std::optional<std::filesystem::path> video;  ///< Film of the trial; the report shows it.
+  double video_offset_s = 0.0;  ///< Time of the film's begin, on the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;
+};
+
+/// Films that a command line adds to the trials of a study.
+struct VideoChoice {
+  std::vector<std::string> files;  ///< "TRIAL=FILE", or "FILE" for a study of one movement.
+  std::optional<double> offset_s;  ///< Of each of `files`: when it begins, on the motion's clock.
 };
 
 struct SharingSpec {

@@ -184,6 +184,12 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   v.must(!trial.start_s || !trial.end_s || *trial.start_s < *trial.end_s, "end_s",
          fmt::format("found {} s, expected a time after start_s = {} s", trial.end_s.value_or(0.0),
                      trial.start_s.value_or(0.0)));
+  v.path(
+      "video", trial.video,
+      {.says = "Film of the trial, which the [report](report.md#the-workbench) shows beside the "
+               "model: a format that browsers play (`.mp4`, `.webm`). No number depends on it."});
+  v.number("video_offset_s", trial.video_offset_s,
+           {.says = "When the film begins, in seconds of the motion.", .limits = any_number("s")});
   visit_clock(trial, v);
 }
 

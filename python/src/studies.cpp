@@ -87,6 +87,8 @@ py::dict run(py::dict given) {
   k.word("estimator", estimator, {"least_squares", "posterior"});
   k.take("out", out);
   k.take("mat", mat);
+  k.take("video", o.video.files);
+  k.take("video_offset", o.video.offset_s);
   k.take("overwrite", overwrite);
   k.refuse_others();
   if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);

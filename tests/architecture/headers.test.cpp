@@ -24,6 +24,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/cli/held_folders.h", "folders of results, exercised by running the program"},
     {"myoid/cli/help_files.h", "exercised by running the program"},
     {"myoid/cli/mat_option.h", "exercised by running the program"},
+    {"myoid/cli/video_options.h", "exercised by running the program"},
     {"myoid/cli/options.h", "exercised by running the program"},
     {"myoid/cli/cohort_run.h", "exercised by running the program"},
     {"myoid/commands/check.h", "exercised by running the program"},

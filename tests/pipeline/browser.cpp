@@ -216,7 +216,8 @@ std::vector<std::string> Browser::complaints() {
     if (method == "Log.entryAdded") found.push_back(event["params"]["entry"].value("text", ""));
     if (method == "Network.requestWillBeSent") {
       const std::string url = event["params"]["request"].value("url", "");
-      const bool own = url.starts_with("file:") && event["params"].value("type", "") == "Document";
+      const std::string type = event["params"].value("type", "");
+      const bool own = url.starts_with("file:") && (type == "Document" || type == "Media");
       if (!own && !url.starts_with("about:")) found.push_back("request of " + url);
     }
   }

@@ -42,8 +42,8 @@ class Browser {
   /// The page as PDF on the paper that its style asks for.
   [[nodiscard]] std::string pdf();
 
-  /// Errors and warnings of the console, exceptions, and requests beyond the page's own file, so
-  /// far.
+  /// Errors and warnings of the console, exceptions, and requests beyond the page's own
+  /// file and films of this computer, so far.
   [[nodiscard]] std::vector<std::string> complaints();
 
  private:

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/files/atomic_file.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/math/random.h"
 #include "myoid/tables/storage_reader.h"
@@ -305,6 +306,80 @@ TEST_F(WorkbenchPage, TheSlidersMoveTheTorqueByTheLaw) {
   js("(() => { const s = myoid.learn.inputs[0].input; s.value = s.min; s.dispatchEvent(new "
      "Event('input')); })()");
   EXPECT_NE(js("myoid.learn.fit.textContent").get<std::string>(), sentence);
+}
+
+/// A film of two seconds, recorded by the browser.
+std::string recorded_film(Browser& browser) {
+  const std::string text = browser.evaluate(
+      "new Promise((done) => { const c = document.createElement('canvas'); c.width = 64; c.height "
+      "= "
+      "48; const pen = c.getContext('2d'); let k = 0; const timer = setInterval(() => { "
+      "pen.fillStyle "
+      "= `hsl(${++k * 5}, 90%, 50%)`; pen.fillRect(0, 0, 64, 48); }, 30);"
+      "const r = new MediaRecorder(c.captureStream(25), {mimeType: 'video/webm'}); const parts = "
+      "[];"
+      "r.ondataavailable = (e) => parts.push(e.data);"
+      "r.onstop = async () => { clearInterval(timer); const bytes = new Uint8Array(await new "
+      "Blob(parts).arrayBuffer()); done([...bytes].map((b) => b.toString(16).padStart(2, "
+      "'0')).join('')); }; r.start(); setTimeout(() => r.stop(), 2000); })");
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(text.substr(i, 2), nullptr, 16));
+  return bytes;
+}
+
+TEST_F(WorkbenchPage, AFilmFollowsTheTimeOfTheBody) {
+  const std::string film = *folder_ / "rec/swing #1.webm";
+  myoid::recording::write_file(film, recorded_film(*browser_));
+  const std::filesystem::path out = *folder_ / "filmed";
+  std::filesystem::copy(*folder_ / "result", out, std::filesystem::copy_options::recursive);
+  const auto report =
+      myoid({"report", out, "--video", "swing_2kg=" + film, "--video-offset", "1.5"});
+  ASSERT_EQ(report.exit_code, 0) << report.err;
+  browser_->open("file://" + out.string() + "/report.html#trial=swing_2kg&t=2.5");
+  browser_->wait_for("!myoid.video.film.hidden && !myoid.video.film.seeking");
+  EXPECT_EQ(js("myoid.video.film.videoWidth"), 64);
+  const auto shown_s = [] {
+    browser_->wait_for("!myoid.video.film.seeking");
+    return js("myoid.video.film.currentTime").get<double>();
+  };
+  EXPECT_NEAR(shown_s(), 2.5 - 1.5, 0.01);
+  // A click moves body and film; a new offset moves the film alone.
+  const Place place = plot("angle", "elbow flexion");
+  browser_->click(std::round(x_of(place, 1.9)), place.top + 0.4 * place.height);
+  EXPECT_NEAR(shown_s(), js("myoid.t").get<double>() - 1.5, 0.01);
+  js("(() => { myoid.video.offset.value = 1; myoid.video.offset.dispatchEvent(new Event('input')); "
+     "})()");
+  EXPECT_NEAR(shown_s(), js("myoid.t").get<double>() - 1.0, 0.01);
+  // Ahead of its begin the film stands pale at its first picture.
+  js("myoid.seek(0.2)");
+  EXPECT_EQ(shown_s(), 0.0);
+  EXPECT_EQ(js("myoid.video.film.classList.contains('outside')"), true);
+  // Another trial has no film; the first keeps the reader's offset.
+  js("myoid.open(myoid.index ? 0 : 1)");
+  EXPECT_EQ(js("myoid.video.film.hidden && myoid.video.says.hidden"), true);
+  js("myoid.open(myoid.trials.findIndex((t) => t.name === 'swing_2kg'))");
+  EXPECT_EQ(js("myoid.video.offset.value"), "1");
+  browser_->wait_for("!myoid.video.film.hidden");
+}
+
+TEST_F(WorkbenchPage, AFilmThatIsMissingIsNamed) {
+  const std::string film = *folder_ / "rec/lost.webm";
+  const std::filesystem::path out = *folder_ / "lost";
+  std::filesystem::copy(*folder_ / "result", out, std::filesystem::copy_options::recursive);
+  const auto refused = myoid({"report", out, "--video", "swing_2kg=" + film});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("lost.webm"), HasSubstr("'swing_2kg'")));
+  // The film goes away after the report is made.
+  myoid::recording::write_file(film, "no film");
+  ASSERT_EQ(myoid({"report", out, "--video", "swing_2kg=" + film}).exit_code, 0);
+  std::filesystem::remove(film);
+  Browser browser(1280, 900);  // its console names the file that it did not find
+  browser.open("file://" + out.string() + "/report.html#trial=swing_2kg&t=2.5");
+  browser.wait_for("!myoid.video.says.hidden");
+  EXPECT_EQ(browser.evaluate("myoid.video.film.hidden"), true);
+  EXPECT_THAT(browser.evaluate("myoid.video.says.textContent").get<std::string>(),
+              testing::AllOf(HasSubstr("../rec/lost.webm"), HasSubstr("opens another file")));
 }
 
 TEST_F(WorkbenchPage, FitsTheWindowAtEveryWidth) {

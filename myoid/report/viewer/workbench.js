@@ -101,7 +101,7 @@ export class Workbench {
     this.color = el('span');
     this.video = new Video(() => this.#sync());
     this.parts = el('details', { className: 'parts' });
-    this.side = el('div', { className: 'left' }, this.stage,
+    this.side = el('div', { className: 'left' }, this.stage, this.video.screen,
       el('div', { className: 'row' }, this.play, this.scrub), el('div', { className: 'row' }, this.time, speed, this.color),
       el('div', { className: 'row small' }, button('Picture', 'Save the body as a PNG picture', () => this.picture()),
         button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.video.element, this.parts));
@@ -178,6 +178,7 @@ export class Workbench {
     }
     this.canvas.hidden = !this.replay || trial.scene < 0;
     if (this.replay) this.still.hidden = trial.scene >= 0;
+    this.video.open(trial);
     this.carpet.domain = this.domain;
     this.carpet.view = null;
     this.carpet.open(trial);
