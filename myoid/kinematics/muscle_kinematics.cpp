@@ -35,7 +35,8 @@ class MuscleFrames {
         surrogates_(surrogates),
         tables_(tables),
         state_(model::make_state(model)),
-        is_coupled_(!model.couplers.empty() || !model.constraints.empty()) {}
+        is_coupled_(!model.couplers.empty() || !model.constraints.empty()),
+        surrogate_workspaces_(surrogates != nullptr ? surrogates->size() : 0) {}
 
   void compute(const JointMotion& motion, Eigen::Index frame) {
     model::compute_poses(model_, motion.q.values().row(frame).transpose(), state_);
@@ -59,7 +60,7 @@ class MuscleFrames {
   void compute_path(std::size_t muscle) {
     const PathSurrogate* surrogate = surrogates_ ? &(*surrogates_)[muscle] : nullptr;
     if (surrogate && surrogate->within_tolerance && covers(model_, *surrogate, state_.q)) {
-      evaluate(*surrogate, state_.q, state_.qdot, surrogate_workspace_, path_);
+      evaluate(*surrogate, state_.q, state_.qdot, surrogate_workspaces_[muscle], path_);
       ++from_surrogates_;
     } else {
       model::compute_path(model_, model_.muscles[muscle].path, state_, workspace_, path_);
@@ -74,7 +75,7 @@ class MuscleFrames {
   Eigen::MatrixXd coupling_;
   model::PathWorkspace workspace_;
   model::PathResult path_;
-  SurrogateWorkspace surrogate_workspace_;
+  std::vector<SurrogateWorkspace> surrogate_workspaces_;  ///< By muscle: degrees differ.
   long from_surrogates_ = 0;
 };
 

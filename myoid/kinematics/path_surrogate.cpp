@@ -1,9 +1,11 @@
 #include "myoid/kinematics/path_surrogate.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -37,6 +39,13 @@ void prepare(int dimensions, int degree, SurrogateWorkspace& w) {
   w.exponents = exponents(dimensions, degree);
   w.value.resize(degree + 1, dimensions);
   w.slope.resize(degree + 1, dimensions);
+  w.nested.resize(static_cast<std::size_t>(w.exponents.rows()));
+  std::iota(w.nested.begin(), w.nested.end(), Eigen::Index{0});
+  std::sort(w.nested.begin(), w.nested.end(), [&](Eigen::Index a, Eigen::Index b) {
+    const auto row_a = w.exponents.row(a), row_b = w.exponents.row(b);
+    return std::lexicographical_compare(row_a.begin(), row_a.end(), row_b.begin(), row_b.end());
+  });
+  w.sums.resize(dimensions + 1, std::max(dimensions, 1));
   w.degree = degree;
   w.dimensions = dimensions;
 }
@@ -58,6 +67,76 @@ void fill_tables(const PathSurrogate& s,
       w.slope(k, i) =
           4.0 / width * w.value(k - 1, i) + 2.0 * x * w.slope(k - 1, i) - w.slope(k - 2, i);
     }
+  }
+}
+
+/// A part of the polynomial in the coordinates from `level` on: the terms from `term` on, whose
+/// exponents of these coordinates sum to `left` at most.
+///
+///   S_level = sum_e T_e(x_level) S_level+1(left - e)
+///
+/// One product a term instead of one for each term and coordinate. `sum` gets the value and the
+/// derivatives by x_level, x_level+1, ... `kBelow`: the number of coordinates after `level`; the
+/// compiler then unrolls the usual muscles of up to four coordinates.
+template <int kBelow>
+void add_up(const PathSurrogate& s,
+            const SurrogateWorkspace& w,
+            Eigen::Index level,
+            int left,
+            const Eigen::Index*& term,
+            double* sum) {
+  const double* const value = w.value.data() + level * w.value.rows();
+  const double* const slope = w.slope.data() + level * w.slope.rows();
+  std::array<double, kBelow + 2> total{};
+  for (int e = 0; e <= left; ++e) {
+    if constexpr (kBelow == 0) {
+      const double c = s.coefficient_m[*term++];
+      total[0] += c * value[e];
+      total[1] += c * slope[e];
+    } else {
+      std::array<double, kBelow + 1> part;
+      add_up<kBelow - 1>(s, w, level + 1, left - e, term, part.data());
+      total[0] += value[e] * part[0];
+      total[1] += slope[e] * part[0];
+      for (std::size_t i = 1; i <= kBelow; ++i) total[1 + i] += value[e] * part[i];
+    }
+  }
+  std::copy(total.begin(), total.end(), sum);
+}
+
+/// The same for any number of coordinates.
+void add_up_many(const PathSurrogate& s,
+                 SurrogateWorkspace& w,
+                 Eigen::Index level,
+                 int left,
+                 const Eigen::Index*& term) {
+  const Eigen::Index below = w.value.cols() - level - 1;
+  double* const sum = w.sums.col(level).data();
+  if (below == 3) return add_up<3>(s, w, level, left, term, sum);
+  std::fill(sum, sum + below + 2, 0.0);
+  for (int e = 0; e <= left; ++e) {
+    add_up_many(s, w, level + 1, left - e, term);
+    const double* const part = w.sums.col(level + 1).data();
+    const double value = w.value(e, level);
+    sum[0] += value * part[0];
+    sum[1] += w.slope(e, level) * part[0];
+    for (Eigen::Index i = 1; i <= below; ++i) sum[1 + i] += value * part[i];
+  }
+}
+
+/// Value of the polynomial and its derivatives by all coordinates, in the first column of `sums`.
+void add_up_all(const PathSurrogate& s, SurrogateWorkspace& w) {
+  const Eigen::Index* term = w.nested.data();
+  double* const sum = w.sums.data();
+  switch (w.value.cols()) {
+    case 1:
+      return add_up<0>(s, w, 0, s.degree, term, sum);
+    case 2:
+      return add_up<1>(s, w, 0, s.degree, term, sum);
+    case 3:
+      return add_up<2>(s, w, 0, s.degree, term, sum);
+    default:
+      return add_up_many(s, w, 0, s.degree, term);
   }
 }
 
@@ -373,26 +452,22 @@ void evaluate(const PathSurrogate& surrogate,
   const auto d = static_cast<Eigen::Index>(surrogate.coordinates.size());
   prepare(static_cast<int>(d), surrogate.degree, workspace);
   fill_tables(surrogate, q, workspace);
-  result.length_m = 0.0;
   result.speed_mps = 0.0;
   result.wrapped = false;
   result.settled = true;
   result.moment_arm_m.setZero(q.size());
-  for (Eigen::Index k = 0; k < surrogate.coefficient_m.size(); ++k) {
-    const double c = surrogate.coefficient_m[k];
-    double value = c;
-    for (Eigen::Index i = 0; i < d; ++i) value *= workspace.value(workspace.exponents(k, i), i);
-    result.length_m += value;
-    for (Eigen::Index i = 0; i < d; ++i) {
-      if (workspace.exponents(k, i) == 0) continue;
-      double slope = c * workspace.slope(workspace.exponents(k, i), i);
-      for (Eigen::Index j = 0; j < d; ++j) {
-        if (j != i) slope *= workspace.value(workspace.exponents(k, j), j);
-      }
-      result.moment_arm_m[surrogate.coordinates[at(i)]] -= slope;
-    }
+  if (d == 0) {
+    result.length_m = surrogate.coefficient_m[0];
+    return;
   }
-  for (const int c : surrogate.coordinates) result.speed_mps -= result.moment_arm_m[c] * qdot[c];
+  add_up_all(surrogate, workspace);
+  result.length_m = workspace.sums(0, 0);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const int c = surrogate.coordinates[at(i)];
+    const double by_q = workspace.sums(1 + i, 0);
+    result.moment_arm_m[c] = -by_q;
+    result.speed_mps += by_q * qdot[c];
+  }
 }
 
 }  // namespace myoid::kinematics

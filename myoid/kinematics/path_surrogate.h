@@ -64,10 +64,13 @@ struct SurrogateOptions {
 [[nodiscard]] std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
                                                         const SurrogateOptions& options = {});
 
-/// Space for `evaluate`, reused from call to call without allocation; one per thread.
+/// Space for `evaluate`, reused without allocation for muscles of one degree and one number of
+/// coordinates; one per thread.
 struct SurrogateWorkspace {
   Eigen::MatrixXd value, slope;  ///< Chebyshev polynomials and derivatives: degree x coordinate.
   Eigen::MatrixXi exponents;
+  std::vector<Eigen::Index> nested;  ///< The terms in the order of their exponents, last fastest.
+  Eigen::MatrixXd sums;              ///< Of each coordinate: a sum and its derivatives.
   int degree = -1, dimensions = -1;
 };
 

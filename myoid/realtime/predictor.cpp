@@ -21,8 +21,8 @@ bool in_range(const kinematics::PathSurrogate& path, const Eigen::VectorXd& q) {
   return true;
 }
 
-/// Force of a muscle at the workspace's paths and activations, its slopes by its chains and its
-/// standard deviation.
+/// Force of a muscle at the workspace's paths and activations, and its slopes by its chains and
+/// those of its channel.
 void predict_muscle(const Predictor& p, std::size_t m, PredictorWorkspace& w) {
   const Predictor::Muscle& muscle = p.muscles[m];
   double length_m = 0.0, velocity_mps = 0.0;
@@ -32,60 +32,54 @@ void predict_muscle(const Predictor& p, std::size_t m, PredictorWorkspace& w) {
   }
   const identification::Activation& a = w.activations[muscle.channel];
   const Tension t = identification::tension(a.value, length_m, velocity_mps, muscle.values);
-  Eigen::VectorXd& slopes = w.slopes[m];
-  Eigen::Index k = 0;
+  double* slope = w.bands.slopes_of(m);
   for (const Predictor::Chain& c : muscle.chains)
-    slopes[k++] = t.by_field[static_cast<std::size_t>(c.field)] * c.slope;
+    *slope++ = t.by_field[static_cast<std::size_t>(c.field)] * c.slope;
   for (const Predictor::Chain& c : p.channels[muscle.channel].chains)
-    slopes[k++] = t.by_activation * a.by_field[static_cast<std::size_t>(c.field)] * c.slope;
+    *slope++ = t.by_activation * a.by_field[static_cast<std::size_t>(c.field)] * c.slope;
   w.force_n[static_cast<Eigen::Index>(m)] = t.force_n;
 }
 
-/// Calls `f(variable, slope)` for every chain of a muscle and its channel.
-template <typename F>
-void each_slope(const Predictor& p, std::size_t m, const PredictorWorkspace& w, const F& f) {
-  const Predictor::Muscle& muscle = p.muscles[m];
-  Eigen::Index k = 0;
-  for (const Predictor::Chain& c : muscle.chains) f(c.variable, w.slopes[m][k++]);
-  for (const Predictor::Chain& c : p.channels[muscle.channel].chains)
-    f(c.variable, w.slopes[m][k++]);
-}
-
-double force_variance(const Predictor& p, std::size_t m, const PredictorWorkspace& w) {
-  double variance = 0.0;
-  each_slope(p, m, w, [&](Eigen::Index i, double by_i) {
-    each_slope(p, m, w,
-               [&](Eigen::Index j, double by_j) { variance += by_i * p.covariance(i, j) * by_j; });
-  });
-  return variance;
-}
-
-void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w, bool with_bands) {
+/// Torque of a joint, with the moment arms and the joint's own slopes for the bands.
+void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
   using namespace identification;
   const Predictor::Joint& joint = p.joints[j];
   const auto column = static_cast<Eigen::Index>(j);
   double torque = 0.0;
   for (std::size_t m = 0; m < p.muscles.size(); ++m) {
+    const auto row = static_cast<Eigen::Index>(m);
     double arm_m = 0.0;
     for (const Predictor::Head& head : p.muscles[m].heads)
       arm_m += head.weight * w.paths[head.path].moment_arm_m[joint.coordinate];
-    torque += arm_m * w.force_n[static_cast<Eigen::Index>(m)];
-    if (!with_bands) continue;
-    each_slope(p, m, w, [&](Eigen::Index variable, double slope) {
-      w.by_variable(variable, column) += arm_m * slope;
-    });
+    torque += arm_m * w.force_n[row];
+    w.bands.arms(row, column) = arm_m;
   }
   const double angle = w.q[joint.coordinate], speed = w.qdot[joint.coordinate];
   // T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset; nobody accelerates here.
   const JointValues by{-speed, 0.0, -angle, 1.0};
   for (std::size_t f = 0; f < by.size(); ++f) torque += by[f] * joint.values[f];
   w.torque_nm[column] = torque;
-  if (!with_bands) return;
+  double* slope = w.bands.slopes_of(p.muscles.size() + j);
   for (const Predictor::Chain& c : joint.chains)
-    w.by_variable(c.variable, column) += by[static_cast<std::size_t>(c.field)] * c.slope;
-  w.moved.noalias() = p.covariance * w.by_variable.col(column);
-  const double variance = w.by_variable.col(column).dot(w.moved);
-  w.torque_sd_nm[column] = std::sqrt(std::max(variance, 0.0) + p.torque_sd_nm * p.torque_sd_nm);
+    *slope++ = by[static_cast<std::size_t>(c.field)] * c.slope;
+}
+
+/// The unknowns of the chains of each muscle with its channel's, then of each joint.
+BandSpace band_space(const Predictor& p) {
+  std::vector<std::vector<Eigen::Index>> variables;
+  const auto add = [&](const std::vector<Predictor::Chain>& chains) {
+    for (const Predictor::Chain& c : chains) variables.back().push_back(c.variable);
+  };
+  for (const Predictor::Muscle& muscle : p.muscles) {
+    variables.emplace_back();
+    add(muscle.chains);
+    add(p.channels[muscle.channel].chains);
+  }
+  for (const Predictor::Joint& joint : p.joints) {
+    variables.emplace_back();
+    add(joint.chains);
+  }
+  return {p.covariance, variables, p.joints.size()};
 }
 
 }  // namespace
@@ -104,11 +98,7 @@ PredictorWorkspace workspace_for(const Predictor& p) {
   w.paths.resize(p.paths.size());
   w.activations.resize(p.channels.size());
   w.following.resize(p.channels.size());
-  for (const Predictor::Muscle& muscle : p.muscles)
-    w.slopes.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(
-        muscle.chains.size() + p.channels[muscle.channel].chains.size())));
-  w.by_variable.setZero(p.covariance.rows(), joints);
-  w.moved.setZero(p.covariance.rows());
+  w.bands = band_space(p);
   // The tables get their sizes here.
   for (std::size_t i = 0; i < p.paths.size(); ++i)
     kinematics::evaluate(p.paths[i], w.q, w.qdot, w.tables[i], w.paths[i]);
@@ -185,14 +175,13 @@ Prediction predict(const Predictor& p,
   }
   for (std::size_t c = 0; c < p.channels.size(); ++c)
     w.activations[c] = activation_at(envelope[c], p.channels[c].values);
-  for (std::size_t m = 0; m < p.muscles.size(); ++m) {
-    predict_muscle(p, m, w);
-    if (with_bands)
-      w.force_sd_n[static_cast<Eigen::Index>(m)] =
-          std::sqrt(std::max(force_variance(p, m, w), 0.0));
-  }
-  w.by_variable.setZero();
-  for (std::size_t j = 0; j < p.joints.size(); ++j) predict_joint(p, j, w, with_bands);
+  for (std::size_t m = 0; m < p.muscles.size(); ++m) predict_muscle(p, m, w);
+  for (std::size_t j = 0; j < p.joints.size(); ++j) predict_joint(p, j, w);
+  if (!with_bands) return Prediction::done;
+  w.bands.compute(p.covariance);
+  w.force_sd_n = w.bands.force_variance.cwiseMax(0.0).cwiseSqrt();
+  w.torque_sd_nm =
+      (w.bands.torque_variance.array().max(0.0) + p.torque_sd_nm * p.torque_sd_nm).sqrt();
   return Prediction::done;
 }
 

@@ -12,6 +12,7 @@
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/kinematics/path_surrogate.h"
 #include "myoid/model/path_stations.h"
+#include "myoid/realtime/band_space.h"
 
 namespace myoid {
 
@@ -79,9 +80,7 @@ struct PredictorWorkspace {
   std::vector<kinematics::SurrogateWorkspace> tables;
   std::vector<model::PathResult> paths;
   std::vector<identification::Activation> activations;
-  std::vector<Eigen::VectorXd> slopes;  ///< Of each muscle's force by its chains.
-  Eigen::MatrixXd by_variable;          ///< Unknowns x joints.
-  Eigen::VectorXd moved;                ///< Covariance times a column of `by_variable`.
+  BandSpace bands;
 };
 [[nodiscard]] PredictorWorkspace workspace_for(const Predictor& predictor);
 

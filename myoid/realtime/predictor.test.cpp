@@ -105,37 +105,88 @@ TEST(Predictor, HasTheForcesOfHillsMuscleAndTheTorqueOfTheirMomentArms) {
               1e-10);
 }
 
-/// Differences of the whole prediction in each unknown against its exact derivatives.
-TEST(Predictor, HasTheBandThatDifferencesInTheUnknownsGive) {
-  const Predictor p = elbow();
-  const PredictorWorkspace w = predicted(p);
-  Eigen::VectorXd by_torque(6);
-  Eigen::MatrixXd by_force(6, 2);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+/// A leg of two joints, whose muscles cross one or both and share some unknowns: `own` unknowns of
+/// each muscle are its own, the others serve several.
+Predictor leg(int muscles, int own, int shared) {
+  Predictor p;
+  const int unknowns = muscles * own + shared;
+  for (int m = 0; m < muscles; ++m) {
+    kinematics::PathSurrogate path = straight(0.31, 0.02 + 0.01 * (m % 3));
+    path.coordinates = {m % 2};
+    if (m % 3 == 0) {
+      path.coordinates = {0, 1};
+      path.lower = Eigen::Vector2d(0.0, -1.0);
+      path.upper = Eigen::Vector2d(2.0, 1.0);
+      path.coefficient_m = Eigen::Vector3d(0.29, -0.03, 0.02);
+    }
+    p.paths.push_back(path);
+    const auto k = static_cast<std::size_t>(m);
+    p.muscles.push_back(
+        {"m", k % 2, muscle_values(m % 2 == 0 ? flexor() : extensor()), {{k, 1.0}}, {}});
+    for (int f = 0; f < own; ++f) p.muscles[k].chains.push_back({f, m * own + f, 0.7});
+    for (int f = own; f < own + shared; ++f)
+      p.muscles[k].chains.push_back({f, muscles * own + f - own, 1.1});
+  }
+  p.channels = {{"a", {0.05, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {}},
+                {"b", {0.05, 1.0, -1.5, 0.04, 0.015, 0.05, 0.8}, {}}};
+  p.joints = {{"hip", 0, {0.4, 0.0, 1.5, -0.3}, {}}, {"knee", 1, {0.2, 0.0, 0.5, 0.1}, {}}};
+  p.channels[1].chains = {{kGain, 0, 1.0}};  // and a parameter of the first muscle
+  p.joints[0].chains = {{kStiffness, unknowns - 1, 1.0}};
+  p.joints[1].chains = {{kOffset, 1, 0.5}, {kStiffness, 1, 0.5}};
+  p.default_q = Eigen::VectorXd::Zero(2);
+  Eigen::MatrixXd root(unknowns, unknowns);
+  for (Eigen::Index i = 0; i < root.size(); ++i)
+    root(i) = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 101));
+  p.covariance = 1e-6 * root * root.transpose();
+  return p;
+}
+
+const Input kAtTheLeg{{0.3, 0.2}, {1.1, 0.4}, {-0.8, 0.5}};
+
+/// Expects the bands that differences of the whole prediction in each unknown give.
+void expect_bands_of_differences(const Predictor& p, const Input& in) {
+  const PredictorWorkspace w = predicted(p, in);
+  const Eigen::Index unknowns = p.covariance.rows();
+  Eigen::MatrixXd by_torque(unknowns, w.torque_nm.size()), by_force(unknowns, w.force_n.size());
+  for (Eigen::Index j = 0; j < unknowns; ++j) {
     constexpr double kStep = 1e-6;
     const auto moved = [&](double step) {
       Predictor other = p;
-      for (auto& m : other.muscles)
-        for (const auto& c : m.chains)
-          if (c.variable == j) m.values[static_cast<std::size_t>(c.field)] += step * c.slope;
-      for (auto& m : other.channels)
-        for (const auto& c : m.chains)
-          if (c.variable == j) m.values[static_cast<std::size_t>(c.field)] += step * c.slope;
-      for (auto& m : other.joints)
-        for (const auto& c : m.chains)
-          if (c.variable == j) m.values[static_cast<std::size_t>(c.field)] += step * c.slope;
-      return predicted(other);
+      const auto move = [&](auto& owners) {
+        for (auto& owner : owners)
+          for (const auto& c : owner.chains)
+            if (c.variable == j) owner.values[static_cast<std::size_t>(c.field)] += step * c.slope;
+      };
+      move(other.muscles);
+      move(other.channels);
+      move(other.joints);
+      return predicted(other, in);
     };
     const PredictorWorkspace up = moved(kStep), down = moved(-kStep);
-    by_torque[j] = (up.torque_nm[0] - down.torque_nm[0]) / (2.0 * kStep);
+    by_torque.row(j) = (up.torque_nm - down.torque_nm).transpose() / (2.0 * kStep);
     by_force.row(j) = (up.force_n - down.force_n).transpose() / (2.0 * kStep);
   }
-  const double variance = by_torque.dot(p.covariance * by_torque) + 0.7 * 0.7;
-  EXPECT_NEAR(w.torque_sd_nm[0], std::sqrt(variance), 1e-6);
-  for (Eigen::Index m = 0; m < 2; ++m) {
-    const double of_force = by_force.col(m).dot(p.covariance * by_force.col(m));
-    EXPECT_NEAR(w.force_sd_n[m], std::sqrt(of_force), 1e-5);
+  for (Eigen::Index j = 0; j < w.torque_nm.size(); ++j) {
+    const double variance =
+        by_torque.col(j).dot(p.covariance * by_torque.col(j)) + p.torque_sd_nm * p.torque_sd_nm;
+    EXPECT_NEAR(w.torque_sd_nm[j], std::sqrt(variance), 1e-6 * (1.0 + std::sqrt(variance)));
   }
+  for (Eigen::Index m = 0; m < w.force_n.size(); ++m) {
+    const double sd = std::sqrt(by_force.col(m).dot(p.covariance * by_force.col(m)));
+    EXPECT_NEAR(w.force_sd_n[m], sd, 1e-5 * (1.0 + sd));
+  }
+}
+
+TEST(Predictor, HasTheBandThatDifferencesInTheUnknownsGive) {
+  expect_bands_of_differences(elbow(), {});
+}
+
+TEST(Predictor, HasItWhereUnknownsBelongToOneMuscleAndWhereTheyAreShared) {
+  const Predictor own = leg(9, 5, 0), shared = leg(9, 1, 4);
+  EXPECT_TRUE(workspace_for(own).bands.by_block());
+  EXPECT_FALSE(workspace_for(shared).bands.by_block());
+  expect_bands_of_differences(own, kAtTheLeg);
+  expect_bands_of_differences(shared, kAtTheLeg);
 }
 
 TEST(Predictor, HasTheSameTorquesWithoutBands) {
@@ -150,15 +201,17 @@ TEST(Predictor, HasTheSameTorquesWithoutBands) {
 }
 
 TEST(Predictor, AllocatesNothingAfterTheWorkspaceIsMade) {
-  const Predictor p = elbow();
-  PredictorWorkspace w = workspace_for(p);
-  Input in;
-  const long before = allocations;
-  for (int i = 0; i < 1000; ++i) {
-    in.angle[0] = 0.002 * i;
-    (void)predict(p, in.envelope, in.angle, in.speed, w);
+  long before = 0;
+  for (const Predictor& p : {leg(80, 7, 0), leg(9, 1, 4), elbow()}) {
+    PredictorWorkspace w = workspace_for(p);
+    Input in = p.joints.size() == 2 ? kAtTheLeg : Input{};
+    before = allocations;
+    for (int i = 0; i < 1000; ++i) {
+      in.angle[0] = 0.002 * i;
+      (void)predict(p, in.envelope, in.angle, in.speed, w);
+    }
+    EXPECT_EQ(allocations - before, 0);
   }
-  EXPECT_EQ(allocations - before, 0);
 #ifndef __SANITIZE_ADDRESS__
   const Eigen::VectorXd one = Eigen::VectorXd::Zero(100);
   EXPECT_GT(allocations - before, 0) << one.sum() << ": allocations are counted";
