@@ -62,6 +62,26 @@ def test_the_version_is_the_program_s():
     assert f'{{% set version = "{myoid.__version__}" %}}' in (SOURCE / "packaging/conda/meta.yaml").read_text()
 
 
+def test_the_recipe_of_conda_names_every_library_that_cmake_asks_for():
+    jinja2, yaml = pytest.importorskip("jinja2"), pytest.importorskip("yaml")
+    text = (SOURCE / "packaging/conda/meta.yaml").read_text()
+    recipe = yaml.safe_load(
+        jinja2.Template(text, undefined=jinja2.StrictUndefined).render(
+            compiler=lambda language: language, stdlib=lambda language: language, pin_compatible=lambda name: name
+        )
+    )
+    assert recipe["package"] == {"name": "myoid", "version": myoid.__version__}
+    names = {"Eigen3": "eigen", "OpenSSL": "openssl", "Boost": "libboost-headers", "TBB": "tbb-devel",
+             "CLI11": "cli11"}  # fmt: skip
+    cmake = (SOURCE / "cmake/dependencies.cmake").read_text()
+    asked = set(re.findall(r"find_package\((\w+)", cmake)) - {"GTest", "Threads"}
+    host = {entry.split()[0] for entry in recipe["requirements"]["host"]}
+    assert {names.get(name, name) for name in asked} <= host
+    by_header = {"toml++/toml.h": "tomlplusplus", "ceres/jet.h": "ceres-solver", "cvodes/cvodes.h": "sundials",
+                 "matio.h": "libmatio"}  # fmt: skip
+    assert {by_header[name] for name in re.findall(r"find_path\(\w+ ([\w+./]+)", cmake)} <= host
+
+
 def test_the_stubs_name_what_the_extension_has():
     from myoid import _native
 
