@@ -45,13 +45,13 @@ set(MYOID_LAYER_opensim_tools core math files tables recording signals model osi
     dynamics forces simulation)
 set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation beliefs
     identification intervals study run)
-set(MYOID_LAYER_cohort core math files tables recording report study)
+set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
     results draft contents identify_files opensim_tools twin cohort)
-set(MYOID_LAYER_cli core math files intervals methods report study results contents mat commands)
+set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp

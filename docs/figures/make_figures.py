@@ -48,6 +48,7 @@ slider.dispatchEvent(new Event('input'));
 PICTURES = [
     Picture("report_top.webp", "demo", height=1010),
     Picture("workbench.webp", "demo", "trial=lowering_4kg&t=6.2", begin="#workbench", height=920),
+    Picture("group.webp", "group", height=1560),
     Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
     Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
     Picture("elbow_numbers.webp", "elbow_emg", height=1010),
@@ -127,7 +128,10 @@ class Browser:
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=address)
         for _ in range(1500):
-            if self.value("document.readyState === 'complete' && document.body?.dataset.state === 'ready'"):
+            if self.value(
+                "location.href !== 'about:blank' && document.readyState === 'complete' && "
+                "(!document.querySelector('script') || document.body.dataset.state === 'ready')"
+            ):
                 return
             time.sleep(0.04)
         raise RuntimeError(f"{address} is never ready")
@@ -167,6 +171,17 @@ def make_example(name):
     return make
 
 
+def make_group(program, work):
+    protocol = SOURCE / "examples/protocols/three_trials.toml"
+    manifest = "name,study\n"
+    for seed in range(1, 21):
+        recording = work / "group_recordings" / f"P{seed:02}"
+        myoid(program, "twin", "--model", "arm4", "--protocol", protocol, "--seed", seed, "--out", recording)
+        manifest += f"{recording.name},{recording}/study.toml\n"
+    (work / "persons.csv").write_text(manifest)
+    myoid(program, "cohort", work / "persons.csv", "--out", work / "group", may_fail=True)
+
+
 def make_walk(program, work):
     data, motion, forces = DATA / "gait-emg", work / "walk.mot", work / "walk_so"
     model = data / "subject_walk_scaled.osim"
@@ -180,6 +195,7 @@ def make_walk(program, work):
 # For each page: the file, how it is made, the recordings that this takes.
 PAGES = {
     "demo": ("demo/report.html", make_demo, None),
+    "group": ("group/report.html", make_group, None),
     "elbow_emg": ("elbow_emg/report.html", make_example("elbow_emg"), "elbow-emg"),
     "box_lift": ("box_lift/report.html", make_example("box_lift"), "box-lift"),
     "walk": ("walk.html", make_walk, "gait-emg"),

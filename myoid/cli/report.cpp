@@ -7,35 +7,83 @@
 #include "myoid/cli/held_folders.h"
 #include "myoid/cli/mat_option.h"
 #include "myoid/cli/video_options.h"
+#include "myoid/cohort/group_report.h"
 #include "myoid/core/json_text.h"
+#include "myoid/report/write_report.h"
 
 namespace myoid::cli {
+namespace {
+
+struct Wishes {
+  commands::ReportOptions run;
+  std::vector<std::string> persons, after;
+  std::string out = "group";
+};
+
+void print_page(const std::filesystem::path& folder, const Context& context) {
+  const std::string page = (folder / "report.html").string();
+  if (context.json) {
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"report", page}}));
+  } else {
+    fmt::print("{}\n", page);
+  }
+}
+
+void report_run(Context& context, commands::ReportOptions& run, const MatOption& mat) {
+  context.overwrite = true;  // everything that this command writes is made anew
+  mat.prepare(context, {});
+  run.call = context.call();
+  const commands::ReportResult result = commands::report(run);
+  hold_folder(std::make_unique<recording::ResultFolder>(run.folder, context.command_line));
+  commands::write_report(result, run.folder);
+  mat.write(run.folder);
+  context.end_progress();
+  print_page(run.folder, context);
+}
+
+void report_group(Context& context, const Wishes& wishes) {
+  context.prepare_folder(wishes.out);
+  report::write_report(
+      cohort::group_report({.persons = {wishes.persons.begin(), wishes.persons.end()},
+                            .after = {wishes.after.begin(), wishes.after.end()},
+                            .folder = wishes.out}),
+      wishes.out);
+  print_page(wishes.out, context);
+}
+
+}  // namespace
 
 void add_report(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("report",
-                          "Rebuilds the report of a finished run from its recordings, provided "
-                          "that none of them has changed since.\n"
-                          "Example: myoid report results");
-  const auto o = std::make_shared<commands::ReportOptions>();
-  command.add_option("folder", o->folder, "Folder of a run (with run.json)")->required();
-  add_video_options(command, o->video);
+  CLI::App& command = *app.add_subcommand(
+      "report",
+      "Rebuilds the report of a finished run from its recordings, provided that none of them has "
+      "changed since; or sets many finished runs side by side.\n"
+      "Example: myoid report results\n"
+      "Example: myoid report --group results/P01 results/P02 results/P03 --out group");
+  const auto wishes = std::make_shared<Wishes>();
+  CLI::Option* folder =
+      command.add_option("folder", wishes->run.folder, "Folder of a run (with run.json)");
+  add_video_options(command, wishes->run.video);
+  CLI::Option* group = command.add_option(
+      "--group", wishes->persons,
+      "Folders of runs, or folders that hold them (of a cohort, of a twin-study): one page of all");
+  group->excludes(folder);
+  command
+      .add_option("--after", wishes->after,
+                  "The second sessions of the same persons in the same order: what changed")
+      ->needs(group);
+  command.add_option("--out", wishes->out, "Folder of the group's page")
+      ->needs(group)
+      ->capture_default_str();
   const MatOption mat(command);
-  add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
-  command.callback([&context, o, mat] {
-    context.overwrite = true;  // everything that this command writes is made anew
-    mat.prepare(context, {});
-    o->call = context.call();
-    const commands::ReportResult result = commands::report(*o);
-    hold_folder(std::make_unique<recording::ResultFolder>(o->folder, context.command_line));
-    commands::write_report(result, o->folder);
-    mat.write(o->folder);
-    context.end_progress();
-    const std::string page = (std::filesystem::path(o->folder) / "report.html").string();
-    if (context.json) {
-      fmt::print("{}\n", json_text(nlohmann::ordered_json{{"report", page}}));
+  add_common_options(command, context, {.seed = false, .range = false});
+  command.callback([&context, wishes, group, folder, mat] {
+    if (group->count() > 0) {
+      report_group(context, *wishes);
+    } else if (folder->count() > 0) {
+      report_run(context, wishes->run, mat);
     } else {
-      fmt::print("{}\n", page);
+      throw CLI::RequiredError("folder of a run, or --group with several");
     }
   });
 }

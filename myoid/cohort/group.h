@@ -21,9 +21,7 @@ struct Group {
 /// Reads outcome.json and parameters.csv of every person in the folder of the cohort. Persons who
 /// failed or are not computed yet stand in `persons` and on the page, not in `parameters`.
 ///
-/// The page shows the numbers that recordings tell (verdict identified or weak): every person's
-/// with its 95 % interval, and over the persons n, mean, standard deviation and the median half
-/// width of the intervals. Each person counts once, whatever the width of the interval.
+/// The page is that of group_page.h, with the manifest's columns.
 [[nodiscard]] Group read_group(const Manifest& manifest, const std::filesystem::path& folder);
 
 /// Writes persons.csv, cohort.csv, the page with its figures and tables, and a BIDS derivative:

@@ -57,9 +57,10 @@ TEST(Group, ThePageHasMeanSpreadAndWidthOfTheNumbersThatAreTold) {
   EXPECT_EQ(summary.rows[0][4].text, "120");
   EXPECT_EQ(summary.rows[0][5].text, "28.3");
   EXPECT_EQ(summary.rows[0][6].text, "15");
-  ASSERT_EQ(group.page.sections[0].figures.size(), 1U);
-  EXPECT_EQ(group.page.sections[0].figures[0].panels[0].series[0].y,
-            (std::vector<double>{100, 140}));
+  const report::StripGrid& grid = group.page.sections[0].grids.at(0);
+  ASSERT_EQ(grid.rows.size(), 2U) << "the person without results has no row";
+  EXPECT_EQ(grid.rows[0].page, "persons/A/report.html");
+  EXPECT_EQ(grid.rows[1].cells[0].value, 140.0);
   EXPECT_THAT(group.page.headline, HasSubstr("2 of 3 persons"));
   EXPECT_THAT(group.page.headline, HasSubstr("C: no EMG"));
 }

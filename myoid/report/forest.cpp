@@ -9,6 +9,7 @@
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
+#include "myoid/report/verdict_mark.h"
 
 namespace myoid::report {
 namespace {
@@ -18,34 +19,6 @@ constexpr double k95 = 1.96;
 
 /// The place of z in the drawing, in percent of its width.
 double percent(double z) { return 50.0 + 50.0 * std::clamp(z, -kEnd, kEnd) / kEnd; }
-
-struct Mark {
-  const char* color;
-  const char* shape;  ///< Path about the origin, 12 units wide.
-  bool filled;
-};
-
-/// Colors that the color-blind can tell apart, each with a shape of its own.
-Mark mark_of(Badge badge) {
-  switch (badge) {
-    case Badge::good:
-      return {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true};
-    case Badge::weak:
-      return {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true};
-    case Badge::info:
-      return {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false};
-    case Badge::bad:
-      return {"#b3261e", "M0 -6L6 5H-6Z", true};
-    case Badge::none:
-      return {"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false};
-  }
-  return {"#5a626b", "", false};
-}
-
-std::string drawn(const Mark& mark) {
-  return fmt::format("<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", mark.shape,
-                     mark.filled ? mark.color : "none", mark.color);
-}
 
 std::string number(const ForestRow& row, double value) {
   return row.lower && row.upper ? format_rounded(value, *row.upper - *row.lower)
@@ -60,12 +33,6 @@ std::string prior(const ForestRow& row) {
   if (!row.prior_mean || !row.prior_sd) return "–";
   return fmt::format("{} ± {}", format_rounded(*row.prior_mean, *row.prior_sd),
                      format_rounded(*row.prior_sd, *row.prior_sd));
-}
-
-std::string arrow(double z, const char* color) {
-  return fmt::format(
-      "<svg x=\"{}%\" y=\"50%\" overflow=\"visible\"><path d=\"M{}\" fill=\"{}\"/></svg>",
-      z < 0.0 ? 0 : 100, z < 0.0 ? "0 0L8 -4V4Z" : "0 0L-8 -4V4Z", color);
 }
 
 std::string bar(const ForestRow& row) {
@@ -83,20 +50,20 @@ std::string bar(const ForestRow& row) {
       "<rect x=\"{:.2f}%\" width=\"{:.2f}%\" y=\"3\" height=\"16\" class=\"prior\"/>"
       "<line x1=\"50%\" x2=\"50%\" y1=\"0\" y2=\"22\" class=\"middle\"/>",
       percent(-k95), percent(k95) - percent(-k95));
-  const Mark mark = mark_of(row.badge);
+  const std::string_view color = verdict_color(row.badge);
   if (row.lower && row.upper) {
     svg += fmt::format(
         "<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"11\" y2=\"11\" stroke=\"{}\" "
         "stroke-width=\"3\"/>",
-        percent(z(*row.lower)), percent(z(*row.upper)), mark.color);
-    if (z(*row.lower) < -kEnd) svg += arrow(-1.0, mark.color);
-    if (z(*row.upper) > kEnd) svg += arrow(1.0, mark.color);
+        percent(z(*row.lower)), percent(z(*row.upper)), color);
+    if (z(*row.lower) < -kEnd) svg += beyond_arrow(-1, color);
+    if (z(*row.upper) > kEnd) svg += beyond_arrow(1, color);
   }
   if (row.truth)
     svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"1\" y2=\"21\" class=\"truth\"/>",
                        percent(z(*row.truth)));
   return svg + fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}</svg></svg>",
-                           percent(z(row.estimate)), drawn(mark));
+                           percent(z(row.estimate)), verdict_shape(row.badge));
 }
 
 std::string scale() {
@@ -141,13 +108,6 @@ std::string legend(const std::vector<ForestRow>& rows) {
 }
 
 }  // namespace
-
-std::string verdict_mark(Badge badge) {
-  return fmt::format(
-      "<svg class=\"mark\" width=\"16\" height=\"16\" viewBox=\"-8 -8 16 16\" "
-      "aria-hidden=\"true\">{}</svg>",
-      drawn(mark_of(badge)));
-}
 
 std::string forest_html(const std::vector<ForestRow>& rows) {
   if (rows.empty()) return "";

@@ -13,9 +13,6 @@ namespace myoid::report {
 /// scale become arrows. The table's cells hold the numbers as text. Empty without rows.
 [[nodiscard]] std::string forest_html(const std::vector<ForestRow>& rows);
 
-/// Returns the mark of a verdict as a small drawing, as in the forest plot.
-[[nodiscard]] std::string verdict_mark(Badge badge);
-
 /// Returns the light of the gates, red, yellow or green by the worst of them, with a sentence.
 [[nodiscard]] std::string light_html(const std::vector<Gate>& gates);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/report/forest.h"
+#include "myoid/report/strip_grid.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
@@ -48,6 +49,15 @@ details.reading { font-size: 13px; margin: 4px 0; } .reading summary { color: #1
 nav { display: flex; flex-wrap: wrap; font-size: 13px; margin: 12px 0 0; }
 nav a { margin-right: 14px; white-space: nowrap; }
 a { color: #1f5fa8; }
+.grid { margin: 10px 0 26px; }
+.grid table { width: 100%; table-layout: fixed; max-width: 1400px; }
+.grid th, .grid td { padding: 0 14px 0 0; border-bottom: 1px solid #eef0f2; vertical-align: middle; }
+.grid th:first-child, .grid td:first-child { width: 15%; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.grid thead th { vertical-align: bottom; padding-top: 6px; } .grid thead small { display: flex; justify-content: space-between; font-weight: 400; color: #5a626b; }
+.grid tbody tr:hover td, .grid tbody tr:focus-within td { background: #f3f6fa; }
+.grid svg.strip { width: 100%; height: 20px; display: block; overflow: visible; }
+.grid .spread { fill: #e6eaef; } .grid .middle { stroke: #8a9097; stroke-dasharray: 2 3; } .grid .truth { stroke: #111; stroke-width: 2; }
+.grid .ring { fill: none; stroke: #b3261e; stroke-width: 2; } .grid .untold { opacity: .35; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 13px; margin: 6px 0; }
 th, td { text-align: left; vertical-align: top; padding: 4px 12px 4px 0; border-bottom: 1px solid #e6e8eb; }
@@ -68,12 +78,13 @@ figcaption b { color: #22262b; }
 ul { margin: 6px 0; padding-left: 20px; }
 li { margin: 3px 0; max-width: 74ch; }
 @media (max-width: 760px) { body { padding: 16px 12px 40px; } .wide-only { display: none; } .forest { font-size: 12px; }
-  .forest td, .forest th { padding-right: 6px; } .forest .bar { min-width: 70px; } }
+  .forest td, .forest th, .grid td, .grid th { padding-right: 6px; } .grid { font-size: 12px; overflow-x: auto; } .grid table { min-width: 620px; }
+  .grid th:first-child, .grid td:first-child { width: 24%; } .forest .bar { min-width: 70px; } }
 code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
   h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
-  .badge, .light, .forest { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .forest tr { break-inside: avoid; } .save, details:not([open]) { display: none; } @page { size: A4; margin: 14mm; } }
+  .badge, .light, .forest, .grid { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  .forest tr, .grid tr { break-inside: avoid; } .save, details:not([open]) { display: none; } @page { size: A4; margin: 14mm; } }
 )";
 
 /// Longer cells may be broken into lines.
@@ -207,6 +218,7 @@ std::string section_html(const Section& section) {
     text += fmt::format("<p>{}</p>\n", typeset(paragraph));
   }
   text += gates_html(section.gates);
+  for (const StripGrid& grid : section.grids) text += strip_grid_html(grid);
   for (const Table& table : section.tables) text += table_html(table);
   for (const Figure& figure : section.figures) text += figure_html(figure);
   return text + "</section>\n";

@@ -59,6 +59,14 @@ void validate(const Report& report) {
         }
       }
     }
+    for (const StripGrid& grid : section.grids) {
+      check_id(grid.id, "table", tables);
+      for (const StripRow& row : grid.rows) {
+        if (row.cells.size() != grid.columns.size())
+          throw InvalidInput(fmt::format("strip plot \"{}\": a row of {} cells under {} columns",
+                                         grid.id, row.cells.size(), grid.columns.size()));
+      }
+    }
     for (const Figure& figure : section.figures) {
       check_id(figure.id, "figure", figures);
       for (const Panel& panel : figure.panels) {

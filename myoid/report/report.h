@@ -108,6 +108,39 @@ struct ForestRow {
   bool beside = false;  ///< Of an electrode or a joint: below the muscles' numbers.
 };
 
+/// A number of one person in a strip plot. Without a value the cell is empty.
+struct StripCell {
+  std::optional<double> value;
+  std::optional<double> lower, upper;  ///< 95 % interval.
+  std::optional<double> truth;         ///< Of a virtual recording.
+  std::string verdict;                 ///< "identified"; empty for numbers without one.
+  Badge badge = Badge::none;           ///< Of the verdict; decides color and shape.
+  bool outlier = false;                ///< Far from the other persons.
+};
+
+/// A number that the persons share. Its cells have one scale.
+struct StripColumn {
+  std::string name;                               ///< "BIC"
+  std::string unit;                               ///< Empty: dimensionless.
+  std::optional<double> middle;                   ///< A line behind the persons.
+  std::optional<double> spread_low, spread_high;  ///< A field behind the persons.
+};
+
+struct StripRow {
+  std::string person;
+  std::string page;              ///< The person's own report, relative; empty: none.
+  std::vector<StripCell> cells;  ///< As many as columns.
+};
+
+/// Numbers of many persons: a row a person, a column a number.
+struct StripGrid {
+  std::string id;
+  std::string title;
+  std::string caption;
+  std::vector<StripColumn> columns;
+  std::vector<StripRow> rows;
+};
+
 /// Another file of the run, by its name relative to the report.
 struct Link {
   std::string text;
@@ -121,6 +154,7 @@ struct Section {
   std::vector<Gate> gates;
   std::vector<Table> tables;
   std::vector<Figure> figures;
+  std::vector<StripGrid> grids{};  ///< Before the tables on the page.
 };
 
 struct ProvenanceRow {

@@ -1,6 +1,7 @@
 #include "myoid/report/tables.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,12 @@ std::string table_csv(const Table& table) {
     text += '\n';
   }
   return text;
+}
+
+std::vector<Cell> text_row(std::vector<std::string> texts) {
+  std::vector<Cell> row;
+  for (std::string& text : texts) row.push_back({std::move(text), Badge::none, {}});
+  return row;
 }
 
 std::string figure_csv(const Figure& figure) {

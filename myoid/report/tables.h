@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "myoid/report/report.h"
 
@@ -10,6 +11,9 @@ namespace myoid::report {
 /// Returns the table as comma-separated values (RFC 4180: CRLF is not used, quotes where needed); a
 /// row of column names first. Badges are left out.
 [[nodiscard]] std::string table_csv(const Table& table);
+
+/// Returns a table's row of plain texts.
+[[nodiscard]] std::vector<Cell> text_row(std::vector<std::string> texts);
 
 /// Returns the samples of a figure, in full and not decimated: one row per sample, columns
 /// panel,series,role,x,y and, where a series has them, y_lower,y_upper. Gaps are empty cells.

@@ -3,6 +3,7 @@
 #include "myoid/files/atomic_file.h"
 #include "myoid/report/html.h"
 #include "myoid/report/json.h"
+#include "myoid/report/strip_grid.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
 
@@ -15,6 +16,9 @@ void write_report(const Report& report,
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
       recording::write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));
+    }
+    for (const StripGrid& grid : section.grids) {
+      recording::write_file(directory / "tables" / (grid.id + ".csv"), strip_grid_csv(grid));
     }
     for (const Figure& figure : section.figures) {
       recording::write_file(directory / "figures" / (figure.id + ".svg"), svg_plot(figure));

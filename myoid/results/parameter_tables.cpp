@@ -11,6 +11,7 @@
 
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/report/typeset.h"
+#include "myoid/report/verdict_mark.h"
 
 namespace myoid {
 namespace {
@@ -24,21 +25,7 @@ using report::format_rounded;
 using report::format_value;
 using report::Table;
 
-Badge badge(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::identified:
-      return Badge::good;
-    case Verdict::weak:
-      return Badge::weak;
-    case Verdict::prior_dominated:
-      return Badge::info;
-    case Verdict::not_identifiable:
-      return Badge::none;
-    case Verdict::non_physical:
-      return Badge::bad;
-  }
-  return Badge::none;
-}
+Badge badge(Verdict verdict) { return report::verdict_badge(identification::name(verdict)); }
 
 /// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {

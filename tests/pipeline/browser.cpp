@@ -155,7 +155,9 @@ void Browser::open(const std::string& address) {
   call("Page.navigate",
        {{"url", "about:blank"}});  // an address that differs in its # alone loads too
   call("Page.navigate", {{"url", address}});
-  wait_for("document.readyState === 'complete' && document.body.dataset.state === 'ready'");
+  wait_for(
+      "location.href !== 'about:blank' && document.readyState === 'complete' && "
+      "(!document.querySelector('script') || document.body.dataset.state === 'ready')");
 }
 
 void Browser::resize(int width, int height) {

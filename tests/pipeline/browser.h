@@ -23,7 +23,8 @@ class Browser {
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  /// Opens an address and waits until the page says that it is ready (body data-state).
+  /// Opens an address and waits until the page is loaded and, if it has a script, says that it is
+  /// ready (body data-state).
   void open(const std::string& address);
   /// The value of an expression in the page, promises awaited.
   nlohmann::json evaluate(const std::string& expression);

@@ -1,0 +1,280 @@
+#include "myoid/cohort/group_page.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "myoid/core/counted.h"
+#include "myoid/math/statistics.h"
+#include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
+#include "myoid/report/verdict_mark.h"
+
+namespace myoid::cohort {
+namespace {
+
+using report::Badge;
+using report::Cell;
+using report::StripCell;
+using report::StripColumn;
+using report::StripGrid;
+
+constexpr double kRobust = 1.4826;  // standard deviation over the median absolute deviation, normal
+constexpr std::size_t kMostNamed = 3;
+
+/// Median and robust standard deviation.
+struct Spread {
+  double median = 0.0, sd = 0.0;
+};
+
+Spread spread_of(const std::vector<double>& values) {
+  const double middle = math::median(values);
+  std::vector<double> off;
+  for (const double x : values) off.push_back(std::abs(x - middle));
+  return {middle, kRobust * math::median(std::move(off))};
+}
+
+Badge quality_badge(const std::string& verdict) {
+  if (verdict == "passed") return Badge::good;
+  if (verdict == "caution") return Badge::weak;
+  return verdict == "failed" ? Badge::bad : Badge::info;
+}
+
+StripCell cell_of(const Quality& quality) {
+  return {.value = quality.value,
+          .lower = {},
+          .upper = {},
+          .truth = {},
+          .verdict = quality.verdict,
+          .badge = quality_badge(quality.verdict)};
+}
+
+StripCell cell_of(const GroupNumber& number) {
+  return {.value = number.estimate,
+          .lower = number.low,
+          .upper = number.high,
+          .truth = number.truth,
+          .verdict = number.verdict,
+          .badge = report::verdict_badge(number.verdict)};
+}
+
+bool counts(const StripCell& cell) {
+  return cell.value &&
+         (cell.verdict.empty() || cell.badge == Badge::good || cell.badge == Badge::weak);
+}
+
+/// Marks the outliers of a column, and draws median and spread behind it.
+void judge(StripGrid& grid,
+           std::size_t column,
+           std::string_view name,
+           std::vector<Outlier>& outliers) {
+  std::vector<double> values;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < grid.rows.size(); ++i) {
+    const StripCell& cell = grid.rows[i].cells[column];
+    if (!counts(cell)) continue;
+    values.push_back(*cell.value);
+    rows.push_back(i);
+  }
+  if (values.size() < 2) return;
+  StripColumn& of = grid.columns[column];
+  const Spread spread = spread_of(values);
+  of.middle = spread.median;
+  of.spread_low = spread.median - spread.sd;
+  of.spread_high = spread.median + spread.sd;
+  const std::vector<double> distance = robust_distances(values);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!(std::abs(distance[k]) > kOutlierDistance)) continue;
+    grid.rows[rows[k]].cells[column].outlier = true;
+    outliers.push_back({.person = grid.rows[rows[k]].person,
+                        .number = std::string(name),
+                        .unit = of.unit,
+                        .value = values[k],
+                        .median = spread.median,
+                        .distance = distance[k]});
+  }
+}
+
+std::string id_of(std::string_view name) {
+  std::string id = "group_";
+  for (const char c : name) id += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return id;
+}
+
+/// A grid whose cells are still empty.
+StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, std::string title) {
+  StripGrid grid{
+      .id = std::move(id), .title = std::move(title), .caption = {}, .columns = {}, .rows = {}};
+  for (const GroupPerson& person : persons)
+    grid.rows.push_back({.person = person.name, .page = person.page, .cells = {}});
+  return grid;
+}
+
+/// The column of this name, made where there is none.
+std::size_t column_of(StripGrid& grid, const std::string& name, const std::string& unit) {
+  const auto found = std::find_if(grid.columns.begin(), grid.columns.end(),
+                                  [&](const StripColumn& c) { return c.name == name; });
+  if (found != grid.columns.end()) return static_cast<std::size_t>(found - grid.columns.begin());
+  grid.columns.push_back(
+      {.name = name, .unit = unit, .middle = {}, .spread_low = {}, .spread_high = {}});
+  for (report::StripRow& row : grid.rows) row.cells.emplace_back();
+  return grid.columns.size() - 1;
+}
+
+StripGrid quality_grid(const std::vector<GroupPerson>& persons, std::vector<Outlier>& outliers) {
+  StripGrid grid = empty_grid(persons, "group_quality", "Quality of recordings and fits");
+  grid.caption =
+      "Questions not passed: green disc none, orange diamond a caution, red triangle a failure; "
+      "the "
+      "person's report names them. R2 and torque error of trials left out are medians over the "
+      "trials, predicted by fits that did not see them.";
+  for (std::size_t i = 0; i < persons.size(); ++i) {
+    for (const Quality& quality : persons[i].quality) {
+      const std::size_t column = column_of(grid, quality.name, quality.unit);
+      grid.rows[i].cells[column] = cell_of(quality);
+    }
+  }
+  for (std::size_t c = 0; c < grid.columns.size(); ++c) {
+    if (grid.columns[c].name != "questions not passed")
+      judge(grid, c, grid.columns[c].name, outliers);
+  }
+  return grid;
+}
+
+/// One grid a parameter, in the order in which the parameters appear.
+std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons,
+                                    std::vector<Outlier>& outliers) {
+  std::vector<StripGrid> grids;
+  for (std::size_t i = 0; i < persons.size(); ++i) {
+    for (const GroupNumber& number : persons[i].numbers) {
+      const std::string id = id_of(number.parameter);
+      auto grid =
+          std::find_if(grids.begin(), grids.end(), [&](const StripGrid& g) { return g.id == id; });
+      if (grid == grids.end())
+        grid =
+            grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));
+      grid->caption =
+          "A row is a person: mark and 95 % interval. Behind them median and robust standard "
+          "deviation of the numbers that the recordings tell; pale: a number that the recording "
+          "does "
+          "not tell.";
+      const std::size_t column = column_of(*grid, number.muscle, number.unit);
+      grid->rows[i].cells[column] = cell_of(number);
+    }
+  }
+  for (StripGrid& grid : grids) {
+    for (std::size_t c = 0; c < grid.columns.size(); ++c)
+      judge(grid, c, fmt::format("{} {}", grid.columns[c].name, grid.title), outliers);
+  }
+  return grids;
+}
+
+/// A number of a grid over the persons; empty if no recording tells it.
+std::optional<std::vector<Cell>> summary_row(const StripGrid& grid, std::size_t column) {
+  std::vector<double> estimates, widths;
+  for (const report::StripRow& row : grid.rows) {
+    const StripCell& cell = row.cells[column];
+    if (!counts(cell)) continue;
+    estimates.push_back(*cell.value);
+    if (cell.lower && cell.upper) widths.push_back(0.5 * (*cell.upper - *cell.lower));
+  }
+  if (estimates.empty()) return std::nullopt;
+  const auto count = static_cast<double>(estimates.size());
+  const double mean = std::accumulate(estimates.begin(), estimates.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double x : estimates) squares += (x - mean) * (x - mean);
+  return report::text_row(
+      {grid.title, grid.columns[column].name, grid.columns[column].unit,
+       fmt::format("{} of {}", estimates.size(), grid.rows.size()), report::format_value(mean),
+       estimates.size() < 2 ? "-" : report::format_value(std::sqrt(squares / (count - 1.0))),
+       widths.empty() ? "-" : report::format_value(math::median(std::move(widths)))});
+}
+
+report::Table summary_table(const std::vector<StripGrid>& grids) {
+  report::Table table{.id = "summary",
+                      .title = "Numbers that the recordings tell",
+                      .caption = "Verdict identified or weak. Every person counts once.",
+                      .columns = {"parameter", "muscle", "unit", "persons", "mean",
+                                  "SD between persons", "median half width of the 95 % intervals"},
+                      .rows = {}};
+  for (const StripGrid& grid : grids) {
+    for (std::size_t c = 0; c < grid.columns.size(); ++c) {
+      if (std::optional<std::vector<Cell>> row = summary_row(grid, c))
+        table.rows.push_back(std::move(*row));
+    }
+  }
+  return table;
+}
+
+report::Table outlier_table(const std::vector<Outlier>& outliers) {
+  report::Table table{
+      .id = "outliers",
+      .title = "Persons far from the others",
+      .caption = fmt::format(
+          "A number farther than {} robust standard deviations (1.4826 times the median absolute "
+          "deviation) from the median of the persons, where {} or more have it. Look at the "
+          "person's "
+          "report first: a label, unit or electrode is more often the cause than the person.",
+          kOutlierDistance, kFewestForOutliers),
+      .columns = {"person", "number", "value", "median of the persons", "robust SD from it"},
+      .rows = {}};
+  for (const Outlier& o : outliers) {
+    const std::string unit = o.unit.empty() ? "" : " " + o.unit;
+    table.rows.push_back(report::text_row({o.person, o.number, report::format_value(o.value) + unit,
+                                           report::format_value(o.median) + unit,
+                                           fmt::format("{:+.1f}", o.distance)}));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<double> robust_distances(const std::vector<double>& values) {
+  std::vector<double> distances(values.size(), 0.0);
+  if (values.size() < kFewestForOutliers) return distances;
+  const Spread spread = spread_of(values);
+  if (!(spread.sd > 0.0)) return distances;
+  std::transform(values.begin(), values.end(), distances.begin(),
+                 [&](double x) { return (x - spread.median) / spread.sd; });
+  return distances;
+}
+
+GroupPage group_page(const std::vector<GroupPerson>& persons) {
+  GroupPage page;
+  page.persons.id = "numbers";
+  page.persons.heading = "The persons beside each other";
+  page.persons.paragraphs.push_back(
+      "A row is a person; the name leads to the person's report. The spread of the marks holds the "
+      "differences between people and the errors of the estimates.");
+  StripGrid quality = quality_grid(persons, page.outliers);
+  std::vector<StripGrid> grids = number_grids(persons, page.outliers);
+  report::Table summary = summary_table(grids);
+  if (!quality.columns.empty()) page.persons.grids.push_back(std::move(quality));
+  for (StripGrid& grid : grids) page.persons.grids.push_back(std::move(grid));
+  if (!page.outliers.empty()) page.persons.tables.push_back(outlier_table(page.outliers));
+  if (!summary.rows.empty()) page.persons.tables.push_back(std::move(summary));
+  return page;
+}
+
+std::string outlier_sentence(const std::vector<Outlier>& outliers) {
+  if (outliers.empty()) return "";
+  std::vector<std::string> persons;
+  for (const Outlier& o : outliers) {
+    if (std::find(persons.begin(), persons.end(), o.person) == persons.end())
+      persons.push_back(o.person);
+  }
+  std::string text =
+      fmt::format("{} of {} far from the others: ", counted(outliers.size(), "number"),
+                  counted(persons.size(), "person"));
+  for (std::size_t i = 0; i < std::min(outliers.size(), kMostNamed); ++i)
+    text += fmt::format("{}{}, {}", i == 0 ? "" : "; ", outliers[i].person, outliers[i].number);
+  if (outliers.size() > kMostNamed)
+    text += fmt::format("; and {} more, named below", outliers.size() - kMostNamed);
+  return text + ".";
+}
+
+}  // namespace myoid::cohort

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "myoid/cohort/group_person.h"
+#include "myoid/report/report.h"
+
+namespace myoid::cohort {
+
+/// A number of one person that lies far from the other persons'.
+struct Outlier {
+  std::string person, number, unit;
+  double value = 0.0, median = 0.0;
+  double distance = 0.0;  ///< In robust standard deviations, with sign.
+};
+
+/// The robust distance of each value from the others: (x - median) / (1.4826 MAD), MAD the median
+/// absolute deviation from the median. 0 for all where MAD is 0 or there are fewer than five
+/// values. Beyond 3.5 a value is an outlier (Iglewicz and Hoaglin, How to Detect and Handle
+/// Outliers, 1993).
+inline constexpr double kOutlierDistance = 3.5;
+inline constexpr std::size_t kFewestForOutliers = 5;
+[[nodiscard]] std::vector<double> robust_distances(const std::vector<double>& values);
+
+/// The persons side by side: quality first, then each parameter with a column a muscle, then the
+/// outliers, then mean and spread. Numbers that a recording does not tell (verdict other than
+/// identified or weak) are drawn pale and counted nowhere.
+struct GroupPage {
+  report::Section persons;  ///< Strip plots and summary, with ids.
+  std::vector<Outlier> outliers;
+};
+[[nodiscard]] GroupPage group_page(const std::vector<GroupPerson>& persons);
+
+/// A sentence that names the outliers; empty without any.
+[[nodiscard]] std::string outlier_sentence(const std::vector<Outlier>& outliers);
+
+}  // namespace myoid::cohort

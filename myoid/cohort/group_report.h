@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "myoid/report/report.h"
+
+namespace myoid::cohort {
+
+/// Many finished runs side by side (`myoid report --group`).
+struct GroupReportOptions {
+  std::vector<std::filesystem::path> persons;  ///< Folders as `read_group_persons` takes them.
+  /// The second sessions of the same persons in the same order; empty: one session.
+  std::vector<std::filesystem::path> after;
+  std::filesystem::path folder;  ///< Of the page: its links are relative to it.
+};
+
+/// Returns the page of the persons: their changes first, where there is a second session, then the
+/// persons beside each other. Throws InvalidInput if the sessions are not as many as the persons,
+/// and ReadError for a folder without a run.
+[[nodiscard]] report::Report group_report(const GroupReportOptions& options);
+
+}  // namespace myoid::cohort

@@ -1,0 +1,132 @@
+#include "myoid/cohort/group_report.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "myoid/core/error.h"
+#include "myoid/files/atomic_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+namespace myoid::cohort {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A run that found this F_max with a standard error of 20 N.
+fs::path run(const fs::path& folder, double strength) {
+  recording::write_file(
+      folder / "parameters.csv",
+      fmt::format("muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n"
+                  "BIC,max_isometric_force,N,paper,both,1,1,1,weak\n"
+                  "BIC,max_isometric_force,N,torque,both,{},{},{},identified\n",
+                  strength, strength - 40, strength + 40));
+  recording::write_file(
+      folder / "parameters.json",
+      fmt::format(
+          R"({{"methods": [{{"method": "torque", "r2": 0.75, "estimates": [{{"muscle": "BIC",
+              "parameter": "max_isometric_force", "unit": "N", "method": "torque", "case": "both",
+              "estimate": {}, "std_error": 20, "ci_low": {}, "ci_high": {},
+              "verdict": "identified"}}], "trials": []}}],
+              "leave_one_trial_out": [{{"identified": {{"r2": 0.5, "rmse_nm": 3}}}},
+                                      {{"identified": {{"r2": 0.7, "rmse_nm": 1}}}},
+                                      {{"identified": {{"r2": null, "rmse_nm": 2}}}}]}})",
+          strength, strength - 40, strength + 40));
+  recording::write_file(folder / "report.json",
+                        R"({"gates": [{"status": "pass"}, {"status": "warn"}]})");
+  recording::write_file(folder / "report.html", "<html></html>");
+  recording::write_file(folder / "lift/ik_marker_errors.sto",
+                        "e\nversion=1\nnRows=3\nnColumns=2\nendheader\ntime\tmarker_error_RMS\n"
+                        "0\t0.002\n0.1\t0.004\n0.2\t0.009\n");
+  return folder;
+}
+
+double value(const report::StripGrid& grid, std::size_t row, const std::string& name) {
+  for (std::size_t c = 0; c < grid.columns.size(); ++c)
+    if (grid.columns[c].name == name) return grid.rows[row].cells[c].value.value_or(-1.0);
+  return -2.0;
+}
+
+TEST(GroupReport, HasTheRunsOfAFolderWithLinksAndQuality) {
+  const test::TemporaryFolder folder;
+  run(folder / "persons/one/result", 600);
+  run(folder / "persons/two/result", 700);
+  const report::Report page = group_report(
+      {.persons = {folder / "persons"}, .after = {}, .folder = folder / "pages/group"});
+  report::validate(page);
+  ASSERT_EQ(page.sections.size(), 1U);
+  const report::StripGrid& quality = page.sections[0].grids.at(0);
+  EXPECT_EQ(quality.rows[0].person, "one");
+  EXPECT_EQ(quality.rows[1].page, "../../persons/two/result/report.html");
+  EXPECT_EQ(value(quality, 0, "questions not passed"), 1.0);
+  EXPECT_EQ(value(quality, 0, "R2 of the fit"), 0.75);
+  EXPECT_EQ(value(quality, 0, "R2 of trials left out"), 0.6);
+  EXPECT_EQ(value(quality, 0, "torque error, left out"), 2.0);
+  EXPECT_NEAR(value(quality, 0, "marker error"), 4.0, 1e-12);
+  EXPECT_EQ(value(page.sections[0].grids.at(1), 1, "BIC"), 700.0);
+}
+
+TEST(GroupReport, OfTwoSessionsHasTheChangeAndTheSmallestThatShows) {
+  const test::TemporaryFolder folder;
+  std::vector<fs::path> before, after;
+  for (const double change : {0.0, 30.0, 150.0}) {
+    const std::string name = fmt::format("P{}", change);
+    before.push_back(run(folder / "before" / name, 600));
+    after.push_back(run(folder / "after" / name, 600 + change));
+  }
+  const report::Report page =
+      group_report({.persons = before, .after = after, .folder = folder / "group"});
+  report::validate(page);
+  ASSERT_EQ(page.sections[0].id, "changes");
+  const report::StripGrid& grid = page.sections[0].grids.at(0);
+  const report::StripCell& most = grid.rows[2].cells[0];
+  EXPECT_EQ(most.value, 150.0);
+  EXPECT_NEAR(*most.value - *most.lower, 1.96 * 20.0 * std::sqrt(2.0), 0.01);
+  EXPECT_EQ(most.verdict, "differs");
+  EXPECT_EQ(grid.rows[1].cells[0].verdict, "no change");
+  const std::vector<report::Cell>& row = page.sections[0].tables.at(0).rows.at(0);
+  EXPECT_EQ(row[3].text, "3");
+  EXPECT_EQ(row[4].text, "1");
+  EXPECT_EQ(row[5].text, "60");   // mean of 0, 30, 150
+  EXPECT_EQ(row[7].text, "156");  // 1.96 times their standard deviation, 79.4
+}
+
+TEST(GroupReport, SaysWhatIsMissing) {
+  const test::TemporaryFolder folder;
+  const fs::path one = run(folder / "one", 600), two = run(folder / "two", 600);
+  fs::create_directories(folder / "empty");
+  try {
+    static_cast<void>(group_report({.persons = {folder / "empty"}, .after = {}, .folder = "x"}));
+    FAIL() << "a folder without a run was taken";
+  } catch (const ReadError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("myoid run"));
+  }
+  EXPECT_THROW(
+      static_cast<void>(group_report({.persons = {one, two}, .after = {one}, .folder = "x"})),
+      InvalidInput);
+}
+
+TEST(GroupReport, OfATwinStudyThePersonsBringTheirTruth) {
+  const test::TemporaryFolder folder;
+  recording::write_file(
+      folder / "persons.csv",
+      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
+      "verdict\n"
+      "1,torque,both,BIC,max_isometric_force,N,905,1059,952,771,1163,0.8,weak\n"
+      "2,torque,both,BIC,max_isometric_force,N,800,1059,820,700,900,0.8,weak\n");
+  const report::Report page =
+      group_report({.persons = {folder.path()}, .after = {}, .folder = "x"});
+  const report::StripGrid& grid = page.sections[0].grids.at(0);
+  ASSERT_EQ(grid.rows.size(), 2U);
+  EXPECT_EQ(grid.rows[0].person, "person 1");
+  EXPECT_EQ(grid.rows[1].cells[0].truth, 800.0);
+}
+
+}  // namespace
+}  // namespace myoid::cohort

@@ -1,0 +1,60 @@
+#include "myoid/report/verdict_mark.h"
+
+#include <fmt/format.h>
+
+namespace myoid::report {
+namespace {
+
+struct Mark {
+  std::string_view color;
+  std::string_view path;
+  bool filled;
+};
+
+Mark mark_of(Badge badge) {
+  switch (badge) {
+    case Badge::good:
+      return {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true};
+    case Badge::weak:
+      return {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true};
+    case Badge::info:
+      return {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false};
+    case Badge::bad:
+      return {"#b3261e", "M0 -6L6 5H-6Z", true};
+    case Badge::none:
+      return {"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false};
+  }
+  return {"#5a626b", "", false};
+}
+
+}  // namespace
+
+Badge verdict_badge(std::string_view verdict) {
+  if (verdict == "identified") return Badge::good;
+  if (verdict == "weak") return Badge::weak;
+  if (verdict == "prior_dominated") return Badge::info;
+  return verdict == "non_physical" ? Badge::bad : Badge::none;
+}
+
+std::string_view verdict_color(Badge badge) { return mark_of(badge).color; }
+
+std::string verdict_shape(Badge badge) {
+  const Mark mark = mark_of(badge);
+  return fmt::format("<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", mark.path,
+                     mark.filled ? mark.color : "none", mark.color);
+}
+
+std::string verdict_mark(Badge badge) {
+  return fmt::format(
+      "<svg class=\"mark\" width=\"16\" height=\"16\" viewBox=\"-8 -8 16 16\" "
+      "aria-hidden=\"true\">{}</svg>",
+      verdict_shape(badge));
+}
+
+std::string beyond_arrow(int side, std::string_view color) {
+  return fmt::format(
+      "<svg x=\"{}%\" y=\"50%\" overflow=\"visible\"><path d=\"M{}\" fill=\"{}\"/></svg>",
+      side < 0 ? 0 : 100, side < 0 ? "0 0L8 -4V4Z" : "0 0L-8 -4V4Z", color);
+}
+
+}  // namespace myoid::report

@@ -1,0 +1,163 @@
+#include "myoid/results/group_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "myoid/math/statistics.h"
+#include "myoid/report/tables.h"
+#include "myoid/report/typeset.h"
+
+namespace myoid {
+namespace {
+
+using report::Badge;
+using report::Cell;
+
+constexpr double k95 = 1.959963984540054;
+constexpr std::size_t kFewestForGroup = 3;
+
+std::string compared_method(const std::vector<PersonChange>& changes) {
+  std::string method;
+  for (const PersonChange& change : changes) {
+    for (const ComparedParameter& p : change.comparison.parameters)
+      if (method.empty() || p.first.method == "torque") method = p.first.method;
+  }
+  return method;
+}
+
+std::string word_of(Change change) {
+  switch (change) {
+    case Change::differs:
+      return "differs";
+    case Change::no_change:
+      return "no change";
+    case Change::cannot_tell:
+      return "cannot tell";
+  }
+  return "";
+}
+
+Badge mark_of(Change change) {
+  switch (change) {
+    case Change::differs:
+      return Badge::weak;
+    case Change::no_change:
+      return Badge::good;
+    case Change::cannot_tell:
+      return Badge::none;
+  }
+  return Badge::none;
+}
+
+report::StripCell change_cell(const ComparedParameter& p) {
+  report::StripCell cell{.value = p.difference,
+                         .lower = {},
+                         .upper = {},
+                         .truth = {},
+                         .verdict = word_of(p.change),
+                         .badge = mark_of(p.change)};
+  if (p.smallest_detectable) {
+    cell.lower = p.difference - *p.smallest_detectable;
+    cell.upper = p.difference + *p.smallest_detectable;
+  }
+  return cell;
+}
+
+/// The place of a number among the grids, made where there is none.
+report::StripCell& place(std::vector<report::StripGrid>& grids,
+                         const std::vector<PersonChange>& changes,
+                         std::size_t person,
+                         const ComparedParameter& p) {
+  const std::string id =
+      "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
+  auto grid = std::find_if(grids.begin(), grids.end(), [&](const auto& g) { return g.id == id; });
+  if (grid == grids.end()) {
+    report::StripGrid made{
+        .id = id,
+        .title = "Change of " + report::spelled(p.first.parameter) +
+                 (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
+        .caption =
+            "Second session minus first; the bar is the smallest change that these two recordings "
+            "detect, to either side. A bar that does not reach the line is a change.",
+        .columns = {},
+        .rows = {}};
+    for (const PersonChange& change : changes)
+      made.rows.push_back({.person = change.person, .page = change.page, .cells = {}});
+    grid = grids.insert(grids.end(), std::move(made));
+  }
+  auto column = std::find_if(grid->columns.begin(), grid->columns.end(),
+                             [&](const auto& c) { return c.name == p.muscle; });
+  if (column == grid->columns.end()) {
+    const std::string unit(symbol(p.first.unit));
+    column = grid->columns.insert(column, {.name = p.muscle,
+                                           .unit = unit == "1" ? "" : unit,
+                                           .middle = 0.0,
+                                           .spread_low = {},
+                                           .spread_high = {}});
+    for (report::StripRow& row : grid->rows) row.cells.emplace_back();
+  }
+  return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];
+}
+
+/// One number over the persons whose two recordings tell it.
+void add_row(const report::StripGrid& grid, std::size_t column, report::Table& table) {
+  std::vector<double> differences, detectable;
+  std::size_t differ = 0;
+  for (const report::StripRow& row : grid.rows) {
+    const report::StripCell& cell = row.cells[column];
+    if (!cell.value || !cell.lower) continue;
+    differences.push_back(*cell.value);
+    detectable.push_back(*cell.value - *cell.lower);
+    differ += cell.verdict == word_of(Change::differs);
+  }
+  if (differences.empty()) return;
+  const auto n = static_cast<double>(differences.size());
+  const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double d : differences) squares += (d - mean) * (d - mean);
+  const std::string group = differences.size() < kFewestForGroup
+                                ? "-"
+                                : report::format_value(k95 * std::sqrt(squares / (n - 1.0)));
+  table.rows.push_back(report::text_row(
+      {grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
+       grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),
+       report::format_value(mean), report::format_value(math::median(std::move(detectable))),
+       group}));
+}
+
+}  // namespace
+
+report::Section change_section(const std::vector<PersonChange>& changes) {
+  report::Section section;
+  section.id = "changes";
+  section.heading = "From the first session to the second";
+  const std::string method = compared_method(changes);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    for (const ComparedParameter& p : changes[i].comparison.parameters)
+      if (p.first.method == method) place(section.grids, changes, i, p) = change_cell(p);
+    if (!changes[i].comparison.unlike.empty())
+      section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.",
+                                               changes[i].person,
+                                               changes[i].comparison.unlike.front()));
+  }
+  report::Table table{
+      .id = "changes",
+      .title = "Changes over the persons",
+      .caption =
+          "Of persons whose two recordings tell the number. The smallest detectable change of a "
+          "person follows from the two intervals. That of the group is 1.96 standard deviations of "
+          "the differences between persons: for persons who did not change, it holds every error "
+          "of a repetition, placing the electrodes anew included.",
+      .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
+                  "smallest detectable change, median person", "of the group"},
+      .rows = {}};
+  for (const report::StripGrid& grid : section.grids)
+    for (std::size_t c = 0; c < grid.columns.size(); ++c) add_row(grid, c, table);
+  if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace myoid

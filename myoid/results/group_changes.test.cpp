@@ -1,0 +1,54 @@
+#include "myoid/results/group_changes.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+ComparedParameter compared(const std::string& method, double difference, Change change) {
+  ComparedParameter p;
+  p.muscle = "BIC";
+  p.first.method = p.second.method = method;
+  p.first.fit_case = p.second.fit_case = "both";
+  p.first.parameter = p.second.parameter = "max_isometric_force";
+  p.difference = difference;
+  if (change != Change::cannot_tell) p.smallest_detectable = 50.0;
+  p.change = change;
+  return p;
+}
+
+PersonChange person(const std::string& name, std::vector<ComparedParameter> parameters) {
+  PersonChange made{.person = name, .page = "", .comparison = {}};
+  made.comparison.parameters = std::move(parameters);
+  return made;
+}
+
+TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
+  const report::Section section = change_section(
+      {person("A", {compared("paper", 900.0, Change::differs),
+                    compared("torque", 80.0, Change::differs)}),
+       person("B", {compared("torque", 10.0, Change::no_change)}),
+       person("C", {compared("torque", 700.0, Change::cannot_tell)}), person("D", {})});
+  ASSERT_EQ(section.grids.size(), 1U);
+  ASSERT_EQ(section.grids[0].rows.size(), 4U);
+  EXPECT_EQ(section.grids[0].rows[0].cells[0].value, 80.0);
+  EXPECT_EQ(section.grids[0].rows[0].cells[0].lower, 30.0);
+  EXPECT_FALSE(section.grids[0].rows[2].cells[0].lower);
+  EXPECT_FALSE(section.grids[0].rows[3].cells[0].value);
+  const std::vector<report::Cell>& row = section.tables.at(0).rows.at(0);
+  EXPECT_EQ(row[3].text, "2");
+  EXPECT_EQ(row[4].text, "1");
+  EXPECT_EQ(row[5].text, "45");
+  EXPECT_EQ(row[7].text, "-");  // a standard deviation of two is no number
+}
+
+TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
+  PersonChange unlike = person("A", {compared("torque", 1.0, Change::no_change)});
+  unlike.comparison.unlike = {"the model"};
+  const report::Section section = change_section({unlike});
+  ASSERT_EQ(section.paragraphs.size(), 1U);
+  EXPECT_NE(section.paragraphs[0].find("A: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace myoid
