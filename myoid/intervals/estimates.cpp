@@ -16,6 +16,7 @@
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/uncertainty.h"
 #include "myoid/intervals/verdict_rules.h"
+#include "myoid/math/explained_share.h"
 
 namespace myoid::identification {
 namespace {
@@ -28,13 +29,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
   for (int joint = 0; joint < model.joint_count(); ++joint) {
     const std::vector<Eigen::Index> rows = model.rows_of_joint(joint);
     if (rows.empty()) continue;
-    const Eigen::VectorXd measured = model.measured()(rows);
-    const Eigen::VectorXd off = measured.array() - measured.mean();
-    // R² about the mean is undefined for a constant torque: its own square stands in.
-    const double total = off.squaredNorm() > 1e-6 * measured.squaredNorm() ? off.squaredNorm()
-                                                                           : measured.squaredNorm();
-    if (total > 0.0)
-      least = std::min(least, 1.0 - (at.predicted(rows) - measured).squaredNorm() / total);
+    least = std::min(least, math::explained_share(at.predicted(rows), model.measured()(rows)));
   }
   return least;
 }

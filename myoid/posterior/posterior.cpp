@@ -14,6 +14,7 @@
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
+#include "myoid/math/explained_share.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/density.h"
@@ -249,6 +250,7 @@ void judge_row(const Reporting& of,
   facts.nuisance_gain = p.field->scope == Scope::channel && p.field->field == kGain;
   facts.is_delay = p.field->scope == Scope::channel && p.field->field == kDelay;
   facts.shares = of.shares[unknown];
+  facts.r2 = of.result.r2;
   e.variance_shares = facts.shares;
   if (p.field->scope == Scope::muscle && p.field->field == kWidth) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
@@ -364,9 +366,7 @@ void fill_fit(const Candidate& best,
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
   const Likelihood::Residuals rows = density.likelihood().residuals(result.solution);
-  const Eigen::VectorXd varied = rows.measured_nm.array() - rows.measured_nm.mean();
-  result.r2 = 1.0 - (rows.predicted_nm - rows.measured_nm).squaredNorm() /
-                        std::max(varied.squaredNorm(), 1e-300);
+  result.r2 = math::explained_share(rows.predicted_nm, rows.measured_nm);
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 

@@ -45,6 +45,7 @@ Finding finding(const PosteriorFacts& facts) {
   const VerdictRules rules;
   if (!facts.converged) return Finding::not_converged;
   if (!facts.possible) return Finding::impossible;
+  if (facts.r2 < rules.least_r2) return Finding::unexplained;
   if (facts.nuisance_gain || (facts.contraction && *facts.contraction < rules.least_shrinkage))
     return Finding::as_the_prior;
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
@@ -60,6 +61,7 @@ Finding finding(const PosteriorFacts& facts) {
 Verdict verdict_of(Finding finding) {
   switch (finding) {
     case Finding::not_converged:
+    case Finding::unexplained:
     case Finding::too_wide:
       return Verdict::not_identifiable;
     case Finding::impossible:
@@ -88,6 +90,11 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text += "; it rests on " + sources;
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
+  if (finding == Finding::unexplained)
+    text = fmt::format(
+        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or "
+        "a column is wrong, or the EMG is not that of these muscles; {}",
+        facts.r2, text);
   if (facts.approximate) text += "; approximate: the normal approximation could not be checked";
   return text;
 }

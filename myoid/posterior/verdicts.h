@@ -19,14 +19,17 @@ struct PosteriorFacts {
   std::optional<double> contraction;
   bool possible = true;  ///< A muscle can have it.
   bool is_delay = false;
+  double r2 = 1.0;  ///< Of the fitted torque.
   SourceShares shares{};
 };
 
-/// The answer to three questions: is the number possible and the search converged; how much
-/// narrower than the prior is the interval; is it narrow enough to use.
+/// The answer to four questions: is the number possible and the search converged; does the fit
+/// explain the torque; how much narrower than the prior is the interval; is it narrow enough to
+/// use.
 enum class Finding {
   not_converged,
   impossible,
+  unexplained,     ///< R2 of the fit below VerdictRules::least_r2.
   as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
   too_wide,        ///< Beyond VerdictRules::weak_half_width.
   half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.

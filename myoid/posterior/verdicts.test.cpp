@@ -63,6 +63,16 @@ TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
 }
 
+TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
+  PosteriorFacts facts = good();
+  facts.r2 = 0.3;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
+  EXPECT_THAT(reason_of(finding(facts), facts),
+              HasSubstr("explains little of the torque (R2 0.30)"));
+  facts.possible = false;
+  EXPECT_EQ(finding(facts), Finding::impossible);
+}
+
 TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
   PosteriorFacts facts = good();
   facts.is_delay = true;
