@@ -34,8 +34,24 @@ struct Effort {
   std::vector<double> extensor, flexor, force;
 };
 
+/// What is told holds for either estimator.
+class MeasuredJoints : public testing::TestWithParam<const char*> {
+ protected:
+  /// Runs `identify` by the estimator.
+  static Finished identify(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"identify", "--estimator", GetParam()});
+    return myoid(arguments);
+  }
+  static void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::string& who);
+};
+INSTANTIATE_TEST_SUITE_P(By,
+                         MeasuredJoints,
+                         testing::Values("least_squares", "posterior"),
+                         [](const auto& of) { return std::string(of.param); });
+
 /// Fits two muscles to two efforts at one angle; the verdicts of lengths and widths.
-void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::string& who) {
+void MeasuredJoints::expect_nothing_of_lengths(const std::vector<Effort>& efforts,
+                                               const std::string& who) {
   constexpr double kEmg_hz = 2000.0, kNewtonPerKgf = 9.80665, kLever_m = 0.3;
   const TemporaryFolder folder;
   double most[2] = {0.0, 0.0};
@@ -47,8 +63,8 @@ void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::st
              "muscle,max_isometric_force,optimal_fiber_length,force_length_width,"
              "concentric_curvature,eccentric_slope_ratio,eccentric_plateau,max_shortening_speed\n"
              "E,3000,0.1,0.045,0.28,1.5,1.4,1\nF,1500,0.09,0.0405,0.28,1.5,1.4,0.9\n");
-  std::vector<std::string> arguments{"identify", "--muscles", folder / "muscles.csv", "--folds",
-                                     "none",     "--out",     folder / "out"};
+  std::vector<std::string> arguments{"--muscles", folder / "muscles.csv", "--folds", "none",
+                                     "--out",     folder / "out"};
   std::vector<std::string> a{"--activations"}, l{"--lengths"}, r{"--moment-arms"}, t{"--torques"};
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     const Effort& e = efforts[k];
@@ -71,7 +87,7 @@ void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::st
     }
   }
   for (const auto& list : {a, l, r, t}) arguments.insert(arguments.end(), list.begin(), list.end());
-  const Finished done = myoid(arguments);
+  const Finished done = identify(arguments);
   ASSERT_NE(done.exit_code, 3) << who << ": " << done.err;
   int judged = 0;
   for (const Row& row : read_rows(folder / "out/parameters.csv")) {
@@ -87,7 +103,7 @@ void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::st
   EXPECT_EQ(judged, 4);
 }
 
-TEST(MeasuredJoints, OneAngleTellsNothingOfTheForceLengthCurveForAnyOfTenPeople) {
+TEST_P(MeasuredJoints, OneAngleTellsNothingOfTheForceLengthCurveForAnyOfTenPeople) {
   const fs::path data = myoid::test::data_folder() / "elderly-isometric";
   MYOID_REQUIRE_DATA(data);
   int people = 0;
@@ -111,7 +127,7 @@ TEST(MeasuredJoints, OneAngleTellsNothingOfTheForceLengthCurveForAnyOfTenPeople)
   EXPECT_EQ(people, 10);
 }
 
-TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees) {
+TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees) {
   const fs::path data = myoid::test::data_folder() / "tecchio-ankle";
   const fs::path model = myoid::test::data_folder() / "ceinms-rt-leg/gait2392.osim";
   MYOID_REQUIRE_DATA(data);
@@ -166,11 +182,11 @@ TEST(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSees
                    more_names + "\ntib_ant_r,905,0.098,0.223,0.0441,0.28,1.5,1.4,0.98" + more +
                    "\n");
     std::vector<std::string> arguments{
-        "identify", "--muscles", folder / "muscles.csv", "--coordinate", "ankle_angle_r", "--folds",
-        "none",     "--out",     folder / "out",         "--overwrite"};
+        "--muscles", folder / "muscles.csv", "--coordinate", "ankle_angle_r", "--folds", "none",
+        "--out",     folder / "out",         "--overwrite"};
     for (const auto& list : {a, l, v, r, t})
       arguments.insert(arguments.end(), list.begin(), list.end());
-    const Finished done = myoid(arguments);
+    const Finished done = identify(arguments);
     EXPECT_NE(done.exit_code, 3) << done.err;
     for (const Row& row : read_rows(folder / "out/parameters.csv")) {
       if (row.at("parameter") == "optimal_fiber_length")
@@ -230,7 +246,7 @@ Walks leave_out_walks(const fs::path& data,
   return found;
 }
 
-TEST(MeasuredJoints, AMinuteOfOneSpeedIsToldThatItPredictsAnotherWorseThanFiveSecondsDo) {
+TEST(MeasuredWalk, AMinuteOfOneSpeedIsToldThatItPredictsAnotherWorseThanFiveSecondsDo) {
   const fs::path data = myoid::test::data_folder() / "ceinms-rt-leg";
   MYOID_REQUIRE_DATA(data);
   const TemporaryFolder folder;
