@@ -210,6 +210,47 @@ TEST_F(WorkbenchPage, TheAddressHoldsWhatIsShown) {
   EXPECT_EQ(js("myoid.plots.some((p) => p.kind === 'torque')"), true);
 }
 
+/// The value of a column at a time, between the rows of a file.
+double value_at(const std::filesystem::path& path, const std::string& column, double time_s) {
+  const auto file = myoid::recording::read_storage(path).data;
+  const Eigen::VectorXd& t = file.time_s();
+  Eigen::Index k = 0;
+  while (k + 2 < t.size() && t[k + 1] <= time_s) ++k;
+  const double share = (time_s - t[k]) / (t[k + 1] - t[k]);
+  return (1.0 - share) * file.column(column)[k] + share * file.column(column)[k + 1];
+}
+
+TEST_F(WorkbenchPage, TheBandOfRepetitionsIsTheirMeanAndStandardDeviation) {
+  EXPECT_EQ(js("myoid.compare.options[1].disabled"), true);  // the names are of three movements
+  const json trials = js("myoid.trials.map((t) => [t.name, ...t.extent])");
+  ASSERT_GE(trials.size(), 3U);
+  js("myoid.trials.slice(0, 3).forEach((t, i) => (t.name = `lift_${i + 1}`)); myoid.open(0);"
+     "myoid.compare.value = 1; myoid.compare.dispatchEvent(new Event('change'))");
+  EXPECT_EQ(js("myoid.compare.options[1].disabled"), false);
+  plot("angle", "elbow flexion");
+  const json band =
+      js("(() => { const c = plot.curves.find((c) => c.role === 'spread');"
+         " return [c.name, [...c.x], [...c.y], [...c.upper]]; })()");
+  EXPECT_EQ(band[0], "mean ± 1 SD of 3 repetitions");
+  int compared = 0;
+  for (const int percent : {20, 50, 80}) {
+    Eigen::Vector3d values;
+    for (int i = 0; i < 3; ++i) {
+      const double from = trials[i][1], to = trials[i][2];
+      values[i] = value_at(*folder_ / "result" / trials[i][0].get<std::string>() / "ik.mot",
+                           "elbow_flexion", from + 0.01 * percent * (to - from));
+    }
+    const double mean = values.mean();
+    const double sd = std::sqrt((values.array() - mean).square().sum() / 2.0);
+    if (band[2][percent].is_null()) continue;
+    EXPECT_NEAR(band[2][percent].get<double>(), mean - sd, 0.1) << percent;
+    EXPECT_NEAR(band[3][percent].get<double>(), mean + sd, 0.1) << percent;
+    ++compared;
+  }
+  EXPECT_GE(compared, 2);
+  browser_->wait_for("location.hash.includes('repetitions=1')");
+}
+
 TEST_F(WorkbenchPage, TheChooserOpensATrialInEveryPart) {
   const json place =
       js("(() => { const chip = myoid.chips[myoid.trials.findIndex((t) => t.name === 'ramp')];"

@@ -16,6 +16,7 @@ const STYLES = {
   raw: { color: '#8d959e', area: 0.55 },
   band: { color: '#d1491b', area: 0.16 },
   range: { color: '#5a626b', area: 0.13 },
+  spread: { color: '#5a626b', area: 0.22 },
 };
 /** Of channels side by side: colors that the color-blind can tell apart, and dashes. */
 const CHANNELS = ['#1f5fa8', '#d1491b', '#00694b', '#b86e00', '#7b2d8b', '#3d8fc4', '#5a626b', '#a05a74'];

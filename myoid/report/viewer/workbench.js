@@ -6,6 +6,7 @@ import { tension } from './law.js';
 import { Learn } from './learn.js';
 import { upgradeFigures } from './figures.js';
 import { Plot } from './plot.js';
+import { band, repetitions } from './repetitions.js';
 import { Replay } from './replay.js';
 import { save } from './save.js';
 import { foldSections, unfold } from './sections.js';
@@ -64,8 +65,8 @@ export class Workbench {
         el('i', { textContent: SIGNS[t.badge], attributes: { 'aria-hidden': 'true' } }), ` ${t.name}`);
     });
     this.remarks = el('p', { className: 'remarks', attributes: { 'aria-live': 'polite' } });
-    this.compare = select('Compare with', ['no other trial', ...this.trials.map((t) => t.name)], (i) => {
-      this.compared = i - 1;
+    this.compare = select('Compare with', ['no other trial', 'its repetitions', ...this.trials.map((t) => t.name)], (i) => {
+      this.#setBeside(i);
       this.#plots();
       this.#remember();
     });
@@ -205,16 +206,40 @@ export class Workbench {
     this.legend.replaceChildren(`${values.name}: 0 `, bar, ` ${text(values.top, values.top < 10 ? 1 : 0)} ${values.unit}`);
   }
 
+  /** Chooses the curves beside the trial's: 0 none, 1 its repetitions, then the trials. */
+  #setBeside(choice) {
+    this.repeated = choice === 1;
+    this.compared = choice - 2;
+    this.compare.value = Math.max(0, choice);
+  }
+
+  /** The curve of a plot that stands for a trial beside others. */
+  #mainCurve(trial, plot) {
+    const same = trial.plots.find((o) => o.kind === plot.kind && o.title === plot.title);
+    return same && same.kind !== 'activation' ? same.curves.find((q) => !q.upper) : undefined;
+  }
+
+  /** Grey curves behind the trial's: another trial from its own begin, or the band of the repetitions. */
+  #beside(plot) {
+    const other = this.trials[this.compared];
+    const c = other && this.#mainCurve(other, plot);
+    if (c) return [{ ...c, name: other.name, role: 'other', own: true, x: c.x.map((x) => x + this.domain[0] - other.extent[0]) }];
+    if (!this.repeated) return [];
+    const parts = repetitions(this.trials, this.trial).flatMap((t) => {
+      const curve = this.#mainCurve(t, plot);
+      return curve ? [{ curve, extent: t.extent }] : [];
+    });
+    const found = band(parts, this.domain);
+    return found ? [found] : [];
+  }
+
   /** Makes the plots of the trial. */
   #plots() {
-    const other = this.trials[this.compared];
-    const shift = other ? this.domain[0] - other.extent[0] : 0;
+    const option = this.compare.querySelectorAll('option')[1];
+    option.disabled = repetitions(this.trials, this.trial).length === 0;
     const shown = this.trial.plots.filter((p) => !this.hidden.has(p.kind) && this.#isChosen(p));
     this.plots = shown.map((p) => {
-      const curves = [...p.curves];
-      const same = other && other.plots.find((o) => o.kind === p.kind && o.title === p.title);
-      if (same && p.kind !== 'activation')
-        for (const c of [same.curves.find((q) => !q.upper)]) curves.unshift({ ...c, name: other.name, role: 'other', own: true, x: c.x.map((x) => x + shift) });
+      const curves = [...this.#beside(p), ...p.curves];
       const marks = this.trial.marks.filter((m) => m.begin !== null && m.about.split(', ').includes(p.title)).map((m) => ({ from: m.begin, to: m.end, text: m.text }));
       const plot = new Plot({ ...p, curves, marks, prefix: this.trial.name, height: p.kind === 'torque' ? 168 : p.kind === 'angle' ? 168 : 118 }, this.on);
       plot.domain = this.domain;
@@ -393,6 +418,7 @@ export class Workbench {
       if (this.look) wishes.set('view', this.look);
       if (this.hidden.size) wishes.set('hide', [...this.hidden].join(','));
       if (this.compared >= 0) wishes.set('beside', this.trials[this.compared].name);
+      if (this.repeated) wishes.set('repetitions', '1');
       history.replaceState(null, '', `#${wishes}`);
     }, 60);
   }
@@ -404,8 +430,8 @@ export class Workbench {
       const wishes = new URLSearchParams(hash);
       this.hidden = new Set((wishes.get('hide') || '').split(',').filter((kind) => this.boxes[kind]));
       for (const [kind, box] of Object.entries(this.boxes)) box.querySelector('input').checked = !this.hidden.has(kind);
-      this.compared = this.trials.findIndex((t) => t.name === wishes.get('beside'));
-      this.compare.value = this.compared + 1;
+      const beside = this.trials.findIndex((t) => t.name === wishes.get('beside'));
+      this.#setBeside(beside >= 0 ? beside + 2 : wishes.has('repetitions') ? 1 : 0);
       const index = this.trials.findIndex((t) => t.name === wishes.get('trial'));
       this.open(index < 0 ? this.index : index);
       if (wishes.has('from')) this.zoom([Number(wishes.get('from')), Number(wishes.get('to') || this.domain[1])]);
