@@ -16,6 +16,7 @@
 #include "myoid/files/file_format.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
+#include "myoid/intake/norm.h"
 #include "myoid/intake/read_trial.h"
 #include "myoid/intake/study_activation.h"
 #include "myoid/intake/trial_markers.h"
@@ -63,6 +64,8 @@ class StudyCheck {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
     }
     attempt("video", [&] { require_videos(study_); });
+    for (const NormSpec& norm : study_.norms)
+      attempt("norm", [&] { (void)read_norm(norm, study_); });
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }

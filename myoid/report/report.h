@@ -19,6 +19,7 @@ enum class Role {
   band,        ///< Area between y and y_upper: light.
   unseen,      ///< Predicted without this recording: dash-dotted green.
   range,       ///< Area between y and y_upper that the recording visited: grey.
+  norm,        ///< Area between y and y_upper of a group of people: light blue.
   points,      ///< Markers without a line; with y_lower/y_upper an error bar.
 };
 

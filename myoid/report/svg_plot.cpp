@@ -45,11 +45,15 @@ Style style_of(Role role) {
       return {"#00694b", "7 2 1.5 2", 1.5};
     case Role::range:
       return {"#5a626b", "", 0.0};
+    case Role::norm:
+      return {"#3d8fc4", "", 0.0};
     case Role::points:
       return {"#1f5fa8", "", 1.3};
   }
   return {"#000000", "", 1.0};
 }
+
+bool is_area(Role role) { return role == Role::band || role == Role::range || role == Role::norm; }
 
 struct Range {
   double lower = std::numeric_limits<double>::infinity();
@@ -199,7 +203,7 @@ class PanelDrawing {
   }
 
   [[nodiscard]] std::string curve(const Series& series) const {
-    if (series.role == Role::band || series.role == Role::range) return band(series);
+    if (is_area(series.role)) return band(series);
     if (series.role == Role::points) return points(series);
     SvgPath path;
     for (const std::size_t k : decimate(series.y, kBinsPerPanel)) {
@@ -309,7 +313,7 @@ double entry_width(const LegendEntry& entry) {
 
 std::string legend_mark(Role role, double x, double y) {
   const Style style = style_of(role);
-  if (role == Role::band || role == Role::range) {
+  if (is_area(role)) {
     return fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"24\" height=\"9\" fill=\"{}\" "
         "fill-opacity=\"0.16\"/>\n",

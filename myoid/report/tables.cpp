@@ -90,6 +90,8 @@ std::string_view name(Role role) {
       return "unseen";
     case Role::range:
       return "range";
+    case Role::norm:
+      return "norm";
     case Role::points:
       return "points";
   }

@@ -9,6 +9,7 @@
 #include "myoid/methods/prediction.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/movable_muscles.h"
+#include "myoid/results/norm_bands.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/results/study_scene.h"
 #include "myoid/run/prediction_gates.h"
@@ -396,6 +397,7 @@ WorkbenchTrial shown_trial(const StudyResult& result,
     add_fitted_forces(result, *data, *fitted, plots);
   else
     add_shared_forces(trial, plots);
+  add_norms(result.source, trial, shown);
   add_carpet(trial, shown);
   add_remarks(result, fit, outlying, trial, shown);
   return shown;

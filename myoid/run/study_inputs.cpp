@@ -38,8 +38,12 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
 }
 
 StudySource read_source(const Study& study) {
-  StudySource source{
-      .study = study, .model_text = model_text(study), .model = {}, .truth = {}, .files = {}};
+  StudySource source{.study = study,
+                     .model_text = model_text(study),
+                     .model = {},
+                     .truth = {},
+                     .norms = {},
+                     .files = {}};
   source.model = std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
   return source;
 }
@@ -53,6 +57,10 @@ StudyInputs read_inputs(const Study& study) {
   if (study.model.file)
     source.files.push_back({study.model.file->string(), sha256(source.model_text)});
   if (study.truth) source.truth = read_truth(*study.truth);
+  for (const NormSpec& norm : study.norms) {
+    source.norms.push_back(read_norm(norm, study));
+    source.files.push_back({norm.file.string(), sha256(recording::read_text_file(norm.file))});
+  }
   std::vector<std::vector<TrialPart>> parts(study.trials.size());
   oneapi::tbb::parallel_for(std::size_t{0}, study.trials.size(), [&](std::size_t i) {
     try {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/core/provenance.h"
+#include "myoid/intake/norm.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
@@ -24,6 +25,7 @@ struct StudySource {
   /// Without held mass; read once for all trials. Never null.
   std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
   std::vector<TrueValue> truth;
+  std::vector<Norm> norms;
   std::vector<InputFile> files;
 };
 

@@ -91,6 +91,17 @@ void check_trials(const Study& study) {
   }
 }
 
+void check_norms(const Study& study) {
+  Names names;
+  for (const TrialSpec& trial : study.trials) names.insert(trial.name);
+  for (const NormSpec& norm : study.norms) {
+    for (const std::string& trial : norm.trials)
+      if (!names.contains(trial))
+        refuse(study, fmt::format("[[norm]] {}: '{}' is no [[trial]]; there are {}", norm.name,
+                                  trial, fmt::join(names, ", ")));
+  }
+}
+
 /// Refuses tables that name each other wrongly.
 void check_references(const Study& study) {
   const Names muscles = muscle_names(study);
@@ -98,6 +109,7 @@ void check_references(const Study& study) {
   for (const identification::ParameterRule& rule : study.parameters)
     check_rule(study, rule, muscles);
   check_trials(study);
+  check_norms(study);
 }
 
 }  // namespace

@@ -193,6 +193,14 @@ struct TrialSpec {
   bool operator==(const TrialSpec&) const = default;
 };
 
+/// Curves of a group of people, drawn behind the person's.
+struct NormSpec {
+  std::string name;                 ///< Of the group: "adults, N = 24".
+  std::filesystem::path file;       ///< Table over percent of the movement.
+  std::vector<std::string> trials;  ///< Empty: every movement.
+  bool operator==(const NormSpec&) const = default;
+};
+
 /// Films that a command line adds to the trials of a study.
 struct VideoChoice {
   std::vector<std::string> files;  ///< "TRIAL=FILE", or "FILE" for a study of one movement.
@@ -260,6 +268,7 @@ struct Study {
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
+  std::vector<NormSpec> norms;                            ///< [[norm]]
   std::optional<std::filesystem::path> truth;
   bool operator==(const Study&) const = default;
 };

@@ -53,6 +53,19 @@ TEST(ParseStudy, TwoTrialsOfOneNameAreRefused) {
   EXPECT_NE(message.find("two [[trial]] are named 't1'"), std::string::npos) << message;
 }
 
+TEST(ParseStudy, ANormNamesTrialsOfTheStudy) {
+  const std::string norm = "[[norm]]\nname = \"adults\"\nfile = \"n.csv\"\n";
+  const Study study = parse_study(kMinimal + norm + "trials = [\"t1\"]\n", "dir/study.toml");
+  ASSERT_EQ(study.norms.size(), 1U);
+  EXPECT_EQ(study.norms[0].file, std::filesystem::path("dir/n.csv"));
+  EXPECT_EQ(study.norms[0].trials, std::vector<std::string>{"t1"});
+  EXPECT_TRUE(
+      parse_study(kMinimal + norm + "trials = \"all\"\n", "s.toml").norms[0].trials.empty());
+  EXPECT_NE(study_message(kMinimal + norm + "trials = [\"t2\"]\n")
+                .find("[[norm]] adults: 't2' is no [[trial]]; there are t1"),
+            std::string::npos);
+}
+
 TEST(ParseStudy, WithoutATrialToLearnFromItIsRefused) {
   EXPECT_NE(study_message(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"),
             std::string::npos);

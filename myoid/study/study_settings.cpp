@@ -387,6 +387,17 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
             .limits = within(0.0, 0.95)});
 }
 
+void visit(NormSpec& norm, SettingVisitor& v) {
+  v.text("name", norm.name,
+         {.says = "The group, for legends: `\"adults, N = 24\"`.",
+          .required = "the name of the group, such as \"adults, N = 24\""});
+  v.path("file", norm.file,
+         {.says = "[Table of mean and standard deviation](report.md#norms) over percent of the "
+                  "movement, `.csv`.",
+          .required = "the table of mean and standard deviation over percent of the movement"});
+  v.texts("trials", norm.trials, {.says = "The movements that it belongs to.", .word = "all"});
+}
+
 void visit(Study& study, SettingVisitor& v) {
   v.table("subject", study.subject, {.says = "The person."});
   v.table("model", study.model, {.says = "The model of the body."});
@@ -407,6 +418,8 @@ void visit(Study& study, SettingVisitor& v) {
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
   v.tables("trial", study.trials, {.says = "A recording."});
   v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});
+  v.tables("norm", study.norms,
+           {.says = "Curves of a group of people, which the report draws behind the person's."});
   v.table("truth", study.truth.has_value(), {.says = "A virtual recording's true values."},
           [&study](SettingVisitor& inside) {
             inside.path(

@@ -20,6 +20,7 @@ void visit(SharingSpec& sharing, SettingVisitor& v);
 void visit(PhasesSpec& phases, SettingVisitor& v);
 void visit(IdentifySpec& identify, SettingVisitor& v);
 void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v);
+void visit(NormSpec& norm, SettingVisitor& v);
 
 /// Every table of a study.
 void visit(Study& study, SettingVisitor& v);

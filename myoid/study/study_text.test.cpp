@@ -183,6 +183,10 @@ name = "u"
 motion = "/far/u.mot"
 emg = "u.sto"
 load_cell = "u.c3d"
+[[norm]]
+name = "adults"
+file = "norm.csv"
+trials = ["t"]
 [truth]
 file = "truth.csv"
 )";

@@ -36,6 +36,14 @@ class WorkbenchPage : public testing::Test {
     const auto twin = myoid({"twin", "--model", "arm4", "--protocol", protocol, "--seed", "3",
                              "--out", *folder_ / "rec"});
     ASSERT_EQ(twin.exit_code, 0) << twin.err;
+    myoid::recording::write_file(*folder_ / "rec/norm.csv",
+                                 "percent,elbow_flexion_mean,elbow_flexion_sd\n"
+                                 "0,20,5\n50,100,10\n100,40,8\n");
+    const std::string study = ::myoid::test::read_text(*folder_ / "rec/study.toml");
+    myoid::recording::write_file(
+        *folder_ / "rec/study.toml",
+        study +
+            "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
     const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
@@ -249,6 +257,21 @@ TEST_F(WorkbenchPage, TheBandOfRepetitionsIsTheirMeanAndStandardDeviation) {
   }
   EXPECT_GE(compared, 2);
   browser_->wait_for("location.hash.includes('repetitions=1')");
+}
+
+TEST_F(WorkbenchPage, ANormLiesBehindTheAngleOfItsTrial) {
+  EXPECT_EQ(js("myoid.plots.some((p) => p.curves.some((c) => c.role === 'norm'))"), false);
+  open("trial=ramp");
+  plot("angle", "elbow flexion");
+  const json band =
+      js("(() => { const c = plot.curves[0]; return [c.role, c.name, c.x[1], c.y[1], c.upper[1]]; "
+         "})()");
+  EXPECT_EQ(band[0], "norm");
+  EXPECT_EQ(band[1], "adults, N = 24, mean ± 1 SD");
+  const auto time = myoid::recording::read_storage(*folder_ / "result/ramp/ik.mot").data.time_s();
+  EXPECT_NEAR(band[2].get<double>(), 0.5 * (time[0] + time[time.size() - 1]), 0.01);
+  EXPECT_NEAR(band[3].get<double>(), 90.0, 0.01);
+  EXPECT_NEAR(band[4].get<double>(), 110.0, 0.01);
 }
 
 TEST_F(WorkbenchPage, TheChooserOpensATrialInEveryPart) {

@@ -1,0 +1,43 @@
+#include "myoid/results/norm_bands.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "myoid/report/typeset.h"
+
+namespace myoid {
+namespace {
+
+bool belongs_to(const Norm& norm, const TrialResult& trial) {
+  const bool part = std::any_of(trial.input.remarks.begin(), trial.input.remarks.end(),
+                                [](const Remark& r) { return r.code == RemarkCode::clock_pause; });
+  const auto& named = norm.trials;
+  return !part &&
+         (named.empty() || std::find(named.begin(), named.end(), trial.spec.name) != named.end());
+}
+
+}  // namespace
+
+void add_norms(const StudySource& source, const TrialResult& trial, report::WorkbenchTrial& shown) {
+  if (!trial.has_motion()) return;
+  const Eigen::VectorXd& t = trial.motion.joints.q.time_s();
+  for (const Norm& norm : source.norms) {
+    if (!belongs_to(norm, trial)) continue;
+    const auto clock = static_cast<int>(shown.clocks.size());
+    shown.clocks.emplace_back(t[0] + 0.01 * norm.percent.array() * (t[t.size() - 1] - t[0]));
+    for (const NormCurve& curve : norm.curves) {
+      for (report::TimePlot& plot : shown.plots) {
+        if (plot.kind != (curve.torque ? "torque" : "angle") ||
+            plot.title != report::spelled(curve.coordinate))
+          continue;
+        plot.lines.insert(plot.lines.begin(),
+                          {fmt::format("{}, mean ± 1 SD", norm.name), report::Role::norm, clock,
+                           curve.mean - curve.sd, curve.mean + curve.sd});
+      }
+    }
+  }
+}
+
+}  // namespace myoid
