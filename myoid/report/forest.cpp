@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
@@ -158,11 +157,11 @@ std::string light_html(const std::vector<Gate>& gates) {
   const GateStatus worst = failed > 0   ? GateStatus::fail
                            : warned > 0 ? GateStatus::warn
                                         : GateStatus::pass;
-  std::vector<std::string> questions;
+  std::string questions;
   for (const Gate& gate : gates)
     if (gate.status == worst && worst != GateStatus::pass)
-      questions.push_back(gate.value.empty() ? gate.name
-                                             : fmt::format("{} ({})", gate.name, gate.value));
+      questions += fmt::format("<li>{}{}</li>", typeset(gate.name),
+                               gate.value.empty() ? "" : ": " + typeset(gate.value));
   const char* head = failed > 0   ? "Do not use the numbers"
                      : warned > 0 ? "Use the numbers with caution"
                                   : "The recording passed every question";
@@ -175,12 +174,13 @@ std::string light_html(const std::vector<Gate>& gates) {
                      "d=\"M11 20L18 27L29 13\"/>";
   return fmt::format(
       "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
-      "aria-hidden=\"true\">{}</svg><p><b>{}.</b> {} of {} questions about the recording and the "
-      "fit are answered well.{} <a href=\"#quality\">All questions</a></p></div>\n",
+      "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} of {} questions about the recording and "
+      "the fit are answered well{} <a href=\"#quality\">All questions</a></p>{}</div></div>\n",
       name(worst), shape, head, count(GateStatus::pass), asked,
-      questions.empty() ? ""
-                        : " " + typeset(fmt::format("{}: {}.", failed > 0 ? "Failed" : "Caution",
-                                                    fmt::join(questions, "; "))));
+      questions.empty() ? "."
+      : failed > 0      ? "; these failed:"
+                        : "; these ask for caution:",
+      questions.empty() ? "" : "<ul>" + questions + "</ul>");
 }
 
 }  // namespace myoid::report

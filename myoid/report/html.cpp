@@ -27,7 +27,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .caption, .hints { font-size: 13px; }
 .headline { font-size: 17px; margin: 16px 0 12px; max-width: 90ch; }
 .light { display: flex; gap: 14px; align-items: center; margin: 12px 0; padding: 10px 14px; border: 1px solid; border-radius: 8px; }
-.light p { margin: 0; max-width: 100ch; } .light svg { flex: none; fill: currentColor; }
+.light p { margin: 0; max-width: 100ch; } .light ul { margin: 4px 0 0; padding-left: 18px; } .light svg { flex: none; fill: currentColor; }
 .light .sign { fill: none; stroke: #fff; stroke-width: 4; }
 .forest { margin: 10px 0 22px; }
 .forest table { width: 100%; max-width: 1180px; }
@@ -79,7 +79,10 @@ ul { margin: 6px 0; padding-left: 20px; }
 li { margin: 3px 0; max-width: 74ch; }
 @media (max-width: 760px) { body { padding: 16px 12px 40px; } .wide-only { display: none; } .forest { font-size: 12px; }
   .forest td, .forest th, .grid td, .grid th { padding-right: 6px; } .grid { font-size: 12px; overflow-x: auto; } .grid table { min-width: 620px; }
-  .grid th:first-child, .grid td:first-child { width: 24%; } .forest .bar { min-width: 70px; } }
+  .grid th:first-child, .grid td:first-child { width: 24%; } .forest .bar { min-width: 70px; }
+  .gates table { min-width: 0; } .gates thead { display: none; } .gates tr { display: block; padding: 8px 0; border-bottom: 1px solid #e6e8eb; }
+  .gates td { display: block; border: 0; padding: 1px 0; } .gates td:nth-child(2) { font-weight: 600; }
+  .gates td:nth-child(3)::before { content: "Found: "; } .gates td:nth-child(4)::before { content: "Asked for: "; } }
 code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } nav { display: none; }
   h2, h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; text-decoration: none; }
@@ -123,7 +126,7 @@ std::string gates_html(std::vector<Gate> gates) {
   std::stable_sort(gates.begin(), gates.end(),
                    [&](const Gate& a, const Gate& b) { return rank(a.status) < rank(b.status); });
   std::string text =
-      "<div class=\"wide\"><table><thead><tr><th></th><th>Question</th><th>Found</th>"
+      "<div class=\"wide gates\"><table><thead><tr><th></th><th>Question</th><th>Found</th>"
       "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
   for (const Gate& gate : gates) {
     text += fmt::format(
@@ -257,7 +260,10 @@ std::string html(const Report& report, const Workbench* workbench) {
     text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   }
   if (!report.headline.empty()) {
-    text += fmt::format("<p class=\"headline\">{}</p>\n", typeset(report.headline));
+    const bool next = std::any_of(report.sections.begin(), report.sections.end(),
+                                  [](const Section& section) { return section.id == "next"; });
+    text += fmt::format("<p class=\"headline\">{}{}</p>\n", typeset(report.headline),
+                        next ? " <a href=\"#next\">What to record next</a>" : "");
   }
   text += light_html(report.gates);
   for (const Link& link : report.links) {

@@ -156,9 +156,7 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   const VisitedRange range = visited(result.fit_input.data, m);
   Figure figure{"curves_" + setup.name,
                 fmt::format("{}: force-length and force-velocity relations", setup.name),
-                "Grey dotted: literature; orange dashed: identified, with its 95 % band from the "
-                "standard errors; thin black: the truth of a virtual recording. The recording "
-                "covers the shaded range.",
+                "The band is from the standard errors; the recording covers the shaded range.",
                 {length_panel(of, range), velocity_panel(of, range)},
                 2};
   figure.bad =

@@ -322,6 +322,10 @@ void add_remarks(const StudyResult& result,
         "files, labels, held mass and clock.",
         fold.rms_nm, fold.usual_rms_nm));
   }
+  for (std::string& text : sentences(trial.remarks, Severity::warning)) {
+    worse(Badge::weak);
+    shown.remarks.push_back(std::move(text));
+  }
   for (const Remark& fault : trial.faults) {
     if (fault.severity != Severity::warning && fault.severity != Severity::error) continue;
     worse(Badge::weak);
@@ -336,13 +340,13 @@ void add_remarks(const StudyResult& result,
   for (const identification::TrialFit& t : fit->trials) {
     if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
     shown.remarks.push_back(
-        fmt::format("{}: torque {} within {:.2f} N m rms (R2 {:.2f}).", report::spelled(t.joint),
+        fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", report::spelled(t.joint),
                     t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
   }
   for (const identification::Fold& fold : result.folds) {
     if (fold.trial == trial.spec.name)
       shown.remarks.push_back(
-          fmt::format("Left out, it is predicted within {:.2f} N m rms (R2 "
+          fmt::format("Left out, it is predicted within {:.2f} N m rms (R² "
                       "{:.2f}).",
                       fold.identified.rmse_nm(), fold.identified.r2()));
   }

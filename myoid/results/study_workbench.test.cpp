@@ -80,6 +80,20 @@ TEST(StudyWorkbench, MarksAFaultOnItsChannelAndOnTheTrial) {
   EXPECT_NEAR(trial.carpet[0].value[79], 0.2, 0.0025);
 }
 
+TEST(StudyWorkbench, AWarningAboutTheFilesMarksTheTrialAndANoteDoesNot) {
+  StudyResult result = one_trial();
+  result.trials[0].faults.clear();
+  result.trials[0].remarks = {
+      {.code = RemarkCode::reading, .severity = Severity::note, .says = "times were counted"}};
+  EXPECT_EQ(study_workbench(result, "results").trials[0].badge, report::Badge::good);
+  result.trials[0].remarks.push_back({.code = RemarkCode::body_unsupported,
+                                      .severity = Severity::warning,
+                                      .says = "nothing carries the body"});
+  const report::WorkbenchTrial trial = study_workbench(result, "results").trials[0];
+  EXPECT_EQ(trial.badge, report::Badge::weak);
+  EXPECT_THAT(trial.remarks, testing::ElementsAre(testing::HasSubstr("nothing carries the body")));
+}
+
 TEST(StudyWorkbench, ATrialThatFailedIsListedWithItsReason) {
   StudyResult result = one_trial();
   result.trials[0] = TrialResult{};

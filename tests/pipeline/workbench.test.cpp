@@ -283,6 +283,9 @@ TEST_F(WorkbenchPage, TheChooserOpensATrialInEveryPart) {
   EXPECT_EQ(js("myoid.trial.name"), "ramp");
   EXPECT_EQ(js("myoid.replay.trial.name"), "ramp");
   EXPECT_EQ(js("myoid.carpet.trial.name"), "ramp");
+  // The virtual markers are off by millimeters: far from dark.
+  EXPECT_THAT(js("myoid.carpet.says.textContent").get<std::string>(),
+              HasSubstr("marker error 20 mm"));
   EXPECT_EQ(js("document.querySelectorAll('.chip[aria-pressed=true]').length"), 1);
   EXPECT_THAT(js("myoid.remarks.textContent").get<std::string>(), HasSubstr("ramp"));
 }

@@ -7,6 +7,8 @@ import { text, ticks } from './series.js';
 const ROW = 13;
 const LEFT = 74;
 const TOP = 2;
+/** Least value that is drawn dark: a marker 20 mm off its place in the model is far off, one 2 mm off is not. */
+const LEAST = { EMG: 0, marker: 20 };
 
 /** From light to dark in lightness alone: readable without color and on paper. */
 function shade(share) {
@@ -33,7 +35,7 @@ export class Carpet {
       this.svg, explain);
     this.svg.addEventListener('pointermove', (event) => this.#hover(event));
     this.svg.addEventListener('pointerleave', () => {
-      this.says.textContent = '';
+      this.says.textContent = this.scale;
       this.on.hover(null);
     });
     this.svg.addEventListener('click', (event) => this.on.pick(this.#time(event)));
@@ -45,8 +47,11 @@ export class Carpet {
     this.element.hidden = trial.carpet.rows.length === 0;
     const top = {};
     for (const row of trial.carpet.rows)
-      top[row.kind] = Math.max(top[row.kind] || 0, ...[...row.values].filter(Number.isFinite));
+      top[row.kind] = Math.max(top[row.kind] || LEAST[row.kind] || 0, ...[...row.values].filter(Number.isFinite));
     this.top = top;
+    this.scale = Object.entries(top).map(([kind, value]) => `${kind === 'marker' ? 'marker error' : kind} ${kind === 'marker' ? `${text(value, 0)} mm` : text(value, 2)}`);
+    this.scale = this.scale.length ? `darkest: ${this.scale.join(', ')}` : '';
+    this.says.textContent = this.scale;
     this.draw();
   }
 
