@@ -8,12 +8,13 @@ mkdir -p "$1"
 out=$(realpath "$1")
 command -v dpkg-buildpackage >/dev/null && command -v dh >/dev/null ||
   { echo "Please install: apt-get install debhelper dh-python dpkg-dev fakeroot" >&2; exit 3; }
+commit=$(git -C "$root" rev-parse HEAD)  # of both builds
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 build() {  # build FOLDER: the same place each time, another time of day
   rm -rf "$work/build" && mkdir -p "$work/build/myoid" "$1"
-  git -C "$root" archive HEAD | tar -x -C "$work/build/myoid"
+  git -C "$root" archive "$commit" | tar -x -C "$work/build/myoid"
   (cd "$work/build/myoid" && CCACHE_DIR=${CCACHE_DIR:-$HOME/.cache/ccache} \
     DEB_BUILD_OPTIONS="parallel=$(nproc) noautodbgsym ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -b -us -uc) \
     >"$1/build.log" 2>&1 || { tail -20 "$1/build.log" >&2; exit 1; }

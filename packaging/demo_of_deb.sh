@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # usage: packaging/demo_of_deb.sh PACKAGES
-# Installs the packages of a folder into an empty Debian root (debootstrap; it must be root, and reach an archive) and
-# runs the demo there. Where that cannot be done, the packages are unpacked into an empty folder, and the script says so.
+# Installs `myoid` of a folder into an empty Debian root (debootstrap; it must be root, and reach an archive) and runs
+# the demo there, then `python3-myoid` and the demo in Python. Where that cannot be done, the packages are unpacked into
+# an empty folder, and the script says so.
 set -euo pipefail
 packages=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null &&
   debootstrap --variant=minbase bookworm "$work/root" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" >"$work/log" 2>&1; then
-  cp "$packages"/myoid_*.deb "$work/root/tmp"
+  cp "$packages"/*.deb "$work/root/tmp"
   cp /etc/resolv.conf "$work/root/etc" 2>/dev/null || true
   [ -d /etc/apt/apt.conf.d ] && cp -n /etc/apt/apt.conf.d/* "$work/root/etc/apt/apt.conf.d" 2>/dev/null || true
   # The demo needs the examples, which a minimal root would leave out.
@@ -18,6 +19,10 @@ if [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null &&
   cp "$(dirname "$0")/../debian/tests/demo" "$work/root/tmp/demo"
   chroot "$work/root" sh /tmp/demo
   echo "in an empty Debian root with $(chroot "$work/root" dpkg -l | grep -c '^ii') packages"
+  chroot "$work/root" sh -c 'apt-get install -y -qq --no-install-recommends /tmp/python3-myoid_*.deb' >>"$work/log" 2>&1 ||
+    { tail -20 "$work/log"; exit 1; }
+  cp "$(dirname "$0")/../debian/tests/python" "$work/root/tmp/python"
+  chroot "$work/root" sh /tmp/python
 else
   echo "no empty Debian root can be made here (debootstrap as root, with an archive): unpacked into a folder instead"
   tail -3 "$work/log" 2>/dev/null || true

@@ -175,7 +175,7 @@ std::string light_html(const std::vector<Gate>& gates) {
   return fmt::format(
       "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
       "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} of {} questions about the recording and "
-      "the fit are answered well{} <a href=\"#quality\">All questions</a></p>{}</div></div>\n",
+      "the fit (<a href=\"#quality\">all</a>) are answered well{}</p>{}</div></div>\n",
       name(worst), shape, head, count(GateStatus::pass), asked,
       questions.empty() ? "."
       : failed > 0      ? "; these failed:"

@@ -27,7 +27,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .caption, .hints { font-size: 13px; }
 .headline { font-size: 17px; margin: 16px 0 12px; max-width: 90ch; }
 .light { display: flex; gap: 14px; align-items: center; margin: 12px 0; padding: 10px 14px; border: 1px solid; border-radius: 8px; }
-.light p { margin: 0; max-width: 100ch; } .light ul { margin: 4px 0 0; padding-left: 18px; } .light svg { flex: none; fill: currentColor; }
+.light p { margin: 0; max-width: 100ch; } .light ul { margin: 4px 0 0; padding-left: 18px; max-width: 100ch; } .light svg { flex: none; fill: currentColor; }
 .light .sign { fill: none; stroke: #fff; stroke-width: 4; }
 .forest { margin: 10px 0 22px; }
 .forest table { width: 100%; max-width: 1180px; }

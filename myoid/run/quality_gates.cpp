@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/intake/limits.h"
+#include "myoid/report/typeset.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -135,12 +138,12 @@ std::optional<Gate> support_gate(const StudyResult& result) {
 /// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers
 /// wrong.
 Gate recordings_gate(const StudyResult& result) {
-  std::set<std::string_view> codes;
+  std::set<std::string> codes;
   std::size_t grave = 0;
   for (const Remark& fault : all_faults(result)) {
     if (fault.severity != Severity::warning) continue;
     ++grave;
-    codes.insert(name(fault.code));
+    codes.insert(report::spelled(name(fault.code)));
   }
   std::size_t warnings = 0;
   std::vector<std::string> trials;
@@ -271,11 +274,14 @@ std::vector<Gate> reference_gates(const EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
                                [](const auto& n) { return n.from_mvc; });
-  std::string sources;
-  for (const auto& n : emg.normalisation)
-    sources += fmt::format("{}{}: {}", sources.empty() ? "" : "; ", n.channel, n.source_trial);
+  std::map<std::string, std::vector<std::string>> channels;  // by the trial of their largest effort
+  for (const auto& n : emg.normalisation) channels[n.source_trial].push_back(n.channel);
+  std::vector<std::string> sources;
+  for (const auto& [trial, names] : channels)
+    sources.push_back(fmt::format("{}: {}", trial, fmt::join(names, ", ")));
   return {{"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn,
-           sources, "every channel from an MVC trial",
+           fmt::format("largest effort in {}", fmt::join(sources, "; in ")),
+           "every channel from an MVC trial",
            mvc ? "F_max means the maximal force."
                : "F_max below means the force at the study's largest EMG, not the "
                  "muscle's maximum; forces and torques do not depend on it."}};
