@@ -144,11 +144,16 @@ json Browser::evaluate(const std::string& expression) {
 }
 
 void Browser::wait_for(const std::string& expression) {
+  std::string error;
   for (int k = 0; k < kPatience_ms / 20; ++k) {
-    if (evaluate(expression) == true) return;
+    try {
+      if (evaluate(expression) == true) return;
+    } catch (const std::runtime_error& between_two_pages) {  // the next has no body yet
+      error = between_two_pages.what();
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  throw std::runtime_error("never true: " + expression);
+  throw std::runtime_error("never true: " + expression + " " + error);
 }
 
 void Browser::open(const std::string& address) {
