@@ -170,6 +170,38 @@ double certificate(const ActuatorProblem& problem, const ActuatorSolution& s) {
   return worst;
 }
 
+/// The multipliers of the least-squares controls without bounds.
+Eigen::VectorXd unbounded(const Dual& dual) {
+  Eigen::MatrixXd h = dual.curvature(true);
+  h.diagonal().array() += 1e-12;
+  return h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
+}
+
+/// The nearest controls where the actuators cannot make the required torques: costly extra
+/// actuators take the rest.
+void take_nearest(const ActuatorProblem& problem,
+                  const Dual& dual,
+                  const Eigen::VectorXd& scale,
+                  ActuatorSolution& solution) {
+  const Eigen::Index m = problem.required.size();
+  const Eigen::Index n = problem.forces.cols();
+  const double strength = 1e-3;
+  const double infinity = std::numeric_limits<double>::infinity();
+  Eigen::MatrixXd a(m, n + m);
+  a << dual.a(), strength * Eigen::MatrixXd::Identity(m, m);
+  Eigen::VectorXd lower(n + m), upper(n + m);
+  lower << problem.lower, Eigen::VectorXd::Constant(m, -infinity);
+  upper << problem.upper, Eigen::VectorXd::Constant(m, infinity);
+  Dual helped(std::move(a), dual.b(), std::move(lower), std::move(upper), problem.exponent);
+  const Maximum nearest = maximize(helped, Eigen::VectorXd::Zero(m));
+  solution.control = helped.x().head(n);
+  solution.multiplier = scale.cwiseProduct(nearest.lambda);
+  solution.iterations += nearest.iterations;
+  solution.kkt_residual = certificate(problem, solution);
+  solution.feasible = false;
+  solution.solved = false;
+}
+
 }  // namespace
 
 ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::VectorXd* start) {
@@ -190,44 +222,15 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   }
   Dual dual(scale.asDiagonal() * problem.forces, scale.cwiseProduct(problem.required),
             problem.lower, problem.upper, problem.exponent);
-  Eigen::VectorXd lambda;
-  if (start != nullptr && start->size() == m) {
-    lambda = start->cwiseQuotient(scale);
-  } else {
-    // The least-squares controls without bounds.
-    Eigen::MatrixXd h = dual.curvature(true);
-    h.diagonal().array() += 1e-12;
-    lambda = h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
-  }
-  Maximum best = maximize(dual, lambda);
-  if (!best.balanced && start != nullptr) {
-    Eigen::MatrixXd h = dual.curvature(true);
-    h.diagonal().array() += 1e-12;
-    best = maximize(dual, h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b()));
-  }
+  const bool started = start != nullptr && start->size() == m;
+  Maximum best = maximize(dual, started ? start->cwiseQuotient(scale) : unbounded(dual));
+  if (!best.balanced && start != nullptr) best = maximize(dual, unbounded(dual));
   solution.control = dual.x();
   solution.multiplier = scale.cwiseProduct(best.lambda);
   solution.iterations = best.iterations;
   solution.kkt_residual = certificate(problem, solution);
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
-  if (!best.balanced) {
-    // Costly extra actuators take the part that the actuators cannot make.
-    const double strength = 1e-3;
-    const double infinity = std::numeric_limits<double>::infinity();
-    Eigen::MatrixXd a(m, n + m);
-    a << dual.a(), strength * Eigen::MatrixXd::Identity(m, m);
-    Eigen::VectorXd lower(n + m), upper(n + m);
-    lower << problem.lower, Eigen::VectorXd::Constant(m, -infinity);
-    upper << problem.upper, Eigen::VectorXd::Constant(m, infinity);
-    Dual helped(std::move(a), dual.b(), std::move(lower), std::move(upper), problem.exponent);
-    const Maximum nearest = maximize(helped, Eigen::VectorXd::Zero(m));
-    solution.control = helped.x().head(n);
-    solution.multiplier = scale.cwiseProduct(nearest.lambda);
-    solution.iterations += nearest.iterations;
-    solution.kkt_residual = certificate(problem, solution);
-    solution.feasible = false;
-    solution.solved = false;
-  }
+  if (!best.balanced) take_nearest(problem, dual, scale, solution);
   const double greatest = std::max(problem.required.cwiseAbs().maxCoeff(), 1e-300);
   solution.shortfall =
       (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff() / greatest;

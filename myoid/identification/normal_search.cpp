@@ -20,20 +20,175 @@ bool step_is_small(const Eigen::VectorXd& step, const Eigen::VectorXd& x, double
   return (step.array().abs() <= tolerance * (x.array().abs() + tolerance)).all();
 }
 
-void finish(NormalSearchResult& r,
-            const Eigen::VectorXd& lower,
-            const Eigen::VectorXd& upper,
-            Termination termination,
-            std::string message) {
-  r.termination = termination;
-  r.message = std::move(message);
-  r.at_bound.resize(static_cast<std::size_t>(r.x.size()));
-  for (Eigen::Index j = 0; j < r.x.size(); ++j) {
-    const double span = 1e-10 * (1.0 + std::abs(r.x[j]));
-    r.at_bound[static_cast<std::size_t>(j)] =
-        r.x[j] - lower[j] <= span || upper[j] - r.x[j] <= span;
+/// A search by Newton's steps with the damping of Nielsen, within bounds.
+class Search {
+ public:
+  Search(const NormalFunction& function,
+         const Eigen::VectorXd& lower,
+         const Eigen::VectorXd& upper,
+         const NormalSearchOptions& options,
+         const std::vector<bool>& held)
+      : function_(function), lower_(lower), upper_(upper), options_(options), held_(held) {}
+
+  NormalSearchResult run(const Eigen::VectorXd& start) {
+    r_.x = start.cwiseMax(lower_).cwiseMin(upper_);
+    if (!evaluate(r_.x, r_.at))
+      throw InvalidInput("identification: the model is not finite at the starting values");
+    r_.cost = r_.at.cost;
+    r_.cost_history.push_back(r_.cost);
+    first_cost_ = r_.cost;
+    scale_ = Eigen::VectorXd::Zero(start.size());
+    damping_ = options_.gauss_newton ? 0.0 : 1e-3;
+    for (r_.iterations = 0; r_.iterations < options_.max_iterations; ++r_.iterations) {
+      options_.progress.check();
+      if (iterate()) return std::move(r_);
+    }
+    end(Termination::iteration_limit,
+        fmt::format("not converged after {} iterations", r_.iterations));
+    return std::move(r_);
   }
-}
+
+ private:
+  /// The normal equations of the parameters that may move, scaled.
+  struct Scaled {
+    std::vector<Eigen::Index> moving;
+    bool flat = true;
+    Eigen::VectorXd d;
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
+  };
+  struct Trial {
+    Eigen::VectorXd x, moved;
+    bool clipped = false;   ///< A bound cut the step short.
+    double promised = 0.0;  ///< Fall of the cost by the quadratic model.
+  };
+
+  bool evaluate(const Eigen::VectorXd& x, NormalEquations& out) {
+    ++r_.evaluations;
+    function_(x, true, out);
+    return std::isfinite(out.cost) && out.gradient.allFinite() && out.curvature.allFinite();
+  }
+
+  /// Ends the search; true.
+  bool end(Termination termination, std::string message) {
+    r_.termination = termination;
+    r_.message = std::move(message);
+    r_.at_bound.resize(static_cast<std::size_t>(r_.x.size()));
+    for (Eigen::Index j = 0; j < r_.x.size(); ++j) {
+      const double span = 1e-10 * (1.0 + std::abs(r_.x[j]));
+      r_.at_bound[static_cast<std::size_t>(j)] =
+          r_.x[j] - lower_[j] <= span || upper_[j] - r_.x[j] <= span;
+    }
+    return true;
+  }
+
+  Scaled scaled() {
+    Scaled s;
+    for (Eigen::Index j = 0; j < r_.x.size(); ++j) {
+      const double norm = std::sqrt(std::max(0.0, r_.at.curvature(j, j)));
+      scale_[j] = std::max(scale_[j], norm);
+      const bool out = (r_.x[j] <= lower_[j] && r_.at.gradient[j] > 0.0) ||
+                       (r_.x[j] >= upper_[j] && r_.at.gradient[j] < 0.0);
+      if (out || (!held_.empty() && held_[static_cast<std::size_t>(j)])) continue;
+      s.moving.push_back(j);
+      s.flat = s.flat && std::abs(r_.at.gradient[j]) <= 1e-14 * norm * std::sqrt(2.0 * r_.cost);
+    }
+    const auto q = static_cast<Eigen::Index>(s.moving.size());
+    s.d.resize(q);
+    for (Eigen::Index k = 0; k < q; ++k) {
+      const double size = scale_[s.moving[static_cast<std::size_t>(k)]];
+      s.d[k] = size > 0.0 ? 1.0 / size : 1.0;
+    }
+    s.matrix = s.d.asDiagonal() * r_.at.curvature(s.moving, s.moving) * s.d.asDiagonal();
+    s.right = -s.d.cwiseProduct(r_.at.gradient(s.moving).eval());
+    return s;
+  }
+
+  [[nodiscard]] Trial trial_of(const Scaled& s) const {
+    Eigen::MatrixXd damped = s.matrix;
+    damped.diagonal().array() += std::max(damping_, 1e-15);
+    const Eigen::LDLT<Eigen::MatrixXd> solver(damped);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(r_.x.size());
+    Eigen::VectorXd scaled = solver.solve(s.right);
+    // One refinement: the matrix is the square of an ill-conditioned one.
+    scaled += solver.solve((s.right - damped * scaled).eval());
+    for (Eigen::Index k = 0; k < s.d.size(); ++k)
+      step[s.moving[static_cast<std::size_t>(k)]] = s.d[k] * scaled[k];
+    Trial trial;
+    trial.x = (r_.x + step).cwiseMax(lower_).cwiseMin(upper_);
+    trial.moved = trial.x - r_.x;
+    trial.clipped = (trial.moved - step).cwiseAbs().maxCoeff() > 0.0;
+    trial.promised =
+        -(r_.at.gradient.dot(trial.moved) + 0.5 * trial.moved.dot(r_.at.curvature * trial.moved));
+    return trial;
+  }
+
+  /// Takes one step, with as much damping as it needs. True: the search has ended.
+  bool iterate() {
+    const Scaled s = scaled();
+    if (s.moving.empty()) return end(Termination::converged, "every parameter leans on a bound");
+    if (s.flat || r_.cost == 0.0) return end(Termination::converged, "the gradient vanishes");
+    for (;;) {
+      const Trial trial = trial_of(s);
+      if (step_is_small(trial.moved, r_.x, options_.step_tolerance))
+        return end(Termination::converged, "the step is below the tolerance");
+      const bool finite = evaluate(trial.x, next_);
+      if (options_.gauss_newton) {
+        if (!finite || next_.cost > 1e12 * (first_cost_ + 1e-300))
+          return end(Termination::not_finite,
+                     "a full Gauss-Newton step left the domain of the model");
+        return accept(trial);
+      }
+      const double fall = r_.cost - next_.cost;
+      if (finite && fall > 0.0) {
+        const double ratio = trial.promised > 0.0 ? fall / trial.promised : 0.0;
+        damping_ =
+            std::max(1e-15, damping_ * std::clamp(1.0 - std::pow(2.0 * ratio - 1.0, 3), 0.1, 2.0));
+        growth_ = 2.0;
+        return accept(trial);
+      }
+      if (reject(trial, finite)) return true;
+    }
+  }
+
+  /// Moves to the trial. True: the cost falls no further.
+  bool accept(const Trial& trial) {
+    const double before = r_.cost;
+    r_.x = trial.x;
+    std::swap(r_.at, next_);
+    r_.cost = r_.at.cost;
+    r_.cost_history.push_back(r_.cost);
+    if (options_.gauss_newton || before - r_.cost > options_.cost_tolerance * before ||
+        trial.promised > options_.cost_tolerance * before)
+      return false;
+    ++r_.iterations;
+    return end(Termination::converged, "the cost falls no further");
+  }
+
+  /// Raises the damping. True: no shorter step can lower the cost.
+  bool reject(const Trial& trial, bool finite) {
+    // A step that a bound cut short may promise nothing and still hide a descent: shorten it.
+    if (finite && !trial.clipped &&
+        trial.promised <= std::max(options_.cost_tolerance, 1e-13) * r_.cost)
+      return end(Termination::converged, "the cost can fall no further within round-off");
+    // Damping that changes nothing in the step is not worth an evaluation.
+    damping_ = std::max(damping_, kLeastRejected) * growth_;
+    growth_ *= 2.0;
+    return damping_ > 1e30 && end(Termination::no_descent, "no step lowers the cost");
+  }
+
+  const NormalFunction& function_;
+  const Eigen::VectorXd& lower_;
+  const Eigen::VectorXd& upper_;
+  const NormalSearchOptions& options_;
+  const std::vector<bool>& held_;
+  NormalSearchResult r_;
+  NormalEquations next_;
+  Eigen::VectorXd scale_;
+  double first_cost_ = 0.0;
+  double damping_ = 0.0;
+  double growth_ = 2.0;
+};
 
 }  // namespace
 
@@ -43,120 +198,8 @@ NormalSearchResult minimize_normal(const NormalFunction& function,
                                    const Eigen::VectorXd& start,
                                    const NormalSearchOptions& options,
                                    const std::vector<bool>& held) {
-  const Eigen::Index p = start.size();
-  if (p == 0) throw InvalidInput("identification: there is no free parameter");
-  NormalSearchResult r;
-  r.x = start.cwiseMax(lower).cwiseMin(upper);
-  const auto evaluate = [&](const Eigen::VectorXd& x, NormalEquations& out) {
-    ++r.evaluations;
-    function(x, true, out);
-    return std::isfinite(out.cost) && out.gradient.allFinite() && out.curvature.allFinite();
-  };
-  if (!evaluate(r.x, r.at)) {
-    throw InvalidInput("identification: the model is not finite at the starting values");
-  }
-  r.cost = r.at.cost;
-  r.cost_history.push_back(r.cost);
-  const double first_cost = r.cost;
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(p);
-  double damping = options.gauss_newton ? 0.0 : 1e-3;
-  double growth = 2.0;
-  NormalEquations next;
-  for (r.iterations = 0; r.iterations < options.max_iterations; ++r.iterations) {
-    options.progress.check();
-    std::vector<Eigen::Index> moving;
-    bool flat = true;
-    for (Eigen::Index j = 0; j < p; ++j) {
-      const double norm = std::sqrt(std::max(0.0, r.at.curvature(j, j)));
-      scale[j] = std::max(scale[j], norm);
-      const bool out = (r.x[j] <= lower[j] && r.at.gradient[j] > 0.0) ||
-                       (r.x[j] >= upper[j] && r.at.gradient[j] < 0.0);
-      if (out || (!held.empty() && held[static_cast<std::size_t>(j)])) continue;
-      moving.push_back(j);
-      flat = flat && std::abs(r.at.gradient[j]) <= 1e-14 * norm * std::sqrt(2.0 * r.cost);
-    }
-    if (moving.empty()) {
-      finish(r, lower, upper, Termination::converged, "every parameter leans on a bound");
-      return r;
-    }
-    if (flat || r.cost == 0.0) {
-      finish(r, lower, upper, Termination::converged, "the gradient vanishes");
-      return r;
-    }
-    const auto q = static_cast<Eigen::Index>(moving.size());
-    Eigen::VectorXd d(q);
-    for (Eigen::Index k = 0; k < q; ++k) {
-      const double s = scale[moving[static_cast<std::size_t>(k)]];
-      d[k] = s > 0.0 ? 1.0 / s : 1.0;
-    }
-    const Eigen::MatrixXd matrix = d.asDiagonal() * r.at.curvature(moving, moving) * d.asDiagonal();
-    const Eigen::VectorXd right = -d.cwiseProduct(r.at.gradient(moving).eval());
-    for (bool accepted = false; !accepted;) {
-      Eigen::MatrixXd damped = matrix;
-      damped.diagonal().array() += std::max(damping, 1e-15);
-      const Eigen::LDLT<Eigen::MatrixXd> solver(damped);
-      Eigen::VectorXd step = Eigen::VectorXd::Zero(p);
-      Eigen::VectorXd scaled = solver.solve(right);
-      // One refinement: the matrix is the square of an ill-conditioned one.
-      scaled += solver.solve((right - damped * scaled).eval());
-      for (Eigen::Index k = 0; k < q; ++k)
-        step[moving[static_cast<std::size_t>(k)]] = d[k] * scaled[k];
-      const Eigen::VectorXd x = (r.x + step).cwiseMax(lower).cwiseMin(upper);
-      const Eigen::VectorXd moved = x - r.x;
-      const bool clipped = (moved - step).cwiseAbs().maxCoeff() > 0.0;
-      if (step_is_small(moved, r.x, options.step_tolerance)) {
-        finish(r, lower, upper, Termination::converged, "the step is below the tolerance");
-        return r;
-      }
-      const double promised = -(r.at.gradient.dot(moved) + 0.5 * moved.dot(r.at.curvature * moved));
-      const bool finite = evaluate(x, next);
-      const double fall = r.cost - next.cost;
-      if (options.gauss_newton) {
-        if (!finite || next.cost > 1e12 * (first_cost + 1e-300)) {
-          finish(r, lower, upper, Termination::not_finite,
-                 "a full Gauss-Newton step left the domain of the model");
-          return r;
-        }
-        accepted = true;
-      } else if (finite && fall > 0.0) {
-        accepted = true;
-        const double ratio = promised > 0.0 ? fall / promised : 0.0;
-        damping =
-            std::max(1e-15, damping * std::clamp(1.0 - std::pow(2.0 * ratio - 1.0, 3), 0.1, 2.0));
-        growth = 2.0;
-      } else {
-        // A step that a bound cut short may promise nothing and still hide a descent: shorten it.
-        if (finite && !clipped && promised <= std::max(options.cost_tolerance, 1e-13) * r.cost) {
-          finish(r, lower, upper, Termination::converged,
-                 "the cost can fall no further within round-off");
-          return r;
-        }
-        // Damping that changes nothing in the step is not worth an evaluation.
-        damping = std::max(damping, kLeastRejected) * growth;
-        growth *= 2.0;
-        if (damping > 1e30) {
-          finish(r, lower, upper, Termination::no_descent, "no step lowers the cost");
-          return r;
-        }
-      }
-      if (accepted) {
-        const double before = r.cost;
-        r.x = x;
-        std::swap(r.at, next);
-        r.cost = r.at.cost;
-        r.cost_history.push_back(r.cost);
-        if (!options.gauss_newton && before - r.cost <= options.cost_tolerance * before &&
-            promised <= options.cost_tolerance * before) {
-          ++r.iterations;
-          finish(r, lower, upper, Termination::converged, "the cost falls no further");
-          return r;
-        }
-      }
-    }
-  }
-  finish(r, lower, upper, Termination::iteration_limit,
-         fmt::format("not converged after {} iterations", r.iterations));
-  return r;
+  if (start.size() == 0) throw InvalidInput("identification: there is no free parameter");
+  return Search(function, lower, upper, options, held).run(start);
 }
 
 }  // namespace myoid::identification

@@ -51,7 +51,14 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
   }
   // C - gravity; sets poses and velocities in the state.
   coriolis_ = model::inverse_dynamics(model, q_, qdot_, rest_, {}, state_);
+  take_bodies();
+  take_mass_matrix();
+  coriolis_ += gravity_;
+  kinetic_ = 0.5 * qdot_.dot(mass_ * qdot_);
+}
 
+void TreeDynamics::take_bodies() {
+  const model::BodyModel& model = *model_;
   potential_ = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const model::Body& body = model.bodies[b];
@@ -65,6 +72,10 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
                : Mat3(R * body.I_BBcm_B * R.transpose() - composite_mass_[b] * cross * cross);
     potential_ -= moment_[b].dot(model.gravity_G);
   }
+}
+
+void TreeDynamics::take_mass_matrix() {
+  const model::BodyModel& model = *model_;
   mass_.setZero();
   for (std::size_t j = model.joints.size(); j-- > 0;) {
     const model::Joint& joint = model.joints[j];
@@ -96,8 +107,6 @@ void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
     moment_[parent] += moment_[b];
     inertia_[parent] += inertia_[b];
   }
-  coriolis_ += gravity_;
-  kinetic_ = 0.5 * qdot_.dot(mass_ * qdot_);
 }
 
 void TreeDynamics::add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const {

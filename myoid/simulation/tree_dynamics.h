@@ -51,6 +51,11 @@ class TreeDynamics {
                                 double* device);
 
  private:
+  /// Mass, moment and inertia of each body about the ground's origin, and the potential energy.
+  void take_bodies();
+  /// The mass matrix and gravity's torques, from the bodies inwards.
+  void take_mass_matrix();
+
   const model::BodyModel* model_;
   model::BodyState state_;
   Eigen::MatrixXd mass_, reduced_, jacobian_, mass_jacobian_;

@@ -122,6 +122,27 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
   return layout;
 }
 
+/// Reads the row above the frames: Frame, Time, and in some files the markers' names.
+void read_frame_row(const Cells& cells,
+                    std::size_t line,
+                    const std::filesystem::path& path,
+                    TableLayout& table,
+                    Cells& names) {
+  table.columns.push_back({Kind::frame, "Frame"});
+  if (cells.size() > 1 && equal_ignoring_case(cells[1], "Time"))
+    table.columns.push_back({Kind::time, "Time"});
+  if (cells.size() <= table.columns.size()) return;
+  MarkerLayout named;
+  if (!take_triples(cells, named))
+    throw ReadError(path, line, "expected Frame, Time, then NAME X, NAME Y, NAME Z");
+  require_triples(named, path);
+  while (!names.empty() && names.back().empty() && names.size() > named.names.size())
+    names.pop_back();
+  if (!names.empty() && names != named.names)
+    throw ReadError(path, line, "this row names other markers than MARKER_NAMES: which is it?");
+  names = named.names;
+}
+
 std::optional<MarkerLayout> qualisys_markers(const TableText& text,
                                              const std::filesystem::path& path) {
   const std::size_t head = std::min(text.lines.size(), kHeaderLines);
@@ -150,21 +171,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
       names = cells_of(text.lines[n], '\t');
       names.erase(names.begin());
     } else if (equal_ignoring_case(cells[0], "Frame")) {
-      table.columns.push_back({Kind::frame, "Frame"});
-      if (cells.size() > 1 && equal_ignoring_case(cells[1], "Time"))
-        table.columns.push_back({Kind::time, "Time"});
-      if (cells.size() > table.columns.size()) {
-        MarkerLayout named;
-        if (!take_triples(cells, named))
-          throw ReadError(path, n + 1, "expected Frame, Time, then NAME X, NAME Y, NAME Z");
-        require_triples(named, path);
-        while (!names.empty() && names.back().empty() && names.size() > named.names.size())
-          names.pop_back();
-        if (!names.empty() && names != named.names)
-          throw ReadError(path, n + 1,
-                          "this row names other markers than MARKER_NAMES: which is it?");
-        names = named.names;
-      }
+      read_frame_row(cells, n + 1, path, table, names);
       ++n;
       break;
     }

@@ -167,6 +167,12 @@ class SimulatedPerformance : public Performance {
   };
   [[nodiscard]] Place place(double time_s) const;
   void simulate(double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed);
+  /// The command that reaches the muscles at a time, from those given so far.
+  [[nodiscard]] PerMuscle delayed_command(double t) const;
+  /// Steps the arm from sample k - 1 to sample k.
+  void step_to_sample(std::size_t k, ArmStepper& stepper) const;
+  /// Adds the work of sample k, and weakens the muscles at every tenth.
+  void tire(std::size_t k, PerHead& worked, Tiredness<7>& tiredness, ArmStepper& stepper);
 
   const TrueArm* arm_;
   PerMuscle effort_;

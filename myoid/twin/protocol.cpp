@@ -201,8 +201,8 @@ void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
   }
 }
 
-/// One [[trial]]; several if it names several angles.
-std::vector<TrialProtocol> read_trial(TomlTable table) {
+/// Reads the name of a trial, its kind, and the keys of every kind.
+TrialProtocol read_kind(TomlTable& table) {
   TrialProtocol trial;
   trial.name = table.require_text("name", "a short name: it becomes that of the files");
   const bool plain = std::all_of(trial.name.begin(), trial.name.end(), [](unsigned char c) {
@@ -213,7 +213,6 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
                                    "becomes the name of files",
                                    trial.name));
   }
-
   std::vector<std::string> kind_names;
   for (const auto& kind : kKinds) kind_names.emplace_back(kind.first);
   static_cast<void>(
@@ -222,8 +221,6 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
   for (const auto& [word, value] : kKinds) {
     if (word == kind) trial.kind = value;
   }
-  const bool held_still = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::mvc;
-  const bool moved = trial.kind == TrialKind::isokinetic;
   const std::string usual = trial.kind == TrialKind::isometric_ramp ? "isometric"
                             : trial.kind == TrialKind::isokinetic   ? "isometric"
                             : trial.kind == TrialKind::mvc          ? "mvc"
@@ -240,65 +237,87 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
     range_into(table, "co_contraction", low, high, 0.0, 0.5);
     trial.co_contraction = {low, high};
   }
+  return trial;
+}
 
-  // Every kind has its own keys: one that does not apply is an unknown key.
-  std::vector<TrialProtocol> result;
-  const double no_limit = kInfinity;
-  if (moved) {
-    read_isokinetic(table, trial);
-    result.push_back(trial);
-  } else if (held_still) {
-    if (trial.kind == TrialKind::mvc) {
-      trial.peak = 1.0;
-      trial.rise_s = 1.0;
-      trial.hold_s = 3.0;
-    } else {
-      number_into(table, "peak", trial.peak, 0.0, 0.95);
-    }
-    trial.direction = read_direction(table);
-    number_into(table, "rise_s", trial.rise_s, 0.3, no_limit);
-    number_into(table, "hold_s", trial.hold_s, 0.0, no_limit);
-    number_into(table, "rest_s", trial.rest_s, 0.2, no_limit);
-    count_into(table, "repetitions", trial.repetitions, 1, 100);
-    const bool several = table.has("angles_deg");
-    for (const double angle_deg : read_angles_deg(table)) {
-      TrialProtocol one = trial;
-      one.angle_rad = angle_deg * kDegree;
-      if (several) one.name = fmt::format("{}_{:g}", trial.name, angle_deg);
-      result.push_back(one);
-    }
+/// Reads an effort at rest; one trial for each of its angles.
+std::vector<TrialProtocol> read_held_still(TomlTable& table, TrialProtocol trial) {
+  if (trial.kind == TrialKind::mvc) {
+    trial.peak = 1.0;
+    trial.rise_s = 1.0;
+    trial.hold_s = 3.0;
   } else {
-    number_into(table, "held_mass_kg", trial.held_mass_kg, 0.0, 50.0);
-    if (trial.kind == TrialKind::flexion) {
-      number_into(table, "frequency_hz", trial.frequency_hz, 0.02, 3.0);
-      number_into(table, "centre_deg", trial.centre_rad, 0.0, 150.0, kDegree);
-      number_into(table, "amplitude_deg", trial.amplitude_rad, 0.0, 75.0, kDegree);
-      number_into(table, "variation", trial.variation, 0.0, 0.5);
-      number_into(table, "warm_up_s", trial.warm_up_s, 0.0, 600.0);
-      number_into(table, "duration_s", trial.duration_s, 3.0, 600.0);
-      const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
-      if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
-          trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
-        table.fail(
-            "amplitude_deg",
-            fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
-                        "0 to 150: choose another centre_deg or a smaller amplitude",
-                        (trial.centre_rad - trial.amplitude_rad) / kDegree,
-                        (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
-      }
-    } else {
-      number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
-      number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
-      number_into(table, "raise_s", trial.raise_s, 0.3, no_limit);
-      number_into(table, "lower_s", trial.lower_s, 0.3, no_limit);
-      number_into(table, "rest_s", trial.rest_s, 0.2, no_limit);
-      count_into(table, "repetitions", trial.repetitions, 1, 100);
-      if (!(trial.from_rad < trial.to_rad)) {
-        table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}",
-                                         trial.to_rad / kDegree, trial.from_rad / kDegree));
-      }
-    }
-    result.push_back(trial);
+    number_into(table, "peak", trial.peak, 0.0, 0.95);
+  }
+  trial.direction = read_direction(table);
+  number_into(table, "rise_s", trial.rise_s, 0.3, kInfinity);
+  number_into(table, "hold_s", trial.hold_s, 0.0, kInfinity);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  count_into(table, "repetitions", trial.repetitions, 1, 100);
+  const bool several = table.has("angles_deg");
+  std::vector<TrialProtocol> result;
+  for (const double angle_deg : read_angles_deg(table)) {
+    TrialProtocol one = trial;
+    one.angle_rad = angle_deg * kDegree;
+    if (several) one.name = fmt::format("{}_{:g}", trial.name, angle_deg);
+    result.push_back(one);
+  }
+  return result;
+}
+
+void read_flexion(TomlTable& table, TrialProtocol& trial) {
+  number_into(table, "frequency_hz", trial.frequency_hz, 0.02, 3.0);
+  number_into(table, "centre_deg", trial.centre_rad, 0.0, 150.0, kDegree);
+  number_into(table, "amplitude_deg", trial.amplitude_rad, 0.0, 75.0, kDegree);
+  number_into(table, "variation", trial.variation, 0.0, 0.5);
+  number_into(table, "warm_up_s", trial.warm_up_s, 0.0, 600.0);
+  number_into(table, "duration_s", trial.duration_s, 3.0, 600.0);
+  const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
+  if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
+      trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
+    table.fail("amplitude_deg",
+               fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
+                           "0 to 150: choose another centre_deg or a smaller amplitude",
+                           (trial.centre_rad - trial.amplitude_rad) / kDegree,
+                           (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
+  }
+}
+
+/// Reads a movement from one angle to another and back.
+void read_raising(TomlTable& table, TrialProtocol& trial) {
+  number_into(table, "from_deg", trial.from_rad, 0.0, 150.0, kDegree);
+  number_into(table, "to_deg", trial.to_rad, 0.0, 150.0, kDegree);
+  number_into(table, "raise_s", trial.raise_s, 0.3, kInfinity);
+  number_into(table, "lower_s", trial.lower_s, 0.3, kInfinity);
+  number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
+  count_into(table, "repetitions", trial.repetitions, 1, 100);
+  if (!(trial.from_rad < trial.to_rad)) {
+    table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}",
+                                     trial.to_rad / kDegree, trial.from_rad / kDegree));
+  }
+}
+
+/// One [[trial]]; several if it names several angles. Every kind has its own keys: one that does
+/// not apply is an unknown key.
+std::vector<TrialProtocol> read_trial(TomlTable table) {
+  const TrialProtocol common = read_kind(table);
+  std::vector<TrialProtocol> result{common};
+  TrialProtocol& trial = result.front();
+  switch (common.kind) {
+    case TrialKind::isokinetic:
+      read_isokinetic(table, trial);
+      break;
+    case TrialKind::isometric_ramp:
+    case TrialKind::mvc:
+      result = read_held_still(table, common);
+      break;
+    case TrialKind::flexion:
+      number_into(table, "held_mass_kg", trial.held_mass_kg, 0.0, 50.0);
+      read_flexion(table, trial);
+      break;
+    default:
+      number_into(table, "held_mass_kg", trial.held_mass_kg, 0.0, 50.0);
+      read_raising(table, trial);
   }
   table.finish();
   return result;

@@ -74,6 +74,92 @@ std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std
   return factor;
 }
 
+/// Chooses the muscles' activations: those foreseen for the movement, corrected by what is seen and
+/// felt of it.
+class Controller {
+ public:
+  Controller(const TrueArm& arm,
+             const TrialScript& script,
+             const ArmStepper& stepper,
+             const PerMuscle& effort)
+      : arm_(arm),
+        script_(script),
+        stepper_(stepper),
+        effort_(effort),
+        lead_s_(arm.delay_s + arm.activation.excitation_time_s + arm.activation.activation_time_s) {
+    const double inertia_kgm2 =
+        required_torque_nm(arm, 0.0, 1.0, script.protocol.plane, script.protocol.held_mass_kg);
+    stiffness_ = inertia_kgm2 * kFeedback_radps * kFeedback_radps;
+    viscosity_ = 2.0 * kDamping * inertia_kgm2 * kFeedback_radps;
+  }
+
+  /// The command at time `t`. The first one knows no error yet.
+  PerMuscle command(double t, bool first) {
+    return script_.against_dynamometer() ? prescribed(t) : corrected(t, first);
+  }
+
+ private:
+  [[nodiscard]] PerMuscle prescribed(double t) const {
+    PerMuscle u = script_.prescribed_activations(t);
+    if (script_.protocol.kind == TrialKind::mvc) {
+      for (std::size_t m = 0; m < 4; ++m) u[m] *= effort_[m];
+    }
+    return u;
+  }
+
+  PerMuscle corrected(double t, bool first) {
+    // What is commanded now acts a little later.
+    const Plan later = plan_at(stepper_, arm_, script_, t + lead_s_);
+    const Moment wanted = script_.motion(t);
+    const Moment& is = stepper_.state().q;
+    const double off_rad = wanted.value - is.value;
+    double correction_nm = 0.0;
+    if (!first) {
+      held_nm_ += kIntegral * stiffness_ * kFeedback_radps * off_rad * kSample_s;
+      felt_nm_ += kSample_s / kForceSense_s * (surplus_nm(stepper_) - felt_nm_);
+      correction_nm =
+          stiffness_ * off_rad + viscosity_ * (wanted.first - is.first) + held_nm_ - felt_nm_;
+    }
+    return activations_for(later.torque_nm + correction_nm, later.capacity_nm,
+                           script_.coordination(t));
+  }
+
+  const TrueArm& arm_;
+  const TrialScript& script_;
+  const ArmStepper& stepper_;
+  const PerMuscle& effort_;
+  double lead_s_;
+  double stiffness_ = 0.0, viscosity_ = 0.0;
+  double held_nm_ = 0.0;  ///< The integral part.
+  double felt_nm_ = 0.0;  ///< Torque of the muscles beyond the foreseen.
+};
+
+PerHead excitation_of(const TrueArm& arm, const PerMuscle& command) {
+  PerHead u;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    u[i] = std::clamp(command[arm.heads[i].muscle] * arm.heads[i].drive, 0.0, 1.0);
+  return u;
+}
+
+PerMuscle electrode_of(const TrueArm& arm, const PerMuscle& command) {
+  PerMuscle power = {};
+  const PerHead u = excitation_of(arm, command);
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    power[arm.heads[i].muscle] += arm.heads[i].electrode_share * u[i] * u[i];
+  for (double& p : power) p = std::sqrt(p);
+  return power;
+}
+
+/// The reason why a movement has failed in this state; empty if it goes well.
+std::string failure_of(const ArmState& state, const TrialScript& script, double t) {
+  const double off_rad = state.q.value - script.motion(t).value;
+  if (!(std::abs(off_rad) < kLost_rad))
+    return fmt::format("the arm got out of hand at {:.2f} s", t);
+  if (*std::max_element(state.activation.begin(), state.activation.end()) > kGreatestActivation)
+    return fmt::format("an activation rose above {} at {:.2f} s", kGreatestActivation, t);
+  return "";
+}
+
 }  // namespace
 
 double foreseen_activation(const TrueArm& arm, const TrialScript& script) {
@@ -104,86 +190,64 @@ double SimulatedPerformance::sample_time_s(std::size_t k) const {
   return static_cast<double>(k) * kSample_s - kBefore_s;
 }
 
+PerMuscle SimulatedPerformance::delayed_command(double t) const {
+  const double s = std::max(0.0, (t - arm_->delay_s + kBefore_s) / kSample_s);
+  const std::size_t last = samples_.size() - 1;
+  const std::size_t before = std::min(static_cast<std::size_t>(s), last);
+  const std::size_t after = std::min(before + 1, last);
+  const double share = s - static_cast<double>(before);
+  PerMuscle command;
+  for (std::size_t m = 0; m < 4; ++m)
+    command[m] =
+        std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
+  return command;
+}
+
+void SimulatedPerformance::step_to_sample(std::size_t k, ArmStepper& stepper) const {
+  for (int j = 1; j <= kStepsPerSample; ++j) {
+    const double now = sample_time_s(k - 1) + j * kStep_s;
+    const PerHead u = excitation_of(*arm_, delayed_command(now));
+    if (script().against_dynamometer()) {
+      stepper.step_moved(u, script().motion(now));
+    } else {
+      stepper.step_free(u);
+    }
+  }
+}
+
+void SimulatedPerformance::tire(std::size_t k,
+                                PerHead& worked,
+                                Tiredness<7>& tiredness,
+                                ArmStepper& stepper) {
+  if (!tiredness.rates || sample_time_s(k) < 0.0) return;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    worked[i] += samples_[k].arm.activation[i] / kSamplesPerFatigue;
+  if (k % kSamplesPerFatigue != 0) return;
+  fatigued_.push_back(fatigue_of_muscles(*arm_, tiredness));
+  tiredness.work(worked, kSamplesPerFatigue * kSample_s);
+  worked = {};
+  stepper.set_strength(tiredness.strength());
+}
+
 void SimulatedPerformance::simulate(double motor_noise,
                                     Tiredness<7>& tiredness,
                                     std::uint64_t seed) {
   const TrialScript& script = this->script();
-  const TrueArm& arm = *arm_;
-  const bool moved = script.against_dynamometer();
   const Surroundings surroundings{script.protocol.plane, script.protocol.held_mass_kg};
-  ArmStepper stepper(arm, kStep_s);
+  ArmStepper stepper(*arm_, kStep_s);
   stepper.set_strength(tiredness.strength());
-
   const auto count =
       static_cast<std::size_t>(std::ceil((kBefore_s + script.duration_s + kAfter_s) / kSample_s)) +
       1;
   const std::array<Eigen::VectorXd, 4> noise =
       motor_noise_of(motor_noise, static_cast<Eigen::Index>(count), seed);
-  const double lead_s =
-      arm.delay_s + arm.activation.excitation_time_s + arm.activation.activation_time_s;
-  const double inertia_kgm2 =
-      required_torque_nm(arm, 0.0, 1.0, surroundings.plane, surroundings.held_mass_kg);
-  const double stiffness = inertia_kgm2 * kFeedback_radps * kFeedback_radps;
-  const double viscosity = 2.0 * kDamping * inertia_kgm2 * kFeedback_radps;
-  double held_nm = 0.0;  // the integral part
-  double felt_nm = 0.0;  // what the muscles exert beyond what was foreseen
-
-  const auto command_at = [&](double t, std::size_t k) {
-    PerMuscle u;
-    if (moved) {
-      u = script.prescribed_activations(t);
-      if (script.protocol.kind == TrialKind::mvc) {
-        for (std::size_t m = 0; m < 4; ++m) u[m] *= effort_[m];
-      }
-    } else {
-      // What is commanded now acts a little later.
-      const Plan later = plan_at(stepper, arm, script, t + lead_s);
-      const Moment wanted = script.motion(t);
-      const Moment& is = stepper.state().q;
-      const double off_rad = wanted.value - is.value;
-      double correction_nm = 0.0;
-      if (k > 0) {
-        held_nm += kIntegral * stiffness * kFeedback_radps * off_rad * kSample_s;
-        felt_nm += kSample_s / kForceSense_s * (surplus_nm(stepper) - felt_nm);
-        correction_nm =
-            stiffness * off_rad + viscosity * (wanted.first - is.first) + held_nm - felt_nm;
-      }
-      u = activations_for(later.torque_nm + correction_nm, later.capacity_nm,
-                          script.coordination(t));
-    }
-    for (std::size_t m = 0; m < 4; ++m) {
-      // Excitation has a floor and a ceiling; one that would need more is found below, by what the
-      // muscles then do.
-      u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
-    }
-    return u;
-  };
-  const auto excitation_of = [&](const PerMuscle& command) {
-    PerHead u;
-    for (std::size_t i = 0; i < kHeadCount; ++i)
-      u[i] = std::clamp(command[arm.heads[i].muscle] * arm.heads[i].drive, 0.0, 1.0);
-    return u;
-  };
-  const auto electrode_of = [&](const PerMuscle& command) {
-    PerMuscle power = {};
-    const PerHead u = excitation_of(command);
-    for (std::size_t i = 0; i < kHeadCount; ++i)
-      power[arm.heads[i].muscle] += arm.heads[i].electrode_share * u[i] * u[i];
-    for (double& p : power) p = std::sqrt(p);
-    return power;
-  };
-  /// The command that reaches the muscles at a time, from those given so far.
-  const auto delayed = [&](double t) {
-    const double s = std::max(0.0, (t - arm.delay_s + kBefore_s) / kSample_s);
-    const std::size_t last = samples_.size() - 1;
-    const std::size_t before = std::min(static_cast<std::size_t>(s), last);
-    const std::size_t after = std::min(before + 1, last);
-    const double share = s - static_cast<double>(before);
-    PerMuscle command;
+  Controller controller(*arm_, script, stepper, effort_);
+  const auto command_at = [&](std::size_t k) {
+    PerMuscle u = controller.command(sample_time_s(k), k == 0);
+    // Excitation has a floor and a ceiling; one that would need more is found by failure_of().
     for (std::size_t m = 0; m < 4; ++m)
-      command[m] =
-          std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
-    return command;
+      u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
+    return u;
   };
 
   samples_.reserve(count);
@@ -193,47 +257,20 @@ void SimulatedPerformance::simulate(double motor_noise,
     Sample sample;
     if (k == 0) {
       stepper.start(surroundings, script.motion(t).value, {});
-      sample.command = command_at(t, 0);
-      stepper.start(surroundings, script.motion(t).value, excitation_of(sample.command));
+      sample.command = command_at(0);
+      stepper.start(surroundings, script.motion(t).value, excitation_of(*arm_, sample.command));
       sample.arm = stepper.state();
     } else {
-      for (int j = 1; j <= kStepsPerSample; ++j) {
-        const double now = sample_time_s(k - 1) + j * kStep_s;
-        const PerHead u = excitation_of(delayed(now));
-        if (moved) {
-          stepper.step_moved(u, script.motion(now));
-        } else {
-          stepper.step_free(u);
-        }
-      }
+      step_to_sample(k, stepper);
       sample.arm = stepper.state();
-      sample.command = command_at(t, k);
+      sample.command = command_at(k);
     }
-    sample.electrode = electrode_of(sample.command);
+    sample.electrode = electrode_of(*arm_, sample.command);
     samples_.push_back(sample);
-    samples_.back().excitation = excitation_of(delayed(t));
-
-    if (tiredness.rates && t >= 0.0) {
-      for (std::size_t i = 0; i < kHeadCount; ++i)
-        worked[i] += sample.arm.activation[i] / kSamplesPerFatigue;
-      if (k % kSamplesPerFatigue == 0) {
-        fatigued_.push_back(fatigue_of_muscles(arm, tiredness));
-        tiredness.work(worked, kSamplesPerFatigue * kSample_s);
-        worked = {};
-        stepper.set_strength(tiredness.strength());
-      }
-    }
-    if (moved) continue;
-    const double off_rad = sample.arm.q.value - script.motion(t).value;
-    if (!(std::abs(off_rad) < kLost_rad)) {
-      failure_ = fmt::format("the arm got out of hand at {:.2f} s", t);
-      return;
-    }
-    if (*std::max_element(sample.arm.activation.begin(), sample.arm.activation.end()) >
-        kGreatestActivation) {
-      failure_ = fmt::format("an activation rose above {} at {:.2f} s", kGreatestActivation, t);
-      return;
-    }
+    samples_.back().excitation = excitation_of(*arm_, delayed_command(t));
+    tire(k, worked, tiredness, stepper);
+    if (!script.against_dynamometer()) failure_ = failure_of(sample.arm, script, t);
+    if (!failure_.empty()) return;
   }
 }
 

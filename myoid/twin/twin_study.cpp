@@ -245,9 +245,9 @@ std::vector<TwinSummary> summarize(const TwinStudyResult& result) {
   return list;
 }
 
-void write_twin_study(const TwinStudyResult& result,
-                      const Provenance& provenance,
-                      const std::filesystem::path& folder) {
+namespace {
+
+std::string persons_text(const TwinStudyResult& result) {
   std::string persons =
       "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
       "verdict\n";
@@ -262,7 +262,10 @@ void write_twin_study(const TwinStudyResult& result,
                     cell(e.estimate), optional(e.ci_low), optional(e.ci_high),
                     optional(e.shrinkage), identification::name(e.verdict));
   }
-  recording::write_file(folder / "persons.csv", persons);
+  return persons;
+}
+
+std::string summary_text(const TwinStudyResult& result) {
   std::string summary =
       "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,"
       "within_20,"
@@ -280,7 +283,10 @@ void write_twin_study(const TwinStudyResult& result,
         s.verdicts[4], s.identified_good, s.identified_bad, s.other_good, s.other_bad,
         s.identified_within_15, s.outside_physical);
   }
-  recording::write_file(folder / "summary.csv", summary);
+  return summary;
+}
+
+std::string predictions_text(const TwinStudyResult& result) {
   std::string predictions =
       "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,"
       "band_rmse_nm,band_nrmse_range,band_r2\n";
@@ -291,7 +297,17 @@ void write_twin_study(const TwinStudyResult& result,
           fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";
   }
-  recording::write_file(folder / "predictions.csv", predictions);
+  return predictions;
+}
+
+}  // namespace
+
+void write_twin_study(const TwinStudyResult& result,
+                      const Provenance& provenance,
+                      const std::filesystem::path& folder) {
+  recording::write_file(folder / "persons.csv", persons_text(result));
+  recording::write_file(folder / "summary.csv", summary_text(result));
+  recording::write_file(folder / "predictions.csv", predictions_text(result));
   nlohmann::ordered_json run = {{"program", provenance.program},
                                 {"version", provenance.version},
                                 {"command", provenance.command},
