@@ -14,8 +14,9 @@ namespace myoid {
 ///
 /// s_m holds the slopes of a muscle's force by its few unknowns, s_j the slopes of the joint's own
 /// torque, r_jm is a moment arm. C is symmetric: where muscles have unknowns of their own, each
-/// number of one half of C is read once for all muscles and joints. Where few unknowns serve many
-/// muscles, C t_j is the shorter way.
+/// number of one half of C is read once for all muscles and joints, in single precision between two
+/// blocks: 1e-7 of the terms that a variance is the sum of. Where few unknowns serve many muscles,
+/// C t_j is the shorter way.
 class BandSpace {
  public:
   BandSpace() = default;
@@ -47,8 +48,10 @@ class BandSpace {
   Eigen::VectorXd slopes_;
   Eigen::MatrixXd levers_;  ///< Slopes and rows of zeros x joints: slope times moment arm.
   bool by_block_ = false;
+  Eigen::VectorXf single_slopes_;  ///< `slopes_` and `levers_` in single precision.
+  Eigen::MatrixXf single_levers_;
   std::vector<double> diagonals_;  ///< Of each block: C of its own unknowns.
-  std::vector<double> panels_;     ///< Of each block: the rows of C below it, some side by side.
+  std::vector<float> panels_;      ///< Of each block: the rows of C below it, some side by side.
   Eigen::VectorXd shared_;         ///< By joint.
   Eigen::MatrixXd by_unknown_;     ///< Unknowns x joints: t_j.
   Eigen::VectorXd moved_;          ///< C t_j.

@@ -218,6 +218,15 @@ void c3d_recording(benchmark::State& state, bool integer) {
 BENCHMARK_CAPTURE(c3d_recording, real, false);
 BENCHMARK_CAPTURE(c3d_recording, integer, true);
 
+/// The same, and all channels as numbers: what `myoid.read(file).analog` of the Python module does.
+void c3d_channels(benchmark::State& state) {
+  measure(state, large_c3d(recording::C3dProcessor::intel, false), [](const fs::path& path) {
+    const recording::Recording recording = recording::read_recording(path);
+    return std::pair(recording.analog.series(), recording.markers.frame_count());
+  });
+}
+BENCHMARK(c3d_channels);
+
 void storage(benchmark::State& state) {
   measure(state, large_storage(),
           [](const fs::path& path) { return recording::read_storage(path); });
