@@ -7,6 +7,7 @@ set -euo pipefail
 packages=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+unset TMPDIR  # the empty root may not have this folder
 if [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null &&
   debootstrap --variant=minbase bookworm "$work/root" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" >"$work/log" 2>&1; then
   cp "$packages"/*.deb "$work/root/tmp"
