@@ -49,6 +49,7 @@ PICTURES = [
     Picture("report_top.webp", "demo", height=1010),
     Picture("workbench.webp", "demo", "trial=lowering_4kg&t=6.2", begin="#workbench", height=920),
     Picture("group.webp", "group", height=1560),
+    Picture("gait.webp", "gait", "trial=walk&t=0.55&view=oblique&hide=activation,force", begin="#workbench", height=900),
     Picture("motion_page.webp", "walk", "t=0.6&view=oblique", height=800),
     Picture("box_lift.webp", "box_lift", "trial=lift&t=2.3&view=oblique", begin="#workbench", height=755),
     Picture("elbow_numbers.webp", "elbow_emg", height=1010),
@@ -192,12 +193,19 @@ def make_walk(program, work):
           forces / "StaticOptimization_activation.sto", "--markers", data / "markers_walk.trc")  # fmt: skip
 
 
+def make_gait(program, work):
+    study = work / "gait_study"
+    myoid(program, "init", study, "--from", DATA / "gait-emg")
+    myoid(program, "run", study / "study.toml", "--out", work / "gait", may_fail=True)
+
+
 # For each page: the file, how it is made, the recordings that this takes.
 PAGES = {
     "demo": ("demo/report.html", make_demo, None),
     "group": ("group/report.html", make_group, None),
     "elbow_emg": ("elbow_emg/report.html", make_example("elbow_emg"), "elbow-emg"),
     "box_lift": ("box_lift/report.html", make_example("box_lift"), "box-lift"),
+    "gait": ("gait/report.html", make_gait, "gait-emg"),
     "walk": ("walk.html", make_walk, "gait-emg"),
 }
 
