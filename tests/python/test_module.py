@@ -62,6 +62,13 @@ def test_the_version_is_the_program_s():
     assert f'{{% set version = "{myoid.__version__}" %}}' in (SOURCE / "packaging/conda/meta.yaml").read_text()
 
 
+def test_debian_s_list_of_symbols_has_every_function_of_the_c_interface():
+    header = (SOURCE / "myoid/realtime/c_interface.h").read_text()
+    symbols = (SOURCE / "debian/libmyoid0.symbols").read_text()
+    declared = set(re.findall(r"\b(myoid_\w+)\(", header))
+    assert len(declared) > 10 and set(re.findall(r"^ (\w+)@Base", symbols, re.MULTILINE)) == declared
+
+
 def test_the_recipe_of_conda_names_every_library_that_cmake_asks_for():
     jinja2, yaml = pytest.importorskip("jinja2"), pytest.importorskip("yaml")
     text = (SOURCE / "packaging/conda/meta.yaml").read_text()
