@@ -16,6 +16,8 @@
 namespace myoid::commands {
 namespace {
 
+using identification::EstimatorOptions;
+using identification::IdentificationResult;
 using identification::StudyData;
 
 constexpr int kStartsToCompare = 3;
@@ -37,33 +39,34 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   return data;
 }
 
-/// Frees in the data the v_max that the fit freed, for validation and comparison of solvers.
-void free_what_is_free(const identification::IdentificationResult& fit,
-                       const MuscleTable& table,
-                       StudyData& data) {
-  const bool found = std::any_of(fit.estimates.begin(), fit.estimates.end(), [](const auto& e) {
-    return e.parameter == "max_shortening_speed";
-  });
-  if (found) identification::free_speeds(data, table.speed_may_be_free);
+/// Returns the fit, and frees in its data the v_max that it freed.
+IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, StudyData& data) {
+  if (std::any_of(fit.estimates.begin(), fit.estimates.end(),
+                  [](const auto& e) { return e.parameter == "max_shortening_speed"; }))
+    identification::free_speeds(data, t.speed_may_be_free);
+  return fit;
+}
+
+IdentificationResult fit_torque(const MuscleTable& t, const EstimatorOptions& o, StudyData& data) {
+  return with_freed(identification::identify_torque_or_exact(data, o, t.speed_may_be_free), t,
+                    data);
+}
+
+identification::ForceOptions force_options(const MuscleTable& t, const EstimatorOptions& o) {
+  return {.estimator = o, .detect_exact = true, .speed_may_be_free = t.speed_may_be_free};
 }
 
 /// Fits the data by the method. A v_max that the fit frees becomes free in the data too.
-identification::IdentificationResult fit_data(const IdentifyOptions& o,
-                                              const MuscleTable& table,
-                                              const identification::EstimatorOptions& options,
-                                              StudyData& data) {
+IdentificationResult fit_data(const IdentifyOptions& o,
+                              const MuscleTable& table,
+                              const EstimatorOptions& options,
+                              StudyData& data) {
   if (o.method == "paper")
     return identification::identify_paper(data, {.multistart = o.starts.value_or(1)});
-  if (o.method == "force") {
-    identification::IdentificationResult fit = identification::identify_force(
-        data,
-        {.estimator = options, .detect_exact = true, .speed_may_be_free = table.speed_may_be_free});
-    free_what_is_free(fit, table, data);
-    return fit;
-  }
-  identification::IdentificationResult fit =
-      identification::identify_torque_or_exact(data, options, table.speed_may_be_free);
-  free_what_is_free(fit, table, data);
+  if (o.method == "force")
+    return with_freed(identification::identify_force(data, force_options(table, options)), table,
+                      data);
+  IdentificationResult fit = fit_torque(table, options, data);
   identification::look_around(data, options, fit);
   return fit;
 }
@@ -71,31 +74,25 @@ identification::IdentificationResult fit_data(const IdentifyOptions& o,
 /// Predicts trials or blocks by the fit of the others. `data` are the data before the fit.
 std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const StudyData& data,
-                                           const identification::EstimatorOptions& options,
-                                           const std::vector<std::string>& speed_may_be_free,
+                                           const EstimatorOptions& options,
+                                           const MuscleTable& table,
                                            std::string& why_not) {
   const identification::CrossValidationOptions how{.kind = o.folds == "block"
                                                                ? identification::FoldKind::block
                                                                : identification::FoldKind::trial};
   (void)identification::splits(data, how, &why_not);
-  if (o.method == "torque") {
-    return identification::cross_validate(
-        data,
-        [&](StudyData& of_fold, const identification::EstimatorOptions& once) {
-          return identification::identify_torque_or_exact(of_fold, once, speed_may_be_free);
-        },
-        options, how);
-  }
+  const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) {
+    return fit_torque(table, once, fold);
+  };
+  if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
+  const auto fit_force = [&](StudyData& fold, const EstimatorOptions& once) {
+    return with_freed(identification::identify_muscle_force(fold, force_options(table, once)),
+                      table, fold);
+  };
   std::vector<identification::Fold> folds;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const auto more = identification::cross_validate(
-        identification::force_study(data, k),
-        [&](StudyData& of_fold, const identification::EstimatorOptions& once) {
-          return identification::identify_muscle_force(
-              of_fold,
-              {.estimator = once, .detect_exact = true, .speed_may_be_free = speed_may_be_free});
-        },
-        options, how);
+    const auto more = identification::cross_validate(identification::force_study(data, k),
+                                                     fit_force, options, how);
     folds.insert(folds.end(), more.begin(), more.end());
   }
   return folds;
@@ -125,17 +122,17 @@ IdentifyResult identify(const IdentifyOptions& o) {
   refuse_impossible(o, table);
   for (const std::string& text : without_effect(o)) remarks.warn(text);
   const StudyData as_read = read_data(o, table, remarks);
-  const identification::EstimatorOptions as_asked = estimator_options(o, as_read, remarks);
+  const EstimatorOptions as_asked = estimator_options(o, as_read, remarks);
 
   IdentifyResult result;
   result.data = as_read;
   result.fit = fit_data(o, table, as_asked, result.data);
   if (o.method != "paper" && o.folds != "none" && !result.fit.exact)
-    result.folds = held_out(o, as_read, as_asked, table.speed_may_be_free, result.why_no_folds);
+    result.folds = held_out(o, as_read, as_asked, table, result.why_no_folds);
   if (const std::string text = identification::generalises_badly(result.folds); !text.empty())
     result.fit.warnings.push_back(text);
   if (o.compare_solvers) {
-    identification::EstimatorOptions as_fitted = as_asked;
+    EstimatorOptions as_fitted = as_asked;
     as_fitted.lag = result.fit.lag;
     as_fitted.choose_lag = false;
     result.contests = solver_contests(result.data, o.method, as_fitted,

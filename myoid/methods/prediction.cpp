@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -217,6 +218,8 @@ struct TrialPredictions::ByPosterior {
               const EstimatorOptions& of_options,
               const IdentificationResult& of)
       : data(of_data), options(with_lag(of_options, of.lag)), fit(of), likelihood(data, options) {
+    if (likelihood.parameters().size() != fit.solution.size())
+      throw std::logic_error("a fit predicts by other unknowns than its own");
     std::copy_n(fit.noise.data(), noise.size(), noise.begin());
     likelihood.refer_to(fit.solution);
     likelihood.share_torque_noise(fit.solution, noise);
