@@ -1,20 +1,29 @@
 #include "myoid/cohort/group_report.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/cohort/group_page.h"
 #include "myoid/cohort/group_person.h"
 #include "myoid/core/counted.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
+#include "myoid/core/units.h"
+#include "myoid/report/typeset.h"
 #include "myoid/results/group_changes.h"
 
 namespace myoid::cohort {
 namespace {
 
-report::Section changes_of(const GroupReportOptions& options) {
+bool is_by_torque(const ComparedParameter& p) { return p.first.method == "torque"; }
+
+std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   const std::vector<GroupRun> first = group_runs(options.persons),
                               second = group_runs(options.after);
   if (first.size() != second.size())
@@ -26,7 +35,31 @@ report::Section changes_of(const GroupReportOptions& options) {
   for (std::size_t i = 0; i < first.size(); ++i)
     changes.push_back({first[i].name, page_of(second[i], options.folder),
                        compare_runs(first[i].folder, second[i].folder)});
-  return change_section(changes);
+  return changes;
+}
+
+/// The answer to the question who changed: "P7: BIC max isometric force is larger by 150 N (25 %)."
+std::string change_sentence(const std::vector<PersonChange>& changes) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> found;
+  for (const PersonChange& person : changes) {
+    const auto& all = person.comparison.parameters;
+    const bool torque = std::any_of(all.begin(), all.end(), is_by_torque);
+    for (const ComparedParameter& p : all) {
+      if (p.change != Change::differs || is_by_torque(p) != torque) continue;
+      found.push_back(fmt::format("{}: {} {} is {} by {:.3g}{}{} ({:.0f} %)", person.person,
+                                  p.muscle, report::spelled(p.first.parameter),
+                                  p.difference > 0.0 ? "larger" : "smaller", std::abs(p.difference),
+                                  p.first.unit == Unit::dimensionless ? "" : " ",
+                                  p.first.unit == Unit::dimensionless ? "" : symbol(p.first.unit),
+                                  100.0 * std::abs(p.difference / p.first.estimate)));
+    }
+  }
+  if (found.empty()) return "No number of any person changed by more than chance explains.";
+  const std::size_t more = found.size() - std::min(found.size(), kNamed);
+  found.resize(found.size() - more);
+  return fmt::format("{}{}.", fmt::join(found, "; "),
+                     more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 }  // namespace
@@ -39,7 +72,11 @@ report::Report group_report(const GroupReportOptions& options) {
   page.subtitle = counted(persons.size(), "person");
   page.headline = beside.outliers.empty() ? "No person's numbers lie far from the others'."
                                           : outlier_sentence(beside.outliers);
-  if (!options.after.empty()) page.sections.push_back(changes_of(options));
+  if (!options.after.empty()) {
+    const std::vector<PersonChange> changes = changes_of(options);
+    page.headline = change_sentence(changes) + " " + page.headline;
+    page.sections.push_back(change_section(changes));
+  }
   page.sections.push_back(std::move(beside.persons));
   page.provenance = {{"program", fmt::format("myoid {}", version())}};
   for (const std::filesystem::path& folder : options.persons)
