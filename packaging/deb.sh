@@ -15,7 +15,8 @@ trap 'rm -rf "$work"' EXIT
 build() {  # build FOLDER: the same place each time, another time of day
   rm -rf "$work/build" && mkdir -p "$work/build/myoid" "$1"
   git -C "$root" archive "$commit" | tar -x -C "$work/build/myoid"
-  (cd "$work/build/myoid" && CCACHE_DIR=${CCACHE_DIR:-$HOME/.cache/ccache} \
+  # ccache finds the objects of an earlier call, whose folder has another name.
+  (cd "$work/build/myoid" && CCACHE_DIR=${CCACHE_DIR:-$HOME/.cache/ccache} CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 \
     DEB_BUILD_OPTIONS="parallel=$(nproc) noautodbgsym ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -b -us -uc) \
     >"$1/build.log" 2>&1 || { tail -20 "$1/build.log" >&2; exit 1; }
   mv "$work"/build/*.deb "$work"/build/*.changes "$1"
