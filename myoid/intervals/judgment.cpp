@@ -85,12 +85,9 @@ MaybeJudgment without_fit(const ParameterEstimate& e,
     return Judgment{Ground::not_converged, Verdict::not_identifiable,
                     "the fit did not converge: " + context.failure};
   if (!context.length_span || *context.length_span >= rules.least_length_span) return std::nullopt;
-  return Judgment{
-      Ground::one_length, e.shrinkage ? Verdict::prior_dominated : Verdict::not_identifiable,
-      fmt::format("while active the muscle's length changed by {:.1f} % of the optimal one: "
-                  "at one length F_max and the force-length curve are one number; record "
-                  "other joint angles",
-                  100.0 * *context.length_span)};
+  return Judgment{Ground::one_length,
+                  e.shrinkage ? Verdict::prior_dominated : Verdict::not_identifiable,
+                  one_length_text(*context.length_span)};
 }
 
 /// The number, or another one of the same fit, lies where no muscle can be.

@@ -37,6 +37,9 @@ struct VerdictRules {
   double active = 0.02, moving_share = 0.01, least_s = 0.1;
 };
 
+/// Why nothing is told of a muscle's l0 and l_sh whose active lengths span `span` of l0.
+[[nodiscard]] std::string one_length_text(double span);
+
 /// The thresholds as a table in Markdown, which docs/theory/identification.md holds.
 [[nodiscard]] std::string verdict_rules_markdown(const VerdictRules& rules = {});
 

@@ -215,6 +215,7 @@ struct Reporting {
   const Sample& sample;
   const std::vector<SourceShares>& shares;
   const Given& given;
+  const std::vector<ActiveMotion>& motion;  ///< Of the muscles.
   const IdentificationResult& result;
   bool converged = true;
 };
@@ -252,7 +253,13 @@ void judge_row(const Reporting& of,
   facts.shares = of.shares[unknown];
   facts.r2 = of.result.r2;
   e.variance_shares = facts.shares;
-  if (p.field->scope == Scope::muscle && p.field->field == kWidth) {
+  const bool of_width = p.field->scope == Scope::muscle && p.field->field == kWidth;
+  if (of_width || (p.field->scope == Scope::muscle && p.field->field == kFiberLength)) {
+    const auto k = static_cast<std::size_t>(owner);
+    facts.length_span =
+        of.motion[k].length_span_m / of.data.muscles[k].start.optimal_fiber_length_m;
+  }
+  if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
     facts.possible = VerdictRules{}.possible(muscle[kWidth] / muscle[kFiberLength]);
   }
@@ -437,8 +444,9 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   fill_fit(best, drawn, data, result);
   const Given given = given_geometry(*best.density, best, options.progress);
   const std::vector<SourceShares> shares = source_shares(best);
+  const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
   add_estimates(
-      {data, best.density->parameters(), drawn, shares, given, result, best.mode.converged},
+      {data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged},
       result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, result);

@@ -44,6 +44,7 @@ std::string sources_text(const SourceShares& shares) {
 Finding finding(const PosteriorFacts& facts) {
   const VerdictRules rules;
   if (!facts.converged) return Finding::not_converged;
+  if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
   if (!facts.possible) return Finding::impossible;
   if (facts.r2 < rules.least_r2) return Finding::unexplained;
   if (facts.nuisance_gain || (facts.contraction && *facts.contraction < rules.least_shrinkage))
@@ -66,6 +67,7 @@ Verdict verdict_of(Finding finding) {
       return Verdict::not_identifiable;
     case Finding::impossible:
       return Verdict::non_physical;
+    case Finding::one_length:
     case Finding::as_the_prior:
       return Verdict::prior_dominated;
     case Finding::half_the_prior:
@@ -79,6 +81,7 @@ Verdict verdict_of(Finding finding) {
 
 std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
+  if (finding == Finding::one_length) return one_length_text(*facts.length_span);
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
   const double given = half_width(facts.value, facts.low_given, facts.high_given, facts.is_delay);
   std::string text = fmt::format("{} of the person, {} were geometry and sensors exact",

@@ -19,15 +19,18 @@ struct PosteriorFacts {
   std::optional<double> contraction;
   bool possible = true;  ///< A muscle can have it.
   bool is_delay = false;
+  /// Of l0 and l_sh: the lengths of the muscle while it is active, over l0.
+  std::optional<double> length_span;
   double r2 = 1.0;  ///< Of the fitted torque.
   SourceShares shares{};
 };
 
-/// The answer to four questions: is the number possible and the search converged; does the fit
-/// explain the torque; how much narrower than the prior is the interval; is it narrow enough to
-/// use.
+/// The answer to five questions: did the search converge; did the muscle act at more than one
+/// length; is the number possible and does the fit explain the torque; how much narrower than the
+/// prior is the interval; is it narrow enough to use.
 enum class Finding {
   not_converged,
+  one_length,  ///< VerdictRules::least_length_span: the interval is that of F_max's prior.
   impossible,
   unexplained,     ///< R2 of the fit below VerdictRules::least_r2.
   as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.

@@ -73,6 +73,18 @@ TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
   EXPECT_EQ(finding(facts), Finding::impossible);
 }
 
+TEST(PosteriorVerdict, OneLengthTellsNothingOfTheForceLengthCurveHoweverNarrow) {
+  PosteriorFacts facts = good();
+  facts.length_span = 0.04;
+  facts.possible = false;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("changed by 4.0 % of the optimal one"));
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("record other joint angles"));
+  facts.possible = true;
+  facts.length_span = 0.06;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+}
+
 TEST(PosteriorVerdict, DelaysAreJudgedInSeconds) {
   PosteriorFacts facts = good();
   facts.is_delay = true;
