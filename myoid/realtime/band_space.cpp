@@ -1,43 +1,82 @@
 #include "myoid/realtime/band_space.h"
 
 #include <algorithm>
-#include <array>
 
 namespace myoid {
 
 using Eigen::Index;
 namespace {
 
-/// l_j' C s of the levers l_j of `kJoints` joints, C the rows below a block, kRows rows side by
-/// side. C is read once, in single precision: 80 muscles with 8 unknowns each take 0.8 MB, which a
-/// processor's own cache holds. Products and sums stay in registers.
 constexpr Index kRows = 8;
+/// kRows numbers side by side: one register of AVX, two of SSE.
+using Side = float __attribute__((vector_size(kRows * sizeof(float)), aligned(alignof(float))));
+
+/// The rows of C below a block, kRows rows side by side.
+struct Panel {
+  const float* numbers;
+  Index groups, width;
+};
+
+/// l_j' C s of the levers l_j of `kJoints` joints. C is read once, in single precision: 80 muscles
+/// with 8 unknowns each take 0.8 MB, which a processor's own cache holds. Products and sums stay in
+/// registers. Every processor adds in the same order.
 template <int kJoints>
-void shared_with_later(const float* panel,
-                       Index groups,
-                       Index width,
-                       const float* slopes,
-                       const float* levers,
-                       Index stride,
-                       double* shared) {
-  using Products = Eigen::Array<float, kRows, 1>;
-  std::array<Products, kJoints> sum;
-  sum.fill(Products::Zero());
-  for (Index i = 0; i < groups; ++i) {
-    Products products = Products::Zero();
-    for (Index c = 0; c < width; ++c, panel += kRows)
-      products += Eigen::Map<const Products>(panel) * slopes[c];
-    for (Index j = 0; j < kJoints; ++j)
-      sum[static_cast<std::size_t>(j)] +=
-          products * Eigen::Map<const Products>(levers + j * stride + kRows * i);
+[[gnu::always_inline]] inline void shared_of(
+    const Panel& panel, const float* slopes, const float* levers, Index stride, double* shared) {
+  const auto* numbers = reinterpret_cast<const Side*>(panel.numbers);
+  Side sum[kJoints] = {};
+  for (Index i = 0; i < panel.groups; ++i) {
+    Side products{};
+    for (Index c = 0; c < panel.width; ++c) products += *numbers++ * slopes[c];
+    for (int j = 0; j < kJoints; ++j)
+      sum[j] += products * *reinterpret_cast<const Side*>(levers + j * stride + kRows * i);
   }
-  for (std::size_t j = 0; j < kJoints; ++j) shared[j] = static_cast<double>(sum[j].sum());
+  for (int j = 0; j < kJoints; ++j) {
+    float total = 0.0F;
+    for (Index r = 0; r < kRows; ++r) total += sum[j][r];
+    shared[j] = static_cast<double>(total);
+  }
 }
 
+using SharedWithLater = void (*)(const Panel&, const float*, const float*, Index, double*);
+
+template <int kJoints>
+void shared_by_any(const Panel& p, const float* s, const float* l, Index stride, double* shared) {
+  shared_of<kJoints>(p, s, l, stride, shared);
+}
+
+#if defined(__x86_64__)
+template <int kJoints>
+[[gnu::target("avx2")]] void shared_by_avx2(
+    const Panel& p, const float* s, const float* l, Index stride, double* shared) {
+  shared_of<kJoints>(p, s, l, stride, shared);
+}
+const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+template <int kJoints>
+const SharedWithLater kBest = kHasAvx2 ? &shared_by_avx2<kJoints> : &shared_by_any<kJoints>;
+#else
+template <int kJoints>
+constexpr SharedWithLater kBest = &shared_by_any<kJoints>;
+#endif
+
 constexpr Index kJointsAtOnce = 6;
-constexpr std::array kSharedWithLater{&shared_with_later<1>, &shared_with_later<2>,
-                                      &shared_with_later<3>, &shared_with_later<4>,
-                                      &shared_with_later<5>, &shared_with_later<6>};
+
+SharedWithLater shared_with_later(Index joints) {
+  switch (joints) {
+    case 1:
+      return kBest<1>;
+    case 2:
+      return kBest<2>;
+    case 3:
+      return kBest<3>;
+    case 4:
+      return kBest<4>;
+    case 5:
+      return kBest<5>;
+    default:
+      return kBest<6>;
+  }
+}
 
 }  // namespace
 
@@ -120,9 +159,9 @@ void BandSpace::compute_by_block() {
     const Index groups = (slopes_.size() - begin - own + kRows - 1) / kRows;
     for (Index j = 0; j < joints; j += kJointsAtOnce) {
       const Index count = std::min(kJointsAtOnce, joints - j);
-      kSharedWithLater[static_cast<std::size_t>(count) - 1](
-          panel, groups, own, single_slopes_.data() + begin,
-          single_levers_.col(j).data() + begin + own, levers_.rows(), shared_.data() + j);
+      shared_with_later(count)({panel, groups, own}, single_slopes_.data() + begin,
+                               single_levers_.col(j).data() + begin + own, levers_.rows(),
+                               shared_.data() + j);
     }
     // The blocks that come after count twice: C has them on both sides of its diagonal.
     for (Index j = 0; j < joints; ++j)

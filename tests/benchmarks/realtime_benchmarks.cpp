@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,24 +46,43 @@ Predictor person(int muscles, int joints, int degree) {
   return p;
 }
 
-void measure(const char* what, const Predictor& p, bool with_bands) {
+/// Quantiles of the time of one call of `evaluate`, whose argument counts the calls.
+void measure(const char* what, const std::function<void(int)>& evaluate) {
   constexpr int kCount = 20000;
-  PredictorWorkspace w = workspace_for(p);
-  std::vector<double> envelope(p.channels.size(), 0.3), angle(p.joints.size()),
-      speed(p.joints.size(), 1.0);
   std::vector<double> took_us;
   took_us.reserve(kCount);
   for (int i = 0; i < kCount; ++i) {
-    std::fill(angle.begin(), angle.end(), 1e-5 * i);
     const auto begin = std::chrono::steady_clock::now();
-    (void)predict(p, envelope, angle, speed, w, with_bands);
+    evaluate(i);
     took_us.push_back(
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
             .count());
   }
   std::sort(took_us.begin(), took_us.end());
-  std::printf("%-36s median %7.2f us, 99 %% %7.2f us, 99.9 %% %7.2f us\n", what,
+  std::printf("%-38s median %7.2f us, 99 %% %7.2f us, 99.9 %% %7.2f us\n", what,
               took_us[kCount / 2], took_us[kCount / 100 * 99], took_us[kCount / 1000 * 999]);
+}
+
+void measure(const char* what, const Predictor& p, bool with_bands) {
+  PredictorWorkspace w = workspace_for(p);
+  std::vector<double> envelope(p.channels.size(), 0.3), angle(p.joints.size()),
+      speed(p.joints.size(), 1.0);
+  measure(what, [&](int i) {
+    std::fill(angle.begin(), angle.end(), 1e-5 * i);
+    (void)predict(p, envelope, angle, speed, w, with_bands);
+  });
+}
+
+/// Additions in one register, without memory: the machine alone makes some of them slow.
+void add_in_a_register(int count) {
+  volatile double result = 0.0;
+  double sum = 1.0;
+  for (int i = 0; i < count; ++i) {
+    sum += 1e-9;
+    __asm__ volatile("" : "+x"(sum));
+  }
+  result = sum;
+  (void)result;
 }
 
 }  // namespace
@@ -73,4 +93,5 @@ int main() {
   measure("arm, 4 muscles, with bands", arm, true);
   measure("leg, 80 muscles, 3 joints", leg, false);
   measure("leg, 80 muscles, 3 joints, with bands", leg, true);
+  measure("additions in a register, no memory", [](int) { add_in_a_register(35000); });
 }
