@@ -20,9 +20,9 @@ constexpr std::array kAll = {
     &kOffset,           &kViscosity,          &kInertia,        &kLeastEffort,
     &kEmgNoise,         &kEmgBandwidth,       &kModelError,     &kRestingWeight,
     &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,    &kTorqueNoiseTime,
-    &kTrialTorqueNoise, &kCommonStrength,     &kMomentArm,      &kMomentArmSlope,
-    &kTorqueScale,      &kTendonStretch,      &kCrossTalk,      &kGainDrift,
-    &kUnknownEmgNoise};
+    &kTrialTorqueNoise, &kCommonStrength,     &kUnlikeness,     &kMomentArm,
+    &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,  &kCrossTalk,
+    &kGainDrift,        &kRiseAndFall,        &kUnknownEmgNoise};
 
 /// The parameters of a muscle's law whose prior stands about its starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

@@ -267,6 +267,26 @@ inline constexpr Belief kCommonStrength{
     "",
     kPosterior,
     "judgment: a strong person is strong in every muscle"};
+inline constexpr Belief kUnlikeness{
+    "spread of a person's muscles about the model's, over the spreads stated above",
+    "1",
+    1.0,
+    0.3,
+    logarithm,
+    "",
+    kPosterior,
+    "a standard deviation from n people or cadavers is known to 1/sqrt(2 (n - 1)): 0.16 to 0.35 "
+    "for "
+    "n of 20 to 5"};
+inline constexpr Belief kRiseAndFall{
+    "half of the difference between the times in which activation falls and rises",
+    "0",
+    0.0,
+    0.018,
+    value,
+    "s",
+    "estimator `posterior`, about none: the root mean square is the spread",
+    "15 ms rising, 50 ms falling (Thelen 2003)"};
 inline constexpr std::string_view kMomentArmSource =
     "of 40 moment arms, two public models differ by ln 0.13 in size and by 0.17 in this slope "
     "(robust), by 0.26 and 0.25 (root mean square): 0.09 to 0.18 and 0.12 to 0.18 to each "

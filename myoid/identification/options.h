@@ -126,8 +126,8 @@ struct EstimatorOptions {
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
   UnseenSpreads unseen;     ///< Of the estimator `posterior`.
-  int posterior_draws = 0;  ///< To check the posterior by; 0: its normal approximation alone.
-  bool marginals = true;    ///< That approximation with the skewness of each unknown.
+  int posterior_draws = 0;  ///< By Hamiltonian Monte Carlo; 0: of an approximation.
+  bool marginals = true;    ///< The approximation has the skewness of each unknown.
 };
 
 }  // namespace myoid::identification

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
+#include <boost/math/tools/minima.hpp>
 
 #include "myoid/beliefs/beliefs.h"
 
@@ -18,48 +19,53 @@ constexpr double kStartingTorqueError = 0.3;  // of the root mean square
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
-/// The muscles' F_max that rest on the literature; none where it is one muscle's.
-std::vector<std::size_t> strengths(const std::vector<Unknown>& free) {
-  std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const Unknown& of = free[j];
-    if (of.is(Scope::muscle, kMaxForce) && of.prior.sd > 0.0 && !of.prior_is_given)
-      found.push_back(j);
-  }
-  return found.size() > 1 ? found : std::vector<std::size_t>{};
+constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
+
+/// Numbers of a muscle whose spread is the literature's.
+bool is_literature(const Unknown& of) {
+  return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
 }
 
 }  // namespace
 
-Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double common_share) {
+Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
+                                double common_share,
+                                double unlikeness) {
   const auto p = static_cast<Eigen::Index>(free.size());
+  const double squared = unlikeness * unlikeness;
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
-  for (Eigen::Index j = 0; j < p; ++j)
-    precision(j, j) = free[static_cast<std::size_t>(j)].prior_precision();
-  const std::vector<std::size_t> members = strengths(free);
-  if (members.empty()) return precision;
-  const auto n = static_cast<Eigen::Index>(members.size());
+  std::vector<Eigen::Index> strengths;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const Unknown& of = free[static_cast<std::size_t>(j)];
+    precision(j, j) = of.prior_precision() / (is_literature(of) ? squared : 1.0);
+    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
+  }
+  const auto n = static_cast<Eigen::Index>(strengths.size());
+  if (n == 0) return precision;
+  // Of one muscle nothing is common.
+  const double common = n > 1 ? common_share * squared : 0.0;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd spread(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double sd = free[members[static_cast<std::size_t>(i)]].prior.sd;
+    const double sd =
+        free[static_cast<std::size_t>(strengths[static_cast<std::size_t>(i)])].prior.sd;
     spread[i] = std::min(sd, beliefs::kMaxForce.sd);
-    covariance(i, i) = sd * sd - common_share * spread[i] * spread[i];
+    covariance(i, i) = sd * sd + (squared - 1.0 - common) * spread[i] * spread[i];
   }
-  covariance += common_share * spread * spread.transpose();
+  covariance += common * spread * spread.transpose();
   const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  precision(members, members) = inverse;
+  precision(strengths, strengths) = inverse;
   return precision;
 }
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : likelihood_(data, options) {
+    : common_strength_(options.unseen.common_strength), likelihood_(data, options) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);
   range_.resize(p);
   prior_mean_.setZero(p);
-  precision_ = prior_precision(free, options.unseen.common_strength);
+  precision_ = prior_precision(free, common_strength_);
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
     lower_[j] = of.bounds.lower;
@@ -79,6 +85,35 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   noise_sd_[kEmgFactor] = (known ? beliefs::kEmgNoise : beliefs::kUnknownEmgNoise).sd;
   noise_mean_[kModelErrorSize] = std::log(kStartingModelError);
   noise_sd_[kModelErrorSize] = options.unseen.model_error;
+}
+
+void Density::refer_to(const Eigen::VectorXd& x) {
+  likelihood_.refer_to(z_of(x));
+  likelihood_.share_torque_noise(z_of(x), noise_of(x));
+  unlikeness_ = likeliest_unlikeness(x);
+  precision_ = prior_precision(parameters().free(), common_strength_, unlikeness_);
+}
+
+double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
+  const std::vector<Unknown>& free = parameters().free();
+  if (std::none_of(free.begin(), free.end(), is_literature)) return 1.0;
+  const Eigen::MatrixXd of_data = likelihood_.information(z_of(x), noise_of(x)).information;
+  const Eigen::VectorXd known = (of_data + precision_) * (z_of(x) - prior_mean_);
+  // Numbers without a prior would have ln 0 at every lambda.
+  Eigen::MatrixXd flat = Eigen::MatrixXd::Zero(precision_.rows(), precision_.cols());
+  for (Eigen::Index j = 0; j < flat.rows(); ++j) flat(j, j) = precision_(j, j) > 0.0 ? 0.0 : 1.0;
+  const auto log_density = [&](double log_unlikeness) {
+    const Eigen::MatrixXd prior = prior_precision(free, common_strength_, std::exp(log_unlikeness));
+    const Eigen::LDLT<Eigen::MatrixXd> all(of_data + prior), alone(prior + flat);
+    const double off = log_unlikeness / beliefs::kUnlikeness.sd;
+    return 0.5 *
+           (known.dot(all.solve(known)) - off * off + alone.vectorD().array().abs().log().sum() -
+            all.vectorD().array().abs().log().sum());
+  };
+  return std::exp(boost::math::tools::brent_find_minima([&](double at) { return -log_density(at); },
+                                                        std::log(kLeastUnlike),
+                                                        std::log(kMostUnlike), 12)
+                      .first);
 }
 
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {

@@ -9,16 +9,17 @@
 
 namespace myoid::identification {
 
-/// The inverse covariance of the priors of z. Of the F_max that the literature states and the study
-/// does not, a share of the variance is common to the person's muscles
-/// (UnseenSpreads::common_strength):
+/// The inverse covariance of the priors of z. Every spread s_i that the literature states of a
+/// muscle, and the study does not, is `unlikeness` (lambda) times the belief's. Of F_max a share of
+/// that variance is common to the person's muscles (UnseenSpreads::common_strength):
 ///
-///   cov(z_i, z_j) = common_share s_i s_j,    var(z_i) = sd_i^2,    s_i the belief's spread, at
-///   most sd_i.
+///   cov(z_i, z_j) = common_share lambda^2 s_i s_j,    var(z_i) = sd_i^2 + (lambda^2 - 1) s_i^2,
 ///
-/// A spread that a missing maximal contraction adds (sd_i > s_i) is each muscle's own.
+/// s_i the belief's spread, at most sd_i. A spread that a missing maximal contraction adds
+/// (sd_i > s_i) is each muscle's own, and lambda does not change it.
 [[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                              double common_share);
+                                              double common_share,
+                                              double unlikeness = 1.0);
 
 /// The posterior's density over unknowns x without bounds: one for each entry of the solver's z,
 ///
@@ -30,20 +31,28 @@ namespace myoid::identification {
 ///
 /// The priors of z are the study's (ParameterMap), joined over muscles by prior_precision; those of
 /// phi in beliefs.h: ln sigma_T, ln tau_T and ln kappa normal, s half normal.
+///
+/// The literature's spreads are uncertain themselves: a person whose every muscle lies two of them
+/// away is one surprise, not twenty. Their common factor lambda (`unlikeness`) has a prior, and is
+/// taken at the greatest density that Laplace's approximation leaves of it,
+///
+///   ln p(lambda | y) = 1/2 b' (I + P)^-1 b + 1/2 ln |P| - 1/2 ln |I + P| + ln p(lambda),
+///   b = (I + P_0) (z - m),    P the prior's precision at lambda, P_0 at the last lambda,
+///
+/// with I the data's information of z at the reference.
 class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);
 
-  /// Takes the unseen quantities and the trials' noise at this point (Likelihood).
-  void refer_to(const Eigen::VectorXd& x) {
-    likelihood_.refer_to(z_of(x));
-    likelihood_.share_torque_noise(z_of(x), noise_of(x));
-  }
+  /// Takes the unseen quantities and the trials' noise at this point (Likelihood), and lambda.
+  void refer_to(const Eigen::VectorXd& x);
   void believe(Believed believed) { likelihood_.believe(believed); }
 
   [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
   [[nodiscard]] const ParameterMap& parameters() const { return likelihood_.parameters(); }
   [[nodiscard]] Eigen::Index size() const { return parameters().size() + kNoiseFieldCount; }
+  /// Spread of this person's muscles about the literature, over the literature's own spread.
+  [[nodiscard]] double unlikeness() const { return unlikeness_; }
   /// Of the priors of z (prior_precision).
   [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
   [[nodiscard]] Eigen::VectorXd z_of(const Eigen::VectorXd& x) const;
@@ -69,7 +78,9 @@ class Density {
 
  private:
   [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
+  [[nodiscard]] double likeliest_unlikeness(const Eigen::VectorXd& x) const;
 
+  double common_strength_ = 0.0, unlikeness_ = 1.0;
   Likelihood likelihood_;
   Eigen::VectorXd lower_, range_, prior_mean_;
   Eigen::MatrixXd precision_;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/identification/parameters.h"
+#include "myoid/posterior/mode.h"
 
 #include "tests/support/elbow_study.h"
 
@@ -81,16 +82,52 @@ TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
   free[3].prior_is_given = true;
   const Eigen::Vector4d off(0.3, -0.1, 0.7, 0.2);
   const double rho = 0.4;
-  double squares = off[3] * off[3] / 0.09, along = 0.0, share = 1.0;
   const std::array<double, 3> spread = {0.25, 0.2, 0.25}, sd = {0.25, 0.2, 0.9};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double common = std::sqrt(rho) * spread[i], own = sd[i] * sd[i] - common * common;
-    const double o = off[static_cast<Eigen::Index>(i)];
-    squares += o * o / own;
-    along += common * o / own;
-    share += common * common / own;
+  for (const double unlikeness : {1.0, 1.7}) {
+    double squares = off[3] * off[3] / 0.09, along = 0.0, share = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double s = unlikeness * spread[i], common = std::sqrt(rho) * s;
+      const double own = s * s * (1.0 - rho) + sd[i] * sd[i] - spread[i] * spread[i];
+      const double o = off[static_cast<Eigen::Index>(i)];
+      squares += o * o / own;
+      along += common * o / own;
+      share += common * common / own;
+    }
+    EXPECT_NEAR(off.dot(prior_precision(free, rho, unlikeness) * off),
+                squares - along * along / share, 1e-12);
   }
-  EXPECT_NEAR(off.dot(prior_precision(free, rho) * off), squares - along * along / share, 1e-12);
+}
+
+TEST(Density, APersonWhoIsUnlikeTheLiteratureWidensItsSpreads) {
+  // The same persons, once with the spreads that they were drawn with, once with spreads of 40 %.
+  double as_drawn = 0.0, unlike = 0.0;
+  for (const double believed : {1.0, 0.4}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      ElbowStudy study = elbow_study({.seconds = 10.0,
+                                      .emg_cv = 0.05,
+                                      .torque_sd_nm = 0.2,
+                                      .truth_from_prior = true,
+                                      .with_priors = true,
+                                      .seed = seed});
+      for (MuscleSetup& muscle : study.data.muscles) {
+        muscle.fixed = {"tendon_slack_length"};
+        for (auto& [name, prior] : muscle.priors) prior.sd *= believed;
+      }
+      Density density(study.data, {});
+      EXPECT_EQ(density.unlikeness(), 1.0);
+      Eigen::VectorXd x = density.start();
+      for (int pass = 0; pass < 3; ++pass) {
+        x = find_mode(density, x, {}).x;
+        density.refer_to(x);
+      }
+      (believed == 1.0 ? as_drawn : unlike) += density.unlikeness() / 3.0;
+    }
+  }
+  // Some 12 of 24 numbers are told by the data: their spread is known to 20 % a person, and the
+  // belief that it is 1 draws it back.
+  EXPECT_NEAR(as_drawn, 1.0, 0.25);
+  EXPECT_GT(unlike, 1.5);
+  EXPECT_LT(unlike, 2.8);
 }
 
 TEST(Density, XAndZAreOneAnother) {

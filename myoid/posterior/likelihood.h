@@ -43,6 +43,10 @@ class Likelihood {
   [[nodiscard]] const std::vector<TrialRun>& runs() const { return runs_; }
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
+  /// b of the run's trial.
+  [[nodiscard]] double torque_share(std::size_t run) const {
+    return torque_share_[static_cast<Eigen::Index>(run)];
+  }
   /// Root mean square of the measured torque.
   [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 

@@ -188,7 +188,7 @@ TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
     }
     for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
       const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
-      if (believed == Believed::geometry_and_sensors_exact && !of.of_the_model) continue;
+      if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
       const double weight = of.weight * (of.of_the_model ? std::exp(kNoise[kModelErrorSize]) : 1.0);
       sigma += weight * weight * shapes.col(i) * shapes.col(i).transpose();
       weights[i] = weight;

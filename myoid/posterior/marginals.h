@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "myoid/core/progress.h"
-#include "myoid/posterior/importance.h"
+#include "myoid/posterior/draws.h"
 #include "myoid/posterior/mode.h"
 
 namespace myoid::identification {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -17,149 +16,15 @@
 #include "myoid/math/explained_share.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
-#include "myoid/posterior/density.h"
-#include "myoid/posterior/importance.h"
-#include "myoid/posterior/marginals.h"
-#include "myoid/posterior/mode.h"
+#include "myoid/posterior/draws.h"
+#include "myoid/posterior/exploration.h"
 #include "myoid/posterior/verdicts.h"
 
 namespace myoid::identification {
 namespace {
 
-constexpr double kLeastWeight = 0.02;  // of a mode
-constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
-constexpr int kMostReferences = 4;
-constexpr Eigen::Index kUncheckedDraws = 4000;
-constexpr Eigen::Index kDrawStride = 4;  // of the draws that are written
-constexpr int kOtherStarts = 1;
-constexpr std::uint64_t kSeed = 20;
-
-/// A mode of one of the densities, and its weight among all.
-struct Candidate {
-  const Density* density = nullptr;
-  EmgLag lag = EmgLag::delay;
-  Mode mode;
-  double weight = 0.0;
-};
-
-/// The start moved by a spread of the prior, up or down by a fixed pattern.
-Eigen::VectorXd moved_start(const Density& density, int number) {
-  Eigen::VectorXd z = density.parameters().start();
-  const std::vector<Unknown>& free = density.parameters().free();
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const double sign = (j * 2654435761U >> (4 + number)) % 2 == 0 ? 1.0 : -1.0;
-    z[static_cast<Eigen::Index>(j)] += sign * free[j].prior.sd;
-  }
-  return density.x_of(z, density.noise_of(density.start()));
-}
-
-bool same(const Candidate& a, const Mode& b) {
-  const Eigen::VectorXd off = a.mode.x - b.x;
-  const double squared = off.dot(a.density->gauss_newton(a.mode.x) * off);
-  return squared < kSameMode * kSameMode * static_cast<double>(off.size());
-}
-
-/// Climbs, takes the unseen quantities at the top, and climbs again until the top stays.
-Mode settle(Density& density, const Eigen::VectorXd& start, const Progress& progress) {
-  Mode mode = find_mode(density, start, progress);
-  for (int pass = 0; pass < kMostReferences; ++pass) {
-    density.refer_to(mode.x);
-    const Candidate before{.density = &density, .mode = mode};
-    mode = find_mode(density, mode.x, progress);
-    if (same(before, mode)) break;
-  }
-  return mode;
-}
-
-/// The modes of a density, the best first; at least one. The unseen quantities are those of the
-/// first start's mode.
-std::vector<Candidate> modes_of(Density& density,
-                                const std::vector<Eigen::VectorXd>& starts,
-                                const EstimatorOptions& options) {
-  std::vector<Candidate> found;
-  for (const Eigen::VectorXd& start : starts) {
-    Mode mode = found.empty() ? settle(density, start, options.progress)
-                              : find_mode(density, start, options.progress);
-    if (!mode.converged && !found.empty()) continue;
-    if (std::any_of(found.begin(), found.end(),
-                    [&](const Candidate& other) { return same(other, mode); }))
-      continue;
-    found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.mode.log_density > b.mode.log_density;
-  });
-  return found;
-}
-
-/// Leaves the modes that weigh something, with curvatures and weights, the heaviest first.
-void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
-  const double best = std::max_element(candidates.begin(), candidates.end(),
-                                       [](const Candidate& a, const Candidate& b) {
-                                         return a.mode.log_density < b.mode.log_density;
-                                       })
-                          ->mode.log_density;
-  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - 8.0; });
-  double most = -1e300;
-  for (Candidate& c : candidates) {
-    add_curvature(*c.density, c.mode, progress);
-    most = std::max(most, c.mode.log_evidence);
-  }
-  double sum = 0.0;
-  for (Candidate& c : candidates) sum += c.weight = std::exp(c.mode.log_evidence - most);
-  std::erase_if(candidates, [&](const Candidate& c) { return c.weight < kLeastWeight * sum; });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
-  sum = 0.0;
-  for (const Candidate& c : candidates) sum += c.weight;
-  for (Candidate& c : candidates) c.weight /= sum;
-}
-
-/// Draws of z from all modes.
-struct Sample {
-  Eigen::MatrixXd z;  ///< unknowns x draws
-  Eigen::VectorXd weight;
-  double khat = 0.0;
-  bool approximate = false;
-};
-
-Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& options) {
-  const int draws = options.posterior_draws;
-  std::vector<Draws> parts;
-  Eigen::Index count = 0;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Candidate& c = candidates[i];
-    const bool checked = draws > 0;
-    const auto wanted = static_cast<Eigen::Index>(
-        std::max(100.0, c.weight * static_cast<double>(checked ? draws : kUncheckedDraws)));
-    const auto log_density = [&](const Eigen::VectorXd& x) {
-      return checked ? c.density->value(x) : 0.0;
-    };
-    const auto with_gradient = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-      return c.density->value(x, gradient);
-    };
-    const std::uint64_t seed = kSeed + 10 * i;
-    parts.push_back(
-        checked ? draw(log_density, c.mode.x, c.mode.covariance, wanted, seed)
-        : options.marginals
-            ? draw_about(c.mode, marginals(with_gradient, c.mode, options.progress), wanted, seed)
-            : draw_normal(c.mode.x, c.mode.covariance, wanted, seed));
-    count += wanted;
-  }
-  Sample all;
-  all.z.resize(candidates.front().density->parameters().size(), count);
-  all.weight.resize(count);
-  Eigen::Index first = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (Eigen::Index k = 0; k < parts[i].x.cols(); ++k)
-      all.z.col(first + k) = candidates[i].density->z_of(parts[i].x.col(k));
-    all.weight.segment(first, parts[i].x.cols()) = candidates[i].weight * parts[i].weight;
-    all.khat = std::max(all.khat, parts[i].khat);
-    all.approximate = all.approximate || parts[i].approximate;
-    first += parts[i].x.cols();
-  }
-  return all;
-}
+constexpr double kUnlike = 1.6;            // times the literature's spread, that is worth a warning
+constexpr Eigen::Index kKeptDraws = 1000;  // that are written
 
 /// Of every unknown, what each source is of its variance by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
@@ -377,22 +242,24 @@ void fill_fit(const Candidate& best,
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 
-/// Every kDrawStride-th draw, as values.
+/// At most kKeptDraws draws, evenly among all, as values.
 void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationResult& result) {
-  const Eigen::Index count = (sample.z.cols() + kDrawStride - 1) / kDrawStride;
+  const Eigen::Index stride = (sample.z.cols() + kKeptDraws - 1) / kKeptDraws;
+  const Eigen::Index count = (sample.z.cols() + stride - 1) / stride;
   result.draws.resize(sample.z.rows(), count);
   result.draw_weights.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < sample.z.rows(); ++j)
       result.draws(j, i) =
-          map.free()[static_cast<std::size_t>(j)].to_value(sample.z(j, i * kDrawStride));
-    result.draw_weights[i] = sample.weight[i * kDrawStride];
+          map.free()[static_cast<std::size_t>(j)].to_value(sample.z(j, i * stride));
+    result.draw_weights[i] = sample.weight[i * stride];
   }
   result.draw_weights /= result.draw_weights.sum();
 }
 
 void add_warnings(const std::vector<Candidate>& candidates,
                   const Sample& sample,
+                  double unlikeness,
                   IdentificationResult& result) {
   if (candidates.size() > 1)
     result.warnings.push_back(
@@ -401,9 +268,16 @@ void add_warnings(const std::vector<Candidate>& candidates,
                     candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
     result.warnings.push_back(fmt::format(
-        "the intervals are those of a normal approximation of the posterior: draws from "
-        "it cannot be reweighed (Pareto k-hat {:.2f}, 0.70 is the limit)",
-        sample.khat));
+        "the draws of the posterior are not to be relied on: the chains of the sampler differ "
+        "(R-hat {:.2f}; 1.10 is the limit) or took {:.0f} % of their proposals (40 % is the "
+        "limit). "
+        "Ask for more draws",
+        sample.rhat, 100.0 * sample.accepted));
+  if (unlikeness > kUnlike)
+    result.warnings.push_back(fmt::format(
+        "the muscles lie {:.1f} times as far from the model's numbers as people usually do: the "
+        "priors are that much wider here. Was the model scaled to this person?",
+        unlikeness));
   if (result.model_error > VerdictRules{}.model_error)
     result.warnings.push_back(fmt::format(
         "what the model leaves of the torque depends on posture, effort and speed as if it were "
@@ -421,24 +295,10 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
         "the estimator posterior rests on what is known of people, and the study does without "
         "(priors = false): take the estimator least_squares");
   const auto begin = std::chrono::steady_clock::now();
-  Density by_delay(data, options);
-  std::vector<Eigen::VectorXd> starts{by_delay.start()};
-  const int others = options.multistart > 1        ? options.multistart - 1
-                     : options.posterior_draws > 0 ? kOtherStarts
-                                                   : 0;
-  for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
-  std::vector<Candidate> candidates = modes_of(by_delay, starts, options);
-  std::unique_ptr<Density> by_lags;
-  EstimatorOptions with_lags = options;
-  with_lags.lag = EmgLag::shared;
-  if (options.choose_lag && options.lag == EmgLag::delay) {
-    by_lags = std::make_unique<Density>(data, with_lags);
-    const std::vector<Eigen::VectorXd> from{candidates.front().mode.x};
-    for (Candidate& c : modes_of(*by_lags, from, with_lags)) candidates.push_back(std::move(c));
-  }
-  weigh(candidates, options.progress);
+  const Exploration explored = explore(data, options);
+  const std::vector<Candidate>& candidates = explored.modes;
   const Candidate& best = candidates.front();
-  const Sample drawn = sample(candidates, options);
+  const Sample& drawn = explored.sample;
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
@@ -449,7 +309,7 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
       {data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged},
       result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
-  add_warnings(candidates, drawn, result);
+  add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

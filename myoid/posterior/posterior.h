@@ -8,10 +8,7 @@ namespace myoid::identification {
 
 /// Estimates, intervals and verdicts from one posterior (density.h) of one joint's torque.
 ///
-/// Modes are sought from the starting values, and from others about them where the options ask for
-/// several starts, with a pure delay and with lags where the choice is open. Each weighs by its
-/// evidence. The interval "of the person" is that of the normal approximation at the modes; with
-/// EstimatorOptions::posterior_draws > 0 draws check it by importance (importance.h). Beside it, as
+/// The interval "of the person" is that of draws from the posterior (exploration.h). Beside it, as
 /// the route "geometry_and_sensors_exact", stands the interval of a posterior in which moment arms,
 /// tendons, the scale of the torque, cross-talk and drift are exact. IdentificationResult::trials
 /// is left empty. Throws InvalidInput for several joints, and without priors.

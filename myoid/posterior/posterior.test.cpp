@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/posterior/importance.h"
+#include "myoid/posterior/draws.h"
 
 #include "tests/support/elbow_study.h"
 

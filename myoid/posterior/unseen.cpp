@@ -63,6 +63,10 @@ class Collector {
     for (std::size_t c = 0; c < channels; ++c) {
       add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift);
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
+      add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd);
+      for_channel(c, [&](const OfMuscle& of, auto column) {
+        column += of.torque * earlier(of.at, c).abs();
+      });
       for (std::size_t other = 0; other < channels; ++other) {
         if (other == c) continue;
         add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]),
@@ -104,7 +108,7 @@ class Collector {
       });
     shape("speed", 1.0,
           [&](const OfMuscle& of) { return (of.velocity / range.fastest_mps).eval(); });
-    shape("lag", 1.0, [&](const OfMuscle& of) { return lag_effect(of.at, c); });
+    shape("lag", 1.0, [&](const OfMuscle& of) { return (kLag_s * earlier(of.at, c)).eval(); });
     lags_.push_back(quantities_.size() - 1);
   }
 
@@ -164,15 +168,15 @@ class Collector {
     return value;
   }
 
-  /// Change of ln a by a lag of kLag_s.
-  static Eigen::ArrayXd lag_effect(const RunEvaluation& at, std::size_t channel) {
+  /// Change of ln a by an activation that comes earlier [1/s].
+  static Eigen::ArrayXd earlier(const RunEvaluation& at, std::size_t channel) {
     const std::vector<Activation>& a = at.activations()[channel];
-    Eigen::ArrayXd late(static_cast<Eigen::Index>(a.size()));
-    for (Eigen::Index i = 0; i < late.size(); ++i) {
+    Eigen::ArrayXd by_time(static_cast<Eigen::Index>(a.size()));
+    for (Eigen::Index i = 0; i < by_time.size(); ++i) {
       const Activation& here = a[static_cast<std::size_t>(i)];
-      late[i] = -kLag_s * here.by_field[kDelay] / std::max(here.value, kNoneActs);
+      by_time[i] = -here.by_field[kDelay] / std::max(here.value, kNoneActs);
     }
-    return late;
+    return by_time;
   }
 
   void add_tendon(std::size_t k, bool priors) {

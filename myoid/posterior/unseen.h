@@ -32,9 +32,10 @@ struct UnseenQuantity {
 /// length that is off by d makes fibers shorter by d; a tendon that the study holds rigid stretches
 /// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque. Gain drift: the
 /// channel's torque times the place in the session. Cross-talk: the channel's torque times the
-/// ratio of another's activation to its own. Model error: the muscle's torque times polynomials of
-/// length, ln(activation), speed and lag, and a constant and a slope of the joint, as ErrorShapes;
-/// where the muscles share a free delay, a lag is its difference from their mean.
+/// ratio of another's activation to its own. Rise and fall: activation that rises earlier and falls
+/// later by d than the delay says, a + d |da/dt|. Model error: the muscle's torque times
+/// polynomials of length, ln(activation), speed and lag, and a constant and a slope of the joint,
+/// as ErrorShapes; where the muscles share a free delay, a lag is its difference from their mean.
 struct Unseen {
   std::vector<UnseenQuantity> quantities;
   std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n x quantities [N m].

@@ -20,9 +20,9 @@
 #include "myoid/identification/parameters.h"
 #include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
+#include "myoid/posterior/exploration.h"
 
 #include "tests/coverage/made_person.h"
-#include "tests/coverage/posterior_draws.h"
 
 namespace myoid::test {
 namespace {
@@ -34,7 +34,7 @@ struct Settings {
   std::string folder;
   double limit = 0.01;  ///< Of p after Bonferroni.
   MadePersonOptions person;
-  DrawOptions draw;
+  int draws = 0;  ///< EstimatorOptions::posterior_draws
 };
 
 /// One parameter of one person.
@@ -48,37 +48,38 @@ struct Place {
 
 struct PersonResult {
   std::vector<Place> places;
-  double khat = 0.0, effective = 0.0, gain = 0.0;
-  bool approximate = false, converged = false, made = false;
+  double rhat = 0.0;
+  bool approximate = false, converged = false;
 };
 
 PersonResult judge(const Settings& settings, int number) {
   MadePersonOptions options = settings.person;
   options.seed = static_cast<std::uint64_t>(settings.first + number + 1);
   const MadePerson person = made_person(options);
-  const PosteriorDraws draws = posterior_draws(person, settings.draw);
-  PersonResult result{.khat = draws.khat,
-                      .effective = 1.0 / draws.weight.squaredNorm(),
-                      .gain = draws.gain_from_truth,
-                      .approximate = draws.approximate,
-                      .converged = draws.converged,
-                      .made = true};
+  identification::EstimatorOptions estimator = person.options;
+  estimator.posterior_draws = settings.draws;
+  const identification::Exploration explored = identification::explore(person.data, estimator);
+  const identification::Sample& sample = explored.sample;
+  PersonResult result{.places = {},
+                      .rhat = sample.rhat,
+                      .approximate = sample.approximate,
+                      .converged = explored.modes.front().mode.converged};
   math::Random random(options.seed, 99);
   std::vector<Eigen::Index> chosen(kRanks - 1);
   for (Eigen::Index& i : chosen) {
     double u = random.uniform();
-    for (i = 0; i + 1 < draws.weight.size() && u >= draws.weight[i]; ++i) u -= draws.weight[i];
+    for (i = 0; i + 1 < sample.weight.size() && u >= sample.weight[i]; ++i) u -= sample.weight[i];
   }
-  for (Eigen::Index j = 0; j < draws.values.rows(); ++j) {
-    const Eigen::Index p = person.z.size();
+  const Eigen::Index p = person.z.size();
+  for (Eigen::Index j = 0; j < p + sample.noise.rows(); ++j) {
     Place& place = result.places.emplace_back();
     place.truth = j < p ? person.z[j] : person.noise[static_cast<std::size_t>(j - p)];
-    const Eigen::VectorXd x = draws.values.row(j);
+    const Eigen::VectorXd x = j < p ? sample.z.row(j) : sample.noise.row(j - p);
     for (const Eigen::Index i : chosen) place.rank += x[i] < place.truth;
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (x[i] < place.truth) place.share += draws.weight[i];
-    const double mean = x.dot(draws.weight);
-    place.shrunk = std::sqrt((x.array() - mean).square().matrix().dot(draws.weight));
+      if (x[i] < place.truth) place.share += sample.weight[i];
+    const double mean = x.dot(sample.weight);
+    place.shrunk = std::sqrt((x.array() - mean).square().matrix().dot(sample.weight));
     place.score = (place.truth - mean) / place.shrunk;
   }
   return result;
@@ -162,16 +163,15 @@ void write_ranks(const std::string& path,
                  const std::vector<PersonResult>& persons,
                  int first) {
   std::ofstream file(path);
-  file << "person,parameter,rank,share_below,score,posterior_sd,truth,khat,effective_draws,"
-          "approximate,converged\n";
+  file << "person,parameter,rank,share_below,score,posterior_sd,truth,rhat,approximate,converged\n";
   for (std::size_t i = 0; i < persons.size(); ++i) {
     for (std::size_t j = 0; j < persons[i].places.size(); ++j) {
       const PersonResult& person = persons[i];
       const Place& p = person.places[j];
-      file << fmt::format("{},{},{},{:.4f},{:.4f},{:.5g},{:.6g},{:.2f},{:.0f},{},{}\n",
+      file << fmt::format("{},{},{},{:.4f},{:.4f},{:.5g},{:.6g},{:.2f},{},{}\n",
                           first + static_cast<int>(i) + 1, names[j], p.rank, p.share, p.score,
-                          p.shrunk, p.truth, person.khat, person.effective,
-                          static_cast<int>(person.approximate), static_cast<int>(person.converged));
+                          p.shrunk, p.truth, person.rhat, static_cast<int>(person.approximate),
+                          static_cast<int>(person.converged));
     }
   }
 }
@@ -205,11 +205,10 @@ int run(const Settings& settings) {
     }
   });
   std::vector<Row> rows, kinds;
-  double approximate = 0.0, lost = 0.0, effective = 0.0;
+  double approximate = 0.0, lost = 0.0;
   for (const PersonResult& person : persons) {
     approximate += person.approximate;
     lost += !person.converged;
-    effective += person.effective / settings.persons;
   }
   for (std::size_t j = 0; j < names.size(); ++j) {
     Row& row = rows.emplace_back(Row{names[j], {}});
@@ -222,14 +221,8 @@ int run(const Settings& settings) {
       at->places.push_back(person.places[j]);
     }
   }
-  fmt::print(
-      "{} persons; search not converged {:.0f}, intervals approximate {:.0f}; {:.0f} "
-      "effective draws in the mean\n",
-      settings.persons, lost, approximate, effective);
-  if (settings.draw.search_from_truth)
-    fmt::print("a higher mode from the truth (by 1 or more in ln density): {} persons\n",
-               std::count_if(persons.begin(), persons.end(),
-                             [](const PersonResult& p) { return p.gain > 1.0; }));
+  fmt::print("{} persons; search not converged {:.0f}, chains that differ {:.0f}\n",
+             settings.persons, lost, approximate);
   print_header();
   for (const Row& row : kinds) print_row(row);
   fmt::print("\n");
@@ -250,26 +243,23 @@ int run(const Settings& settings) {
 }
 
 constexpr const char* kHelp =
-    "calibration [--persons N] [--first N] [--out FOLDER] [--draws N] [--limit P]\n"
-    "            [--linear] [--reference-truth] [--from-truth] [--bandwidth HZ] [--drive HZ] "
-    "[--rate HZ]\n"
-    "            [--trials N] [--seconds S]\n"
+    "calibration [--persons N] [--first N] [--out FOLDER] [--draws N] [--limit P] "
+    "[--of-the-model]\n"
+    "            [--two-muscles] [--bandwidth HZ] [--drive HZ] [--rate HZ] [--trials N] "
+    "[--seconds S]\n"
     "Ranks of persons drawn from the priors in their posteriors. Writes ranks.csv and\n"
     "calibration.svg to FOLDER, and fails where a parameter's ranks are not uniform at P.\n"
-    "--linear: unseen quantities act by their columns. --reference-truth: columns at the truth.\n"
-    "--from-truth: a search begins at the truth, too, to tell modes that were missed.\n"
-    "--draws 0: the normal approximation, unchecked. --bandwidth: of the raw EMG.\n";
+    "--of-the-model: torques are drawn from the model itself, given the envelopes.\n"
+    "--draws: by Hamiltonian Monte Carlo; 0: of the approximation. --bandwidth: of the raw EMG.\n";
 
 int main_of(int argc, char** argv) {
   Settings settings;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--linear") {
-      settings.person.linear = true;
-    } else if (name == "--reference-truth") {
-      settings.draw.reference_is_truth = true;
-    } else if (name == "--from-truth") {
-      settings.draw.search_from_truth = true;
+    if (name == "--of-the-model") {
+      settings.person.of_the_model = true;
+    } else if (name == "--two-muscles") {
+      settings.person.two_muscles = true;
     } else if (name == "--help" || i + 1 == argc) {
       fmt::print("{}", kHelp);
       return name == "--help" ? 0 : 2;
@@ -282,7 +272,7 @@ int main_of(int argc, char** argv) {
       else if (name == "--out")
         settings.folder = value;
       else if (name == "--draws")
-        settings.draw.draws = std::stoi(value);
+        settings.draws = std::stoi(value);
       else if (name == "--limit")
         settings.limit = std::stod(value);
       else if (name == "--bandwidth")
@@ -301,7 +291,8 @@ int main_of(int argc, char** argv) {
       }
     }
   }
-  if (settings.person.linear) settings.person.rate_hz = std::min(settings.person.rate_hz, 20.0);
+  if (settings.person.of_the_model)
+    settings.person.rate_hz = std::min(settings.person.rate_hz, 20.0);
   return run(settings);
 }
 

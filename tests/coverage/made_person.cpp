@@ -30,8 +30,8 @@ constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
 /// Draws from the prior of the unknowns within their bounds.
 Eigen::VectorXd draw_unknowns(const std::vector<Unknown>& free, math::Random& random) {
   const auto p = static_cast<Eigen::Index>(free.size());
-  const Eigen::LLT<Eigen::MatrixXd> precision(
-      prior_precision(free, beliefs::kCommonStrength.value));
+  const Eigen::LLT<Eigen::MatrixXd> precision(prior_precision(
+      free, beliefs::kCommonStrength.value, std::exp(beliefs::kUnlikeness.sd * random.normal())));
   for (int i = 0; i < 10000; ++i) {
     Eigen::VectorXd z(p);
     for (Eigen::Index j = 0; j < p; ++j) z[j] = random.normal();
@@ -97,7 +97,9 @@ struct MuscleErrors {
 class Maker {
  public:
   explicit Maker(const MadePersonOptions& options)
-      : o_(options), random_(options.seed, 17), elbow_(model::planar_elbow()) {}
+      : o_(options), random_(options.seed, 17), elbow_(model::planar_elbow()) {
+    if (o_.two_muscles) of_arm_ = {0, 3};
+  }
 
   MadePerson make() {
     set_up();
@@ -105,8 +107,10 @@ class Maker {
     person_.z = draw_unknowns(map.free(), random_);
     const ModelValues values = map.values(person_.z);
     draw_noise();
-    if (o_.linear) {
-      make_linear(map);
+    if (o_.of_the_model) {
+      crosstalk_ = Eigen::MatrixXd::Identity(muscles(), muscles());
+      make_envelopes();
+      make_torque_of_the_model(map);
     } else {
       draw_unseen();
       double squares = 0.0, count = 0.0;
@@ -116,15 +120,17 @@ class Maker {
         count += static_cast<double>(person_.data.trials[i].torque_nm.size());
       }
       finish_torque(std::sqrt(squares / count), values);
+      make_envelopes();
     }
-    make_envelopes();
     return std::move(person_);
   }
 
  private:
+  [[nodiscard]] Eigen::Index muscles() const { return static_cast<Eigen::Index>(of_arm_.size()); }
+
   void set_up() {
     const auto start = model::arm4_muscles();
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (const std::size_t k : of_arm_) {
       MuscleSetup setup;
       setup.name = std::string(elbow_.muscles[k].name);
       setup.emg_channel = setup.name;
@@ -147,8 +153,8 @@ class Maker {
       trial.time_s = Eigen::VectorXd::LinSpaced(n, 0.0, o_.seconds);
       trial.torque_nm.setZero(n);
       move(number, trial);
-      Eigen::MatrixXd& drives = drives_.emplace_back(all, 4);
-      for (Eigen::Index c = 0; c < 4; ++c)
+      Eigen::MatrixXd& drives = drives_.emplace_back(all, muscles());
+      for (Eigen::Index c = 0; c < muscles(); ++c)
         drives.col(c) =
             drive(all, 0.12 + 0.25 * random_.uniform(),
                   o_.drive_hz * (1.0 + 2.0 * random_.uniform()) / 3.0, o_.rate_hz, random_);
@@ -172,16 +178,16 @@ class Maker {
     const double w1 = 2.0 * std::numbers::pi * (0.3 + 0.25 * number + 0.1 * random_.uniform());
     const double w2 = 2.0 * std::numbers::pi * (1.0 + 0.3 * random_.uniform());
     const double phase = 2.0 * std::numbers::pi * random_.uniform();
-    trial.length_m.resize(n, 4);
-    trial.velocity_mps.resize(n, 4);
-    trial.moment_arm_m.resize(n, 4);
+    trial.length_m.resize(n, muscles());
+    trial.velocity_mps.resize(n, muscles());
+    trial.moment_arm_m.resize(n, muscles());
     for (Eigen::Index i = 0; i < n; ++i) {
       const double t = trial.time_s[i];
       const double q = 1.18 + 0.75 * std::sin(w1 * t + phase) + 0.25 * std::sin(w2 * t);
       const double rate = 0.75 * w1 * std::cos(w1 * t + phase) + 0.25 * w2 * std::cos(w2 * t);
-      for (Eigen::Index k = 0; k < 4; ++k) {
+      for (Eigen::Index k = 0; k < muscles(); ++k) {
         const model::MuscleTravel travel =
-            model::travel(elbow_.muscles[static_cast<std::size_t>(k)], q);
+            model::travel(elbow_.muscles[of_arm_[static_cast<std::size_t>(k)]], q);
         trial.length_m(i, k) = travel.length_m;
         trial.moment_arm_m(i, k) = travel.moment_arm_m;
         trial.velocity_mps(i, k) = -travel.moment_arm_m * rate;
@@ -201,7 +207,7 @@ class Maker {
 
   void draw_unseen() {
     const double s = std::exp(person_.noise[kModelErrorSize]);
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < of_arm_.size(); ++k) {
       MuscleErrors& e = errors_.emplace_back();
       const auto column = static_cast<Eigen::Index>(k);
       for (const TrialData& trial : person_.data.trials) {
@@ -221,10 +227,11 @@ class Maker {
       for (double& x : e.model) x = s * random_.normal();
       e.model[3] *= 0.5;
       drift_.push_back(beliefs::kGainDrift.sd * random_.normal());
+      rise_and_fall_s_.push_back(beliefs::kRiseAndFall.sd * random_.normal());
     }
-    crosstalk_ = Eigen::MatrixXd::Identity(4, 4);
-    for (Eigen::Index c = 0; c < 4; ++c) {
-      for (Eigen::Index other = 0; other < 4; ++other)
+    crosstalk_ = Eigen::MatrixXd::Identity(muscles(), muscles());
+    for (Eigen::Index c = 0; c < muscles(); ++c) {
+      for (Eigen::Index other = 0; other < muscles(); ++other)
         if (other != c) crosstalk_(other, c) = beliefs::kCrossTalk.sd * random_.normal();
     }
   }
@@ -267,12 +274,14 @@ class Maker {
     TrialData& trial = person_.data.trials[number];
     const double place = (static_cast<double>(number) + 0.5) / o_.trials - 0.5;
     const Eigen::VectorXd clock = trial.activation.time_s();
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < of_arm_.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       ChannelValues channel = values.channels[k];
       channel[kGain] *= 1.0 + drift_[k] * place;
-      const std::vector<Activation> a = activation(Envelope(clock, drives_[number].col(column)),
-                                                   trial.time_s, channel, EmgLag::delay);
+      std::vector<Activation> a = activation(Envelope(clock, drives_[number].col(column)),
+                                             trial.time_s, channel, EmgLag::delay);
+      for (Activation& at : a)
+        at.value = std::max(0.0, at.value + rise_and_fall_s_[k] * std::abs(at.by_field[kDelay]));
       for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
         trial.torque_nm[i] +=
             torque(trial, i, column, a[static_cast<std::size_t>(i)], errors_[k], values.muscles[k]);
@@ -289,12 +298,12 @@ class Maker {
       for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
         trial.torque_nm[i] = scale * (trial.torque_nm[i] + values.joints[0][kOffset]) +
                              slope_nm * errors_[0].place(trial.length_m(i, 0));
-      add_torque_error(trial);
+      add_torque_error(trial, 1.0);
     }
   }
 
-  void add_torque_error(TrialData& trial) {
-    const double sd = std::exp(person_.noise[kTorqueSd]);
+  void add_torque_error(TrialData& trial, double share) {
+    const double sd = share * std::exp(person_.noise[kTorqueSd]);
     const double kept = std::exp(-1.0 / (o_.rate_hz * std::exp(person_.noise[kTorqueTime])));
     double e = sd * random_.normal();
     for (double& t : trial.torque_nm) {
@@ -303,29 +312,24 @@ class Maker {
     }
   }
 
-  /// The torque of the model at the unknowns, and the unseen quantities by their columns.
-  void make_linear(const ParameterMap& map) {
-    person_.options.max_rate_hz = o_.rate_hz;
+  /// The torque of the model at the true unknowns, and every error by the model's own covariance.
+  void make_torque_of_the_model(const ParameterMap& map) {
     StudyData& data = person_.data;
-    // Noise that is next to nothing, so that the drive is the recorded one.
-    EstimatorOptions plain = person_.options;
-    for (auto& [name, hz] : plain.emg_bandwidth_hz) hz = 1e12;
-    const std::vector<TrialRun> runs = trial_runs(data, plain, map);
+    person_.options.max_rate_hz = o_.rate_hz;
+    const std::vector<TrialRun> runs = trial_runs(data, person_.options, map);
     const ModelValues values = map.values(person_.z);
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
-    for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
     double squares = 0.0, count = 0.0;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const TrialRun& run = runs[r];
-      TrialData& trial = data.trials[static_cast<std::size_t>(run.trial)];
-      trial.torque_nm.setZero();
-      trial.torque_nm.segment(first_of(run, trial), run.time_s.size()) = at[r].signals().torque_nm;
-      squares += at[r].signals().torque_nm.squaredNorm();
+    for (const TrialRun& run : runs) {
+      at.emplace_back(run, map, EmgLag::delay, values, nullptr);
+      torque_of(run) = at.back().signals().torque_nm;
+      squares += at.back().signals().torque_nm.squaredNorm();
       count += static_cast<double>(run.time_s.size());
     }
-    // The shapes of the joint have the size of the measured torque: runs with the torque.
-    const std::vector<TrialRun> measured = trial_runs(data, plain, map);
+    person_.noise[kTorqueSd] += 0.5 * std::log(squares / count);
+    // The shapes of the joint have the size of the torque: the runs know it now.
+    const std::vector<TrialRun> measured = trial_runs(data, person_.options, map);
     const Unseen unseen = unseen_quantities(
         data, person_.options, map, recorded(measured, map.held().muscles), measured, values, at);
     const double s = std::exp(person_.noise[kModelErrorSize]);
@@ -334,14 +338,34 @@ class Maker {
       const UnseenQuantity& q = unseen.quantities[static_cast<std::size_t>(i)];
       x[i] = q.weight * (q.of_the_model ? s : 1.0) * random_.normal();
     }
-    person_.noise[kTorqueSd] += 0.5 * std::log(squares / count);
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      TrialData& trial = data.trials[static_cast<std::size_t>(runs[r].trial)];
-      trial.torque_nm.segment(first_of(runs[r], trial), runs[r].time_s.size()) +=
-          unseen.columns[r] * x;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      torque_of(runs[r]) += unseen.columns[r] * x + envelope_error(runs[r], at[r]);
+    for (TrialData& trial : data.trials)
+      add_torque_error(trial, std::exp(beliefs::kTrialTorqueNoise.sd * random_.normal()));
+  }
+
+  /// The samples of the run in the torque of its trial.
+  Eigen::VectorBlock<Eigen::VectorXd> torque_of(const TrialRun& run) {
+    TrialData& trial = person_.data.trials[static_cast<std::size_t>(run.trial)];
+    return trial.torque_nm.segment(first_of(run, trial), run.time_s.size());
+  }
+
+  /// e_u: white noise times the sensitivity behind each envelope's filter.
+  Eigen::VectorXd envelope_error(const TrialRun& run, const RunEvaluation& at) {
+    const Eigen::Index n = run.time_s.size();
+    Eigen::VectorXd error = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index c = 0; c < run.envelope_sd.size(); ++c) {
+      const EnvelopeError& of = run.errors[static_cast<std::size_t>(c)];
+      const Eigen::VectorXd h = of.from_white(run.interval_s);
+      const Eigen::Index reach = h.size() / 2;
+      Eigen::VectorXd white(n + 2 * reach);
+      for (Eigen::Index j = 0; j < white.size(); ++j)
+        white[j] = random_.normal() *
+                   at.signals().by_noise(std::clamp<Eigen::Index>(j - reach, 0, n - 1), c);
+      error += std::exp(person_.noise[kEmgFactor]) * run.envelope_sd[c] * std::sqrt(of.share()) *
+               filtered(h, white);
     }
-    for (TrialData& trial : data.trials) add_torque_error(trial);
-    crosstalk_ = Eigen::MatrixXd::Identity(4, 4);
+    return error;
   }
 
   static Eigen::Index first_of(const TrialRun& run, const TrialData& trial) {
@@ -374,10 +398,11 @@ class Maker {
   MadePersonOptions o_;
   math::Random random_;
   model::PlanarElbow elbow_;
+  std::vector<std::size_t> of_arm_ = {0, 1, 2, 3};  ///< The muscles of the arm that are made.
   MadePerson person_;
   std::vector<Eigen::MatrixXd> drives_;  ///< Per trial, instants x channels.
   std::vector<MuscleErrors> errors_;
-  std::vector<double> drift_;
+  std::vector<double> drift_, rise_and_fall_s_;
   Eigen::MatrixXd crosstalk_;
 };
 

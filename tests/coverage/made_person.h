@@ -16,9 +16,11 @@ struct MadePersonOptions {
   double seconds = 12.0;
   double rate_hz = 100.0;
   double emg_bandwidth_hz = 150.0;
-  /// The unseen quantities act by their columns S at the true unknowns, as the estimator has them,
-  /// and not by what they mean.
-  bool linear = false;
+  bool two_muscles = false;  ///< Biceps and triceps alone.
+  /// The torque is drawn from the posterior's own model at the true unknowns: the drive is the one
+  /// that the estimator takes from the envelopes, its error and the unseen quantities act by their
+  /// columns. Each trial has its own share of the torque's error.
+  bool of_the_model = false;
   double drive_hz = 1.2;  ///< Highest -3 dB frequency of a channel's drive; the lowest is a third.
   std::uint64_t seed = 1;
 };
@@ -31,7 +33,7 @@ struct MadePerson {
   identification::NoiseValues noise{};  ///< The hyperparameters.
 };
 
-/// The built-in arm's four elbow muscles with one EMG channel each. Drawn are the study's unknowns
+/// The built-in arm's elbow muscles with one EMG channel each. Drawn are the study's unknowns
 /// (from their priors within their bounds: muscles, delay, gains, offset of the torque), the
 /// hyperparameters, and every unseen quantity, N(0, weight^2):
 ///
@@ -40,6 +42,7 @@ struct MadePerson {
 /// - each channel's gain drift, and cross-talk added to the recorded envelopes,
 /// - the scale of the torque, and the model's error as a factor of each muscle's torque.
 ///
+/// The literature's spreads are multiplied by a factor of the person's own (Density::unlikeness).
 /// The drives are positive shot noise behind a Gaussian low-pass. An envelope is the drive times
 /// 1 + white noise behind the envelope's filter; the torque's error is an autoregressive process.
 [[nodiscard]] MadePerson made_person(const MadePersonOptions& options);

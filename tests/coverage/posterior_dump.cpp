@@ -1,7 +1,7 @@
-/// Writes all that the posterior of one made person is a function of, and what the estimator makes
-/// of it, as JSON: for emcee_posterior.py.
+/// Writes all that the posterior of one made person is a function of, and the estimator's draws
+/// from it, as JSON: for emcee_posterior.py.
 ///
-/// usage: posterior_dump PERSON
+/// usage: posterior_dump PERSON [DRAWS]     DRAWS: by Hamiltonian Monte Carlo; 0: the approximation
 
 #include <exception>
 #include <string>
@@ -10,10 +10,9 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/posterior/density.h"
+#include "myoid/posterior/exploration.h"
 
 #include "tests/coverage/made_person.h"
-#include "tests/coverage/posterior_draws.h"
 
 namespace myoid::test {
 namespace {
@@ -33,13 +32,13 @@ std::string json(const Eigen::MatrixXd& m) {
   return text + "]";
 }
 
-void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen) {
+void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen, double torque_share) {
   fmt::print(
       "{{\"time\":{},\"length\":{},\"velocity\":{},\"arm\":{},\"measured\":{},\"sd\":{},"
-      "\"unseen\":{},\"first\":{},\"stride\":{},\"envelopes\":[",
+      "\"unseen\":{},\"torque_share\":{:.17g},\"first\":{},\"stride\":{},\"envelopes\":[",
       json(run.time_s), json(run.length_m), json(run.velocity_mps), json(run.arm_m),
-      json(run.measured_nm), json(run.envelope_sd), json(unseen), run.reduction.first(0),
-      run.reduction.stride());
+      json(run.measured_nm), json(run.envelope_sd), json(unseen), torque_share,
+      run.reduction.first(0), run.reduction.stride());
   for (std::size_t c = 0; c < run.envelopes.size(); ++c)
     fmt::print("{}{{\"time\":{},\"value\":{},\"share\":{:.17g},\"filter\":{}}}", c ? "," : "",
                json(run.envelopes[c].time_s()), json(run.envelopes[c].samples()),
@@ -47,18 +46,23 @@ void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen) {
   fmt::print("]}}");
 }
 
-void write(std::uint64_t seed) {
-  MadePersonOptions options;
-  options.seed = seed;
-  options.trials = 3;
-  const MadePerson person = made_person(options);
-  const PosteriorDraws draws = posterior_draws(person, {.draws = 4000});
-  Density density(person.data, person.options);
-  Likelihood likelihood(person.data, person.options);
-  likelihood.refer_to(draws.reference_z);
+void write(std::uint64_t seed, int draws) {
+  MadePersonOptions made;
+  made.seed = seed;
+  made.trials = 3;
+  made.seconds = 8.0;
+  made.two_muscles = true;
+  const MadePerson person = made_person(made);
+  EstimatorOptions options = person.options;
+  options.posterior_draws = draws;
+  options.choose_lag = false;
+  const Exploration explored = explore(person.data, options);
+  const Mode& best = explored.modes.front().mode;
+  const Density& density = *explored.modes.front().density;
+  const Likelihood& likelihood = density.likelihood();
   const ParameterMap& map = likelihood.parameters();
-  fmt::print("{{\"modes\":{},\"khat\":{:.17g},\"approximate\":{},\"unknowns\":[", draws.modes,
-             draws.khat, draws.approximate);
+  fmt::print("{{\"modes\":{},\"rhat\":{:.17g},\"approximate\":{},\"unknowns\":[",
+             explored.modes.size(), explored.sample.rhat, explored.sample.approximate);
   for (std::size_t j = 0; j < map.free().size(); ++j) {
     const Unknown& u = map.free()[j];
     fmt::print(
@@ -67,7 +71,8 @@ void write(std::uint64_t seed) {
         j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower,
         u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic);
   }
-  fmt::print("],\"common_strength\":{:.17g},\"muscles\":[", beliefs::kCommonStrength.value);
+  fmt::print("],\"common_strength\":{:.17g},\"unlikeness\":{:.17g},\"muscles\":[",
+             beliefs::kCommonStrength.value, density.unlikeness());
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
     fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}",
@@ -83,17 +88,16 @@ void write(std::uint64_t seed) {
              json(model), likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");
-    write_run(likelihood.runs()[r], unseen.columns[r]);
+    write_run(likelihood.runs()[r], unseen.columns[r], likelihood.torque_share(r));
   }
-  const Eigen::VectorXd mean = draws.values * draws.weight;
-  const Eigen::VectorXd sd =
-      ((draws.values.colwise() - mean).cwiseAbs2() * draws.weight).cwiseSqrt();
-  density.refer_to(density.x_of(draws.reference_z, density.noise_of(draws.best_x)));
+  const Sample& sample = explored.sample;
+  Eigen::MatrixXd values(sample.z.rows() + sample.noise.rows(), sample.z.cols());
+  values << sample.z, sample.noise;
+  const Eigen::VectorXd mean = values * sample.weight;
+  const Eigen::VectorXd sd = ((values.colwise() - mean).cwiseAbs2() * sample.weight).cwiseSqrt();
   fmt::print(
-      "],\"mean\":{},\"sd\":{},\"best_x\":{},\"covariance\":{},\"density_at_best\":{:.17g},"
-      "\"effective\":{:.17g}}}\n",
-      json(mean), json(sd), json(draws.best_x), json(draws.covariance), density.value(draws.best_x),
-      1.0 / draws.weight.squaredNorm());
+      "],\"mean\":{},\"sd\":{},\"best_x\":{},\"covariance\":{},\"density_at_best\":{:.17g}}}\n",
+      json(mean), json(sd), json(best.x), json(best.covariance), density.value(best.x));
 }
 
 }  // namespace
@@ -101,7 +105,7 @@ void write(std::uint64_t seed) {
 
 int main(int argc, char** argv) {
   try {
-    myoid::test::write(argc > 1 ? std::stoull(argv[1]) : 1);
+    myoid::test::write(argc > 1 ? std::stoull(argv[1]) : 1, argc > 2 ? std::stoi(argv[2]) : 0);
   } catch (const std::exception& error) {
     fmt::print(stderr, "posterior_dump: {}\n", error.what());
     return 2;

@@ -1,0 +1,166 @@
+#include "myoid/posterior/exploration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "myoid/core/error.h"
+#include "myoid/posterior/marginals.h"
+#include "myoid/posterior/sampler.h"
+
+namespace myoid::identification {
+namespace {
+
+constexpr double kLeastWeight = 0.02;  // of a mode
+constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
+constexpr int kMostReferences = 4;
+constexpr Eigen::Index kApproximateDraws = 4000;
+constexpr int kOtherStarts = 1;
+constexpr std::uint64_t kSeed = 20;
+
+/// The start moved by a spread of the prior, up or down by a fixed pattern.
+Eigen::VectorXd moved_start(const Density& density, int number) {
+  Eigen::VectorXd z = density.parameters().start();
+  const std::vector<Unknown>& free = density.parameters().free();
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const double sign = (j * 2654435761U >> (4 + number)) % 2 == 0 ? 1.0 : -1.0;
+    z[static_cast<Eigen::Index>(j)] += sign * free[j].prior.sd;
+  }
+  return density.x_of(z, density.noise_of(density.start()));
+}
+
+bool same(const Candidate& a, const Mode& b) {
+  const Eigen::VectorXd off = a.mode.x - b.x;
+  const double squared = off.dot(a.density->gauss_newton(a.mode.x) * off);
+  return squared < kSameMode * kSameMode * static_cast<double>(off.size());
+}
+
+/// Climbs, takes the unseen quantities at the top, and climbs again until the top stays.
+Mode settle(Density& density, const Eigen::VectorXd& start, const Progress& progress) {
+  Mode mode = find_mode(density, start, progress);
+  for (int pass = 0; pass < kMostReferences; ++pass) {
+    density.refer_to(mode.x);
+    const Candidate before{.density = &density, .mode = mode};
+    mode = find_mode(density, mode.x, progress);
+    if (same(before, mode)) break;
+  }
+  return mode;
+}
+
+/// The modes of a density, the best first; at least one. The unseen quantities are those of the
+/// first start's mode.
+std::vector<Candidate> modes_of(Density& density,
+                                const std::vector<Eigen::VectorXd>& starts,
+                                const EstimatorOptions& options) {
+  std::vector<Candidate> found;
+  for (const Eigen::VectorXd& start : starts) {
+    Mode mode = found.empty() ? settle(density, start, options.progress)
+                              : find_mode(density, start, options.progress);
+    if (!mode.converged && !found.empty()) continue;
+    if (std::any_of(found.begin(), found.end(),
+                    [&](const Candidate& other) { return same(other, mode); }))
+      continue;
+    found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.mode.log_density > b.mode.log_density;
+  });
+  return found;
+}
+
+/// Leaves the modes that weigh something, with curvatures and weights, the heaviest first.
+void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
+  const double best = std::max_element(candidates.begin(), candidates.end(),
+                                       [](const Candidate& a, const Candidate& b) {
+                                         return a.mode.log_density < b.mode.log_density;
+                                       })
+                          ->mode.log_density;
+  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - 8.0; });
+  double most = -1e300;
+  for (Candidate& c : candidates) {
+    add_curvature(*c.density, c.mode, progress);
+    most = std::max(most, c.mode.log_evidence);
+  }
+  double sum = 0.0;
+  for (Candidate& c : candidates) sum += c.weight = std::exp(c.mode.log_evidence - most);
+  std::erase_if(candidates, [&](const Candidate& c) { return c.weight < kLeastWeight * sum; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
+  sum = 0.0;
+  for (const Candidate& c : candidates) sum += c.weight;
+  for (Candidate& c : candidates) c.weight /= sum;
+}
+
+/// Draws about one mode: of the density itself where the options ask for draws, else by its
+/// marginals, else of the normal approximation.
+Draws draws_about(const Candidate& c,
+                  const EstimatorOptions& options,
+                  std::uint64_t seed,
+                  Sample& sample) {
+  const auto density = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
+    return c.density->value(x, gradient);
+  };
+  const auto count = [&](Eigen::Index of_all) {
+    return std::max<Eigen::Index>(100, std::lround(c.weight * static_cast<double>(of_all)));
+  };
+  if (options.posterior_draws > 0) {
+    Sampled sampled =
+        sample_density(density, c.mode, count(options.posterior_draws), seed, options.progress);
+    sample.rhat = std::max(sample.rhat, sampled.rhat);
+    sample.accepted = std::min(sample.accepted, sampled.accepted);
+    sample.approximate = sample.approximate || !sampled.trusted();
+    return std::move(sampled.draws);
+  }
+  if (!options.marginals)
+    return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
+  return draw_about(c.mode, marginals(density, c.mode, options.progress), count(kApproximateDraws),
+                    seed);
+}
+
+Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& options) {
+  Sample all;
+  std::vector<Draws> parts;
+  Eigen::Index count = 0;
+  for (const Candidate& c : candidates) {
+    parts.push_back(draws_about(c, options, kSeed + 10 * parts.size(), all));
+    count += parts.back().x.cols();
+  }
+  const Eigen::Index p = candidates.front().density->parameters().size();
+  all.z.resize(p, count);
+  all.noise.resize(kNoiseFieldCount, count);
+  all.weight.resize(count);
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (Eigen::Index k = 0; k < parts[i].x.cols(); ++k)
+      all.z.col(first + k) = candidates[i].density->z_of(parts[i].x.col(k));
+    all.noise.middleCols(first, parts[i].x.cols()) = parts[i].x.bottomRows(kNoiseFieldCount);
+    all.weight.segment(first, parts[i].x.cols()) = candidates[i].weight * parts[i].weight;
+    first += parts[i].x.cols();
+  }
+  return all;
+}
+
+}  // namespace
+
+Exploration explore(const StudyData& data, const EstimatorOptions& options) {
+  Exploration found;
+  Density& by_delay = *found.densities.emplace_back(std::make_unique<Density>(data, options));
+  std::vector<Eigen::VectorXd> starts{by_delay.start()};
+  const int others = options.multistart > 1        ? options.multistart - 1
+                     : options.posterior_draws > 0 ? kOtherStarts
+                                                   : 0;
+  for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
+  found.modes = modes_of(by_delay, starts, options);
+  if (options.choose_lag && options.lag == EmgLag::delay) {
+    EstimatorOptions with_lags = options;
+    with_lags.lag = EmgLag::shared;
+    Density& by_lags = *found.densities.emplace_back(std::make_unique<Density>(data, with_lags));
+    const std::vector<Eigen::VectorXd> from{found.modes.front().mode.x};
+    for (Candidate& c : modes_of(by_lags, from, with_lags)) found.modes.push_back(std::move(c));
+  }
+  weigh(found.modes, options.progress);
+  found.sample = sample(found.modes, options);
+  return found;
+}
+
+}  // namespace myoid::identification
