@@ -220,17 +220,14 @@ struct TrialPredictions::ByPosterior {
       : data(of_data), options(with_lag(of_options, of.lag)), fit(of), likelihood(data, options) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
-    std::copy_n(fit.noise.data(), noise.size(), noise.begin());
     likelihood.refer_to(fit.solution);
-    likelihood.share_torque_noise(fit.solution, noise);
-    unseen = likelihood.unseen_given(fit.solution, noise);
+    unseen = likelihood.unseen_given(fit.solution, fit.noise);
   }
 
   const StudyData& data;
   EstimatorOptions options;
   const IdentificationResult& fit;
   Likelihood likelihood;
-  NoiseValues noise{};
   Likelihood::UnseenGiven unseen;
 };
 
@@ -250,7 +247,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
     const ByPosterior& by = *by_posterior_;
     const TrialRun run = whole_run(trial, by.data, by.options, by.likelihood.parameters());
     const Likelihood::RunForecast forecast =
-        by.likelihood.forecast(run, by.fit.solution, by.noise, by.unseen);
+        by.likelihood.forecast(run, by.fit.solution, by.fit.noise, by.unseen);
     const Eigen::MatrixXd& covariance = by.fit.covariance;
     found.torque_fit_nm = forecast.mean_nm;
     found.torque_sd_nm =

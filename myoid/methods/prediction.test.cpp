@@ -101,7 +101,7 @@ TEST(TrialPredictions, ThePosteriorPredictsAlsoWhatTheUnseenQuantitiesAdd) {
   study.data.trials[2].calibration = false;
   const EstimatorOptions options{.starts = 1, .estimator = EstimatorKind::posterior};
   const IdentificationResult fit = identify_torque(study.data, options);
-  ASSERT_EQ(fit.noise.size(), 4);
+  ASSERT_EQ(fit.noise.size(), 6);  // four, and two fitted trials' shares
   const TrialData& trial = study.data.trials[2];
   const TrialFit found = TrialPredictions(study.data, options, fit).of(trial);
   const Score by_law =

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Cholesky>
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/math/tools/minima.hpp>
 
 #include "myoid/beliefs/beliefs.h"
@@ -14,12 +16,28 @@ namespace {
 
 constexpr double kInside = 0.003;   // of a range: the nearest to a bound that a search begins
 constexpr double kFarthest = 40.0;  // of x: beyond it a bound is reached to round-off
-constexpr double kStartingModelError = 0.1;
+constexpr double kStartingModelError = 0.1, kLeastModelError = 1e-6;
 constexpr double kStartingTorqueError = 0.3;  // of the root mean square
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
+
+/// s of the normal score x, over the spread of its half normal prior, and d ln s / dx.
+struct HalfNormal {
+  double size = 0.0, slope = 0.0;
+};
+HalfNormal half_normal(double x) {
+  const double tail = 0.5 * std::erfc(std::abs(x) / std::numbers::sqrt2);  // Phi(-|x|)
+  const double y =
+      std::numbers::sqrt2 * (x < 0.0 ? boost::math::erf_inv(tail) : boost::math::erfc_inv(tail));
+  return {y, 0.5 * std::exp(0.5 * (y * y - x * x)) / y};
+}
+
+/// The normal score of a size over the prior's spread.
+double score_of(double size) {
+  return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * std::erfc(size / std::numbers::sqrt2));
+}
 
 /// Numbers of a muscle whose spread is the literature's.
 bool is_literature(const Unknown& of) {
@@ -77,6 +95,8 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
                                    const auto at = options.emg_bandwidth_hz.find(name);
                                    return at != options.emg_bandwidth_hz.end() && at->second > 0.0;
                                  });
+  noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count());
+  noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);
   noise_mean_[kTorqueSd] =
       std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
   noise_sd_[kTorqueSd] = beliefs::kTorqueNoise.sd;
@@ -84,12 +104,11 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
   noise_sd_[kTorqueTime] = beliefs::kTorqueNoiseTime.sd;
   noise_sd_[kEmgFactor] = (known ? beliefs::kEmgNoise : beliefs::kUnknownEmgNoise).sd;
   noise_mean_[kModelErrorSize] = std::log(kStartingModelError);
-  noise_sd_[kModelErrorSize] = options.unseen.model_error;
+  noise_sd_[kModelErrorSize] = std::max(options.unseen.model_error, kLeastModelError);
 }
 
 void Density::refer_to(const Eigen::VectorXd& x) {
   likelihood_.refer_to(z_of(x));
-  likelihood_.share_torque_noise(z_of(x), noise_of(x));
   unlikeness_ = likeliest_unlikeness(x);
   precision_ = prior_precision(parameters().free(), common_strength_, unlikeness_);
 }
@@ -122,9 +141,9 @@ Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
 }
 
 NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
-  NoiseValues noise{};
-  for (std::size_t i = 0; i < noise.size(); ++i)
-    noise[i] = x[lower_.size() + static_cast<Eigen::Index>(i)];
+  NoiseValues noise = x.tail(noise_mean_.size());
+  double& log_size = noise[kModelErrorSize];
+  log_size = std::log(noise_sd_[kModelErrorSize] * half_normal(log_size).size);
   return noise;
 }
 
@@ -140,8 +159,9 @@ Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise
         range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
     x[j] = std::log(share / (1.0 - share));
   }
-  for (std::size_t i = 0; i < noise.size(); ++i)
-    x[lower_.size() + static_cast<Eigen::Index>(i)] = noise[i];
+  x.tail(noise.size()) = noise;
+  x[lower_.size() + kModelErrorSize] =
+      score_of(std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize]);
   return x;
 }
 
@@ -183,17 +203,17 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
     if (gradient == nullptr) continue;
     (*gradient)[j] = by_x[j] * (by.by_z[j] - pull[j]) + 1.0 - 2.0 * logistic(x[j]);
   }
-  for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor}) {
+  for (Eigen::Index field = 0; field < noise.size(); ++field) {
+    if (field == kModelErrorSize) continue;
     const double scaled = (noise[field] - noise_mean_[field]) / noise_sd_[field];
     result -= 0.5 * scaled * scaled;
     if (gradient != nullptr)
       (*gradient)[p + field] = by.by_noise[field] - scaled / noise_sd_[field];
   }
-  // Half normal in s; ds = s d ln s.
-  const double s = std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize];
-  result += noise[kModelErrorSize] - 0.5 * s * s;
+  const Eigen::Index size = p + kModelErrorSize;
+  result -= 0.5 * x[size] * x[size];
   if (gradient != nullptr)
-    (*gradient)[p + kModelErrorSize] = by.by_noise[kModelErrorSize] + 1.0 - s * s;
+    (*gradient)[size] = by.by_noise[kModelErrorSize] * half_normal(x[size]).slope - x[size];
   return result;
 }
 
@@ -205,11 +225,18 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   of_z += precision_;
   h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
   for (Eigen::Index j = 0; j < p; ++j) h(j, j) += 2.0 * logistic(x[j]) * logistic(-x[j]);
-  for (const NoiseField field : {kTorqueSd, kTorqueTime, kEmgFactor})
-    h(p + field, p + field) =
-        1.0 / (noise_sd_[field] * noise_sd_[field]) +
-        (field == kTorqueSd ? 0.5 * static_cast<double>(likelihood_.row_count()) : 0.0);
-  h(p + kModelErrorSize, p + kModelErrorSize) = 4.0;
+  h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
+  // A trial's share and the size of all torque errors are one number times another.
+  for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {
+    const double rows = 0.5 * static_cast<double>(likelihood_.runs()[r].measured_nm.size());
+    const Eigen::Index size = p + kTorqueSd, share = p + likelihood_.share_place(r);
+    h(size, size) += rows;
+    h(share, share) += rows;
+    h(size, share) += rows;
+    h(share, size) += rows;
+  }
+  h(p + kModelErrorSize, p + kModelErrorSize) =
+      1.0 + 3.0 * std::pow(half_normal(x[p + kModelErrorSize]).slope, 2);
   return h;
 }
 

@@ -25,12 +25,16 @@ namespace myoid::identification {
 ///
 ///   z = lower + (upper - lower) / (1 + exp(-x)),
 ///
-/// then the hyperparameters phi of the errors. Densities are those of x: dz/dx is in them.
+/// then the hyperparameters phi of the errors, the size s of the model's error by its normal score,
+///
+///   erf(s / (sqrt(2) sd)) = Phi(x),    Phi the standard normal distribution,
+///
+/// for ln s would have no end where the model is right. Densities are those of x: dz/dx is in them.
 ///
 ///   ln p(x | y) = ln p(y | z, phi) + ln p(z) + ln p(phi) + sum ln dz/dx
 ///
 /// The priors of z are the study's (ParameterMap), joined over muscles by prior_precision; those of
-/// phi in beliefs.h: ln sigma_T, ln tau_T and ln kappa normal, s half normal.
+/// phi in beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b normal, s half normal.
 ///
 /// The literature's spreads are uncertain themselves: a person whose every muscle lies two of them
 /// away is one surprise, not twenty. Their common factor lambda (`unlikeness`) has a prior, and is
@@ -44,13 +48,13 @@ class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);
 
-  /// Takes the unseen quantities and the trials' noise at this point (Likelihood), and lambda.
+  /// Takes the unseen quantities (Likelihood) and lambda at this point.
   void refer_to(const Eigen::VectorXd& x);
   void believe(Believed believed) { likelihood_.believe(believed); }
 
   [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
   [[nodiscard]] const ParameterMap& parameters() const { return likelihood_.parameters(); }
-  [[nodiscard]] Eigen::Index size() const { return parameters().size() + kNoiseFieldCount; }
+  [[nodiscard]] Eigen::Index size() const { return parameters().size() + noise_mean_.size(); }
   /// Spread of this person's muscles about the literature, over the literature's own spread.
   [[nodiscard]] double unlikeness() const { return unlikeness_; }
   /// Of the priors of z (prior_precision).
@@ -84,7 +88,7 @@ class Density {
   Likelihood likelihood_;
   Eigen::VectorXd lower_, range_, prior_mean_;
   Eigen::MatrixXd precision_;
-  NoiseValues noise_mean_{}, noise_sd_{};  ///< Of the normal ones.
+  NoiseValues noise_mean_, noise_sd_;  ///< Of the normal ones.
 };
 
 }  // namespace myoid::identification

@@ -127,13 +127,14 @@ Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& 
   }
   const Eigen::Index p = candidates.front().density->parameters().size();
   all.z.resize(p, count);
-  all.noise.resize(kNoiseFieldCount, count);
+  all.noise.resize(candidates.front().density->size() - p, count);
   all.weight.resize(count);
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (Eigen::Index k = 0; k < parts[i].x.cols(); ++k)
+    for (Eigen::Index k = 0; k < parts[i].x.cols(); ++k) {
       all.z.col(first + k) = candidates[i].density->z_of(parts[i].x.col(k));
-    all.noise.middleCols(first, parts[i].x.cols()) = parts[i].x.bottomRows(kNoiseFieldCount);
+      all.noise.col(first + k) = candidates[i].density->noise_of(parts[i].x.col(k));
+    }
     all.weight.segment(first, parts[i].x.cols()) = candidates[i].weight * parts[i].weight;
     first += parts[i].x.cols();
   }

@@ -23,7 +23,7 @@ struct Candidate {
 /// Draws of z and of the hyperparameters, one column each, from all modes.
 struct Sample {
   Eigen::MatrixXd z;      ///< unknowns x draws
-  Eigen::MatrixXd noise;  ///< kNoiseFieldCount x draws
+  Eigen::MatrixXd noise;  ///< NoiseValues x draws
   Eigen::VectorXd weight;
   double rhat = 1.0, accepted = 1.0;  ///< The worst of the modes (sampler.h).
   bool approximate = false;           ///< The chains of the sampler cannot be relied on.

@@ -6,7 +6,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "myoid/beliefs/beliefs.h"
 #include "myoid/core/parallel.h"
 
 namespace myoid::identification {
@@ -59,48 +58,18 @@ Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options)
       recorded_(recorded(runs_, map_.held().muscles)) {
   for (const TrialRun& run : runs_) {
     rows_ += run.measured_nm.size();
+    if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
+    trial_of_run_.push_back(trials_ - 1);
     auto& of_channels = envelope_noise_.emplace_back();
     for (const EnvelopeError& error : run.errors)
       of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
   }
-  torque_share_.setOnes(static_cast<Eigen::Index>(runs_.size()));
   refer_to(map_.start());
 }
 
-void Likelihood::share_torque_noise(const Eigen::VectorXd& z, const NoiseValues& noise) {
-  // The greatest density of what the unseen quantities leave, for each trial by itself.
-  const Eigen::VectorXd unseen = weights(noise).cwiseProduct(unseen_given(z, noise).mean);
-  const ModelValues values = map_.values(z);
-  std::vector<Eigen::VectorXd> left;
-  std::vector<Eigen::MatrixXd> others, torque;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const TrialRun& run = runs_[r];
-    const RunEvaluation at(run, map_, options_.lag, values, nullptr);
-    left.emplace_back(run.measured_nm - run.reduction.apply(at.signals().torque_nm) -
-                      columns_[r] * unseen);
-    others.push_back(envelope_covariance(r, at.signals(), noise));
-    if (motion_[r].size() > 0) others.back() += motion_[r];
-    torque.emplace_back(Eigen::MatrixXd::Zero(left.back().size(), left.back().size()));
-    add_toeplitz(std::exp(2.0 * noise[kTorqueSd]) *
-                     torque_error(run.reduction, run.interval_s, noise[kTorqueTime]).correlation,
-                 torque.back());
-  }
-  for (std::size_t first = 0; first < runs_.size();) {
-    std::size_t end = first;
-    while (end < runs_.size() && runs_[end].trial == runs_[first].trial) ++end;
-    double best = 0.0, greatest = -std::numeric_limits<double>::infinity();
-    for (double ln_share = -2.4; ln_share < 1.3; ln_share += 0.2) {
-      double value = -0.5 * std::pow(ln_share / beliefs::kTrialTorqueNoise.sd, 2);
-      for (std::size_t r = first; r < end; ++r) {
-        const Eigen::LLT<Eigen::MatrixXd> factor(others[r] + std::exp(2.0 * ln_share) * torque[r]);
-        value -= 0.5 * (left[r].dot(factor.solve(left[r])) + log_determinant(factor));
-      }
-      if (!(value > greatest)) continue;
-      greatest = value;
-      best = ln_share;
-    }
-    for (; first < end; ++first) torque_share_[static_cast<Eigen::Index>(first)] = std::exp(best);
-  }
+double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
+  const Eigen::Index at = share_place(r);
+  return at < noise.size() ? noise[at] : 0.0;
 }
 
 void Likelihood::refer_to(const Eigen::VectorXd& z) {
@@ -151,8 +120,7 @@ Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noi
 }
 
 double Likelihood::torque_variance(std::size_t r, const NoiseValues& noise) const {
-  return std::exp(2.0 * noise[kTorqueSd]) *
-         std::pow(torque_share_[static_cast<Eigen::Index>(r)], 2);
+  return std::exp(2.0 * (noise[kTorqueSd] + log_share(r, noise)));
 }
 
 Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
@@ -208,12 +176,14 @@ void Likelihood::pull_back(std::size_t r,
   const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
   const Eigen::VectorXd sums = diagonal_sums(by_a);
+  gradient.by_noise.setZero(noise.size());
   gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
+  const Eigen::Index share = share_place(r);
+  if (share < noise.size()) gradient.by_noise[share] = gradient.by_noise[kTorqueSd];
   gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
 
   const Eigen::VectorXd scale = envelope_scale(r, noise);
   TorqueSignals by{run.reduction.transposed(w), Eigen::MatrixXd(signals.by_noise)};
-  gradient.by_noise[kEmgFactor] = 0.0;
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
     const auto d = signals.by_noise.col(c);
     by.by_noise.col(c) =
@@ -222,7 +192,6 @@ void Likelihood::pull_back(std::size_t r,
     gradient.by_noise[kEmgFactor] += by.by_noise.col(c).dot(d);
   }
 
-  gradient.by_noise[kModelErrorSize] = 0.0;
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     if (unseen_.quantities[i].of_the_model)
@@ -272,11 +241,10 @@ double Likelihood::value(const Eigen::VectorXd& z,
   std::vector<Gradient> parts(runs_.size());
   each_run([&](std::size_t r) { pull_back(r, noise, shared, inverse, blocks[r], parts[r]); });
   gradient->by_z.setZero(map_.size());
-  gradient->by_noise.fill(0.0);
+  gradient->by_noise.setZero(noise.size());
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;
-    for (std::size_t i = 0; i < part.by_noise.size(); ++i)
-      gradient->by_noise[i] += part.by_noise[i];
+    gradient->by_noise += part.by_noise;
   }
   return result;
 }

@@ -22,10 +22,9 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 ///   A = L [b^2 sigma_T^2 exp(-|dt|/tau_T) + Q] L' + kappa^2 sum_c sd_c^2 K_c D_c^2 K_c'
 ///
 /// A is one block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken
-/// in by Woodbury's identity. K_c is L behind the filters
-/// of the envelope and the drive (EmgNoise). S and Q, the
-/// error of angle and rate, independent from sample to sample, and b, the share of sigma_T that a
-/// trial has, belong to reference values of the unknowns. The constant -n/2 ln(2 pi) is left out.
+/// in by Woodbury's identity. K_c is L behind the filters of the envelope and the drive (EmgNoise).
+/// S and Q, the error of angle and rate, independent from sample to sample, belong to reference
+/// values of the unknowns. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
   /// The reference is the start.
@@ -33,9 +32,6 @@ class Likelihood {
 
   /// Takes S and Q at these values of the unknowns.
   void refer_to(const Eigen::VectorXd& z);
-  /// Finds b, each trial's own share of sigma_T, at these values: a dynamometer errs by more than
-  /// the inverse dynamics of the same session.
-  void share_torque_noise(const Eigen::VectorXd& z, const NoiseValues& noise);
   /// Leaves out of S what is taken to be exact; at first nothing is.
   void believe(Believed believed) { believed_ = believed; }
 
@@ -43,16 +39,20 @@ class Likelihood {
   [[nodiscard]] const std::vector<TrialRun>& runs() const { return runs_; }
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
-  /// b of the run's trial.
-  [[nodiscard]] double torque_share(std::size_t run) const {
-    return torque_share_[static_cast<Eigen::Index>(run)];
+  /// The fitted trials, in whose order ln b stands in NoiseValues.
+  [[nodiscard]] Eigen::Index trial_count() const { return trials_; }
+  /// The place of the run's trial in NoiseValues.
+  [[nodiscard]] Eigen::Index share_place(std::size_t run) const {
+    return kNoiseFieldCount + trial_of_run_[run];
   }
+  /// ln b of the run's trial; 0 where `noise` does not name it.
+  [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
   /// Root mean square of the measured torque.
   [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 
   struct Gradient {
     Eigen::VectorXd by_z;
-    NoiseValues by_noise{};
+    NoiseValues by_noise;  ///< As long as the NoiseValues that it is taken at.
   };
   /// Runs in parallel, sums in order: the same bits for any number of threads. -infinity where
   /// Sigma is not positive definite in the computer's numbers.
@@ -125,7 +125,8 @@ class Likelihood {
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
   std::vector<Eigen::MatrixXd> motion_;                ///< Per run: L Q L', or empty.
-  Eigen::VectorXd torque_share_;                       ///< Per run: of sigma_T.
+  std::vector<Eigen::Index> trial_of_run_;             ///< Among the fitted trials.
+  Eigen::Index trials_ = 0;
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;
   std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.

@@ -19,7 +19,8 @@ using test::elbow_study;
 using test::ElbowStudy;
 using test::freed;
 
-constexpr NoiseValues kNoise{-0.9, -1.4, 0.1, -3.0};
+/// Two trials, each with its own share of the torque's error.
+const NoiseValues kNoise = (NoiseValues(6) << -0.9, -1.4, 0.1, -3.0, 0.3, -0.4).finished();
 
 /// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
 ElbowStudy crowded_study() {
@@ -163,8 +164,9 @@ TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
       Eigen::MatrixXd q = motion.asDiagonal();
       for (Eigen::Index i = 0; i < n; ++i) {
         for (Eigen::Index j = 0; j < n; ++j)
-          q(i, j) += std::exp(2.0 * kNoise[kTorqueSd] - std::abs(run.time_s[i] - run.time_s[j]) /
-                                                            std::exp(kNoise[kTorqueTime]));
+          q(i, j) +=
+              std::exp(2.0 * (kNoise[kTorqueSd] + kNoise[kNoiseFieldCount + run.trial]) -
+                       std::abs(run.time_s[i] - run.time_s[j]) / std::exp(kNoise[kTorqueTime]));
       }
       for (std::size_t c = 0; c < 3; ++c) {
         const Eigen::Index margin = run.errors[c].from_white(run.interval_s).size() / 2;
@@ -232,7 +234,7 @@ TEST(Likelihood, TheGradientIsThatOfDifferences) {
           1e-3 * std::max(1e-3, of.prior.sd));
       EXPECT_NEAR(gradient.by_z[j], difference, 1e-4 * (1.0 + std::abs(difference))) << of.label;
     }
-    for (std::size_t i = 0; i < kNoise.size(); ++i) {
+    for (Eigen::Index i = 0; i < kNoise.size(); ++i) {
       const double difference = slope(
           [&](double h) {
             NoiseValues moved = kNoise;

@@ -8,7 +8,9 @@
 
 namespace myoid::identification {
 
-/// The hyperparameters phi of the errors, each on a scale without ends.
+/// The hyperparameters phi of the errors, each on a scale without ends, at these places of
+/// NoiseValues. Behind them stands ln b of each fitted trial: its own share of sigma_T, for a
+/// dynamometer errs by more than the inverse dynamics of the same session.
 enum NoiseField : int {
   kTorqueSd,        ///< ln sigma_T [N m]: size of the torque's error e_T.
   kTorqueTime,      ///< ln tau_T [s]: its covariance is sigma_T^2 exp(-|dt| / tau_T).
@@ -16,7 +18,7 @@ enum NoiseField : int {
   kModelErrorSize,  ///< ln s: relative size of the model's error e_m.
   kNoiseFieldCount
 };
-using NoiseValues = std::array<double, kNoiseFieldCount>;
+using NoiseValues = Eigen::VectorXd;
 
 /// The autocorrelation R of the relative error of an envelope, and the share of its variance that
 /// passes the lags behind which it acts. Rectified EMG is white to a low-pass of few hertz: behind

@@ -229,7 +229,7 @@ void fill_fit(const Candidate& best,
   for (const MuscleValues& values : result.values.muscles)
     result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
-  result.noise = Eigen::Map<const Eigen::VectorXd>(noise.data(), kNoiseFieldCount);
+  result.noise = noise;
   result.torque_sd_nm = std::exp(noise[kTorqueSd]);
   result.model_error = std::exp(noise[kModelErrorSize]);
   const std::vector<TrialRun>& runs = density.likelihood().runs();

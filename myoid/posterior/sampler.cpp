@@ -14,7 +14,8 @@ namespace myoid::identification {
 namespace {
 
 constexpr Eigen::Index kChains = 4;
-constexpr int kTuning = 40;         // proposals
+constexpr int kTuning = 60;         // proposals, twice
+constexpr double kOfLaplace = 0.3;  // of the covariance at last
 constexpr double kTarget = 0.8;     // of proposals taken
 constexpr double kFirstStep = 0.4;  // standard deviations
 constexpr int kMostSteps = 20;      // of a proposal
@@ -25,39 +26,44 @@ struct Place {
   double log_density = 0.0;
 };
 
-/// The step that a chain takes, found by dual averaging.
+/// The step that a chain takes: longer after proposals that are taken, shorter after others, by
+/// less and less; at last the mean over the later half of the proposals.
 class Step {
  public:
   [[nodiscard]] double size() const { return std::exp(log_size_); }
   void learn(double accepted) {
-    count_ += 1.0;
-    missed_ += (kTarget - accepted - missed_) / (count_ + 10.0);
-    log_size_ = std::log(3.0 * kFirstStep) - std::sqrt(count_) / 0.05 * missed_;
+    ++count_;
+    log_size_ += (accepted - kTarget) / std::sqrt(static_cast<double>(count_));
     log_size_ = std::clamp(log_size_, std::log(0.02), std::log(1.0));
-    const double weight = std::pow(count_, -0.75);
-    mean_ += weight * (log_size_ - mean_);
+    if (2 * count_ > kTuning) mean_ += 2.0 * log_size_ / kTuning;
   }
   void settle() { log_size_ = mean_; }
 
  private:
-  double count_ = 0.0, missed_ = 0.0, log_size_ = std::log(kFirstStep), mean_ = log_size_;
+  int count_ = 0;
+  double log_size_ = std::log(kFirstStep), mean_ = 0.0;
 };
 
 class Chain {
  public:
-  Chain(const LogDensity& density,
-        const Mode& mode,
-        const Eigen::MatrixXd& root,
-        math::Random random)
-      : density_(density), mode_(mode), root_(root), random_(random) {
+  Chain(const LogDensity& density, const Mode& mode, math::Random random)
+      : density_(density), random_(random), x_(mode.x) {
     // A draw from the approximation, or nearer to the mode where the density is next to nothing.
-    Eigen::VectorXd u = normal();
-    for (int tries = 0; tries < 6; ++tries, u *= 0.5) {
-      at_ = place(u);
-      const double d = static_cast<double>(u.size());
-      if (std::isfinite(at_.log_density) && at_.log_density > mode.log_density - 3.0 * d) return;
+    const Eigen::VectorXd off = mode.covariance.llt().matrixL() * normal();
+    Eigen::VectorXd gradient;
+    for (double share = 1.0; share > 0.05; share *= 0.5) {
+      const double there = density_(mode.x + share * off, gradient);
+      if (there < mode.log_density - static_cast<double>(off.size()) || std::isnan(there)) continue;
+      x_ = mode.x + share * off;
+      return;
     }
-    at_ = place(Eigen::VectorXd::Zero(u.size()));
+  }
+
+  /// Takes the coordinates x = origin + root u, in which it stands at u = 0.
+  void begin(const Eigen::MatrixXd& root) {
+    root_ = &root;
+    origin_ = x_;
+    at_ = place(Eigen::VectorXd::Zero(x_.size()));
   }
 
   /// The share of acceptance of one proposal; the chain is where it ends.
@@ -75,30 +81,33 @@ class Chain {
     }
     const double change = here.log_density - 0.5 * momentum.squaredNorm() - before;
     const double accepted = std::isfinite(change) ? std::min(1.0, std::exp(change)) : 0.0;
-    if (random_.uniform() < accepted) at_ = std::move(here);
+    if (random_.uniform() < accepted) {
+      at_ = std::move(here);
+      x_ = origin_ + *root_ * at_.u;
+    }
     return accepted;
   }
 
-  [[nodiscard]] Eigen::VectorXd x() const { return mode_.x + root_ * at_.u; }
+  [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
 
  private:
   Eigen::VectorXd normal() {
-    Eigen::VectorXd n(mode_.x.size());
+    Eigen::VectorXd n(x_.size());
     for (double& v : n) v = random_.normal();
     return n;
   }
   [[nodiscard]] Place place(const Eigen::VectorXd& u) const {
     Place found{u, {}, 0.0};
     Eigen::VectorXd by_x;
-    found.log_density = density_(mode_.x + root_ * u, by_x);
-    if (std::isfinite(found.log_density)) found.gradient = root_.transpose() * by_x;
+    found.log_density = density_(origin_ + *root_ * u, by_x);
+    if (std::isfinite(found.log_density)) found.gradient = root_->transpose() * by_x;
     return found;
   }
 
   const LogDensity& density_;
-  const Mode& mode_;
-  const Eigen::MatrixXd& root_;
   math::Random random_;
+  Eigen::VectorXd x_, origin_;
+  const Eigen::MatrixXd* root_ = nullptr;
   Place at_;
 };
 
@@ -131,27 +140,43 @@ Sampled sample_density(const LogDensity& density,
                        Eigen::Index count,
                        std::uint64_t seed,
                        const Progress& progress) {
-  const Eigen::MatrixXd root = mode.covariance.llt().matrixL();
   const Eigen::Index each = std::max<Eigen::Index>(1, (count + kChains - 1) / kChains);
   Sampled result;
   result.draws.x.resize(mode.x.size(), each * kChains);
   Eigen::VectorXd accepted = Eigen::VectorXd::Zero(kChains);
-  parallel_ranges(kChains, Eigen::Index{1}, [&](const auto& range) {
-    for (Eigen::Index c = range.begin(); c < range.end(); ++c) {
-      Chain chain(density, mode, root, math::Random(seed, static_cast<std::uint64_t>(c)));
+  std::vector<Chain> chains;
+  for (Eigen::Index c = 0; c < kChains; ++c)
+    chains.emplace_back(density, mode, math::Random(seed, static_cast<std::uint64_t>(c)));
+  const auto each_chain = [&](const auto& run) {
+    parallel_ranges(kChains, Eigen::Index{1}, [&](const auto& range) {
+      for (Eigen::Index c = range.begin(); c < range.end(); ++c)
+        run(chains[static_cast<std::size_t>(c)], c);
+    });
+  };
+  // By Laplace's covariance to the density's own, by which the draws are taken.
+  Eigen::MatrixXd covariance = mode.covariance;
+  for (const bool last : {false, true}) {
+    const Eigen::MatrixXd root = covariance.llt().matrixL();
+    Eigen::MatrixXd seen(mode.x.size(), kTuning / 2 * kChains);
+    each_chain([&](Chain& chain, Eigen::Index c) {
+      chain.begin(root);
       Step step;
       for (int i = 0; i < kTuning; ++i) {
         progress.check();
         step.learn(chain.move(step.size()));
+        if (2 * i >= kTuning) seen.col(c * (kTuning / 2) + i - kTuning / 2) = chain.x();
       }
       step.settle();
-      for (Eigen::Index i = 0; i < each; ++i) {
+      for (Eigen::Index i = 0; last && i < each; ++i) {
         progress.check();
         accepted[c] += chain.move(step.size()) / static_cast<double>(each);
         result.draws.x.col(c * each + i) = chain.x();
       }
-    }
-  });
+    });
+    const Eigen::MatrixXd off = seen.colwise() - seen.rowwise().mean().eval();
+    covariance = (1.0 - kOfLaplace) * off * off.transpose() / static_cast<double>(seen.cols()) +
+                 kOfLaplace * mode.covariance;
+  }
   result.draws.weight = Eigen::VectorXd::Constant(result.draws.x.cols(),
                                                   1.0 / static_cast<double>(result.draws.x.cols()));
   result.accepted = accepted.mean();

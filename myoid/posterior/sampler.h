@@ -27,9 +27,9 @@ struct Sampled {
 ///
 /// where a density that is nearly normal is nearly a sphere. A proposal follows H by leapfrog
 /// steps for about a quarter turn, after which draws from a sphere are independent. Four chains
-/// begin at draws from the approximation; each finds its step in its first 40 proposals, which are
-/// not kept, by dual averaging toward 80 % of proposals taken (Hoffman and Gelman 2014). The same
-/// for every number of threads.
+/// begin at draws from the approximation. Twice in 60 proposals, which are not kept, each finds the
+/// step by which 80 % of its proposals are taken; in between, the covariance becomes that of all
+/// chains, with three tenths of Laplace's. The same for every number of threads.
 [[nodiscard]] Sampled sample_density(const LogDensity& density,
                                      const Mode& mode,
                                      Eigen::Index count,

@@ -73,7 +73,7 @@ PersonResult judge(const Settings& settings, int number) {
   const Eigen::Index p = person.z.size();
   for (Eigen::Index j = 0; j < p + sample.noise.rows(); ++j) {
     Place& place = result.places.emplace_back();
-    place.truth = j < p ? person.z[j] : person.noise[static_cast<std::size_t>(j - p)];
+    place.truth = j < p ? person.z[j] : person.noise[j - p];
     const Eigen::VectorXd x = j < p ? sample.z.row(j) : sample.noise.row(j - p);
     for (const Eigen::Index i : chosen) place.rank += x[i] < place.truth;
     for (Eigen::Index i = 0; i < x.size(); ++i)
@@ -183,6 +183,8 @@ std::vector<std::string> names_of(const Settings& settings) {
   for (const identification::Unknown& u : map.free()) names.push_back(u.label);
   for (const char* name : {"noise.torque_sd", "noise.torque_time", "noise.emg", "noise.model"})
     names.emplace_back(name);
+  for (const identification::TrialData& trial : person.data.trials)
+    names.push_back(trial.name + ".torque_share");
   return names;
 }
 

@@ -197,6 +197,9 @@ class Maker {
 
   void draw_noise() {
     NoiseValues& noise = person_.noise;
+    noise.setZero(kNoiseFieldCount + o_.trials);
+    for (double& log_share : noise.tail(o_.trials))
+      log_share = beliefs::kTrialTorqueNoise.sd * random_.normal();
     noise[kTorqueSd] = std::log(beliefs::kTorqueNoise.value) +
                        beliefs::kTorqueNoise.sd * random_.normal();  // over the torque's size
     noise[kTorqueTime] =
@@ -298,17 +301,20 @@ class Maker {
       for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
         trial.torque_nm[i] = scale * (trial.torque_nm[i] + values.joints[0][kOffset]) +
                              slope_nm * errors_[0].place(trial.length_m(i, 0));
-      add_torque_error(trial, 1.0);
     }
+    add_torque_errors();
   }
 
-  void add_torque_error(TrialData& trial, double share) {
-    const double sd = share * std::exp(person_.noise[kTorqueSd]);
+  void add_torque_errors() {
     const double kept = std::exp(-1.0 / (o_.rate_hz * std::exp(person_.noise[kTorqueTime])));
-    double e = sd * random_.normal();
-    for (double& t : trial.torque_nm) {
-      t += e;
-      e = kept * e + sd * std::sqrt(1.0 - kept * kept) * random_.normal();
+    for (std::size_t i = 0; i < person_.data.trials.size(); ++i) {
+      const double sd = std::exp(person_.noise[kTorqueSd] +
+                                 person_.noise[kNoiseFieldCount + static_cast<Eigen::Index>(i)]);
+      double e = sd * random_.normal();
+      for (double& t : person_.data.trials[i].torque_nm) {
+        t += e;
+        e = kept * e + sd * std::sqrt(1.0 - kept * kept) * random_.normal();
+      }
     }
   }
 
@@ -340,8 +346,7 @@ class Maker {
     }
     for (std::size_t r = 0; r < runs.size(); ++r)
       torque_of(runs[r]) += unseen.columns[r] * x + envelope_error(runs[r], at[r]);
-    for (TrialData& trial : data.trials)
-      add_torque_error(trial, std::exp(beliefs::kTrialTorqueNoise.sd * random_.normal()));
+    add_torque_errors();
   }
 
   /// The samples of the run in the torque of its trial.

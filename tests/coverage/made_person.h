@@ -19,7 +19,7 @@ struct MadePersonOptions {
   bool two_muscles = false;  ///< Biceps and triceps alone.
   /// The torque is drawn from the posterior's own model at the true unknowns: the drive is the one
   /// that the estimator takes from the envelopes, its error and the unseen quantities act by their
-  /// columns. Each trial has its own share of the torque's error.
+  /// columns.
   bool of_the_model = false;
   double drive_hz = 1.2;  ///< Highest -3 dB frequency of a channel's drive; the lowest is a third.
   std::uint64_t seed = 1;
@@ -29,8 +29,8 @@ struct MadePersonOptions {
 struct MadePerson {
   identification::StudyData data;
   identification::EstimatorOptions options;
-  Eigen::VectorXd z;                    ///< The unknowns, in the solver's scale.
-  identification::NoiseValues noise{};  ///< The hyperparameters.
+  Eigen::VectorXd z;                  ///< The unknowns, in the solver's scale.
+  identification::NoiseValues noise;  ///< The hyperparameters.
 };
 
 /// The built-in arm's elbow muscles with one EMG channel each. Drawn are the study's unknowns

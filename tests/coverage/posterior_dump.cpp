@@ -32,13 +32,13 @@ std::string json(const Eigen::MatrixXd& m) {
   return text + "]";
 }
 
-void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen, double torque_share) {
+void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen) {
   fmt::print(
       "{{\"time\":{},\"length\":{},\"velocity\":{},\"arm\":{},\"measured\":{},\"sd\":{},"
-      "\"unseen\":{},\"torque_share\":{:.17g},\"first\":{},\"stride\":{},\"envelopes\":[",
+      "\"unseen\":{},\"trial\":{},\"first\":{},\"stride\":{},\"envelopes\":[",
       json(run.time_s), json(run.length_m), json(run.velocity_mps), json(run.arm_m),
-      json(run.measured_nm), json(run.envelope_sd), json(unseen), torque_share,
-      run.reduction.first(0), run.reduction.stride());
+      json(run.measured_nm), json(run.envelope_sd), json(unseen), run.trial, run.reduction.first(0),
+      run.reduction.stride());
   for (std::size_t c = 0; c < run.envelopes.size(); ++c)
     fmt::print("{}{{\"time\":{},\"value\":{},\"share\":{:.17g},\"filter\":{}}}", c ? "," : "",
                json(run.envelopes[c].time_s()), json(run.envelopes[c].samples()),
@@ -88,7 +88,7 @@ void write(std::uint64_t seed, int draws) {
              json(model), likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");
-    write_run(likelihood.runs()[r], unseen.columns[r], likelihood.torque_share(r));
+    write_run(likelihood.runs()[r], unseen.columns[r]);
   }
   const Sample& sample = explored.sample;
   Eigen::MatrixXd values(sample.z.rows() + sample.noise.rows(), sample.z.cols());
