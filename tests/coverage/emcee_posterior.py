@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The posterior of docs/theory/posterior.md by another hand, sampled by emcee.
 
-usage: emcee_posterior.py POSTERIOR_DUMP [--persons 2] [--first 1] [--steps 2500] [--walkers 136]
+usage: emcee_posterior.py POSTERIOR_DUMP [--persons 2] [--first 1] [--steps 3000] [--walkers 64] [--draws 1000]
 
 Every person that `posterior_dump` makes is sampled in the unknowns without bounds. The density is
 written here from its equations; recordings, filters of the noise and the columns of the unseen
-quantities at the reference are read. --steps 0: only the densities are compared.
-Exit code 1: they disagree; 77: numpy or emcee is not installed.
+quantities at the reference are read. --steps 0: only the densities are compared. --draws: of the
+program, by Hamiltonian Monte Carlo; 0: of its approximation.
+Exit code 1: they disagree; 77: numpy, scipy or emcee is not installed.
 """
 import argparse
 import json
@@ -14,13 +15,16 @@ import subprocess
 import sys
 
 try:
-    import numpy as np
     import emcee
+    import numpy as np
+    from scipy.interpolate import CubicSpline
+    from scipy.special import erfinv, ndtr
 except ImportError as missing:
-    print(f"skipped: {missing} (Debian: python3-numpy, python3-emcee)")
+    print(f"skipped: {missing} (Debian: python3-numpy, python3-scipy, python3-emcee)")
     sys.exit(77)
 
 BAND_HZ = 1.5
+SD, TIME, KAPPA, MODEL, SHARE = range(5)  # places of the hyperparameters
 
 
 def low_pass(run):
@@ -37,15 +41,36 @@ def low_pass(run):
     return rows / rows.sum(axis=1, keepdims=True)
 
 
-class Quintic:
-    """The drive between its samples: natural enough by a cubic spline on its fine clock."""
+def pairs(rows):
+    """Of each column k of `rows` the products rows_ik rows_jk, as one row."""
+    return np.einsum("ik,jk->kij", rows, rows).reshape(rows.shape[1], -1)
 
-    def __init__(self, t, y):
-        from scipy.interpolate import CubicSpline
-        self.t, self.spline = t, CubicSpline(t, y)
 
-    def __call__(self, t):
-        return np.maximum(self.spline(np.clip(t, self.t[0], self.t[-1])), 0.0)
+class Run:
+    """One run, and all of it that no unknown changes."""
+
+    def __init__(self, given):
+        for key in ("time", "length", "velocity", "arm", "measured", "sd", "unseen"):
+            setattr(self, key, np.array(given[key]))
+        self.trial = given["trial"]
+        low = self.low = low_pass({**given, "time": self.time})
+        self.seen = low @ self.unseen
+        n, m = len(self.time), len(self.measured)
+        self.drive = [CubicSpline(e["time"], e["value"]) for e in given["envelopes"]]
+        self.ends = [(e["time"][0], e["time"][-1]) for e in given["envelopes"]]
+        self.share = np.array([e["share"] for e in given["envelopes"]])
+        self.lags = self.time - self.time[0]
+        self.at_lag = np.array([(low[:, max(0, -d):n - max(0, d)] @ low[:, max(0, d):n - max(0, -d)].T).ravel()
+                                for d in range(-n + 1, n)])
+        self.at_lag = self.at_lag[n - 1:] + np.vstack([np.zeros(m * m), self.at_lag[n - 2::-1]])
+        self.noise = []
+        for e in given["envelopes"]:
+            h = np.array(e["filter"])
+            reach = len(h) // 2
+            dense = np.zeros((n, n + 2 * reach))
+            for i in range(n):
+                dense[i, i:i + len(h)] = h
+            self.noise.append((pairs(low @ dense), np.clip(np.arange(n + 2 * reach) - reach, 0, n - 1)))
 
 
 class Posterior:
@@ -54,42 +79,31 @@ class Posterior:
         get = lambda key: np.array([u[key] for u in self.unknowns])
         self.lower, self.range = get("lower"), get("upper") - get("lower")
         self.mean, sd = get("mean"), get("sd")
+        sd = np.where(get("literature"), sd * dump["unlikeness"], sd)
         strength = get("name") == "max_isometric_force"
         alike = np.outer(strength, strength) * dump["common_strength"]
         np.fill_diagonal(alike, 1.0)
         self.precision = np.linalg.inv(alike * np.outer(sd, sd))
         self.logarithmic = get("logarithmic")
-        self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"])
+        self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"]) > 0.5
         self.torque_size = dump["torque_size"]
-        self.runs = []
-        for given in dump["runs"]:
-            run = {k: np.array(v) if isinstance(v, list) and k != "envelopes" else v
-                   for k, v in given.items()}
-            run["L"] = low_pass(run)
-            run["LS"] = run["L"] @ run["unseen"]
-            run["drive"] = [Quintic(np.array(e["time"]), np.array(e["value"]))
-                            for e in given["envelopes"]]
-            run["K"] = []
-            for e in given["envelopes"]:
-                h = np.array(e["filter"])
-                n, reach = len(run["time"]), len(h) // 2
-                dense = np.zeros((n, n + 2 * reach))
-                for i in range(n):
-                    dense[i, i:i + len(h)] = h
-                full = run["L"] @ dense
-                run["K"].append((full, np.clip(np.arange(n + 2 * reach) - reach, 0, n - 1)))
-            run["share"] = np.array([e["share"] for e in given["envelopes"]])
-            run["apart"] = np.abs(run["time"][:, None] - run["time"][None, :])
-            self.runs.append(run)
+        self.runs = [Run(given) for given in dump["runs"]]
 
-    def values(self, z):
+    def z(self, x):
+        return self.lower + self.range / (1.0 + np.exp(-x[:, :len(self.lower)]))
+
+    def noise(self, x):
+        """ln sigma_T, ln tau, ln kappa, ln s, ln b of each trial; s has a half normal prior, x its normal score."""
+        noise = x[:, len(self.lower):].copy()
+        noise[:, MODEL] = np.log(0.1 * np.sqrt(2.0) * erfinv(ndtr(noise[:, MODEL])))
+        return noise
+
+    def torques(self, run, z):
+        """The torque of each muscle, muscles x persons x n."""
         v = {}
-        for u, x in zip(self.unknowns, z):
-            v[u["name"], u["owner"]] = np.exp(x) if u["logarithmic"] else x
-        return v
-
-    def torques(self, run, v):
-        """The torque of each muscle, n x muscles."""
+        for j, u in enumerate(self.unknowns):
+            v[u["name"], u["owner"]] = (np.exp(z[:, j]) if self.logarithmic[j] else z[:, j])[:, None]
+        self.offset = v.get(("joint_torque_offset", 0), 0.0)
         all_of = []
         for k, held in enumerate(self.muscles):
             f, l0 = v["max_isometric_force", k], v["optimal_fiber_length", k]
@@ -97,80 +111,79 @@ class Posterior:
             vml, s = v["eccentric_plateau", k], v["eccentric_slope_ratio", k]
             vmax, slack = held["max_shortening_speed"], held["tendon_slack_length"]
             product = (vml - 1.0) * vsh / (s * (1.0 + vsh))
-            a = v["emg_gain", k] * run["drive"][k](run["time"] - v["emg_delay", 0])
-            z = (run["length"][:, k] - slack - l0) / w
-            speed = run["velocity"][:, k]
+            time = np.clip(run.time - v["emg_delay", 0], *run.ends[k])
+            a = v["emg_gain", k] * np.maximum(run.drive[k](time), 0.0)
+            x = (run.length[:, k] - slack - l0) / w
+            speed = run.velocity[:, k]
             short, long = np.clip(speed, -vmax, 0.0), np.maximum(speed, 0.0)
             fv = np.where(speed > 0.0, (product * vmax + vml * long) / (product * vmax + long),
                           vsh * (vmax + short) / (vsh * vmax - short))
-            all_of.append(run["arm"][:, k] * f * a * np.exp(-z * z) * fv)
-        return np.array(all_of).T
+            all_of.append(run.arm[:, k] * f * a * np.exp(-x * x) * fv)
+        return np.array(all_of)
 
     def __call__(self, x):
-        p = len(self.unknowns)
-        if np.abs(x).max() > 40.0:
-            return -np.inf
-        q = 1.0 / (1.0 + np.exp(-x[:p]))
-        z = self.lower + self.range * q
-        ln_sd, ln_time, ln_kappa, ln_s = x[p:]
+        """ln p of each row of x."""
+        x = np.atleast_2d(x)
+        far = np.abs(x).max(axis=1) > 30.0
+        x = np.where(far[:, None], 0.0, x)
+        p = len(self.lower)
+        q = 1.0 / (1.0 + np.exp(-x[:, :p]))
+        z, noise = self.z(x), self.noise(x)
         off = z - self.mean
-        result = -0.5 * off @ self.precision @ off + np.sum(np.log(q * (1.0 - q)))
-        result -= 0.5 * ((ln_sd - np.log(0.05 * self.torque_size)) / 1.5) ** 2
-        result -= 0.5 * (ln_time - np.log(0.3)) ** 2 + 0.5 * (ln_kappa / 0.3) ** 2
-        s = np.exp(ln_s)
-        result += ln_s - 0.5 * (s / 0.1) ** 2
-        v = self.values(z)
-        width = self.weight * np.where(self.of_model > 0.5, s, 1.0)
-        gram, seen = np.eye(len(width)), np.zeros(len(width))
+        result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off) + np.log(q * (1.0 - q)).sum(axis=1)
+        result -= 0.5 * ((noise[:, SD] - np.log(0.05 * self.torque_size)) / 1.5) ** 2
+        result -= 0.5 * (noise[:, TIME] - np.log(0.3)) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
+        result -= 0.5 * x[:, p + MODEL] ** 2 + 0.5 * (noise[:, SHARE:] ** 2).sum(axis=1)
+        width = self.weight * np.where(self.of_model, np.exp(noise[:, MODEL])[:, None], 1.0)
+        gram = np.tile(np.eye(len(self.weight)), (len(x), 1, 1))
+        seen = np.zeros((len(x), len(self.weight)))
         for run in self.runs:
-            torque = self.torques(run, v)
-            low = run["L"]
-            a = low @ np.exp(2.0 * ln_sd - run["apart"] / np.exp(ln_time)) @ low.T
-            for c, (kernel, at) in enumerate(run["K"]):
-                root = kernel * torque[at, c]
-                a += np.exp(2.0 * ln_kappa) * run["sd"][c] ** 2 * run["share"][c] * root @ root.T
-            offset = v.get(("joint_torque_offset", 0), 0.0)
-            r = run["measured"] - low @ (torque.sum(axis=1) + offset)
-            try:
-                root = np.linalg.cholesky(a)
-            except np.linalg.LinAlgError:
-                return -np.inf
-            both = np.linalg.solve(root, np.column_stack([r, run["LS"] * width]))
-            result -= 0.5 * both[:, 0] @ both[:, 0] + np.log(np.diag(root)).sum()
-            gram += both[:, 1:].T @ both[:, 1:]
-            seen += both[:, 1:].T @ both[:, 0]
+            torque = self.torques(run, z)
+            m = len(run.measured)
+            variance = np.exp(2.0 * (noise[:, SD] + noise[:, SHARE + run.trial]))
+            a = (variance[:, None] * np.exp(-run.lags / np.exp(noise[:, TIME])[:, None])) @ run.at_lag
+            for c, (kernel, at) in enumerate(run.noise):
+                scale = np.exp(2.0 * noise[:, KAPPA]) * run.sd[c] ** 2 * run.share[c]
+                a += (scale[:, None] * torque[c][:, at] ** 2) @ kernel
+            root = np.linalg.cholesky(a.reshape(-1, m, m))
+            r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
+            right = np.concatenate([r[:, :, None], run.seen[None] * width[:, None, :]], axis=2)
+            both = np.linalg.solve(root, right)
+            result -= 0.5 * (both[:, :, 0] ** 2).sum(axis=1)
+            result -= np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+            gram += np.einsum("wmi,wmj->wij", both[:, :, 1:], both[:, :, 1:], optimize=True)
+            seen += np.einsum("wmi,wm->wi", both[:, :, 1:], both[:, :, 0])
         root = np.linalg.cholesky(gram)
-        half = np.linalg.solve(root, seen)
-        return result + 0.5 * half @ half - np.log(np.diag(root)).sum()
+        half = np.linalg.solve(root, seen[:, :, None])[:, :, 0]
+        result += 0.5 * (half ** 2).sum(axis=1) - np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+        return np.where(far | ~np.isfinite(result), -np.inf, result)
 
 
 def compare(number, options):
-    dump = json.loads(subprocess.run([options.dump, str(number)], check=True,
-                                     capture_output=True).stdout)
+    dump = json.loads(subprocess.run([options.dump, str(number), str(options.draws if options.steps else 0)],
+                                     check=True, capture_output=True).stdout)
     posterior = Posterior(dump)
     best, covariance = np.array(dump["best_x"]), np.array(dump["covariance"])
-    off = posterior(best) - dump["density_at_best"]
-    print(f"person {number}: {dump['modes']} modes, k-hat {dump['khat']:.2f}, approximate "
-          f"{dump['approximate']}; the densities at the mode differ by {off:.5f}")
+    off = posterior(best)[0] - dump["density_at_best"]
+    print(f"person {number}: {dump['modes']} modes, R-hat {dump['rhat']:.2f}; the densities at the mode differ "
+          f"by {off:.5f}", flush=True)
     if options.steps == 0:
         return abs(off) < 0.02
     rng = np.random.default_rng(number)
     np.random.seed(number)
     start = rng.multivariate_normal(best, 0.5 * covariance, size=options.walkers)
     sampler = emcee.EnsembleSampler(
-        options.walkers, len(best), posterior,
-        moves=[(emcee.moves.DEMove(), 0.7), (emcee.moves.DESnookerMove(), 0.1),
-               (emcee.moves.StretchMove(), 0.2)])
+        options.walkers, len(best), posterior, vectorize=True,
+        moves=[(emcee.moves.DEMove(), 0.7), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.2)])
     sampler.run_mcmc(start, options.steps)
     time = np.median(sampler.get_autocorr_time(tol=0))
     x = sampler.get_chain(discard=options.steps // 3, flat=True)
-    p = len(posterior.unknowns)
-    values = x.copy()
-    values[:, :p] = posterior.lower + posterior.range / (1.0 + np.exp(-x[:, :p]))
+    values = np.hstack([posterior.z(x), posterior.noise(x)])
     mean, sd = values.mean(axis=0), values.std(axis=0)
     shift = (np.array(dump["mean"]) - mean) / sd
     ratio = np.array(dump["sd"]) / sd
     names = [u["label"] for u in posterior.unknowns] + ["ln sigma_T", "ln tau_T", "ln kappa", "ln s"]
+    names += [f"ln b {i + 1}" for i in range(len(mean) - len(names))]
     for i, name in enumerate(names):
         print(f"  {name:32} mean {shift[i]:6.2f} sd   sd {ratio[i]:5.2f}")
     print(f"  autocorrelation time {time:.0f} steps, accepted {sampler.acceptance_fraction.mean():.2f}; "
@@ -186,8 +199,9 @@ def main():
     arguments.add_argument("dump")
     arguments.add_argument("--persons", type=int, default=2)
     arguments.add_argument("--first", type=int, default=1)
-    arguments.add_argument("--steps", type=int, default=2500)
-    arguments.add_argument("--walkers", type=int, default=136)
+    arguments.add_argument("--steps", type=int, default=3000)
+    arguments.add_argument("--walkers", type=int, default=64)
+    arguments.add_argument("--draws", type=int, default=1000)
     options = arguments.parse_args()
     right = [compare(n, options) for n in range(options.first, options.first + options.persons)]
     sys.exit(0 if all(right) else 1)

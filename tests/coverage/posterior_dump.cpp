@@ -67,9 +67,10 @@ void write(std::uint64_t seed, int draws) {
     const Unknown& u = map.free()[j];
     fmt::print(
         "{}{{\"label\":\"{}\",\"name\":\"{}\",\"owner\":{},\"lower\":{:.17g},"
-        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{}}}",
+        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{},\"literature\":{}}}",
         j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower,
-        u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic);
+        u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic,
+        u.field->scope == Scope::muscle && !u.prior_is_given);
   }
   fmt::print("],\"common_strength\":{:.17g},\"unlikeness\":{:.17g},\"muscles\":[",
              beliefs::kCommonStrength.value, density.unlikeness());
