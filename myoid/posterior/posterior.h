@@ -6,7 +6,7 @@
 
 namespace myoid::identification {
 
-/// Estimates, intervals and verdicts from one posterior (density.h) of one joint's torque.
+/// Estimates, intervals and verdicts from one posterior (density.h) of the torques of all joints.
 ///
 /// Modes are sought from the starting values, and from others about them where the options ask for
 /// several starts, with a pure delay and with lags where the choice is open. Each weighs by its
@@ -14,7 +14,7 @@ namespace myoid::identification {
 /// EstimatorOptions::posterior_draws > 0 draws check it by importance (importance.h). Beside it, as
 /// the route "geometry_and_sensors_exact", stands the interval of a posterior in which moment arms,
 /// tendons, the scale of the torque, cross-talk and drift are exact. IdentificationResult::trials
-/// is left empty. Throws InvalidInput for several joints, and without priors.
+/// is left empty. Throws InvalidInput without priors.
 [[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data,
                                                          const EstimatorOptions& options);
 

@@ -276,7 +276,7 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   v.choice(
       "estimator", identify.estimator,
       {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
-               "EMG; `posterior`, one posterior of one joint, whose intervals also hold what "
+               "EMG; `posterior`, one posterior, whose intervals also hold what "
                "residuals do not show: moment arms, tendons, the scale of the torque, "
                "cross-talk and drift ([how](../theory/posterior.md))."});
   v.flag("gain", identify.gain,
