@@ -114,11 +114,13 @@ MultistartResult multistart(const LocalSearch& search, const MultistartOptions& 
   MultistartResult result;
   result.starts = options.given;
   const Eigen::Index p = options.lower.size();
-  const Eigen::MatrixXd cube = sobol_points(
-      options.starts, static_cast<int>(std::min<Eigen::Index>(p, 1000)),
-      {.first = 1,
-       .scramble_seed =
-           options.scramble_seed});  // 1 skips the origin: the first point is the center
+  Eigen::MatrixXd cube(0, p);
+  if (options.starts > 0)
+    cube = sobol_points(
+        options.starts, static_cast<int>(std::min<Eigen::Index>(p, 1000)),
+        {.first = 1,
+         .scramble_seed =
+             options.scramble_seed});  // 1 skips the origin: the first point is the center
   for (Eigen::Index i = 0; i < cube.rows(); ++i) {
     Eigen::VectorXd start(p);
     for (Eigen::Index j = 0; j < p; ++j) start[j] = box.inside(j, cube(i, j));

@@ -57,6 +57,17 @@ TEST(Multistart, FindsEveryBasinOfDoubleWellsInOrderOfCost) {
   EXPECT_TRUE(result.failed.empty());
 }
 
+TEST(Multistart, GivenStartsMayHaveMoreUnknownsThanTheSequenceHasDimensions) {
+  constexpr Eigen::Index kMany = 70;
+  const MultistartResult result = multistart(double_wells(kMany, 0.1), {},
+                                             {.starts = 0,
+                                              .lower = Eigen::VectorXd::Constant(kMany, -2.0),
+                                              .upper = Eigen::VectorXd::Constant(kMany, 2.0),
+                                              .given = {Eigen::VectorXd::Constant(kMany, 0.5)}});
+  ASSERT_EQ(result.basins.size(), 1U);
+  EXPECT_NEAR(result.basins[0].cost, 0.0, 1e-10);
+}
+
 TEST(Multistart, GivesTheSameOnOneThreadAndOnMany) {
   const MultistartOptions options{.starts = 40,
                                   .lower = Eigen::Vector4d::Constant(-3.0),

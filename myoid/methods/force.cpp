@@ -58,6 +58,7 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
   EstimatorOptions once = options.estimator;
   once.muscles.clear();
   once.measured_is_force = !options.shared_forces;
+  once.estimator = EstimatorKind::least_squares;
   once.choose_lag = false;  // muscles of one person follow their EMG alike
   once.progress.report = nullptr;
   std::vector<std::string> speed;

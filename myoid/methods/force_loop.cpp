@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/forces/force_sharing.h"
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/methods/torque.h"
 
 namespace myoid::identification {
 namespace {
@@ -208,8 +210,53 @@ InformedForces informed_forces(const TrialData& trial,
   return result;
 }
 
+namespace {
+
+/// Root mean square of the torques of all trials and joints.
+double torque_size_nm(const StudyData& data) {
+  double squares = 0.0, samples = 0.0;
+  for (const TrialData& trial : data.trials) {
+    const Eigen::MatrixXd torques = torques_of_muscles(trial);
+    squares += torques.squaredNorm();
+    samples += static_cast<double>(torques.size());
+  }
+  return std::sqrt(squares / std::max(1.0, samples));
+}
+
+/// The muscles of the posterior of the torque, and the forces that they share.
+ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
+  ForceLoop loop;
+  EstimatorOptions estimator = options.force.estimator;
+  estimator.predictions = false;
+  loop.fit = identify_torque(data, estimator);
+  std::vector<MuscleValues> before;
+  for (const MuscleSetup& setup : data.muscles)
+    before.push_back(muscle_values(setup.start, setup.extras));
+  const std::vector<MuscleValues>& found = loop.fit.values.muscles;
+  const Change change = change_of(data.muscles, before, found);
+  Shared shared = share_all(data, found, loop.fit.delay_s, options.sharing);
+  loop.forces = std::move(shared.trials);
+  loop.rounds.push_back({.parameter_change = change.size,
+                         .parameter = change.where,
+                         .force_change = shared.force_change,
+                         .reserve_nm = shared.reserve_nm});
+  const bool ended = loop.fit.termination == math::Termination::converged;
+  loop.end = ended ? LoopEnd::converged : LoopEnd::diverged;
+  loop.message = ended ? fmt::format(
+                             "the posterior of the torque finds the muscles without shared "
+                             "forces; the forces that these muscles share leave {:.2g} N m "
+                             "of the torque, whose root mean square is {:.3g} N m",
+                             shared.reserve_nm, torque_size_nm(data))
+                       : "the search for the posterior's mode did not end: " + loop.fit.message;
+  return loop;
+}
+
+}  // namespace
+
 ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
   validate(data);
+  if (options.force.estimator.estimator == EstimatorKind::posterior)
+    return forces_of_posterior(std::move(data), options);
   ForceLoop loop;
   double delay_s = options.delay_s;
   std::vector<MuscleValues> muscles;

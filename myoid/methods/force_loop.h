@@ -76,11 +76,16 @@ struct ForceLoop {
   std::vector<InformedForces> forces;  ///< Forces with the fitted muscles, all trials.
 };
 
-/// Alternates until nothing changes: shares the torque among the muscles (informed_forces) and fits
-/// every muscle to its force (identify_force). The source paper leaves this loop open. The loop
-/// begins with the muscles' start. Its fixed point depends on the EMG for large W and on the
-/// optimizer's criterion for small W; method `torque` needs neither. Throws as identify_force;
-/// Interrupted.
+/// By least squares: alternates until nothing changes: shares the torque among the muscles
+/// (informed_forces) and fits every muscle to its force (identify_force). The source paper leaves
+/// this loop open. The loop begins with the muscles' start. Its fixed point depends on the EMG for
+/// large W and on the optimizer's criterion for small W; method `torque` needs neither.
+///
+/// By the posterior (EstimatorOptions::estimator): its likelihood is that of a torque and of what
+/// errs between muscles and torque. Shared forces have no such errors, and a fit to them would
+/// count the torque twice. So the muscles are those of the posterior of the torque, the forces are
+/// shared with them, and both agree after one round, whose reserves say how well.
+/// Throws as identify_force and identify_torque; Interrupted.
 [[nodiscard]] ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options = {});
 
 }  // namespace myoid::identification

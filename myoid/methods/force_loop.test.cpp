@@ -6,8 +6,10 @@
 
 #include "myoid/core/error.h"
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/leg_study.h"
 
 namespace myoid::identification {
 namespace {
@@ -92,6 +94,40 @@ TEST(IterateForces, StaysAtTheTruthWhereItBegins) {
     EXPECT_NEAR(loop.fit.muscles[m].max_isometric_force_n / study.truth[m].max_isometric_force_n,
                 1.0, 0.01);
   }
+}
+
+TEST(IterateForces, ByThePosteriorTheForcesAreSharedWithTheMusclesOfTheTorque) {
+  // Two joints: the law, its noise and its muscles are known.
+  const ElbowStudy study = test::leg_study({.emg_cv = 0.06, .torque_sd_nm = 1.0});
+  ForceLoopOptions options;
+  options.force.estimator.estimator = EstimatorKind::posterior;
+  options.force.shared_forces = true;
+  const ForceLoop loop = iterate_forces(study.data, options);
+  EXPECT_EQ(loop.end, LoopEnd::converged) << loop.message;
+  ASSERT_EQ(loop.rounds.size(), 1U);
+  const IdentificationResult alone = identify_torque(study.data, options.force.estimator);
+  EXPECT_EQ(loop.fit.solution, alone.solution);
+  ASSERT_EQ(loop.forces.size(), study.data.trials.size());
+  double off = 0.0, size = 0.0;
+  for (std::size_t t = 0; t < loop.forces.size(); ++t) {
+    EXPECT_EQ(loop.forces[t].frames_not_solved, 0);
+    off += (loop.forces[t].force_n - study.data.trials[t].force_n).squaredNorm();
+    size += study.data.trials[t].force_n.squaredNorm();
+  }
+  // The start is 20 % off in F_max, and the envelopes err by 6 %.
+  EXPECT_LT(std::sqrt(off / size), 0.12);
+  EXPECT_LT(loop.rounds[0].reserve_nm, 0.1);
+}
+
+TEST(IdentifyForce, IsByLeastSquaresWhateverTheEstimatorOfTheTorqueIs) {
+  StudyData data = short_study().data;
+  ForceOptions options{.shared_forces = true};
+  const IdentificationResult found = identify_force(data, options);
+  options.estimator.estimator = EstimatorKind::posterior;
+  const IdentificationResult other = identify_force(data, options);
+  ASSERT_EQ(found.estimates.size(), other.estimates.size());
+  for (std::size_t i = 0; i < found.estimates.size(); ++i)
+    EXPECT_EQ(found.estimates[i].estimate, other.estimates[i].estimate);
 }
 
 TEST(IterateForces, EndsWithASentenceAndForcesThatBalance) {

@@ -8,6 +8,7 @@
 #include "myoid/methods/torque.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/leg_study.h"
 
 namespace myoid::identification {
 namespace {
@@ -108,6 +109,22 @@ TEST(TrialPredictions, ThePosteriorPredictsAlsoWhatTheUnseenQuantitiesAdd) {
       score(trial.torque_nm, predict(study.data, trial, fit.values, fit.lag).torque_nm);
   EXPECT_LE(found.score.rmse_nm(), by_law.rmse_nm());
   EXPECT_GT(found.score.r2(), 0.99);
+}
+
+TEST(TrialPredictions, ThePosteriorPredictsEveryJointOfATrialThatTookNoPart) {
+  ElbowStudy study = test::leg_study({.trials = 3, .torque_sd_nm = 1.0});
+  study.data.trials[2].calibration = false;
+  const EstimatorOptions options{.starts = 1, .estimator = EstimatorKind::posterior};
+  const IdentificationResult fit = identify_torque(study.data, options);
+  ASSERT_EQ(fit.trials.size(), 6U);
+  for (const std::size_t j : {0U, 1U}) {
+    const TrialFit& found = fit.trials[4 + j];
+    EXPECT_EQ(found.joint, j == 0 ? "ankle" : "knee");
+    EXPECT_GT(found.score.r2(), 0.98) << found.joint;
+    // 95 %, of a torque whose errors are correlated: some 50 independent samples.
+    EXPECT_GT(covered_share(found.torque_nm, found.torque_fit_nm, found.torque_sd_nm), 0.85)
+        << found.joint;
+  }
 }
 
 TEST(CoveredShare, CountsWhatLiesWithinTheBand) {

@@ -16,7 +16,7 @@ double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
 }
 
 /// Adds the symmetric Toeplitz matrix with this first column.
-void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::MatrixXd& q) {
+void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::Ref<Eigen::MatrixXd> q) {
   const Eigen::Index n = q.rows();
   for (Eigen::Index j = 0; j < n; ++j) {
     q.col(j).tail(n - j) += first_column.head(n - j);
@@ -25,12 +25,43 @@ void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::MatrixXd& q) {
 }
 
 /// The gradient by the first column of a symmetric Toeplitz matrix, b that by the matrix.
-Eigen::VectorXd diagonal_sums(const Eigen::MatrixXd& b) {
+Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   const Eigen::Index n = b.rows();
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j) sums.head(n - j) += b.col(j).tail(n - j);
   sums.tail(n - 1) *= 2.0;
   return sums;
+}
+
+/// Two joints i <= j of a run, by their first rows among the n J samples and behind L.
+struct JointPair {
+  Eigen::Index i, j, row_i, row_j;
+};
+
+std::vector<JointPair> joint_pairs(const TrialRun& run) {
+  const Eigen::Index m = run.reduction.outputs();
+  std::vector<JointPair> pairs;
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    for (std::size_t i = 0; i <= j; ++i)
+      pairs.push_back({run.first_row(i), run.first_row(j), static_cast<Eigen::Index>(i) * m,
+                       static_cast<Eigen::Index>(j) * m});
+  }
+  return pairs;
+}
+
+/// Adds the covariance that one noise makes in the rows of all joints; `variance`(pair) is the
+/// product of its factors in both joints at each sample, n.
+template <typename Variance>
+void add_noise(const TrialRun& run,
+               const EmgNoise& noise,
+               const Variance& variance,
+               Eigen::MatrixXd& a) {
+  const Eigen::Index m = run.reduction.outputs();
+  for (const JointPair& pair : joint_pairs(run)) {
+    const Eigen::MatrixXd block = noise.covariance(variance(pair));
+    a.block(pair.row_i, pair.row_j, m, m) += block;
+    if (pair.i != pair.j) a.block(pair.row_j, pair.row_i, m, m) += block;
+  }
 }
 
 }  // namespace
@@ -82,22 +113,51 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
     if (options_.angle_sd_rad <= 0.0 && options_.angle_rate_sd_radps <= 0.0) continue;
-    const EmgNoise white(reduction, Eigen::VectorXd::Ones(1));
-    motion_[r] = white.covariance(motion_variance(runs_[r], at[r]));
+    const Eigen::Index rows = runs_[r].measured_nm.size();
+    motion_[r].setZero(rows, rows);
+    add_noise(
+        runs_[r], EmgNoise(reduction, Eigen::VectorXd::Ones(1)),
+        [&](const JointPair& pair) { return motion_variance(runs_[r], at[r], pair.i, pair.j); },
+        motion_[r]);
   }
 }
 
-Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run, const RunEvaluation& at) const {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(run.time_s.size());
+Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run,
+                                            const RunEvaluation& at,
+                                            Eigen::Index first_row,
+                                            Eigen::Index other_row) const {
+  const Eigen::Index n = run.time_s.size();
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
   for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
     const MuscleRows& rows = at.muscle(k);
-    // dq moves a length by -r dq, and the torque by r times the force's change.
-    const Eigen::ArrayXd squared = run.arm_m.col(static_cast<Eigen::Index>(k)).array().square();
-    variance.array() +=
-        (squared * rows.by_length.array() * options_.angle_sd_rad).square() +
-        (squared * rows.by_velocity.array() * options_.angle_rate_sd_radps).square();
+    const auto arms = run.arm_m.col(static_cast<Eigen::Index>(k)).array();
+    const auto arm = arms.segment(first_row, n), other = arms.segment(other_row, n);
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      // dq of any joint moves the length by -r dq, and each torque by its arm times the force's
+      // change.
+      const auto moved = arms.segment(run.first_row(j), n);
+      const Eigen::ArrayXd here = arm * moved, there = other * moved;
+      variance.array() += (here * rows.by_length.array() * options_.angle_sd_rad) *
+                              (there * rows.by_length.array() * options_.angle_sd_rad) +
+                          (here * rows.by_velocity.array() * options_.angle_rate_sd_radps) *
+                              (there * rows.by_velocity.array() * options_.angle_rate_sd_radps);
+    }
   }
   return variance;
+}
+
+void Likelihood::add_torque_error(const TrialRun& run,
+                                  double variance,
+                                  double log_time,
+                                  Eigen::MatrixXd& a) const {
+  const Eigen::VectorXd correlation =
+      torque_error(run.reduction, run.interval_s, log_time).correlation;
+  const Eigen::Index m = run.reduction.outputs();
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
+    add_toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation,
+                 a.block(row, row, m, m));
+  }
 }
 
 Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
@@ -127,11 +187,18 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
                                                 const TorqueSignals& signals,
                                                 const NoiseValues& noise) const {
   const Eigen::VectorXd scale = envelope_scale(r, noise);
-  const Eigen::Index m = runs_[r].measured_nm.size();
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m, m);
-  for (Eigen::Index c = 0; c < scale.size(); ++c)
-    a += envelope_noise_[r][static_cast<std::size_t>(c)].covariance(
-        scale[c] * signals.by_noise.col(c).cwiseAbs2());
+  const Eigen::Index rows = runs_[r].measured_nm.size(), n = runs_[r].time_s.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
+  for (Eigen::Index c = 0; c < scale.size(); ++c) {
+    const auto d = signals.by_noise.col(c);
+    add_noise(
+        runs_[r], envelope_noise_[r][static_cast<std::size_t>(c)],
+        [&](const JointPair& pair) {
+          return Eigen::VectorXd(scale[c] *
+                                 d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
+        },
+        a);
+  }
   return a;
 }
 
@@ -142,9 +209,7 @@ bool Likelihood::fill(std::size_t r,
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
-  add_toeplitz(torque_variance(r, noise) *
-                   torque_error(run.reduction, run.interval_s, noise[kTorqueTime]).correlation,
-               a);
+  add_torque_error(run, torque_variance(r, noise), noise[kTorqueTime], a);
   if (motion_[r].size() > 0) a += motion_[r];
   block.factor.compute(a);
   if (block.factor.info() != Eigen::Success) return false;
@@ -166,16 +231,22 @@ void Likelihood::pull_back(std::size_t r,
                            Gradient& gradient) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
-  const Eigen::Index m = run.measured_nm.size();
+  const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
+  const Eigen::Index n = run.time_s.size();
   // Sigma^-1 r, and of A the gradient 1/2 (w w' - Sigma^-1).
   const Eigen::VectorXd w = block.solved - block.unseen_solved * shared;
   const Eigen::MatrixXd spread = block.unseen_solved * inverse;
   const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() + spread * block.unseen_solved.transpose() -
-                                      block.factor.solve(Eigen::MatrixXd::Identity(m, m)));
+                                      block.factor.solve(Eigen::MatrixXd::Identity(rows, rows)));
 
   const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
-  const Eigen::VectorXd sums = diagonal_sums(by_a);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
+    sums += std::pow(recorded_.size_share(run.joints[j]), 2) *
+            diagonal_sums(by_a.block(row, row, m, m));
+  }
   gradient.by_noise.setZero(noise.size());
   gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
   const Eigen::Index share = share_place(r);
@@ -183,13 +254,22 @@ void Likelihood::pull_back(std::size_t r,
   gradient.by_noise[kTorqueTime] = variance * sums.dot(torque.by_log_time);
 
   const Eigen::VectorXd scale = envelope_scale(r, noise);
-  TorqueSignals by{run.reduction.transposed(w), Eigen::MatrixXd(signals.by_noise)};
+  TorqueSignals by{run.reduction.transposed(w),
+                   Eigen::MatrixXd::Zero(signals.by_noise.rows(), signals.by_noise.cols())};
   for (Eigen::Index c = 0; c < scale.size(); ++c) {
     const auto d = signals.by_noise.col(c);
-    by.by_noise.col(c) =
-        2.0 * scale[c] *
-        envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(by_a).cwiseProduct(d);
-    gradient.by_noise[kEmgFactor] += by.by_noise.col(c).dot(d);
+    auto by_d = by.by_noise.col(c);
+    for (const JointPair& pair : joint_pairs(run)) {
+      // A_ij and its transpose A_ji go with D_i D_j: the halves of A_ii with D_i D_i.
+      const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
+      const Eigen::VectorXd by_product = envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(
+          pair.i == pair.j ? Eigen::MatrixXd(of_pair)
+                           : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
+      by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
+      if (pair.i != pair.j)
+        by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
+    }
+    gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
 
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
@@ -332,15 +412,20 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
   of.mean_nm = here.signals().torque_nm + columns * unseen.mean;
   of.by_z = here.jacobian(map_.size()) + columns * unseen.by_z;
   of.variance_nm2 = (columns * unseen.covariance).cwiseProduct(columns).rowwise().sum();
-  of.variance_nm2.array() += std::exp(2.0 * noise[kTorqueSd]);
+  for (std::size_t j = 0; j < run.joints.size(); ++j)
+    of.variance_nm2.segment(run.first_row(j), run.time_s.size()).array() +=
+        std::exp(2.0 * noise[kTorqueSd]) * std::pow(recorded_.size_share(run.joints[j]), 2);
   for (std::size_t c = 0; c < run.errors.size(); ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
     const double scale = std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) *
                          run.errors[c].share();
     of.variance_nm2 += scale * here.signals().by_noise.col(channel).cwiseAbs2();
   }
-  if (options_.angle_sd_rad > 0.0 || options_.angle_rate_sd_radps > 0.0)
-    of.variance_nm2 += motion_variance(run, here);
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const Eigen::Index first = run.first_row(j);
+    if (options_.angle_sd_rad > 0.0 || options_.angle_rate_sd_radps > 0.0)
+      of.variance_nm2.segment(first, run.time_s.size()) += motion_variance(run, here, first, first);
+  }
   of.force_n.resize(run.time_s.size(), run.arm_m.cols());
   for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
     const MuscleRows& rows = here.muscle(k);
@@ -355,7 +440,8 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
 
 Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
   const ModelValues values = map_.values(z);
-  Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_)};
+  Residuals result{Eigen::VectorXd(rows_), Eigen::VectorXd(rows_),
+                   std::vector<std::vector<Eigen::Index>>(map_.joints().size())};
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const RunEvaluation evaluation(runs_[r], map_, options_.lag, values, nullptr);
@@ -363,6 +449,10 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
     result.measured_nm.segment(first, m) = runs_[r].measured_nm;
     result.predicted_nm.segment(first, m) =
         runs_[r].reduction.apply(evaluation.signals().torque_nm);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const auto j = static_cast<std::size_t>(i / runs_[r].reduction.outputs());
+      result.rows_of_joint[static_cast<std::size_t>(runs_[r].joints[j])].push_back(first + i);
+    }
     first += m;
   }
   return result;

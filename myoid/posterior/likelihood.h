@@ -19,12 +19,16 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// behind the operator L of each run,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
-///   A = L [b^2 sigma_T^2 exp(-|dt|/tau_T) + Q] L' + kappa^2 sum_c sd_c^2 K_c D_c^2 K_c'
+///   A_ij = [i = j] L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + L Q_ij L'
+///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
-/// A is one block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken
-/// in by Woodbury's identity. K_c is L behind the filters of the envelope and the drive (EmgNoise).
-/// S and Q, the error of angle and rate, independent from sample to sample, belong to reference
-/// values of the unknowns. The constant -n/2 ln(2 pi) is left out.
+/// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque
+/// errors of two joints are independent, sigma_i = sigma_T times the root mean square of the
+/// joint's torque over that of all. One noise of an envelope and one error of an angle act on all
+/// joints that the muscle crosses. A is one block per run; S W^2 S', of the unseen quantities, goes
+/// through all runs and is taken in by Woodbury's identity. K_c is L behind the filters of the
+/// envelope and the drive (EmgNoise). S and Q, the error of angle and rate, independent from sample
+/// to sample, belong to reference values of the unknowns. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
   /// The reference is the start.
@@ -47,7 +51,7 @@ class Likelihood {
   }
   /// ln b of the run's trial; 0 where `noise` does not name it.
   [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
-  /// Root mean square of the measured torque.
+  /// Root mean square of the measured torques of all joints.
   [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 
   struct Gradient {
@@ -78,9 +82,9 @@ class Likelihood {
 
   /// The torque of a run, fitted or not, and its parts that are uncertain.
   struct RunForecast {
-    Eigen::VectorXd mean_nm;                  ///< n: T^ and the unseen quantities' expectation.
-    Eigen::MatrixXd by_z;                     ///< d mean / d z, n x unknowns.
-    Eigen::VectorXd variance_nm2;             ///< n: of what is measured about it, z apart.
+    Eigen::VectorXd mean_nm;                  ///< n J: T^ and the unseen quantities' expectation.
+    Eigen::MatrixXd by_z;                     ///< d mean / d z, n J x unknowns.
+    Eigen::VectorXd variance_nm2;             ///< n J: of what is measured about it, z apart.
     Eigen::MatrixXd force_n;                  ///< n x muscles
     std::vector<Eigen::MatrixXd> force_by_z;  ///< Per muscle, n x unknowns.
   };
@@ -91,8 +95,9 @@ class Likelihood {
                                      const UnseenGiven& unseen) const;
 
   struct Residuals {
-    Eigen::VectorXd measured_nm;   ///< L y, all runs one after the other.
-    Eigen::VectorXd predicted_nm;  ///< L T^.
+    Eigen::VectorXd measured_nm;                           ///< L y, all runs one after the other.
+    Eigen::VectorXd predicted_nm;                          ///< L T^.
+    std::vector<std::vector<Eigen::Index>> rows_of_joint;  ///< As ParameterMap::joints().
   };
   [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z) const;
 
@@ -117,7 +122,16 @@ class Likelihood {
                  const Eigen::MatrixXd& inverse,
                  const Block& block,
                  Gradient& gradient) const;
-  [[nodiscard]] Eigen::VectorXd motion_variance(const TrialRun& run, const RunEvaluation& at) const;
+  /// Q_ij by sample, n; of the joints whose first rows these are.
+  [[nodiscard]] Eigen::VectorXd motion_variance(const TrialRun& run,
+                                                const RunEvaluation& at,
+                                                Eigen::Index first_row,
+                                                Eigen::Index other_row) const;
+  /// Adds the torque's error at this sigma_T^2 to the rows of each joint.
+  void add_torque_error(const TrialRun& run,
+                        double variance,
+                        double log_time,
+                        Eigen::MatrixXd& a) const;
 
   const StudyData& data_;
   EstimatorOptions options_;

@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "myoid/core/error.h"
-
 #include "tests/support/elbow_study.h"
+#include "tests/support/leg_study.h"
 
 namespace myoid::identification {
 namespace {
@@ -18,9 +17,12 @@ namespace {
 using test::elbow_study;
 using test::ElbowStudy;
 using test::freed;
+using test::leg_study;
 
 /// Two trials, each with its own share of the torque's error.
 const NoiseValues kNoise = (NoiseValues(6) << -0.9, -1.4, 0.1, -3.0, 0.3, -0.4).finished();
+const NoiseValues kNoiseOfLeg =
+    (NoiseValues(6) << 1.5, -1.4, 0.1, -3.0, -0.2, 0.5).finished();  // of some 60 N m
 
 /// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
 ElbowStudy crowded_study() {
@@ -45,14 +47,14 @@ EstimatorOptions crowded_options() {
   return options;
 }
 
-/// Torque of one muscle by the plain law: activation a (n), arms, lengths and rates of the run.
-Eigen::VectorXd written_muscle(const TrialRun& run,
-                               std::size_t k,
-                               const MuscleValues& p,
-                               const Eigen::VectorXd& a) {
+/// Force of one muscle by the plain law: activation a (n), lengths and rates of the run.
+Eigen::VectorXd written_force(const TrialRun& run,
+                              std::size_t k,
+                              const MuscleValues& p,
+                              const Eigen::VectorXd& a) {
   const auto column = static_cast<Eigen::Index>(k);
-  Eigen::VectorXd torque(run.time_s.size());
-  for (Eigen::Index i = 0; i < torque.size(); ++i) {
+  Eigen::VectorXd force(run.time_s.size());
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
     const double v = run.velocity_mps(i, column), vm = p[kSpeed];
     const double off = run.length_m(i, column) - p[kSlack] - p[kFiberLength];
     double fv = 0.0;
@@ -61,10 +63,9 @@ Eigen::VectorXd written_muscle(const TrialRun& run,
     } else if (v > -vm) {
       fv = p[kCurvature] * (vm + v) / (p[kCurvature] * vm - v);
     }
-    torque[i] =
-        run.arm_m(i, column) * p[kMaxForce] * a[i] * std::exp(-std::pow(off / p[kWidth], 2)) * fv;
+    force[i] = p[kMaxForce] * a[i] * std::exp(-std::pow(off / p[kWidth], 2)) * fv;
   }
-  return torque;
+  return force;
 }
 
 /// L by its definition: weights of a Gaussian of -3 dB at the cut-off, to three widths, in rows
@@ -101,113 +102,224 @@ Eigen::MatrixXd written_noise_filter(const EnvelopeError& error,
   return filter;
 }
 
-TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
-  ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
-  // The second muscle shares the electrode of the first.
-  study.data.muscles[1].emg_channel = study.data.muscles[0].emg_channel;
+/// What the model says of one run, written out: torques, channels' torques and errors of the motion
+/// of all its joints, joint after joint.
+struct WrittenRun {
+  Eigen::VectorXd torque;
+  Eigen::MatrixXd by_channel;  ///< n J x channels
+  Eigen::MatrixXd motion;      ///< n J x errors of angles and rates, each times its size.
+};
+
+WrittenRun written_run(const Likelihood& likelihood,
+                       const TrialRun& run,
+                       const EstimatorOptions& options,
+                       const ModelValues& values,
+                       const ModelValues& reference) {
+  const ParameterMap& map = likelihood.parameters();
+  const Eigen::Index n = run.time_s.size(), rows = run.arm_m.rows(), joints = rows / n;
+  const Eigen::Index muscles = run.arm_m.cols();
+  WrittenRun written{Eigen::VectorXd::Zero(rows),
+                     Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(map.channels().size())),
+                     Eigen::MatrixXd::Zero(rows, 2 * joints * muscles)};
+  for (Eigen::Index k = 0; k < muscles; ++k) {
+    const auto muscle = static_cast<std::size_t>(k);
+    const auto c = static_cast<std::size_t>(map.channel_of_muscle(muscle));
+    const auto a = [&](const ModelValues& of) {
+      return Eigen::VectorXd(run.time_s.unaryExpr(
+          [&](double t) { return run.envelopes[c].at(t - of.channels[c][kDelay]).value; }));
+    };
+    const Eigen::VectorXd force = written_force(run, muscle, values.muscles[muscle], a(values));
+    const double h = 1e-5;
+    const auto change = [&](Eigen::MatrixXd TrialRun::*what) {
+      TrialRun longer = run, shorter = run;
+      (longer.*what).col(k).array() += h;
+      (shorter.*what).col(k).array() -= h;
+      const Eigen::VectorXd at = a(reference);
+      return Eigen::ArrayXd((written_force(longer, muscle, reference.muscles[muscle], at) -
+                             written_force(shorter, muscle, reference.muscles[muscle], at)) /
+                            (2.0 * h));
+    };
+    const Eigen::ArrayXd by_length = change(&TrialRun::length_m),
+                         by_rate = change(&TrialRun::velocity_mps);
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      const Eigen::ArrayXd arm = run.arm_m.col(k).segment(j * n, n);
+      written.torque.segment(j * n, n).array() += arm * force.array();
+      // The torque is proportional to the activation, and so to the envelope.
+      written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() +=
+          arm * force.array();
+      for (Eigen::Index turned = 0; turned < joints; ++turned) {
+        // dq moves a length by -r dq and a rate by -r dq'.
+        const Eigen::ArrayXd moved = run.arm_m.col(k).segment(turned * n, n);
+        const Eigen::Index at = 2 * (k * joints + turned);
+        written.motion.col(at).segment(j * n, n) = options.angle_sd_rad * arm * by_length * moved;
+        written.motion.col(at + 1).segment(j * n, n) =
+            options.angle_rate_sd_radps * arm * by_rate * moved;
+      }
+    }
+  }
+  return written;
+}
+
+/// The covariance of a run's torques before L: of the torque, of the motion and of the envelopes.
+Eigen::MatrixXd written_covariance(const TrialRun& run,
+                                   const WrittenRun& written,
+                                   const std::vector<double>& torque_size,
+                                   const NoiseValues& noise,
+                                   double envelope_cutoff_hz) {
+  const Eigen::Index n = run.time_s.size(), rows = written.torque.size(), joints = rows / n;
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(rows, rows);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      for (Eigen::Index other = 0; other < joints; ++other)
+        q(j * n + i, other * n + i) =
+            written.motion.row(j * n + i).dot(written.motion.row(other * n + i));
+      for (Eigen::Index t = 0; t < n; ++t)
+        q(j * n + i, j * n + t) +=
+            std::pow(torque_size[static_cast<std::size_t>(j)], 2) *
+            std::exp(2.0 * (noise[kTorqueSd] + noise[kNoiseFieldCount + run.trial]) -
+                     std::abs(run.time_s[i] - run.time_s[t]) / std::exp(noise[kTorqueTime]));
+    }
+  }
+  for (std::size_t c = 0; c < run.errors.size(); ++c) {
+    const Eigen::Index margin = run.errors[c].from_white(run.interval_s).size() / 2;
+    const Eigen::MatrixXd filter = written_noise_filter(run.errors[c], n, margin, run.interval_s);
+    Eigen::MatrixXd root(rows, n + 2 * margin);
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      Eigen::VectorXd modulation(n + 2 * margin);
+      for (Eigen::Index i = 0; i < modulation.size(); ++i)
+        modulation[i] = written.by_channel(j * n + std::clamp<Eigen::Index>(i - margin, 0, n - 1),
+                                           static_cast<Eigen::Index>(c));
+      root.middleRows(j * n, n) = filter * modulation.asDiagonal();
+    }
+    // 0.57 / (2 B T), T the time that two passes of second order average.
+    const double variance =
+        0.7555 * 0.7555 / (2.0 * 150.0 * 0.4815 / envelope_cutoff_hz) * run.errors[c].share();
+    q += std::exp(2.0 * noise[kEmgFactor]) * variance * root * root.transpose();
+  }
+  return q;
+}
+
+/// Root mean square of each joint's L y over that of all joints.
+std::vector<double> written_torque_sizes(const std::vector<TrialRun>& runs) {
+  const std::size_t joints = runs.front().joints.size();
+  std::vector<double> sums(joints, 0.0);
+  double count = 0.0;
+  for (const TrialRun& run : runs) {
+    const auto m = run.measured_nm.size() / static_cast<Eigen::Index>(joints);
+    count += static_cast<double>(m);
+    for (std::size_t j = 0; j < joints; ++j)
+      sums[j] += run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m).squaredNorm();
+  }
+  double all = 0.0;
+  for (const double sum : sums) all += sum / static_cast<double>(joints);
+  for (double& sum : sums) sum = std::sqrt(sum / all);
+  return sums;
+}
+
+/// The density by one dense covariance of all runs, and the unseen quantities given the torques.
+void expect_written_out(const StudyData& data, const NoiseValues& noise, Believed believed) {
   EstimatorOptions options;
   options.angle_sd_rad = 0.01;
   options.angle_rate_sd_radps = 0.1;
-  Likelihood likelihood(study.data, options);
+  Likelihood likelihood(data, options);
+  likelihood.believe(believed);
   const ParameterMap& map = likelihood.parameters();
   const Eigen::VectorXd reference = map.start();
   Eigen::VectorXd z = reference;
   for (Eigen::Index j = 0; j < z.size(); ++j)
     z[j] += 0.1 * map.free()[static_cast<std::size_t>(j)].prior.sd *
             std::sin(1.0 + 2.0 * static_cast<double>(j));
-  const ModelValues values = map.values(z), before = map.values(reference);
   const std::vector<TrialRun>& runs = likelihood.runs();
   ASSERT_EQ(runs.size(), 2U);
-  for (const Believed believed : {Believed::nothing_exact, Believed::geometry_and_sensors_exact}) {
-    likelihood.believe(believed);
-    const Eigen::Index rows = likelihood.row_count();
-    Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(rows, rows);
-    Eigen::VectorXd residual(rows);
-    Eigen::MatrixXd shapes(rows, static_cast<Eigen::Index>(likelihood.unseen().quantities.size()));
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(shapes.cols());
-    Eigen::Index first = 0;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const TrialRun& run = runs[r];
-      const Eigen::Index n = run.time_s.size(), m = run.measured_nm.size();
-      const Eigen::MatrixXd l = written_low_pass(run, 1.5);
-      ASSERT_EQ(l.rows(), m);
-      Eigen::VectorXd torque = Eigen::VectorXd::Zero(n);
-      Eigen::MatrixXd by_channel = Eigen::MatrixXd::Zero(n, 3);
-      Eigen::VectorXd motion = Eigen::VectorXd::Zero(n);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto c = static_cast<std::size_t>(map.channel_of_muscle(k));
-        const auto column = static_cast<Eigen::Index>(k);
-        const auto a = [&](const ModelValues& of) {
-          return Eigen::VectorXd(run.time_s.unaryExpr(
-              [&](double t) { return run.envelopes[c].at(t - of.channels[c][kDelay]).value; }));
-        };
-        const Eigen::VectorXd own = written_muscle(run, k, values.muscles[k], a(values));
-        torque += own;
-        // The torque is proportional to the activation, and so to the envelope.
-        by_channel.col(static_cast<Eigen::Index>(c)) += own;
-        const double h = 1e-5;
-        const auto change = [&](Eigen::MatrixXd TrialRun::*what) {
-          TrialRun longer = run, shorter = run;
-          (longer.*what).col(column).array() += h;
-          (shorter.*what).col(column).array() -= h;
-          const Eigen::VectorXd at = a(before);
-          return Eigen::VectorXd((written_muscle(longer, k, before.muscles[k], at) -
-                                  written_muscle(shorter, k, before.muscles[k], at)) /
-                                 (2.0 * h));
-        };
-        // dq moves a length by -r dq and a rate by -r dq'.
-        const auto arm = run.arm_m.col(column).array();
-        motion.array() += (0.01 * arm * change(&TrialRun::length_m).array()).square() +
-                          (0.1 * arm * change(&TrialRun::velocity_mps).array()).square();
-      }
-      Eigen::MatrixXd q = motion.asDiagonal();
-      for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j)
-          q(i, j) +=
-              std::exp(2.0 * (kNoise[kTorqueSd] + kNoise[kNoiseFieldCount + run.trial]) -
-                       std::abs(run.time_s[i] - run.time_s[j]) / std::exp(kNoise[kTorqueTime]));
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Eigen::Index margin = run.errors[c].from_white(run.interval_s).size() / 2;
-        const Eigen::MatrixXd filter =
-            written_noise_filter(run.errors[c], n, margin, run.interval_s);
-        Eigen::VectorXd modulation(n + 2 * margin);
-        for (Eigen::Index i = 0; i < modulation.size(); ++i)
-          modulation[i] = by_channel(std::clamp<Eigen::Index>(i - margin, 0, n - 1),
-                                     static_cast<Eigen::Index>(c));
-        // 0.57 / (2 B T), T the time that two passes of second order average.
-        const double variance = 0.7555 * 0.7555 /
-                                (2.0 * 150.0 * 0.4815 / options.envelope_cutoff_hz) *
-                                run.errors[c].share();
-        const Eigen::MatrixXd root = filter * modulation.asDiagonal();
-        q += std::exp(2.0 * kNoise[kEmgFactor]) * variance * root * root.transpose();
-      }
-      sigma.block(first, first, m, m) = l * q * l.transpose();
-      residual.segment(first, m) = run.measured_nm - l * torque;
-      shapes.middleRows(first, m) = l * likelihood.unseen().columns[r];
-      first += m;
-    }
-    for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
-      const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
-      if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
-      const double weight = of.weight * (of.of_the_model ? std::exp(kNoise[kModelErrorSize]) : 1.0);
-      sigma += weight * weight * shapes.col(i) * shapes.col(i).transpose();
-      weights[i] = weight;
-    }
-    const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);
-    const double direct =
-        -0.5 * residual.dot(factor.solve(residual)) - 0.5 * factor.vectorD().array().log().sum();
-    // The program's derivatives by ln u, length and rate are secants.
-    EXPECT_NEAR(likelihood.value(z, kNoise), direct, 1e-5 * std::abs(direct));
-    // The unseen quantities given the torque: conditional moments of a joint normal density.
-    const Eigen::MatrixXd weighted = shapes * weights.asDiagonal();
-    const Eigen::MatrixXd gain = factor.solve(weighted);
-    const Likelihood::UnseenGiven given = likelihood.unseen_given(z, kNoise);
-    EXPECT_LT((given.mean - gain.transpose() * residual).cwiseAbs().maxCoeff(), 1e-4);
-    const Eigen::MatrixXd left =
-        Eigen::MatrixXd::Identity(weights.size(), weights.size()) - weighted.transpose() * gain;
-    EXPECT_LT((given.covariance - left).cwiseAbs().maxCoeff(), 1e-4);
+  const Eigen::Index rows = likelihood.row_count();
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::VectorXd residual(rows);
+  Eigen::MatrixXd shapes(rows, static_cast<Eigen::Index>(likelihood.unseen().quantities.size()));
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(shapes.cols());
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const TrialRun& run = runs[r];
+    const Eigen::MatrixXd of_joint = written_low_pass(run, 1.5);
+    const Eigen::Index n = run.time_s.size(), m = run.measured_nm.size(),
+                       joints = m / of_joint.rows();
+    Eigen::MatrixXd l = Eigen::MatrixXd::Zero(m, n * joints);
+    for (Eigen::Index j = 0; j < joints; ++j)
+      l.block(j * of_joint.rows(), j * n, of_joint.rows(), n) = of_joint;
+    const WrittenRun written =
+        written_run(likelihood, run, options, map.values(z), map.values(reference));
+    sigma.block(first, first, m, m) = l *
+                                      written_covariance(run, written, written_torque_sizes(runs),
+                                                         noise, options.envelope_cutoff_hz) *
+                                      l.transpose();
+    residual.segment(first, m) = run.measured_nm - l * written.torque;
+    shapes.middleRows(first, m) = l * likelihood.unseen().columns[r];
+    first += m;
+  }
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+    const UnseenQuantity& of = likelihood.unseen().quantities[static_cast<std::size_t>(i)];
+    if (believed == Believed::geometry_and_sensors_exact && of.source != Source::model) continue;
+    weights[i] = of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
+    sigma += weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);
+  const double direct =
+      -0.5 * residual.dot(factor.solve(residual)) - 0.5 * factor.vectorD().array().log().sum();
+  // The program's derivatives by ln u, length and rate are secants.
+  EXPECT_NEAR(likelihood.value(z, noise), direct, 1e-5 * std::abs(direct));
+  // The unseen quantities given the torque: conditional moments of a joint normal density.
+  const Eigen::MatrixXd weighted = shapes * weights.asDiagonal();
+  const Eigen::MatrixXd gain = factor.solve(weighted);
+  const Likelihood::UnseenGiven given = likelihood.unseen_given(z, noise);
+  EXPECT_LT((given.mean - gain.transpose() * residual).cwiseAbs().maxCoeff(), 1e-4);
+  const Eigen::MatrixXd left =
+      Eigen::MatrixXd::Identity(weights.size(), weights.size()) - weighted.transpose() * gain;
+  EXPECT_LT((given.covariance - left).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
+  ElbowStudy study = elbow_study(
+      {.trials = 2, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
+  // The second muscle shares the electrode of the first.
+  study.data.muscles[1].emg_channel = study.data.muscles[0].emg_channel;
+  for (const Believed believed : {Believed::nothing_exact, Believed::geometry_and_sensors_exact})
+    expect_written_out(study.data, kNoise, believed);
+}
+
+TEST(Likelihood, TheValueOfTwoJointsIsThatOfTheWholeCovarianceWrittenOut) {
+  const ElbowStudy study = leg_study({.seconds = 7.0, .emg_cv = 0.1, .torque_sd_nm = 1.0});
+  for (const Believed believed : {Believed::nothing_exact, Believed::geometry_and_sensors_exact})
+    expect_written_out(study.data, kNoiseOfLeg, believed);
+}
+
+/// Compares the gradient with differences of the value.
+void expect_gradient(const Likelihood& likelihood, const NoiseValues& noise) {
+  Eigen::VectorXd z = likelihood.parameters().start();
+  for (Eigen::Index j = 0; j < z.size(); ++j)
+    z[j] += 0.1 * likelihood.parameters().free()[static_cast<std::size_t>(j)].prior.sd *
+            std::cos(3.0 * static_cast<double>(j));
+  Likelihood::Gradient gradient;
+  EXPECT_EQ(likelihood.value(z, noise, &gradient), likelihood.value(z, noise));
+  const auto slope = [](const auto& at, double h) {
+    return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+  };
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const Unknown& of = likelihood.parameters().free()[static_cast<std::size_t>(j)];
+    const double difference = slope(
+        [&](double h) {
+          return likelihood.value(z + h * Eigen::VectorXd::Unit(z.size(), j), noise);
+        },
+        1e-3 * std::max(1e-3, of.prior.sd));
+    EXPECT_NEAR(gradient.by_z[j], difference, 1e-4 * (1.0 + std::abs(difference))) << of.label;
+  }
+  for (Eigen::Index i = 0; i < noise.size(); ++i) {
+    const double difference = slope(
+        [&](double h) {
+          NoiseValues moved = noise;
+          moved[i] += h;
+          return likelihood.value(z, moved);
+        },
+        1e-3);
+    EXPECT_NEAR(gradient.by_noise[i], difference, 1e-5 * (1.0 + std::abs(difference))) << i;
   }
 }
 
@@ -216,34 +328,46 @@ TEST(Likelihood, TheGradientIsThatOfDifferences) {
   for (const Believed believed : {Believed::nothing_exact, Believed::geometry_and_sensors_exact}) {
     Likelihood likelihood(study.data, crowded_options());
     likelihood.believe(believed);
-    Eigen::VectorXd z = likelihood.parameters().start();
-    for (Eigen::Index j = 0; j < z.size(); ++j)
-      z[j] += 0.1 * likelihood.parameters().free()[static_cast<std::size_t>(j)].prior.sd *
-              std::cos(3.0 * static_cast<double>(j));
-    Likelihood::Gradient gradient;
-    EXPECT_EQ(likelihood.value(z, kNoise, &gradient), likelihood.value(z, kNoise));
-    const auto slope = [](const auto& at, double h) {
-      return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-    };
-    for (Eigen::Index j = 0; j < z.size(); ++j) {
-      const Unknown& of = likelihood.parameters().free()[static_cast<std::size_t>(j)];
-      const double difference = slope(
-          [&](double h) {
-            return likelihood.value(z + h * Eigen::VectorXd::Unit(z.size(), j), kNoise);
-          },
-          1e-3 * std::max(1e-3, of.prior.sd));
-      EXPECT_NEAR(gradient.by_z[j], difference, 1e-4 * (1.0 + std::abs(difference))) << of.label;
-    }
-    for (Eigen::Index i = 0; i < kNoise.size(); ++i) {
-      const double difference = slope(
-          [&](double h) {
-            NoiseValues moved = kNoise;
-            moved[i] += h;
-            return likelihood.value(z, moved);
-          },
-          1e-3);
-      EXPECT_NEAR(gradient.by_noise[i], difference, 1e-5 * (1.0 + std::abs(difference))) << i;
-    }
+    expect_gradient(likelihood, kNoise);
+  }
+}
+
+TEST(Likelihood, TheGradientOfTwoJointsIsThatOfDifferences) {
+  ElbowStudy study = leg_study({.seconds = 6.0, .emg_cv = 0.1, .torque_sd_nm = 1.0});
+  study.data.rules = {freed("emg_exponent"), freed("joint_torque_offset"),
+                      freed("joint_stiffness", {"knee"})};
+  EstimatorOptions options;
+  options.angle_sd_rad = 0.01;
+  for (const test::LegMuscle& muscle : test::kLegMuscles) {
+    options.gain_prior_sd[muscle.name] = 0.1;
+    options.emg_bandwidth_hz[muscle.name] = 150.0;
+    options.emg_rest[muscle.name] = 0.02;
+  }
+  expect_gradient(Likelihood(study.data, options), kNoiseOfLeg);
+}
+
+TEST(Likelihood, TheForecastOfOneJointIsItsPartOfTheForecastOfAll) {
+  const ElbowStudy study = leg_study({.seconds = 6.0, .torque_sd_nm = 1.0});
+  const Likelihood likelihood(study.data, {});
+  const ParameterMap& map = likelihood.parameters();
+  const Eigen::VectorXd z = map.start();
+  const Likelihood::UnseenGiven given = likelihood.unseen_given(z, kNoise);
+  EXPECT_GT(given.mean.norm(), 0.1);
+  const auto forecast = [&](const TrialData& trial) {
+    return likelihood.forecast(whole_run(trial, study.data, {}, map), z, kNoise, given);
+  };
+  const TrialData& trial = study.data.trials[1];
+  const Likelihood::RunForecast all = forecast(trial);
+  const Eigen::Index n = trial.time_s.size();
+  for (const std::size_t j : {0U, 1U}) {
+    const Likelihood::RunForecast one = forecast(of_joint(trial, j));
+    const Eigen::Index first = static_cast<Eigen::Index>(j) * n;
+    // Up to the order of sums.
+    EXPECT_LT((all.mean_nm.segment(first, n) - one.mean_nm).norm(), 1e-12 * one.mean_nm.norm());
+    EXPECT_LT((all.by_z.middleRows(first, n) - one.by_z).norm(), 1e-12 * one.by_z.norm());
+    EXPECT_LT((all.variance_nm2.segment(first, n) - one.variance_nm2).norm(),
+              1e-12 * one.variance_nm2.norm());
+    EXPECT_EQ(all.force_n, one.force_n);
   }
 }
 
@@ -297,16 +421,6 @@ TEST(Likelihood, TheSharesOfTheSourcesAddToTheInformation) {
   EXPECT_LT((sum - found.information).norm(), 1e-9 * sum.norm());
   for (const Eigen::MatrixXd& part : found.by_source)
     EXPECT_GE(part.diagonal().minCoeff(), -1e-9 * sum.norm());
-}
-
-TEST(Likelihood, RefusesSeveralJoints) {
-  ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0});
-  JointData wrist;
-  wrist.name = "wrist";
-  wrist.torque_nm = study.data.trials[0].torque_nm;
-  wrist.moment_arm_m = study.data.trials[0].moment_arm_m;
-  study.data.trials[0].more_joints.push_back(wrist);
-  EXPECT_THROW(Likelihood(study.data, {}), InvalidInput);
 }
 
 }  // namespace

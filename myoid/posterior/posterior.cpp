@@ -238,7 +238,11 @@ void fill_fit(const Candidate& best,
   result.envelope_variance *= std::exp(2.0 * noise[kEmgFactor]) / static_cast<double>(runs.size());
   result.emg_cv = std::sqrt(result.envelope_variance.mean());
   const Likelihood::Residuals rows = density.likelihood().residuals(result.solution);
-  result.r2 = math::explained_share(rows.predicted_nm, rows.measured_nm);
+  for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
+    if (!joint.empty())
+      result.r2 = std::min(
+          result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
+  }
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 

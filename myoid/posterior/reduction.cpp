@@ -45,19 +45,21 @@ Reduction::Reduction(Eigen::Index samples, double rate_hz, std::optional<double>
 }
 
 Eigen::MatrixXd Reduction::apply(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
-  Eigen::MatrixXd y(outputs(), x.cols());
+  Eigen::MatrixXd y(x.rows() / inputs_ * outputs_, x.cols());
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    for (Eigen::Index j = 0; j < outputs(); ++j)
-      y(j, c) = weights_.dot(x.col(c).segment(first(j), weights_.size()));
+    for (Eigen::Index j = 0; j < y.rows(); ++j)
+      y(j, c) = weights_.dot(
+          x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()));
   }
   return y;
 }
 
 Eigen::MatrixXd Reduction::transposed(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(inputs_, y.cols());
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(y.rows() / outputs_ * inputs_, y.cols());
   for (Eigen::Index c = 0; c < y.cols(); ++c) {
-    for (Eigen::Index j = 0; j < outputs(); ++j)
-      x.col(c).segment(first(j), weights_.size()) += y(j, c) * weights_;
+    for (Eigen::Index j = 0; j < y.rows(); ++j)
+      x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()) +=
+          y(j, c) * weights_;
   }
   return x;
 }

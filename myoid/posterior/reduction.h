@@ -25,9 +25,9 @@ class Reduction {
   /// Samples from row to row.
   [[nodiscard]] Eigen::Index stride() const { return stride_; }
 
-  /// L X, column by column.
+  /// L X, column by column. The rows of X may be those of several joints, joint after joint.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
-  /// L' Y.
+  /// L' Y, likewise.
   [[nodiscard]] Eigen::MatrixXd transposed(const Eigen::Ref<const Eigen::MatrixXd>& y) const;
 
  private:

@@ -20,12 +20,12 @@ std::vector<Activation> more_active(std::vector<Activation> activation, double e
   return activation;
 }
 
-/// What a joint's own torque changes by with one of its numbers.
-Eigen::VectorXd by_joint_field(const TrialRun& run, int field) {
+/// What the own torque of the run's j-th joint changes by with one of its numbers, n.
+Eigen::VectorXd by_joint_field(const TrialRun& run, std::size_t j, int field) {
   const Eigen::Index n = run.time_s.size();
   if (field == kOffset) return Eigen::VectorXd::Ones(n);
-  if (run.motion.size() == 0) return Eigen::VectorXd::Zero(n);
-  return -run.motion.col(field == kViscosity ? 1 : field == kInertia ? 2 : 0);
+  const Eigen::Index column = field == kViscosity ? 1 : field == kInertia ? 2 : 0;
+  return -run.motion.col(column).segment(run.first_row(j), n);
 }
 
 void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen::VectorXd& by_z) {
@@ -58,11 +58,14 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
   const Eigen::Index n = run.time_s.size();
   const auto channels = static_cast<Eigen::Index>(run.envelopes.size());
   signals_.torque_nm = run.resting_nm;
-  signals_.by_noise.setZero(n, channels);
-  const JointValues& joint = values.joints.front();
-  for (int field = 0; field < kJointFieldCount; ++field) {
-    const double value = joint[static_cast<std::size_t>(field)];
-    if (value != 0.0) signals_.torque_nm += value * by_joint_field(run, field);
+  signals_.by_noise.setZero(run.row_count(), channels);
+  for (std::size_t j = 0; j < run.joints.size(); ++j) {
+    const JointValues& joint = values.joints[static_cast<std::size_t>(run.joints[j])];
+    for (int field = 0; field < kJointFieldCount; ++field) {
+      const double value = joint[static_cast<std::size_t>(field)];
+      if (value != 0.0)
+        signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(run, j, field);
+    }
   }
   std::vector<std::vector<Activation>> more;
   gain_.setOnes(n, channels);
@@ -92,49 +95,69 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
     };
     evaluate(activations_[c], m.at);
     evaluate(more[c], m.more_active);
-    const auto arm = run.arm_m.col(column).array();
-    signals_.torque_nm.array() += arm * m.at.force_n.array();
-    signals_.by_noise.col(m.channel).array() += gain_.col(m.channel).array() * arm *
-                                                (m.more_active.force_n - m.at.force_n).array() /
-                                                kActivationStep;
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      const Eigen::Index first = run.first_row(j);
+      const auto arm = run.arm_m.col(column).segment(first, n).array();
+      signals_.torque_nm.segment(first, n).array() += arm * m.at.force_n.array();
+      signals_.by_noise.col(m.channel).segment(first, n).array() +=
+          gain_.col(m.channel).array() * arm * (m.more_active.force_n - m.at.force_n).array() /
+          kActivationStep;
+    }
   }
 }
 
 void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const {
-  for (const ParameterMap::Chain& chain : chains_->of_joint.front())
-    by_z[chain.variable] += chain.slope * by.torque_nm.dot(by_joint_field(run_, chain.field));
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
-    const Muscle& m = muscles_[static_cast<std::size_t>(k)];
-    const auto arm = run_.arm_m.col(k).array();
-    const Eigen::ArrayXd more =
-        arm * by.by_noise.col(m.channel).array() * gain_.col(m.channel).array() / kActivationStep;
-    add_gradient(m.at, arm * by.torque_nm.array() - more, by_z);
-    add_gradient(m.more_active, more, by_z);
+  const Eigen::Index n = run_.time_s.size();
+  for (std::size_t j = 0; j < run_.joints.size(); ++j) {
+    const Eigen::Index first = run_.first_row(j);
+    for (const ParameterMap::Chain& chain : own_chains(j))
+      by_z[chain.variable] +=
+          chain.slope * by.torque_nm.segment(first, n).dot(by_joint_field(run_, j, chain.field));
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
+      const Muscle& m = muscles_[static_cast<std::size_t>(k)];
+      const auto arm = run_.arm_m.col(k).segment(first, n).array();
+      const Eigen::ArrayXd more = arm * by.by_noise.col(m.channel).segment(first, n).array() *
+                                  gain_.col(m.channel).array() / kActivationStep;
+      add_gradient(m.at, arm * by.torque_nm.segment(first, n).array() - more, by_z);
+      add_gradient(m.more_active, more, by_z);
+    }
   }
   // The noise goes with the envelope, which the delay moves.
   for (std::size_t c = 0; c < chains_->of_channel.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
-    const double by_delay =
-        (by.by_noise.col(column).array() * signals_.by_noise.col(column).array() *
-         gain_by_delay_.col(column).array() / gain_.col(column).array())
-            .sum();
+    double by_delay = 0.0;
+    for (std::size_t j = 0; j < run_.joints.size(); ++j) {
+      const Eigen::Index first = run_.first_row(j);
+      by_delay += (by.by_noise.col(column).segment(first, n).array() *
+                   signals_.by_noise.col(column).segment(first, n).array() *
+                   gain_by_delay_.col(column).array() / gain_.col(column).array())
+                      .sum();
+    }
     for (const ParameterMap::Chain& chain : chains_->of_channel[c])
       if (chain.field == kDelay) by_z[chain.variable] += chain.slope * by_delay;
   }
 }
 
 Eigen::MatrixXd RunEvaluation::jacobian(Eigen::Index unknowns) const {
-  Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.time_s.size(), unknowns);
-  for (const ParameterMap::Chain& chain : chains_->of_joint.front())
-    by_z.col(chain.variable) += chain.slope * by_joint_field(run_, chain.field);
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
-    const MuscleRows& rows = muscles_[static_cast<std::size_t>(k)].at;
-    for (std::size_t v = 0; v < rows.variables.size(); ++v)
-      by_z.col(rows.variables[v]).array() +=
-          run_.arm_m.col(k).array() *
-          rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose().array();
+  const Eigen::Index n = run_.time_s.size();
+  Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.row_count(), unknowns);
+  for (std::size_t j = 0; j < run_.joints.size(); ++j) {
+    auto of_joint = by_z.middleRows(run_.first_row(j), n);
+    for (const ParameterMap::Chain& chain : own_chains(j))
+      of_joint.col(chain.variable) += chain.slope * by_joint_field(run_, j, chain.field);
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
+      const MuscleRows& rows = muscles_[static_cast<std::size_t>(k)].at;
+      for (std::size_t v = 0; v < rows.variables.size(); ++v)
+        of_joint.col(rows.variables[v]).array() +=
+            run_.arm_m.col(k).segment(run_.first_row(j), n).array() *
+            rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose().array();
+    }
   }
   return by_z;
+}
+
+const std::vector<ParameterMap::Chain>& RunEvaluation::own_chains(std::size_t j) const {
+  return chains_->of_joint[static_cast<std::size_t>(run_.joints[j])];
 }
 
 }  // namespace myoid::identification

@@ -10,10 +10,10 @@
 
 namespace myoid::identification {
 
-/// What the model says of one run at all n samples, or a function's gradient by it.
+/// What the model says of one run at all n samples of its J joints, or a function's gradient by it.
 struct TorqueSignals {
-  Eigen::VectorXd torque_nm;  ///< n: T^.
-  /// n x channels: D_c, the change by one standard deviation of rectified EMG, relative to the
+  Eigen::VectorXd torque_nm;  ///< n J: T^_j = sum_k r_jk F_k + the joint's own torque.
+  /// n J x channels: D_c, the change by one standard deviation of rectified EMG, relative to the
   /// envelope (TrialRun::envelope_sd), d T^ / d ln u_c n(u) / (sd u), n that of relative_noise.
   Eigen::MatrixXd by_noise;
 };
@@ -47,7 +47,7 @@ class RunEvaluation {
   [[nodiscard]] const MuscleRows& muscle(std::size_t k) const { return muscles_[k].at; }
   /// Adds to `by_z` the gradient of a function whose gradient by the signals is `by`.
   void pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const;
-  /// d T^ / d z, n x unknowns.
+  /// d T^ / d z, n J x unknowns.
   [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index unknowns) const;
 
  private:
@@ -55,6 +55,9 @@ class RunEvaluation {
     Eigen::Index channel = 0;
     MuscleRows at, more_active;
   };
+
+  /// Of the numbers of the run's j-th joint.
+  [[nodiscard]] const std::vector<ParameterMap::Chain>& own_chains(std::size_t j) const;
 
   const TrialRun& run_;
   const ChainsByOwner* chains_ = nullptr;

@@ -5,16 +5,18 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/leg_study.h"
 
 namespace myoid::identification {
 namespace {
 
-TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
-  const StudyData data = test::elbow_study({.trials = 1, .seconds = 6.0, .with_priors = true}).data;
+/// Compares jacobian and pull_back with differences of the signals.
+void expect_derivatives(const StudyData& data) {
   EstimatorOptions options;
-  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"})
-    options.emg_bandwidth_hz[channel] = 150.0;
-  options.emg_rest["BIC"] = options.emg_rest["TRI"] = 0.03;
+  for (const MuscleSetup& muscle : data.muscles)
+    options.emg_bandwidth_hz[muscle.emg_channel] = 150.0;
+  options.emg_rest[data.muscles.front().emg_channel] = 0.03;
+  options.emg_rest[data.muscles[3].emg_channel] = 0.03;
   const ParameterMap map(data, options);
   const std::vector<TrialRun> runs = trial_runs(data, options, map);
   const Eigen::VectorXd z = map.start();
@@ -47,6 +49,17 @@ TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
       EXPECT_LT((jacobian.col(j) - change).norm(), 1e-5 * (1.0 + change.norm())) << j;
     }
   }
+}
+
+TEST(RunEvaluation, JacobianAndPullBackAreThoseOfDifferences) {
+  expect_derivatives(test::elbow_study({.trials = 1, .seconds = 6.0, .with_priors = true}).data);
+}
+
+TEST(RunEvaluation, JacobianAndPullBackOfTwoJointsAreThoseOfDifferences) {
+  StudyData data = test::leg_study({.trials = 1, .seconds = 6.0}).data;
+  data.rules = {test::freed("joint_stiffness", {"knee"}), test::freed("joint_torque_offset"),
+                test::freed("joint_viscosity", {"ankle"})};
+  expect_derivatives(data);
 }
 
 TEST(RunEvaluation, WhatALargerEnvelopeMakesIsItsSecant) {

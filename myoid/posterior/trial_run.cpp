@@ -100,20 +100,46 @@ void add_envelopes(const std::vector<Drive>& drives,
   }
 }
 
+/// Fills the rows of the run's j-th joint from the trial's view of it (of_joint).
+void add_joint(const TrialData& view,
+               const std::vector<Eigen::Index>& rows,
+               std::size_t j,
+               const ParameterMap& map,
+               TrialRun& run) {
+  const Eigen::Index n = run.time_s.size(), m = run.reduction.outputs(), first = run.first_row(j);
+  const auto& names = map.joints();
+  run.joints[j] =
+      static_cast<int>(std::find(names.begin(), names.end(), view.joint) - names.begin());
+  run.arm_m.middleRows(first, n) = view.moment_arm_m(rows, Eigen::all);
+  run.resting_nm.segment(first, n) = resting_torque_nm(view)(rows);
+  run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m) =
+      run.reduction.apply(Eigen::VectorXd(view.torque_nm(rows)));
+  const Eigen::Index all = view.time_s.size();
+  if (view.angle_rad.size() != all || view.velocity_radps.size() != all ||
+      view.acceleration_radps2.size() != all)
+    return;
+  auto motion = run.motion.middleRows(first, n);
+  motion.col(0) = view.angle_rad(rows);
+  motion.col(1) = view.velocity_radps(rows);
+  motion.col(2) = view.acceleration_radps2(rows);
+}
+
 TrialRun make_run(const TrialData& trial,
                   const std::vector<Eigen::Index>& rows,
                   const std::vector<Drive>& drives,
                   const EstimatorOptions& options,
                   const ParameterMap& map) {
   const auto n = static_cast<Eigen::Index>(rows.size());
+  const std::size_t joints = joint_count(trial);
   const double span = trial.time_s[rows.back()] - trial.time_s[rows.front()];
   const double rate_hz = static_cast<double>(n - 1) / span;
-  TrialRun run{.time_s = trial.time_s(rows),
+  TrialRun run{.joints = std::vector<int>(joints),
+               .time_s = trial.time_s(rows),
                .length_m = trial.length_m(rows, Eigen::all),
                .velocity_mps = trial.velocity_mps(rows, Eigen::all),
-               .arm_m = trial.moment_arm_m(rows, Eigen::all),
+               .arm_m = {},
                .motion = {},
-               .resting_nm = resting_torque_nm(trial)(rows),
+               .resting_nm = {},
                .envelopes = {},
                .errors = {},
                .envelope_sd = {},
@@ -121,14 +147,11 @@ TrialRun make_run(const TrialData& trial,
                .interval_s = 1.0 / rate_hz,
                .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz),
                .measured_nm = {}};
-  const Eigen::Index all = trial.time_s.size();
-  if (trial.angle_rad.size() == all && trial.velocity_radps.size() == all &&
-      trial.acceleration_radps2.size() == all) {
-    run.motion.resize(n, 3);
-    run.motion << trial.angle_rad(rows), trial.velocity_radps(rows),
-        trial.acceleration_radps2(rows);
-  }
-  run.measured_nm = run.reduction.apply(Eigen::VectorXd(trial.torque_nm(rows)));
+  run.arm_m.resize(run.row_count(), trial.moment_arm_m.cols());
+  run.motion.setZero(run.row_count(), 3);
+  run.resting_nm.resize(run.row_count());
+  run.measured_nm.resize(static_cast<Eigen::Index>(joints) * run.reduction.outputs());
+  for (std::size_t j = 0; j < joints; ++j) add_joint(of_joint(trial, j), rows, j, map, run);
   add_envelopes(drives, options, map, run);
   return run;
 }
@@ -148,11 +171,6 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
     const Eigen::Index all = trial.time_s.size();
     if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
       throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
-    if (!trial.more_joints.empty() || map.joints().size() > 1)
-      throw InvalidInput(fmt::format(
-          "trial '{}': the posterior is that of one joint, and this study fits several; "
-          "take the estimator least_squares",
-          trial.name));
     const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
     const std::vector<Drive> drives = drives_of(trial, options, map);
     for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {

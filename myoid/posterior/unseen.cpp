@@ -42,19 +42,9 @@ class Collector {
         columns_(runs.size()) {}
 
   void add_geometry(std::size_t k, bool priors) {
-    const std::string& name = data_.muscles[k].name;
-    const Recorded::Range& range = recorded_.muscles[k];
-    const double mean = 0.5 * (range.shortest_m + range.longest_m);
-    add(name + ".moment_arm", Source::geometry, spreads_.moment_arm);
-    for_runs(k, [&](const OfMuscle& of, auto column) {
-      column += of.torque + of.by_length * (of.length - mean) + of.by_velocity * of.velocity;
-    });
-    add(name + ".moment_arm_slope", Source::geometry, spreads_.moment_arm_slope);
-    for_runs(k, [&](const OfMuscle& of, auto column) {
-      const Eigen::ArrayXd x = range.place(of.length);
-      column += of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
-                of.by_velocity * x * of.velocity;
-    });
+    for (int joint = 0; joint < recorded_.parts.joint_count(); ++joint) {
+      if (recorded_.parts.crosses(k, joint)) add_moment_arm(k, joint);
+    }
     add_tendon(k, priors);
   }
 
@@ -129,17 +119,25 @@ class Collector {
     }
   }
 
-  /// A constant and a slope of the joint, of the size of the measured torque.
+  /// A constant and a slope of each joint, of the size of its measured torque.
   void add_joint_errors() {
-    const double size_nm = recorded_.torque_nm;
-    if (!is_free(map_, Scope::joint, kOffset, 0)) {
-      add("joint.error_constant", Source::model, 1.0, true);
-      for (auto& columns : columns_) columns.back().setConstant(size_nm);
-    }
-    if (!is_free(map_, Scope::joint, kStiffness, 0)) {
-      add("joint.error_slope", Source::model, 1.0, true);
-      for (std::size_t r = 0; r < runs_.size(); ++r)
-        columns_[r].back() = size_nm * recorded_.muscles[0].place(runs_[r].length_m.col(0));
+    const int joints = recorded_.parts.joint_count();
+    for (int joint = 0; joint < joints; ++joint) {
+      const auto j = static_cast<std::size_t>(joint);
+      const std::string name = joints == 1 ? "joint" : map_.joints()[j];
+      const double size_nm = recorded_.joint_torque_nm[j];
+      if (!is_free(map_, Scope::joint, kOffset, joint)) {
+        add(name + ".error_constant", Source::model, 1.0, true);
+        for_joint(joint, [&](const TrialRun&, auto column) { column.setConstant(size_nm); });
+      }
+      if (is_free(map_, Scope::joint, kStiffness, joint)) continue;
+      std::size_t k = 0;
+      while (k + 1 < data_.muscles.size() && !recorded_.parts.crosses(k, joint)) ++k;
+      add(name + ".error_slope", Source::model, 1.0, true);
+      for_joint(joint, [&](const TrialRun& run, auto column) {
+        column = size_nm *
+                 recorded_.by_joint[j][k].place(recorded_.parts.of(run.length_m, k, joint).array());
+      });
     }
   }
 
@@ -154,10 +152,12 @@ class Collector {
   }
 
  private:
-  /// A muscle in one run: its torque r F, how that changes with length and rate, and both.
+  /// A muscle at one joint of one run: its torque r F, how that changes with length and rate, and
+  /// both.
   struct OfMuscle {
     const TrialRun& run;
     const RunEvaluation& at;
+    int joint;
     Eigen::ArrayXd torque, by_length, by_velocity, length, velocity;
   };
 
@@ -177,6 +177,31 @@ class Collector {
       by_time[i] = -here.by_field[kDelay] / std::max(here.value, kNoneActs);
     }
     return by_time;
+  }
+
+  void add_moment_arm(std::size_t k, int joint) {
+    const std::string name = data_.muscles[k].name + ".moment_arm",
+                      of_joint = recorded_.parts.joint_count() == 1
+                                     ? std::string()
+                                     : "_of_" + map_.joints()[static_cast<std::size_t>(joint)];
+    const Recorded::Range& range = recorded_.by_joint[static_cast<std::size_t>(joint)][k];
+    const double mean = 0.5 * (range.shortest_m + range.longest_m);
+    const auto own = [&](const OfMuscle& of) { return of.joint == joint ? 1.0 : 0.0; };
+    const auto part = [&](const Eigen::MatrixXd& all) {
+      return Eigen::ArrayXd(recorded_.parts.of(all, k, joint).array());
+    };
+    add(name + of_joint, Source::geometry, spreads_.moment_arm);
+    for_runs(k, [&](const OfMuscle& of, auto column) {
+      column += own(of) * of.torque + of.by_length * (part(of.run.length_m) - mean) +
+                of.by_velocity * part(of.run.velocity_mps);
+    });
+    add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope);
+    for_runs(k, [&](const OfMuscle& of, auto column) {
+      const Eigen::ArrayXd x = range.place(part(of.run.length_m));
+      column += own(of) * of.torque * x +
+                of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
+                of.by_velocity * x * part(of.run.velocity_mps);
+    });
   }
 
   void add_tendon(std::size_t k, bool priors) {
@@ -202,23 +227,40 @@ class Collector {
   void add(std::string name, Source source, double weight, bool of_the_model = false) {
     quantities_.push_back({std::move(name), source, weight, of_the_model});
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].time_s.size()));
+      columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
   }
 
   template <typename Fill>
   void for_runs(std::size_t k, const Fill& fill) {
     const auto column = static_cast<Eigen::Index>(k);
     for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const TrialRun& run = runs_[r];
+      const Eigen::Index n = run.time_s.size();
       const MuscleRows& rows = at_[r].muscle(k);
-      const auto arm = runs_[r].arm_m.col(column).array();
-      const OfMuscle of{runs_[r],
-                        at_[r],
-                        arm * rows.force_n.array(),
-                        arm * rows.by_length.array(),
-                        arm * rows.by_velocity.array(),
-                        runs_[r].length_m.col(column).array(),
-                        runs_[r].velocity_mps.col(column).array()};
-      fill(of, Eigen::Ref<Eigen::ArrayXd>(columns_[r].back()));
+      for (std::size_t j = 0; j < run.joints.size(); ++j) {
+        const auto arm = run.arm_m.col(column).segment(run.first_row(j), n).array();
+        const OfMuscle of{run,
+                          at_[r],
+                          run.joints[j],
+                          arm * rows.force_n.array(),
+                          arm * rows.by_length.array(),
+                          arm * rows.by_velocity.array(),
+                          run.length_m.col(column).array(),
+                          run.velocity_mps.col(column).array()};
+        fill(of, Eigen::Ref<Eigen::ArrayXd>(columns_[r].back().segment(run.first_row(j), n)));
+      }
+    }
+  }
+
+  template <typename Fill>
+  void for_joint(int joint, const Fill& fill) {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const TrialRun& run = runs_[r];
+      for (std::size_t j = 0; j < run.joints.size(); ++j) {
+        if (run.joints[j] == joint)
+          fill(run, Eigen::Ref<Eigen::ArrayXd>(
+                        columns_[r].back().segment(run.first_row(j), run.time_s.size())));
+      }
     }
   }
 
@@ -249,28 +291,70 @@ Eigen::ArrayXd Recorded::Range::place(const Eigen::ArrayXd& length_m) const {
   return 2.0 * (length_m - shortest_m) / span_m() - 1.0;
 }
 
-Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleValues>& muscles) {
-  Recorded found{std::vector<Recorded::Range>(muscles.size()), 0.0};
-  double sum = 0.0, count = 0.0;
+double Recorded::size_share(int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  if (j >= joint_torque_nm.size() || !(torque_nm > 0.0)) return 1.0;
+  return std::max(joint_torque_nm[j] / torque_nm, 0.01);
+}
+
+namespace {
+
+/// The range of one muscle's lengths and rates, n each of every run.
+template <typename Lengths>
+Recorded::Range range_of(const std::vector<TrialRun>& runs,
+                         double fiber_length_m,
+                         const Lengths& lengths) {
+  Recorded::Range range;
   for (const TrialRun& run : runs) {
-    sum += run.measured_nm.squaredNorm();
-    count += static_cast<double>(run.measured_nm.size());
-    for (std::size_t k = 0; k < muscles.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      Recorded::Range& range = found.muscles[k];
-      range.shortest_m = std::min(range.shortest_m, run.length_m.col(column).minCoeff());
-      range.longest_m = std::max(range.longest_m, run.length_m.col(column).maxCoeff());
-      range.fastest_mps =
-          std::max(range.fastest_mps, run.velocity_mps.col(column).cwiseAbs().maxCoeff());
+    const Eigen::VectorXd length = lengths(run.length_m);
+    range.shortest_m = std::min(range.shortest_m, length.minCoeff());
+    range.longest_m = std::max(range.longest_m, length.maxCoeff());
+    range.fastest_mps =
+        std::max(range.fastest_mps, lengths(run.velocity_mps).cwiseAbs().maxCoeff());
+  }
+  const double more = std::max(0.0, 0.5 * fiber_length_m - range.span_m());
+  range.shortest_m -= 0.5 * more;
+  range.longest_m += 0.5 * more;
+  return range;
+}
+
+/// Fills the root mean squares of L y, of all and of each joint.
+void add_torque_sizes(const std::vector<TrialRun>& runs, Recorded& found) {
+  const auto joints = static_cast<std::size_t>(found.parts.joint_count());
+  std::vector<double> sums(joints, 0.0), counts(joints, 0.0);
+  for (const TrialRun& run : runs) {
+    const Eigen::Index m = run.reduction.outputs();
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      const auto joint = static_cast<std::size_t>(run.joints[j]);
+      sums[joint] += run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m).squaredNorm();
+      counts[joint] += static_cast<double>(m);
     }
   }
-  found.torque_nm = std::sqrt(sum / count);
-  for (std::size_t k = 0; k < muscles.size(); ++k) {
-    Recorded::Range& range = found.muscles[k];
-    const double more = std::max(0.0, 0.5 * muscles[k][kFiberLength] - range.span_m());
-    range.shortest_m -= 0.5 * more;
-    range.longest_m += 0.5 * more;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t j = 0; j < joints; ++j) {
+    sum += sums[j];
+    count += counts[j];
+    found.joint_torque_nm.push_back(std::sqrt(sums[j] / std::max(counts[j], 1.0)));
   }
+  found.torque_nm = std::sqrt(sum / count);
+}
+
+}  // namespace
+
+Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleValues>& muscles) {
+  Recorded found{.parts = JointParts(runs)};
+  found.by_joint.resize(static_cast<std::size_t>(found.parts.joint_count()));
+  for (std::size_t k = 0; k < muscles.size(); ++k) {
+    const double fiber_m = muscles[k][kFiberLength];
+    found.muscles.push_back(range_of(runs, fiber_m, [&](const Eigen::MatrixXd& all) {
+      return Eigen::VectorXd(all.col(static_cast<Eigen::Index>(k)));
+    }));
+    for (int joint = 0; joint < found.parts.joint_count(); ++joint)
+      found.by_joint[static_cast<std::size_t>(joint)].push_back(
+          range_of(runs, fiber_m,
+                   [&](const Eigen::MatrixXd& all) { return found.parts.of(all, k, joint); }));
+  }
+  add_torque_sizes(runs, found);
   return found;
 }
 

@@ -8,6 +8,7 @@
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/variance_sources.h"
+#include "myoid/posterior/joint_parts.h"
 #include "myoid/posterior/torque_signals.h"
 #include "myoid/posterior/trial_run.h"
 
@@ -28,9 +29,12 @@ struct UnseenQuantity {
 /// muscles' errors smaller.
 ///
 /// A moment arm r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the
-/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), as r = -dl/dq. A slack
+/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), as r = -dl/dq. Of a
+/// muscle that crosses several joints each arm errs by itself: l and x are then the joint's part of
+/// the length (JointParts), and the length acts on the force, and so on all joints. A slack
 /// length that is off by d makes fibers shorter by d; a tendon that the study holds rigid stretches
-/// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque. Gain drift: the
+/// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; one scale serves all
+/// joints, as of one dynamometer, or of the masses of one person's segments. Gain drift: the
 /// channel's torque times the place in the session. Cross-talk: the channel's torque times the
 /// ratio of another's activation to its own. Rise and fall: activation that rises earlier and falls
 /// later by d than the delay says, a + d |da/dt|. Model error: the muscle's torque times
@@ -38,7 +42,7 @@ struct UnseenQuantity {
 /// as ErrorShapes; where the muscles share a free delay, a lag is its difference from their mean.
 struct Unseen {
   std::vector<UnseenQuantity> quantities;
-  std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n x quantities [N m].
+  std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n J x quantities [N m].
 };
 
 /// Lengths and speeds that were recorded of a muscle, and the torque: by these the shapes of the
@@ -51,7 +55,13 @@ struct Recorded {
     [[nodiscard]] Eigen::ArrayXd place(const Eigen::ArrayXd& length_m) const;
   };
   std::vector<Range> muscles;
-  double torque_nm = 0.0;  ///< Root mean square of L y.
+  JointParts parts;
+  std::vector<std::vector<Range>> by_joint;  ///< Of the parts, by joint and muscle.
+  double torque_nm = 0.0;                    ///< Root mean square of L y.
+  std::vector<double> joint_torque_nm;       ///< The same of each joint.
+
+  /// The joint's `joint_torque_nm` over `torque_nm`, at least a hundredth.
+  [[nodiscard]] double size_share(int joint) const;
 };
 
 /// A range is at least half an optimal fiber length: over less a muscle's law and its moment arm

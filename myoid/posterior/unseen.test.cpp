@@ -8,6 +8,7 @@
 #include "myoid/posterior/torque_signals.h"
 
 #include "tests/support/elbow_study.h"
+#include "tests/support/leg_study.h"
 
 namespace myoid::identification {
 namespace {
@@ -107,6 +108,56 @@ TEST(Unseen, AMomentArmMovesLengthAndRateToo) {
                         run.length_m.col(k).array() += by * (run.length_m.col(k).array() - middle);
                       });
   }
+}
+
+TEST(Unseen, AMomentArmAtOneOfTwoJointsMovesTheLengthThatThisJointMakes) {
+  const AtStart at(test::leg_study({.seconds = 6.0, .bent = false}).data);
+  for (const std::size_t joint : {0U, 1U}) {
+    const auto range = recorded(at.runs, at.map.held().muscles).by_joint[joint][1];
+    const double middle = 0.5 * (range.shortest_m + range.longest_m);
+    const std::string name = at.map.joints()[joint];
+    const JointParts parts(at.runs);
+    const auto part = [&](const Eigen::MatrixXd& all) {
+      return Eigen::ArrayXd(parts.of(all, 1, static_cast<int>(joint)).array());
+    };
+    expect_derivative(at, "GAS.moment_arm_of_" + name, 1e-4,
+                      [&](double by, TrialRun& run, ModelValues&) {
+                        const Eigen::ArrayXd moved = part(run.length_m) - middle;
+                        const Eigen::ArrayXd rate = part(run.velocity_mps);
+                        const Eigen::Index n = run.time_s.size();
+                        run.arm_m.col(1).segment(run.first_row(joint), n) *= 1.0 + by;
+                        run.length_m.col(1).array() += by * moved;
+                        run.velocity_mps.col(1).array() += by * rate;
+                      });
+    expect_derivative(
+        at, "GAS.moment_arm_slope_of_" + name, 1e-4, [&](double by, TrialRun& run, ModelValues&) {
+          const Eigen::ArrayXd x = range.place(part(run.length_m));
+          const Eigen::ArrayXd rate = part(run.velocity_mps);
+          const Eigen::Index n = run.time_s.size();
+          run.arm_m.col(1).segment(run.first_row(joint), n).array() *= 1.0 + by * x;
+          run.length_m.col(1).array() += by * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0);
+          run.velocity_mps.col(1).array() += by * x * rate;
+        });
+  }
+}
+
+TEST(Unseen, OfSeveralJointsEachMuscleHasAnArmWhereItCrossesAndEachJointItsOwnErrors) {
+  const AtStart at(test::leg_study({.seconds = 6.0}).data);
+  std::vector<std::string> arms, joints;
+  for (const UnseenQuantity& q : at.unseen().quantities) {
+    if (q.name.find(".moment_arm_of_") != std::string::npos) arms.push_back(q.name);
+    if (q.name.find("e.error_") != std::string::npos) joints.push_back(q.name);
+  }
+  EXPECT_EQ(arms, (std::vector<std::string>{"SOL.moment_arm_of_ankle", "GAS.moment_arm_of_ankle",
+                                            "GAS.moment_arm_of_knee", "TA.moment_arm_of_ankle",
+                                            "VAS.moment_arm_of_knee", "HAM.moment_arm_of_knee"}));
+  EXPECT_EQ(joints, (std::vector<std::string>{"ankle.error_constant", "ankle.error_slope",
+                                              "knee.error_constant", "knee.error_slope"}));
+  // The knee's constant is one of the knee: of the size of its torque, and 0 at the ankle.
+  const Eigen::VectorXd constant = at.column("knee.error_constant");
+  const Eigen::Index n = at.runs[0].time_s.size();
+  EXPECT_EQ(constant.head(n).norm(), 0.0);
+  EXPECT_EQ(constant[n], recorded(at.runs, at.map.held().muscles).joint_torque_nm[1]);
 }
 
 TEST(Unseen, ASlopeOfTheMomentArmIsTheIntegralOfItsLength) {

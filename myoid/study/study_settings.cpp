@@ -270,13 +270,14 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("force_loop", identify.force_loop,
          {.says = "Share the torque with the muscles found, fit them to their forces, share again, "
                   "until nothing changes. The end is reported: `converged`, `diverged` (a gate "
-                  "fails) or `not_settled`."});
+                  "fails) or `not_settled`. By the posterior the muscles are those of the torque, "
+                  "and one round shares it among them."});
   v.flag("priors", identify.priors,
          {.says = "The [priors](../theory/priors.md) from the literature are used."});
   v.choice(
       "estimator", identify.estimator,
       {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
-               "EMG; `posterior`, one posterior of one joint, whose intervals also hold what "
+               "EMG; `posterior`, one posterior, whose intervals also hold what "
                "residuals do not show: moment arms, tendons, the scale of the torque, "
                "cross-talk and drift ([how](../theory/posterior.md))."});
   v.flag("gain", identify.gain,
