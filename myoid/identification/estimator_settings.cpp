@@ -36,6 +36,7 @@ EstimatorOptions estimator_options(const EstimatorSettings& settings,
   options.eccentric = settings.eccentric;
   options.normalised = settings.normalised;
   options.multistart = settings.starts;
+  options.posterior_draws = settings.posterior_draws;
   options.intervals = settings.intervals;
   options.from_mvc = source.from_mvc;
   options.envelope_cutoff_hz = source.envelope_cutoff_hz;

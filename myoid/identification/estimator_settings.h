@@ -39,6 +39,7 @@ struct EstimatorSettings {
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   int starts = 1;           ///< Of the search (EstimatorOptions::multistart).
+  int posterior_draws = 0;  ///< EstimatorOptions::posterior_draws
   IntervalOptions intervals;
 };
 

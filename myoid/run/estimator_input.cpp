@@ -101,6 +101,7 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
           .eccentric = spec.eccentric,
           .normalised = spec.normalised,
           .starts = spec.starts,
+          .posterior_draws = spec.posterior_draws,
           .intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile}};
 }
 

@@ -228,7 +228,8 @@ struct IdentifySpec {
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
   identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
-  bool gain = true;  ///< EMG gain per channel as a nuisance with a tight prior.
+  int posterior_draws = 0;  ///< Of estimator `posterior`; 0: by its approximation.
+  bool gain = true;         ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
   int next_movements = 4;  ///< To suggest for the next recording; 0: none.
   identification::FoldKind folds = identification::FoldKind::trial;

@@ -280,6 +280,11 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                "EMG; `posterior`, one posterior, whose intervals also hold what "
                "residuals do not show: moment arms, tendons, the scale of the torque, "
                "cross-talk and drift ([how](../theory/posterior.md))."});
+  v.count("posterior_draws", identify.posterior_draws,
+          {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the "
+                   "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
+                   "none.",
+           .limits = within(0, 100000)});
   v.flag("gain", identify.gain,
          {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,

@@ -46,6 +46,15 @@ def pairs(rows):
     return np.einsum("ik,jk->kij", rows, rows).reshape(rows.shape[1], -1)
 
 
+def cholesky(a):
+    """Factors, and of which persons the matrix is not positive definite; the identity stands for these."""
+    try:
+        return np.linalg.cholesky(a), np.zeros(len(a), bool)
+    except np.linalg.LinAlgError:
+        worse = np.linalg.eigvalsh(a)[:, 0] <= 1e-14 * np.trace(a, axis1=1, axis2=2)
+        return np.linalg.cholesky(np.where(worse[:, None, None], np.eye(a.shape[1]), a)), worse
+
+
 class Run:
     """One run, and all of it that no unknown changes."""
 
@@ -145,7 +154,8 @@ class Posterior:
             for c, (kernel, at) in enumerate(run.noise):
                 scale = np.exp(2.0 * noise[:, KAPPA]) * run.sd[c] ** 2 * run.share[c]
                 a += (scale[:, None] * torque[c][:, at] ** 2) @ kernel
-            root = np.linalg.cholesky(a.reshape(-1, m, m))
+            root, worse = cholesky(a.reshape(-1, m, m))
+            far |= worse
             r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
             right = np.concatenate([r[:, :, None], run.seen[None] * width[:, None, :]], axis=2)
             both = np.linalg.solve(root, right)
