@@ -11,7 +11,7 @@ struct StripScale {
 };
 
 /// Returns the scale of a column: the values, the field behind them and the intervals, these as far
-/// as one range of the values to either side. Values whose badge is neither `good` nor `weak` count
+/// as one range of the values, or the median interval if that is wider, to either side. Values whose badge is neither `good` nor `weak` count
 /// only if there are no others.
 [[nodiscard]] StripScale strip_scale(const StripGrid& grid, std::size_t column);
 
