@@ -142,7 +142,7 @@ StripScale strip_scale(const StripGrid& grid, std::size_t column) {
   }
   double range = values.upper - values.lower;
   if (!widths.empty()) {
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>((widths.size() - 1) / 2);
     std::nth_element(widths.begin(), middle, widths.end());
     range = std::max(range, *middle);
   }
