@@ -38,7 +38,13 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   return changes;
 }
 
-/// The answer to the question who changed: "P7: BIC max isometric force is larger by 150 N (25 %)."
+/// "is stronger", "optimal fiber length is smaller".
+std::string changed(const std::string& parameter, double difference) {
+  if (parameter == "max_isometric_force") return difference > 0.0 ? "is stronger" : "is weaker";
+  return report::spelled(parameter) + (difference > 0.0 ? " is larger" : " is smaller");
+}
+
+/// The answer to the question who changed: "P7: BIC is stronger by 150 N (25 %)."
 std::string change_sentence(const std::vector<PersonChange>& changes) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::string> found;
@@ -47,9 +53,8 @@ std::string change_sentence(const std::vector<PersonChange>& changes) {
     const bool torque = std::any_of(all.begin(), all.end(), is_by_torque);
     for (const ComparedParameter& p : all) {
       if (p.change != Change::differs || is_by_torque(p) != torque) continue;
-      found.push_back(fmt::format("{}: {} {} is {} by {:.3g}{}{} ({:.0f} %)", person.person,
-                                  p.muscle, report::spelled(p.first.parameter),
-                                  p.difference > 0.0 ? "larger" : "smaller", std::abs(p.difference),
+      found.push_back(fmt::format("{}: {} {} by {:.3g}{}{} ({:.0f} %)", person.person, p.muscle,
+                                  changed(p.first.parameter, p.difference), std::abs(p.difference),
                                   p.first.unit == Unit::dimensionless ? "" : " ",
                                   p.first.unit == Unit::dimensionless ? "" : symbol(p.first.unit),
                                   100.0 * std::abs(p.difference / p.first.estimate)));
@@ -70,11 +75,14 @@ report::Report group_report(const GroupReportOptions& options) {
   report::Report page;
   page.title = "A group";
   page.subtitle = counted(persons.size(), "person");
-  page.headline = beside.outliers.empty() ? "No person's numbers lie far from the others'."
-                                          : outlier_sentence(beside.outliers);
+  if (!beside.outliers.empty())
+    page.headline = outlier_sentence(beside.outliers);
+  else if (persons.size() >= kFewestForOutliers)
+    page.headline = "No person's numbers lie far from the others'.";
   if (!options.after.empty()) {
     const std::vector<PersonChange> changes = changes_of(options);
-    page.headline = change_sentence(changes) + " " + page.headline;
+    page.title = "Two sessions";
+    page.headline = change_sentence(changes) + (page.headline.empty() ? "" : " " + page.headline);
     page.sections.push_back(change_section(changes));
   }
   page.sections.push_back(std::move(beside.persons));

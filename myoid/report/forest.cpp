@@ -89,6 +89,23 @@ std::string row_html(const ForestRow& row, bool first) {
       name(row.badge), typeset(row.verdict));
 }
 
+/// What a reader does with a number of this verdict.
+std::string_view meaning(Badge badge) {
+  switch (badge) {
+    case Badge::good:
+      return "the recording determines it: use it";
+    case Badge::weak:
+      return "known roughly: use the interval";
+    case Badge::info:
+      return "mostly the literature's: the recording adds little";
+    case Badge::none:
+      return "this recording cannot tell";
+    case Badge::bad:
+      return "no muscle can have it: look for an error";
+  }
+  return "";
+}
+
 std::string legend(const std::vector<ForestRow>& rows) {
   std::string text = "<p class=\"legend\">";
   std::vector<std::string> seen;
@@ -97,10 +114,13 @@ std::string legend(const std::vector<ForestRow>& rows) {
       if (row.badge != badge || std::find(seen.begin(), seen.end(), row.verdict) != seen.end())
         continue;
       seen.push_back(row.verdict);
-      text += fmt::format("<span>{} {}</span> ", verdict_mark(badge), typeset(row.verdict));
+      text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge),
+                          typeset(row.verdict), typeset(meaning(badge)));
     }
   }
-  text += "<span><i class=\"prior\"></i> literature, 95 %</span>";
+  text +=
+      "<span>\u2014 95 % interval after the recording</span> "
+      "<span><i class=\"prior\"></i> the literature's 95 %</span>";
   if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.truth.has_value(); }))
     text += " <span><i class=\"truth\"></i> truth of the virtual person</span>";
   return text + "</p>\n";
@@ -112,7 +132,7 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   if (rows.empty()) return "";
   std::string text =
       "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
-      "<table><thead><tr><th>of</th><th>number</th><th class=\"bar\">" + scale() +
+      "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
       "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
       "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
   const auto add = [&](bool beside) {

@@ -38,7 +38,7 @@ p { margin: 6px 0 10px; max-width: 74ch; }
 .forest .bar text { font-size: 11px; fill: #5a626b; }
 .forest .prior { fill: #dfe3e8; background: #dfe3e8; } .forest .middle { stroke: #8a9097; stroke-dasharray: 2 3; }
 .forest .truth { stroke: #111; stroke-width: 2; background: #111; }
-.legend { font-size: 13px; max-width: none; margin: 6px 0; } .legend span { margin-right: 14px; white-space: nowrap; }
+.legend { font-size: 13px; max-width: none; margin: 6px 0; } .legend span { display: inline-block; margin-right: 18px; }
 .legend i { display: inline-block; width: 24px; height: 10px; } .legend i.truth { width: 3px; height: 14px; vertical-align: -2px; }
 .mark { vertical-align: -3px; }
 .forest td { border-bottom: 0; } .forest tr.first td { border-top: 1px solid #d5d9de; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -134,7 +135,17 @@ StripScale strip_scale(const StripGrid& grid, std::size_t column) {
   const StripColumn& of = grid.columns[column];
   for (const std::optional<double>& x : {of.middle, of.spread_low, of.spread_high})
     if (x) hold(values, *x);
+  std::vector<double> widths;
+  for (const StripRow& row : grid.rows) {
+    const StripCell& cell = row.cells[column];
+    if (counts(cell) && cell.lower && cell.upper) widths.push_back(*cell.upper - *cell.lower);
+  }
   double range = values.upper - values.lower;
+  if (!widths.empty()) {
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>((widths.size() - 1) / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    range = std::max(range, *middle);
+  }
   if (!(range > 0.0)) range = values.lower == 0.0 ? 1.0 : 0.2 * std::abs(values.lower);
   StripScale scale = values;
   for (const StripRow& row : grid.rows) {

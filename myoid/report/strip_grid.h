@@ -11,8 +11,8 @@ struct StripScale {
 };
 
 /// Returns the scale of a column: the values, the field behind them and the intervals, these as far
-/// as one range of the values to either side. Values whose badge is neither `good` nor `weak` count
-/// only if there are no others.
+/// as one range of the values, or the (lower) median interval if that is wider, to either side.
+/// Values whose badge is neither `good` nor `weak` count only if there are no others.
 [[nodiscard]] StripScale strip_scale(const StripGrid& grid, std::size_t column);
 
 /// Returns strip plots as an HTML table: each person's mark with the 95 % interval on the column's

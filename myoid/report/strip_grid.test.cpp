@@ -43,6 +43,16 @@ TEST(StripGrid, TheScaleHoldsTheNumbersThatAreToldAndIntervalsAsFarAsThatRange) 
   EXPECT_DOUBLE_EQ(scale.upper, 300.0 + 5.0);
 }
 
+TEST(StripGrid, TheIntervalOfOnePersonIsOnTheScale) {
+  StripGrid grid = four();
+  grid.rows.resize(1);
+  grid.columns[0] = {.name = "BIC", .unit = "N"};
+  grid.rows[0].cells[0] = {.value = 0.0, .lower = -60.0, .upper = 60.0, .badge = Badge::good};
+  const StripScale scale = strip_scale(grid, 0);
+  EXPECT_LT(scale.lower, -60.0);
+  EXPECT_GT(scale.upper, 60.0);
+}
+
 TEST(StripGrid, OfNumbersThatNobodyToldTheScaleHoldsAll) {
   StripGrid grid = four();
   for (StripRow& row : grid.rows) row.cells[0].badge = Badge::none;

@@ -120,6 +120,10 @@ ordered_json muscle_json(const MovableMuscle& muscle) {
       row.push_back(number_or_null(muscle.correlation(r, c)));
     j["correlation"].push_back(row);
   }
+  if (muscle.draws.size() == 0) return j;
+  j["draws"] = {{"weight", packed_json(muscle.draw_weights)}, {"values", ordered_json::array()}};
+  for (Eigen::Index r = 0; r < muscle.draws.rows(); ++r)
+    j["draws"]["values"].push_back(packed_json(Eigen::VectorXd(muscle.draws.row(r))));
   return j;
 }
 

@@ -86,7 +86,9 @@ struct MovableMuscle {
   std::string name;
   std::vector<double> literature{}, identified{};  ///< In the order of Workbench::fields.
   std::vector<MovableNumber> numbers{};
-  Eigen::MatrixXd correlation{};  ///< Of the logarithms of `numbers`, after the recording.
+  Eigen::MatrixXd correlation{};   ///< Of the logarithms of `numbers`, after the recording.
+  Eigen::MatrixXd draws{};         ///< From a posterior: a row for each of `numbers`; else empty.
+  Eigen::VectorXd draw_weights{};  ///< Of its columns; they add to 1.
 };
 
 /// The values that a report shows over time. The page draws them and computes none of them; it

@@ -1,11 +1,13 @@
 #include "myoid/results/movable_muscles.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "myoid/identification/parameter_fields.h"
+#include "myoid/intervals/log_covariance.h"
 #include "myoid/report/typeset.h"
-#include "myoid/results/log_covariance.h"
 
 namespace myoid {
 namespace {
@@ -23,35 +25,62 @@ std::vector<std::string> field_names() {
   return names;
 }
 
+/// Draws of a muscle's numbers; a number that was held is the same in all. Of an unknown that
+/// several muscles share, the fit has the first one's value; the others keep their ratio to it.
+Eigen::MatrixXd draws_of(const IdentificationResult& fit,
+                         const std::vector<identification::MuscleSetup>& muscles,
+                         std::size_t m,
+                         const std::vector<report::MovableNumber>& numbers,
+                         const std::vector<std::string>& fields) {
+  Eigen::MatrixXd draws(static_cast<Eigen::Index>(numbers.size()), fit.draws.cols());
+  for (Eigen::Index k = 0; k < draws.rows(); ++k) {
+    const auto f = static_cast<std::size_t>(numbers[static_cast<std::size_t>(k)].field);
+    const double found = fit.values.muscles[m][f];
+    draws.row(k).setConstant(found);
+    const std::optional<Eigen::Index> row =
+        identification::unknown_of(fit, muscles[m].name, fields[f]);
+    if (!row || *row >= fit.draws.rows()) continue;
+    const std::string& label = fit.free_parameters[static_cast<std::size_t>(*row)];
+    const std::string first = label.substr(0, label.find_first_of("+."));
+    for (std::size_t owner = 0; owner < muscles.size(); ++owner)
+      if (muscles[owner].name == first)
+        draws.row(k) = found / fit.values.muscles[owner][f] * fit.draws.row(*row);
+  }
+  return draws;
+}
+
 report::MovableMuscle movable(const IdentificationResult& fit,
-                              const identification::MuscleSetup& setup,
+                              const std::vector<identification::MuscleSetup>& muscles,
                               std::size_t m,
                               const std::vector<std::string>& fields) {
+  const identification::MuscleSetup& setup = muscles[m];
   const identification::MuscleValues start =
       identification::muscle_values(setup.start, setup.extras);
   const identification::MuscleValues& found = fit.values.muscles[m];
   report::MovableMuscle muscle{
-      setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}, {}, {}};
+      setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
   std::vector<std::string> names;
   for (const int field :
        {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
     const auto f = static_cast<std::size_t>(field);
     names.push_back(fields[f]);
+    std::string verdict;
+    for (const identification::ParameterEstimate& e : fit.estimates) {
+      if (e.muscle != setup.name || e.parameter != fields[f]) continue;
+      verdict = report::spelled(identification::name(e.verdict));
+      if (e.prior_mean) muscle.literature[f] = *e.prior_mean;
+    }
     report::MovableNumber number{
         .field = field,
         .name = report::spelled(fields[f]),
         .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
-        .lower = 0.5 * std::min(start[f], found[f]),
-        .upper = 1.6 * std::max(start[f], found[f]),
+        .lower = 0.5 * std::min(muscle.literature[f], found[f]),
+        .upper = 1.6 * std::max(muscle.literature[f], found[f]),
         .sd_log = 0.0,
-        .verdict = ""};
-    for (const identification::ParameterEstimate& e : fit.estimates) {
-      if (e.muscle == setup.name && e.parameter == fields[f])
-        number.verdict = report::spelled(identification::name(e.verdict));
-    }
+        .verdict = std::move(verdict)};
     muscle.numbers.push_back(std::move(number));
   }
-  const Eigen::MatrixXd covariance = log_covariance(fit, setup.name, names);
+  const Eigen::MatrixXd covariance = identification::log_covariance(fit, setup.name, names);
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
@@ -59,6 +88,10 @@ report::MovableMuscle movable(const IdentificationResult& fit,
     for (Eigen::Index j = 0; j < sd.size(); ++j)
       if (i != j && sd[i] > 0.0 && sd[j] > 0.0)
         muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
+  }
+  if (fit.draws.size() > 0) {
+    muscle.draws = draws_of(fit, muscles, m, muscle.numbers, fields);
+    muscle.draw_weights = fit.draw_weights;
   }
   return muscle;
 }
@@ -70,7 +103,7 @@ void add_movable_muscles(const IdentificationResult& fit,
                          report::Workbench& workbench) {
   workbench.fields = field_names();
   for (std::size_t m = 0; m < muscles.size(); ++m)
-    workbench.muscles.push_back(movable(fit, muscles[m], m, workbench.fields));
+    workbench.muscles.push_back(movable(fit, muscles, m, workbench.fields));
 }
 
 }  // namespace myoid

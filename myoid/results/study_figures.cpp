@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/intervals/log_covariance.h"
 #include "myoid/muscle/hill_muscle.h"
-#include "myoid/results/log_covariance.h"
 
 namespace myoid {
 namespace {
@@ -149,10 +149,11 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   const auto& setup = result.fit_input.data.muscles[m];
   std::vector<std::string> names;
   for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
-  const MuscleVersions of{.literature = setup.start,
-                          .identified = method.muscles[m],
-                          .truth = true_muscle(result, setup),
-                          .log_covariance = log_covariance(method, setup.name, names)};
+  const MuscleVersions of{
+      .literature = setup.start,
+      .identified = method.muscles[m],
+      .truth = true_muscle(result, setup),
+      .log_covariance = identification::log_covariance(method, setup.name, names)};
   const VisitedRange range = visited(result.fit_input.data, m);
   Figure figure{"curves_" + setup.name,
                 fmt::format("{}: force-length and force-velocity relations", setup.name),

@@ -95,6 +95,25 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
+/// Names the numbers that may be used as they are: "max isometric force of BIC, TRI; delay".
+std::string identified_numbers(const IdentificationResult& fit) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> owners;
+  for (const ParameterEstimate& e : fit.estimates) {
+    if (identification::is_nuisance(e) || !e.tied_to.empty() || e.verdict != Verdict::identified)
+      continue;
+    auto of = std::find_if(owners.begin(), owners.end(),
+                           [&](const auto& entry) { return entry.first == e.parameter; });
+    if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
+    of->second.push_back(e.muscle);
+  }
+  std::vector<std::string> parts;
+  for (const auto& [parameter, muscles] : owners)
+    parts.push_back(fmt::format(
+        "{} of {}", report::spelled(parameter),
+        muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string headline(const StudyResult& result) {
   const IdentificationResult* best = method_of(result, "torque");
   if (best == nullptr) best = method_of(result, "force");
@@ -110,8 +129,11 @@ std::string headline(const StudyResult& result) {
   std::string text =
       sure == 0
           ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-          : fmt::format("This recording identifies {} of {} parameters", sure, total);
-  text += weak > 0 ? fmt::format("; {} more are known with a wide interval.", weak) : ".";
+          : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
+                        identified_numbers(*best));
+  text += ".";
+  if (weak > 0)
+    text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
   if (!result.folds.empty()) {
     std::vector<double> ours, theirs;
     for (const identification::Fold& f : result.folds) {
@@ -119,8 +141,8 @@ std::string headline(const StudyResult& result) {
       theirs.push_back(f.literature.r2());
     }
     text += fmt::format(
-        " Torque of {}s left out of the fit is predicted with a median R2 of {:.2f} "
-        "(literature's parameters with a best gain: {:.2f}).",
+        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is "
+        "perfect, the literature's muscles with a best gain reach {:.2f}).",
         choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
         math::median(std::move(theirs)));
   }

@@ -138,12 +138,23 @@ std::optional<Gate> support_gate(const StudyResult& result) {
 /// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers
 /// wrong.
 Gate recordings_gate(const StudyResult& result) {
-  std::set<std::string> codes;
+  std::map<std::string, std::vector<std::string>> places;  // by kind of fault
   std::size_t grave = 0;
   for (const Remark& fault : all_faults(result)) {
     if (fault.severity != Severity::warning) continue;
     ++grave;
-    codes.insert(report::spelled(name(fault.code)));
+    std::vector<std::string>& of = places[report::spelled(name(fault.code))];
+    const std::string place =
+        fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
+    if (std::find(of.begin(), of.end(), place) == of.end()) of.push_back(place);
+  }
+  std::vector<std::string> kinds;
+  for (auto& [kind, of] : places) {
+    constexpr std::size_t kMost = 3;
+    const std::string more =
+        of.size() > kMost ? fmt::format(" and {} more", of.size() - kMost) : "";
+    if (of.size() > kMost) of.resize(kMost);
+    kinds.push_back(fmt::format("{}: {}{}", kind, fmt::join(of, ", "), more));
   }
   std::size_t warnings = 0;
   std::vector<std::string> trials;
@@ -153,7 +164,7 @@ Gate recordings_gate(const StudyResult& result) {
     if (count > 0) trials.push_back(t.spec.name);
   }
   std::vector<std::string> found;
-  if (grave > 0) found.push_back(fmt::format("{} found: {}", grave, fmt::join(codes, ", ")));
+  if (grave > 0) found.push_back(fmt::format("{} found, {}", grave, fmt::join(kinds, "; ")));
   if (warnings > 0)
     found.push_back(fmt::format("{} warning{} about the files of {}", warnings,
                                 warnings == 1 ? "" : "s", fmt::join(trials, ", ")));

@@ -74,6 +74,20 @@ TEST(QualityGates, AWarningAboutAFileIsNoRecordingWithoutFaults) {
   EXPECT_EQ(section.tables[0].rows[0][3].text, result.trials[0].remarks[0].says);
 }
 
+TEST(QualityGates, AFaultNamesItsChannelAndTrial) {
+  StudyResult result = some_result(0.010, 0, 90.0);
+  Remark hum{.code = RemarkCode::emg_hum, .where = "slow"};
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) {
+    hum.about = channel;
+    result.trials[0].faults.push_back(hum);
+  }
+  for (const Gate& gate : quality_gates(result)) {
+    if (gate.name == "Recordings without faults") {
+      EXPECT_EQ(gate.value, "4 found, emg hum: BIC in slow, BRA in slow, BRD in slow and 1 more");
+    }
+  }
+}
+
 TEST(QualityGates, FramesWithoutAPoseAreACautionThenAFailure) {
   const char* gate = "Inverse kinematics converged";
   EXPECT_EQ(status_of(some_result(0.01, 0, 90.0), gate), GateStatus::pass);

@@ -224,7 +224,8 @@ std::vector<std::string> Browser::complaints() {
     if (method == "Network.requestWillBeSent") {
       const std::string url = event["params"]["request"].value("url", "");
       const std::string type = event["params"].value("type", "");
-      const bool own = url.starts_with("file:") && (type == "Document" || type == "Media");
+      const bool own = (url.starts_with("file:") && (type == "Document" || type == "Media")) ||
+                       url.starts_with("blob:");  // of the page's own memory
       if (!own && !url.starts_with("about:")) found.push_back("request of " + url);
     }
   }

@@ -7,10 +7,14 @@ import {
   LineSegments,
   Mesh,
   MeshPhongMaterial,
+  Quaternion,
   Vector3,
+  VertexColors,
 } from 'three';
+import { Balls } from './balls.js';
 import { MUSCLE, UNKNOWN, colorOf } from './colors.js';
-import { Tube, bone, cylinder, revolve, sphere, surface, torus } from './shapes.js';
+import { bone, cylinder, merged, placed, revolve, sphere, surface, torus } from './shapes.js';
+import { Tubes } from './tubes.js';
 
 const BONE = 0xe6dcc3;
 const CENTER = 0x8d99a6;
@@ -65,7 +69,7 @@ export class Figure {
   }
 
   showMuscle(index, visible) {
-    this.tubes[index].mesh.visible = visible;
+    this.tubes[index].visible = visible;
   }
 
   #added(parent, object) {
@@ -73,33 +77,37 @@ export class Figure {
     return object;
   }
 
+  /** All bones of a body are one surface; a body without a surface of its own has sticks. */
   #addBones() {
     const material = phong(BONE);
-    const centerMaterial = phong(CENTER);
-    const thinnest = 0.0025 * this.size;
     this.model.bodies.forEach((body, b) => {
-      for (const index of body.meshes) {
-        const mesh = this.#added(this.bodies[b], new Mesh(surface(this.meshes[index]), material));
-        mesh.castShadow = true;
-        this.parts.bones.push(mesh);
-      }
-      for (const [from, to] of body.meshes.length > 0 ? [] : body.sticks) {
-        const start = new Vector3().fromArray(from);
-        const along = new Vector3().fromArray(to).sub(start);
-        const length = along.length();
-        if (length < 4 * thinnest) continue;
-        const radius = Math.min(0.008 * this.size, Math.max(thinnest, 0.04 * length));
-        const mesh = this.#added(this.bodies[b], new Mesh(bone(radius, length), material));
-        mesh.position.copy(start);
-        mesh.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.normalize());
-        mesh.castShadow = true;
-        this.parts.bones.push(mesh);
-      }
-      if (b === 0 || body.mass === 0) return;
-      const ball = this.#added(this.bodies[b], new Mesh(sphere(0.0055 * this.size, 12), centerMaterial));
-      ball.position.fromArray(body.center);
-      this.parts.centers.push(ball);
+      const pieces = body.meshes.length > 0 ? body.meshes.map((index) => surface(this.meshes[index])) : body.sticks.flatMap((stick) => this.#stick(...stick));
+      if (pieces.length === 0) return;
+      const mesh = this.#added(this.bodies[b], new Mesh(merged(pieces), material));
+      mesh.castShadow = true;
+      this.parts.bones.push(mesh);
     });
+    this.heavy = this.model.bodies.flatMap((body, b) => (b > 0 && body.mass > 0 ? [b] : []));
+    this.centers = this.#addBalls('centers', this.heavy.length, 0.0055 * this.size, CENTER);
+  }
+
+  /** A bone between two points; none where they are too near. */
+  #stick(from, to) {
+    const thinnest = 0.0025 * this.size;
+    const start = this.point.fromArray(from);
+    const along = this.other.fromArray(to).sub(start);
+    const length = along.length();
+    if (length < 4 * thinnest) return [];
+    const radius = Math.min(0.008 * this.size, Math.max(thinnest, 0.04 * length));
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), along.normalize());
+    return [placed(bone(radius, length), start, turn)];
+  }
+
+  #addBalls(part, count, radius, color) {
+    if (count === 0) return null;
+    const balls = new Balls(count, radius, phong(color));
+    this.parts[part].push(this.#added(this.root, balls.mesh));
+    return balls;
   }
 
   #addSurfaces() {
@@ -119,36 +127,32 @@ export class Figure {
   }
 
   #addMuscles() {
-    const group = this.#added(this.root, new Group());
     const thick = Math.min(2, Math.max(1, Math.sqrt(40 / (this.model.muscles.length || 1))));
-    this.tubes = this.model.muscles.map((muscle, m) => {
+    const all = new Tubes(this.model.muscles.map((muscle, m) => {
       const k = this.trial.movingMuscles.indexOf(m);
-      const capacity = k >= 0 ? this.trial.mostPoints(k) : muscle.points.length;
       const strength = Math.min(2, Math.max(0.5, Math.sqrt(muscle.strength / 1000)));
-      const tube = new Tube(capacity, 0.0026 * this.size * thick * strength);
-      tube.mesh = this.#added(group, new Mesh(tube.geometry, phong(0xffffff)));
-      tube.mesh.frustumCulled = false;
-      tube.mesh.castShadow = true;
-      return tube;
-    });
-    if (this.tubes.length > 0) this.parts.muscles.push(group);
+      return { capacity: k >= 0 ? this.trial.mostPoints(k) : muscle.points.length, radius: 0.0026 * this.size * thick * strength };
+    }));
+    this.tubes = all.tubes;
+    if (this.tubes.length === 0) return;
+    const material = phong(0xffffff, { vertexColors: VertexColors });
+    // Light of its own keeps the color what it is in the legend, on the side of the shadow too.
+    material.onBeforeCompile = (shader) => {
+      shader.fragmentShader = shader.fragmentShader.replace('#include <emissivemap_fragment>', 'totalEmissiveRadiance = 0.3 * vColor;');
+    };
+    const mesh = this.#added(this.root, new Mesh(all.geometry, material));
+    mesh.frustumCulled = false;
+    mesh.castShadow = true;
+    this.parts.muscles.push(mesh);
   }
 
   #addMarkers() {
-    const geometry = sphere(0.0048 * this.size, 12);
-    const material = phong(MODEL_MARKER);
-    for (const marker of this.model.markers) {
-      const [body, ...place] = marker.point;
-      const mesh = this.#added(this.bodies[body], new Mesh(geometry, material));
-      mesh.position.fromArray(place);
-      this.parts.markers.push(mesh);
-    }
+    const radius = 0.0048 * this.size;
+    this.markers = this.#addBalls('markers', this.model.markers.length, radius, MODEL_MARKER);
     if (!this.trial.measured) return;
     const most = this.trial.measured.names.length;
-    const group = this.#added(this.root, new Group());
-    const measured = phong(MEASURED_MARKER);
-    this.measured = Array.from({ length: most }, () => this.#added(group, new Mesh(geometry, measured)));
-    this.parts.measured.push(group);
+    this.seen = this.#addBalls('measured', most, radius, MEASURED_MARKER);
+    this.measured = Array.from({ length: most }, () => ({ visible: false, position: new Vector3() }));
     const lines = new BufferGeometry();
     this.errorEnds = new BufferAttribute(new Float32Array(6 * most), 3);
     lines.setAttribute('position', this.errorEnds);
@@ -202,22 +206,30 @@ export class Figure {
       const tube = this.tubes[m];
       tube.update(trial.line(frame, k, this.point, (i, p) => tube.points[i].copy(p)));
     });
+    if (this.centers) this.centers.put(this.heavy.length, (k) => this.massCenter(this.heavy[k], this.point));
+    if (this.markers) this.markers.put(this.model.markers.length, (i) => this.markerPlace(i, this.point));
     if (this.measured) this.#poseMeasured(frame);
     this.#poseLoads(frame);
   }
 
   #poseMeasured(frame) {
     let ends = 0;
-    this.measured.forEach((mesh, i) => {
-      mesh.visible = this.trial.measuredPoint(frame, i, mesh.position);
+    this.measured.forEach((ball, i) => {
+      ball.visible = this.trial.measuredPoint(frame, i, ball.position);
       const marker = this.trial.measured.markers[i];
-      if (!mesh.visible || marker < 0) return;
+      if (!ball.visible || marker < 0) return;
       this.markerPlace(marker, this.point);
-      this.errorEnds.setXYZ(ends++, mesh.position.x, mesh.position.y, mesh.position.z);
+      this.errorEnds.setXYZ(ends++, ball.position.x, ball.position.y, ball.position.z);
       this.errorEnds.setXYZ(ends++, this.point.x, this.point.y, this.point.z);
     });
+    const seen = this.measured.filter((ball) => ball.visible);
+    if (this.seen) this.seen.put(seen.length, (i) => seen[i].position);
     this.errorEnds.needsUpdate = true;
     this.errors.geometry.setDrawRange(0, ends);
+  }
+
+  massCenter(body, result) {
+    return result.fromArray(this.model.bodies[body].center).applyMatrix4(this.bodies[body].matrixWorld);
   }
 
   markerPlace(marker, result) {
@@ -235,10 +247,8 @@ export class Figure {
   /** Colors every muscle; `values` as in Trial, or null for one color. */
   paint(values) {
     this.tubes.forEach((tube, m) => {
-      const { color, emissive } = tube.mesh.material;
-      color.setRGB(...this.muscleColor(values, m).map((c) => c / 255));
-      // Light of its own keeps the color what it is in the legend, on the side of the shadow too.
-      emissive.copy(color).multiplyScalar(m === this.highlighted ? 0.9 : 0.3);
+      const glow = m === this.highlighted ? 2 : 1;
+      tube.paint(...this.muscleColor(values, m).map((c) => (glow * c) / 255));
     });
   }
 
@@ -264,12 +274,10 @@ export class Figure {
   center(result) {
     let mass = 0;
     result.set(0, 0, 0);
-    this.model.bodies.forEach((body, b) => {
-      if (b === 0 || body.mass === 0) return;
-      this.point.fromArray(body.center).applyMatrix4(this.bodies[b].matrixWorld);
-      result.addScaledVector(this.point, body.mass);
-      mass += body.mass;
-    });
+    for (const b of this.heavy) {
+      result.addScaledVector(this.massCenter(b, this.point), this.model.bodies[b].mass);
+      mass += this.model.bodies[b].mass;
+    }
     return mass > 0 ? result.multiplyScalar(1 / mass) : result;
   }
 
@@ -277,9 +285,9 @@ export class Figure {
   points(visit) {
     this.model.bodies.forEach((body, b) => {
       const ends = [...body.sticks.flat(), ...body.meshes.flatMap((index) => extremes(this.meshes[index].vertices))];
-      if (b > 0 && body.mass > 0) ends.push(body.center);
       for (const p of ends) visit(this.point.fromArray(p).applyMatrix4(this.bodies[b].matrixWorld));
     });
+    for (const b of this.heavy) visit(this.massCenter(b, this.point));
     for (const tube of this.tubes) for (let i = 0; i < tube.count; ++i) visit(tube.points[i]);
     this.model.markers.forEach((_, i) => visit(this.markerPlace(i, this.point)));
   }
@@ -301,13 +309,8 @@ export class Figure {
     };
     if (visible('markers')) this.model.markers.forEach((_, i) => near('marker', i, this.markerPlace(i, this.other), 4));
     if (this.measured && visible('measured'))
-      this.measured.forEach((mesh, i) => mesh.visible && near('measured', i, mesh.position, 4));
-    if (visible('centers')) {
-      this.model.bodies.forEach((body, b) => {
-        if (b > 0 && body.mass > 0)
-          near('body', b, this.other.fromArray(body.center).applyMatrix4(this.bodies[b].matrixWorld), 1);
-      });
-    }
+      this.measured.forEach((ball, i) => ball.visible && near('measured', i, ball.position, 4));
+    if (visible('centers')) for (const b of this.heavy) near('body', b, this.massCenter(b, this.other), 1);
     const alongLine = (kind, index, points, bonus) => {
       let last = null;
       for (const point of points) {
@@ -317,7 +320,7 @@ export class Figure {
       }
     };
     if (visible('muscles'))
-      this.tubes.forEach((tube, m) => tube.mesh.visible && alongLine('muscle', m, tube.points.slice(0, tube.count), 2));
+      this.tubes.forEach((tube, m) => tube.visible && alongLine('muscle', m, tube.points.slice(0, tube.count), 2));
     if (visible('bones')) {
       this.model.bodies.forEach((body, b) => {
         for (const stick of body.sticks)

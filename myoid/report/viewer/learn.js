@@ -1,9 +1,10 @@
 // Learning by moving: a muscle's numbers as sliders; the torque follows.
+import { contours, ellipses } from './contours.js';
 import { el, select } from './element.js';
 import { tension } from './law.js';
 import { Plot } from './plot.js';
 import { reading } from './texts.js';
-import { text } from './series.js';
+import { numbers as unpacked, text } from './series.js';
 
 const SIDE = 250;
 const LEFT = 52;
@@ -21,6 +22,7 @@ export class Learn {
     this.map = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     this.map.setAttribute('role', 'img');
     this.pairs = el('span');
+    this.caption = el('p', { className: 'caption' });
     this.grid = el('div', { className: 'torques' });
     const back = el('button', { type: 'button', textContent: 'identified', title: 'Back to the identified numbers', onclick: () => this.open(this.muscle) });
     const literature = el('button', { type: 'button', textContent: 'literature', title: 'The literature’s numbers', onclick: () => this.set(this.muscles[this.muscle].literature) });
@@ -28,7 +30,7 @@ export class Learn {
       el('h3', { textContent: 'What if the muscle were another?' }),
       el('div', { className: 'learn-grid' },
         el('div', {}, el('div', { className: 'row' }, choose, back, literature), this.sliders, this.fit),
-        el('div', {}, el('div', { className: 'row' }, this.pairs), this.map), this.grid),
+        el('div', {}, el('div', { className: 'row' }, this.pairs), this.map, this.caption), this.grid),
       el('details', { className: 'reading' }, el('summary', { textContent: 'How to read this' }), reading('learn')));
     this.map.addEventListener('pointerdown', (event) => this.#drag(event));
     this.map.addEventListener('pointermove', (event) => event.buttons && this.#drag(event));
@@ -161,52 +163,49 @@ export class Learn {
     return sum.count ? { moved: Math.sqrt(sum.moved / sum.count), identified: Math.sqrt(sum.identified / sum.count) } : null;
   }
 
-  /** Ends of the map for a number: what the recording allows and the literature are in it. */
-  #ends(n) {
-    const m = this.muscles[this.muscle];
-    const at = m.identified[n.field];
-    const spread = Math.min(1, 3.2 * n.sd_log);
-    const known = [at * Math.exp(-spread), at * Math.exp(spread), m.literature[n.field]];
-    const margin = 0.12 * (Math.max(...known) - Math.min(...known) || at);
-    return [Math.max(n.lower, Math.min(...known) - margin), Math.min(n.upper, Math.max(...known) + margin)];
-  }
-
-  /** Place of a value pair on the map, in pixels. */
-  #place(values) {
-    const [a, b] = this.pair.map((k) => this.muscles[this.muscle].numbers[k]);
-    const share = (n) => {
-      const [lower, upper] = this.#ends(n);
-      return (values[n.field] - lower) / (upper - lower);
-    };
-    return [LEFT + share(a) * (SIDE - 8), 8 + (1 - share(b)) * (SIDE - 8)];
-  }
-
-  /** The contours of the posterior: normal in the logarithms. */
-  #map() {
+  /**
+   * What the recording allows of the pair of numbers: regions (contours.js), draws if there are any, and the ends of the
+   * map along both sides, in which the literature is, too.
+   */
+  get #allowed() {
+    const key = [this.muscle, ...this.pair].join();
+    if (this.allowed?.key === key) return this.allowed;
     const m = this.muscles[this.muscle];
     const [ka, kb] = this.pair;
-    const [a, b] = [m.numbers[ka], m.numbers[kb]];
+    const shares = [0.95, 0.5];
+    const draws = m.draws && [ka, kb].map((k) => unpacked(m.draws.values[k]).values);
+    const [a, b] = [ka, kb].map((k) => ({ value: m.identified[m.numbers[k].field], spread: m.numbers[k].sd_log }));
+    const regions = draws ? contours(...draws, unpacked(m.draws.weight).values, shares) : ellipses(a, b, m.correlation[ka][kb] || 0, shares);
+    const ends = [ka, kb].map((k, side) => {
+      const n = m.numbers[k];
+      const known = [m.identified[n.field], m.literature[n.field], ...regions.flat(2).map((point) => point[side])];
+      const [lower, upper] = [Math.min(...known), Math.max(...known)];
+      const margin = 0.12 * (upper - lower || lower);
+      return [Math.max(n.lower, lower - margin), Math.min(n.upper, upper + margin)];
+    });
+    return (this.allowed = { key, draws, regions, ends });
+  }
+
+  /** Place of a pair of numbers on the map, in pixels. */
+  place(pair) {
+    const [x, y] = this.#allowed.ends.map(([lower, upper], side) => (pair[side] - lower) / (upper - lower));
+    return [LEFT + x * (SIDE - 8), 8 + (1 - y) * (SIDE - 8)];
+  }
+
+  #map() {
+    const m = this.muscles[this.muscle];
+    const [a, b] = this.pair.map((k) => m.numbers[k]);
+    const { draws, regions, ends } = this.#allowed;
+    const at = (pair) => this.place(pair).map((p) => p.toFixed(1)).join(' ');
     let out = `<clipPath id="learn-clip"><rect x="${LEFT}" y="8" width="${SIDE - 8}" height="${SIDE - 8}"/></clipPath>` +
       `<rect x="${LEFT}" y="8" width="${SIDE - 8}" height="${SIDE - 8}" fill="#fff" stroke="#8a9097"/><g clip-path="url(#learn-clip)">`;
-    const r = m.correlation[ka][kb] || 0;
-    const known = a.sd_log > 0 && b.sd_log > 0;
-    for (const [radius, opacity] of known ? [[2.4477, 0.16], [1.1774, 0.3]] : []) {
-      let path = '';
-      for (let i = 0; i <= 72; ++i) {
-        const phi = (2 * Math.PI * i) / 72;
-        const u = radius * Math.cos(phi);
-        const w = radius * (r * Math.cos(phi) + Math.sqrt(Math.max(0, 1 - r * r)) * Math.sin(phi));
-        const values = [...m.identified];
-        values[a.field] *= Math.exp(u * a.sd_log);
-        values[b.field] *= Math.exp(w * b.sd_log);
-        const [x, y] = this.#place(values);
-        path += `${i ? 'L' : 'M'}${x.toFixed(1)} ${y.toFixed(1)}`;
-      }
-      out += `<path d="${path}Z" fill="#d1491b" fill-opacity="${opacity}" stroke="#d1491b"/>`;
-    }
+    if (draws)
+      out += `<path d="${Array.from(draws[0], (x, i) => `M${at([x, draws[1][i]])}h0`).join('')}" stroke="#d1491b" stroke-opacity="0.3" stroke-width="2" stroke-linecap="round"/>`;
+    for (const lines of regions)
+      out += `<path class="allowed" d="${lines.map((line) => `M${line.map(at).join('L')}Z`).join('')}" fill="#d1491b" fill-opacity="0.16" fill-rule="evenodd" stroke="#d1491b"/>`;
     const mark = (values, color, shape, title) => {
       // Beyond the map the mark stays at its edge.
-      const [x, y] = this.#place(values).map((p, k) => Math.max(k ? 14 : LEFT + 6, Math.min(k ? SIDE - 6 : LEFT + SIDE - 14, p)));
+      const [x, y] = this.place([a, b].map((n) => values[n.field])).map((p, k) => Math.max(k ? 14 : LEFT + 6, Math.min(k ? SIDE - 6 : LEFT + SIDE - 14, p)));
       return `<path transform="translate(${x.toFixed(1)} ${y.toFixed(1)})" d="${shape}" fill="none" stroke="${color}" stroke-width="2.2"><title>${title}</title></path>`;
     };
     out += mark(m.literature, '#6b6b6b', 'M-5 -5H5V5H-5Z', 'literature');
@@ -214,10 +213,8 @@ export class Learn {
     out += mark(this.values, '#7b2d8b', 'M-6 0a6 6 0 1 0 12 0a6 6 0 1 0 -12 0Z', 'moved');
     out += '</g>';
     const axis = (n) => `${n.name}${n.unit ? ` [${n.unit}]` : ''}`;
-    const ends = (n) => this.#ends(n).map((v) => Number(v.toPrecision(3)));
     const base = SIDE + 12;
-    const [a0, a1] = ends(a);
-    const [b0, b1] = ends(b);
+    const [[a0, a1], [b0, b1]] = ends.map((of) => of.map((v) => Number(v.toPrecision(3))));
     out += `<text x="${LEFT}" y="${base}">${a0}</text><text x="${LEFT + SIDE - 8}" y="${base}" text-anchor="end">${a1}</text>` +
       `<text x="${LEFT + SIDE / 2}" y="${base + 16}" text-anchor="middle">${axis(a)}</text>` +
       `<text x="${LEFT - 4}" y="${SIDE}" text-anchor="end">${b0}</text><text x="${LEFT - 4}" y="18" text-anchor="end">${b1}</text>` +
@@ -227,7 +224,10 @@ export class Learn {
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}`, 'font-size': 10, fill: '#22262b', 'font-family': 'Helvetica, Arial, sans-serif' }))
       this.map.setAttribute(name, value);
     this.map.innerHTML = out;
-    this.map.setAttribute('aria-label', `${a.name} and ${b.name} of ${m.name}: correlation ${text(r, 2)} after the recording.`);
+    this.map.setAttribute('aria-label', `${a.name} and ${b.name} of ${m.name}: correlation ${text(m.correlation[this.pair[0]][this.pair[1]] || 0, 2)} after the recording.`);
+    const kinds = draws ? `Points: ${draws[0].length} draws from the posterior. Contours: the 50 % and 95 % of them where they are densest.`
+      : 'Contours: 50 % and 95 % of a normal distribution of the logarithms, by standard errors and correlation of the least squares.';
+    this.caption.textContent = `□ literature, + identified, ○ where you are. ${regions.length ? kinds : 'One of the two numbers was held: there is no contour.'}`;
   }
 
   #drag(event) {
@@ -235,7 +235,7 @@ export class Learn {
     const numbers = this.pair.map((k) => this.muscles[this.muscle].numbers[k]);
     const shares = [(event.clientX - box.left - LEFT) / (SIDE - 8), 1 - (event.clientY - box.top - 8) / (SIDE - 8)];
     numbers.forEach((n, i) => {
-      const [lower, upper] = this.#ends(n);
+      const [lower, upper] = this.#allowed.ends[i];
       this.values[n.field] = lower + Math.max(0, Math.min(1, shares[i])) * (upper - lower);
     });
     this.update();

@@ -180,18 +180,29 @@ export class Plot {
     this.setCursor(this.cursor);
   }
 
-  #range() {
+  /** Least and greatest value of the curves that are shown. */
+  #ends(curves) {
     const [a, b] = this.shown;
     let lower = Infinity;
     let upper = -Infinity;
-    for (const c of this.curves) {
-      if (c.role === 'other' && this.curves.length > 1 && !c.own) continue;
+    for (const c of curves) {
       for (let i = 0; i < c.x.length; ++i) {
         if (c.x[i] < a || c.x[i] > b || !Number.isFinite(c.y[i])) continue;
         lower = Math.min(lower, c.y[i]);
         upper = Math.max(upper, c.upper ? c.upper[i] : c.y[i]);
       }
     }
+    return [lower, upper];
+  }
+
+  /** What the drawing covers: the literature's curve at most as far again as all others. */
+  #range() {
+    const all = this.curves.filter((c) => c.role !== 'other' || c.own || this.curves.length === 1);
+    let [lower, upper] = this.#ends(all.filter((c) => c.role !== 'literature'));
+    const reach = upper - lower;
+    const [least, most] = this.#ends(all.filter((c) => c.role === 'literature'));
+    if (!(lower <= upper)) [lower, upper] = [least, most];
+    else if (least <= most) [lower, upper] = [Math.max(lower - reach, Math.min(lower, least)), Math.min(upper + reach, Math.max(upper, most))];
     if (!(lower <= upper)) return [0, 1];
     const margin = 0.06 * (upper - lower || Math.abs(upper) || 1);
     return [lower >= 0 && lower < margin ? Math.min(0, lower) : lower - margin, upper + margin];

@@ -4,6 +4,7 @@ import { Vector3 } from 'three';
 import { Camera } from './camera.js';
 import { Trial, mesh } from './decode.js';
 import { Figure, PARTS } from './figure.js';
+import { Pace } from './pace.js';
 import { Stage } from './stage.js';
 
 const HIDDEN_AT_FIRST = new Set(['surfaces']);
@@ -16,6 +17,7 @@ export class Replay {
     this.visible = Object.fromEntries(PARTS.map(([part]) => [part, !HIDDEN_AT_FIRST.has(part)]));
     this.visible.ground = this.visible.axes = true;
     this.frame = 0;
+    this.drawnAt = this.ticked = -1;  // [ms]
     this.last = new Vector3();
     this.hovered = -1;
   }
@@ -27,6 +29,7 @@ export class Replay {
     this.camera = new Camera(canvas, this.up, () => (this.dirty = true));
     this.size = size(this.trials[0], this.meshes);
     this.stage = new Stage(canvas, this.camera.axes, this.size);
+    this.pace = new Pace((level) => this.stage.setLevel(level));
     this.openTrial(0);
     this.#resize();
     this.fit();
@@ -88,6 +91,12 @@ export class Replay {
     this.dirty = true;
   }
 
+  /** Chooses the frame that is drawn next. */
+  showFrame(frame) {
+    if (frame !== this.frame) this.dirty = true;
+    this.frame = frame;
+  }
+
   show(part, on) {
     this.visible[part] = on;
     if (part === 'ground') this.stage.ground.visible = on;
@@ -114,6 +123,19 @@ export class Replay {
     this.figure.pose(this.frame);
     const { center, radius } = ball(this.figure);
     this.camera.fit(center, radius);
+  }
+
+  /** At each frame of the screen: draws what changed, finely once it rests. */
+  tick(now) {
+    if (this.dirty) {
+      this.pace.move(now, this.drawnAt === this.ticked ? this.ticked : null);
+      this.draw();
+      this.drawnAt = now;
+    } else if (this.pace.isDue(now, this.drawnAt)) {
+      this.pace.rest();
+      this.draw();
+    }
+    this.ticked = now;
   }
 
   /** Draws the current frame. */

@@ -1,7 +1,7 @@
 // The report's sections below the workbench, folded on screen: what one asks for opens. Paper has everything.
 import { el } from './element.js';
 
-const OPEN = new Set(['numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next_recording']);
+const OPEN = new Set(['numbers', 'workbench', 'quality', 'recordings', 'parameters', 'next']);
 const LONG = 8;  // rows of a table that is not folded, at most
 
 function fold(box, heading, open) {
@@ -25,7 +25,25 @@ export function unfold(element) {
   }
 }
 
+/** Questions about the recording that were answered well open on request. */
+function foldAnswered(table) {
+  const rows = [...table.querySelectorAll('tbody tr')].filter((row) => row.querySelector('.badge.pass, .badge.info'));
+  if (rows.length < 3) return;
+  const body = el('tbody', {}, ...rows);
+  const button = el('button', { type: 'button', className: 'fold', textContent: `${rows.length} more: answered well` });
+  const head = el('tbody', { className: 'live-only' }, el('tr', {}, el('td', { colSpan: 5 }, button)));
+  const show = (on) => {
+    body.classList.toggle('answered', !on);
+    head.classList.toggle('closed', !on);
+    button.setAttribute('aria-expanded', on);
+  };
+  button.addEventListener('click', () => show(body.classList.contains('answered')));
+  table.append(head, body);
+  show(false);
+}
+
 export function foldSections() {
+  for (const table of document.querySelectorAll('.gates table')) foldAnswered(table);
   for (const section of document.querySelectorAll('main > section:not(#workbench)')) {
     for (const heading of [...section.querySelectorAll(':scope > h3')]) {
       const box = el('div');

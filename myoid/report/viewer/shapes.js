@@ -1,4 +1,4 @@
-// Geometries: surfaces of revolution, a torus, and tubes along changing lines.
+// Geometries: surfaces of revolution, a torus, and several surfaces as one.
 import { BufferAttribute, BufferGeometry, Vector3 } from 'three';
 
 /** Turns a profile [[radius, z], ...] about the z axis. */
@@ -47,14 +47,12 @@ export function torus(tube, ring) {
 /** A long bone along z from 0 to `length`, thicker at its ends; `radius` is that of its middle. */
 export function bone(radius, length) {
   const head = Math.min(0.1 * length, 3 * radius);
+  const ends = [0, 0.5, 1, 1.5, 2.2].map((heads) => heads * head);
   const profile = [[0, -0.9 * radius], [0.9 * radius, -0.7 * radius]];
-  for (let i = 0; i <= 24; ++i) {
-    const z = (length * i) / 24;
-    const end = Math.min(z, length - z);
-    profile.push([radius * (0.85 + 0.75 * Math.exp(-((end / head) ** 2))), z]);
-  }
+  for (const z of [...ends, ...ends.map((end) => length - end).reverse()])
+    profile.push([radius * (0.85 + 0.75 * Math.exp(-((Math.min(z, length - z) / head) ** 2))), z]);
   profile.push([0.9 * radius, length + 0.7 * radius], [0, length + 0.9 * radius]);
-  return revolve(profile, 16);
+  return revolve(profile, 12);
 }
 
 function grid(indices, rows, columns) {
@@ -84,102 +82,36 @@ export function surface({ vertices, corners }) {
   return geometry;
 }
 
-const SIDES = 8;
-
-/** A tube along a line of at most `capacity` points that may change from frame to frame. */
-export class Tube {
-  constructor(capacity, radius) {
-    this.radius = radius;
-    this.capacity = capacity;
-    this.points = Array.from({ length: capacity }, () => new Vector3());
-    this.count = 0;
-    this.geometry = new BufferGeometry();
-    // Every ring, and the middle of each end.
-    const vertices = capacity * SIDES + 2;
-    this.positions = new BufferAttribute(new Float32Array(3 * vertices), 3);
-    this.normals = new BufferAttribute(new Float32Array(3 * vertices), 3);
-    this.geometry.setAttribute('position', this.positions);
-    this.geometry.setAttribute('normal', this.normals);
-    this.tangent = new Vector3();
-    this.side = new Vector3();
-    this.other = new Vector3();
-    this.before = new Vector3();
-    this.after = new Vector3();
-  }
-
-  /** Draws the first `count` of `points`. */
-  update(count) {
-    if (count !== this.count) this.#index(count);
-    this.count = count;
-    if (count < 2) return;
-    this.#firstSide();
-    for (let i = 0; i < count; ++i) this.#ring(i);
-    this.#end(this.capacity * SIDES, 0, -1);
-    this.#end(this.capacity * SIDES + 1, count - 1, 1);
-    this.positions.needsUpdate = true;
-    this.normals.needsUpdate = true;
-  }
-
-  #index(count) {
-    const indices = [];
-    for (let i = 0; i + 1 < count; ++i) {
-      for (let s = 0; s < SIDES; ++s) {
-        const a = i * SIDES + s;
-        const b = i * SIDES + ((s + 1) % SIDES);
-        indices.push(a, b, b + SIDES, a, b + SIDES, a + SIDES);
-      }
-    }
-    const last = (count - 1) * SIDES;
-    for (let s = 0; s < SIDES && count > 1; ++s) {
-      const next = (s + 1) % SIDES;
-      indices.push(this.capacity * SIDES, next, s, this.capacity * SIDES + 1, last + s, last + next);
-    }
-    this.geometry.setIndex(indices);
-  }
-
-  /** Any direction across the first piece. */
-  #firstSide() {
-    this.#direction(0, this.tangent);
-    this.side.set(0, 0, 0);
-    const { x, y, z } = this.tangent;
-    const least = Math.abs(x) <= Math.abs(y) && Math.abs(x) <= Math.abs(z) ? 'x' : Math.abs(y) <= Math.abs(z) ? 'y' : 'z';
-    this.side[least] = 1;
-  }
-
-  /** Unit vector along the piece after point i; zero where two points coincide. */
-  #direction(i, result) {
-    return result.subVectors(this.points[i + 1], this.points[i]).normalize();
-  }
-
-  #ring(i) {
-    this.#direction(Math.max(0, i - 1), this.before);
-    this.#direction(Math.min(this.count - 2, i), this.after);
-    this.tangent.addVectors(this.before, this.after).normalize();
-    // The side is carried along and kept square to the line; at a corner the ring is a miter.
-    this.side.addScaledVector(this.tangent, -this.side.dot(this.tangent)).normalize();
-    this.other.crossVectors(this.tangent, this.side);
-    const bend = Math.max(0.5, this.tangent.dot(this.before));
-    const p = this.points[i];
-    for (let s = 0; s < SIDES; ++s) {
-      const angle = (2 * Math.PI * s) / SIDES;
-      const c = Math.cos(angle);
-      const d = Math.sin(angle);
-      const x = c * this.side.x + d * this.other.x;
-      const y = c * this.side.y + d * this.other.y;
-      const z = c * this.side.z + d * this.other.z;
-      const r = this.radius / Math.sqrt(bend);
-      this.positions.setXYZ(i * SIDES + s, p.x + r * x, p.y + r * y, p.z + r * z);
-      this.normals.setXYZ(i * SIDES + s, x, y, z);
+/** The surface turned about the origin and moved. */
+export function placed(geometry, place, turn) {
+  for (const [name, by] of [['position', place], ['normal', new Vector3()]]) {
+    const attribute = geometry.getAttribute(name);
+    const v = new Vector3();
+    for (let i = 0; i < attribute.count; ++i) {
+      v.fromBufferAttribute(attribute, i).applyQuaternion(turn).add(by);
+      attribute.setXYZ(i, v.x, v.y, v.z);
     }
   }
+  return geometry;
+}
 
-  /** A blunt tip beyond an end. */
-  #end(vertex, i, sign) {
-    this.#direction(sign < 0 ? 0 : this.count - 2, this.tangent).multiplyScalar(sign);
-    const p = this.points[i];
-    const r = 0.8 * this.radius;
-    const t = this.tangent;
-    this.positions.setXYZ(vertex, p.x + r * t.x, p.y + r * t.y, p.z + r * t.z);
-    this.normals.setXYZ(vertex, t.x, t.y, t.z);
+/** Several surfaces as one. */
+export function merged(geometries) {
+  const joined = (name, size) => {
+    const parts = geometries.map((g) => g.getAttribute(name).array);
+    const all = new Float32Array(parts.reduce((sum, p) => sum + p.length, 0));
+    parts.reduce((at, p) => (all.set(p, at), at + p.length), 0);
+    return new BufferAttribute(all, size);
+  };
+  const indices = [];
+  let first = 0;
+  for (const g of geometries) {
+    for (const i of g.index.array) indices.push(first + i);
+    first += g.getAttribute('position').count;
   }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', joined('position', 3));
+  geometry.setAttribute('normal', joined('normal', 3));
+  geometry.setIndex(indices);
+  return geometry;
 }

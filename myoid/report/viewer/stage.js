@@ -11,7 +11,7 @@ import {
   LineSegments,
   Mesh,
   MeshBasicMaterial,
-  PCFSoftShadowMap,
+  PCFShadowMap,
   Scene,
   ShadowMaterial,
   Vector3,
@@ -27,9 +27,10 @@ export class Stage {
   constructor(canvas, axes, size) {
     this.axes = axes;
     this.size = size;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    // Edges are smooth by more pixels than the screen has (pace.js), which a moving body can do without.
+    this.renderer = new WebGLRenderer({ canvas, antialias: false });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();
     this.scene.background = new Color(BACKGROUND);
     this.scene.fog = new Fog(BACKGROUND, 1, 2);
@@ -48,8 +49,8 @@ export class Stage {
     this.sunFrom = new Vector3().addScaledVector(up, 2).addScaledVector(forward, 0.9).addScaledVector(right, 0.8);
     this.sunFrom.multiplyScalar(this.size);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 4;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.radius = 2;
     const frame = this.sun.shadow.camera;
     frame.left = frame.bottom = -this.size;
     frame.right = frame.top = this.size;
@@ -96,6 +97,7 @@ export class Stage {
     shadow.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), up);
     shadow.position.copy(center).addScaledVector(up, height - center.dot(up) - 0.0005 * this.size);
     this.ground.add(shadow, grid);
+    this.shade = shadow;
   }
 
   /** x red, y green, z blue, from the origin of ground. */
@@ -115,11 +117,18 @@ export class Stage {
   }
 
   resize(width, height) {
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
     this.renderer.setSize(width, height, false);
   }
 
+  /** How finely the next pictures are drawn (pace.js). */
+  setLevel({ pixels, shadows }) {
+    this.renderer.setPixelRatio(pixels);
+    this.renderer.shadowMap.autoUpdate = shadows;
+    this.shadows = shadows;
+  }
+
   draw(camera) {
+    this.shade.visible = this.shadows;
     this.sun.target.position.copy(camera.target);
     this.sun.position.addVectors(camera.target, this.sunFrom);
     this.lamp.target.position.copy(camera.target);

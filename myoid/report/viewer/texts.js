@@ -56,8 +56,8 @@ const TEXTS = {
     'Point at a cell for its number, click to move the body there. A marker that is always far: wrong label or wrong place on the model.',
   ],
   learn: [
-    'The torque of this trial if one muscle’s numbers were others. The ellipse holds the pairs of numbers that the recording allows (inner 50 %, outer 95 %).',
-    'You can move far along the ellipse and the error of the torque hardly changes: this pair of numbers is not identifiable from this recording.',
+    'The torque of this trial if one muscle’s numbers were others. The contours hold the pairs of numbers that the recording allows (inner 50 %, outer 95 %).',
+    'You can move far along the contour and the error of the torque hardly changes: this pair of numbers is not identifiable from this recording.',
     'Use the combination that the recording knows, or record the movements that the section “What to record next” names.',
   ],
 };

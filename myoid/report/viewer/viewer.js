@@ -51,7 +51,7 @@ class Viewer extends Replay {
     const tick = (now) => {
       this.player.advance(Math.min(0.25, (now - last) / 1000));
       last = now;
-      if (this.dirty) this.draw();
+      this.tick(now);
       requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);

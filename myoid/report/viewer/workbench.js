@@ -99,13 +99,14 @@ export class Workbench {
     this.time = el('output', { className: 'time' });
     const speed = select('Speed', SPEEDS.map((s) => `${s} ×`), (i) => (this.speed = SPEEDS[i]));
     speed.value = SPEEDS.indexOf(1);
+    this.filming = button('Film', 'Save the body as a film (WebM), as fast as it is played', () => this.film());
     this.color = el('span');
     this.video = new Video(() => this.#sync());
     this.parts = el('details', { className: 'parts' });
     this.side = el('div', { className: 'left' }, this.stage, this.video.screen,
       el('div', { className: 'row' }, this.play, this.scrub), el('div', { className: 'row' }, this.time, speed, this.color),
       el('div', { className: 'row small' }, button('Picture', 'Save the body as a PNG picture', () => this.picture()),
-        button('Film', 'Save the trial as a film (WebM), as fast as it is played', () => this.film()), this.video.element, this.parts));
+        this.filming, this.video.element, this.parts));
     this.grid = el('div', { className: 'plots' });
     this.carpet = new Carpet(this.on);
     this.choice = el('details', { className: 'choice' });
@@ -168,7 +169,7 @@ export class Workbench {
     const { trial } = this;
     this.domain = trial.extent;
     this.view = null;
-    this.playing = false;
+    if (this.playing) this.toggle();
     const facts = [...trial.remarks, ...trial.marks.map((m) => m.text)];
     this.remarks.replaceChildren(el('b', { textContent: `${trial.name} (${trial.use})` }), facts.length ? ` ${facts.slice(0, 6).map(sentence).join(' ')}` : ' Nothing was found against this trial.');
     [this.scrub.min, this.scrub.max] = this.domain;
@@ -303,8 +304,7 @@ export class Workbench {
     let frame = '';
     if (this.replay && this.trial.scene >= 0) {
       const { times } = this.replay.trial;
-      this.replay.frame = this.replay.trial.frameAt(this.t - times[0]);
-      this.replay.dirty = true;
+      this.replay.showFrame(this.replay.trial.frameAt(this.t - times[0]));
       frame = ` · frame ${this.replay.frame + 1} of ${this.replay.trial.frames}`;
     }
     this.time.textContent = `${text(this.t, 3)} s${frame}`;
@@ -332,7 +332,9 @@ export class Workbench {
     if (this.playing && this.t >= this.domain[1] - 1e-6) this.seek(this.domain[0]);
     this.play.textContent = this.playing ? '❚❚' : '►';
     this.#sync();
-    if (!this.playing) this.#remember();
+    if (this.playing) return;
+    this.#endFilm();
+    this.#remember();
   }
 
   step(samples) {
@@ -349,10 +351,10 @@ export class Workbench {
       if (this.playing) {
         const [from, to] = this.view || this.domain;
         const next = this.t + this.speed * passed;
+        if (next > to) this.#endFilm();
         this.seek(next > to ? from : next);
       }
-      if (this.replay && this.replay.dirty && !this.canvas.hidden) this.replay.draw();
-      this.frames = (this.frames || 0) + 1;
+      if (this.replay && !this.canvas.hidden) this.replay.tick(now);
       requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
@@ -443,25 +445,37 @@ export class Workbench {
   }
 
   picture() {
+    this.replay?.pace.rest();
     this.replay?.draw();
     this.canvas.toBlob((blob) => blob && save(`${this.trial.name}_${text(this.t, 3)}s.png`, blob));
   }
 
-  /** Plays the trial once and saves what is seen. */
+  /** Plays what is shown once and saves the body as a film; again, or a pause: ends the film there. */
   film() {
-    if (!this.replay || typeof MediaRecorder === 'undefined') return;
-    const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: 'video/webm' });
+    if (this.recorder) return this.#endFilm();
+    const kind = ['webm', 'mp4'].find((name) => window.MediaRecorder?.isTypeSupported(`video/${name}`));
+    if (!this.replay || !kind) return;
     const parts = [];
+    const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: `video/${kind}` });
+    const name = `${this.trial.name}.${kind}`;
     recorder.ondataavailable = (event) => parts.push(event.data);
-    recorder.onstop = () => save(`${this.trial.name}.webm`, new Blob(parts, { type: 'video/webm' }));
-    const [from, to] = this.view || this.domain;
-    this.seek(from);
+    recorder.onstop = () => {
+      this.recorder = null;
+      this.replay.pace.held = false;
+      this.filming.textContent = 'Film';
+      if (this.playing) this.toggle();
+      save(name, new Blob(parts, { type: `video/${kind}` }));
+    };
+    this.recorder = recorder;
+    this.replay.pace.held = true;
+    this.filming.textContent = 'End film';
+    this.seek((this.view || this.domain)[0]);
     if (!this.playing) this.toggle();
     recorder.start();
-    setTimeout(() => {
-      recorder.stop();
-      if (this.playing) this.toggle();
-    }, (1000 * (to - from)) / this.speed);
+  }
+
+  #endFilm() {
+    if (this.recorder?.state === 'recording') this.recorder.stop();
   }
 }
 

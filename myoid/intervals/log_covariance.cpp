@@ -1,17 +1,26 @@
-#include "myoid/results/log_covariance.h"
+#include "myoid/intervals/log_covariance.h"
 
 #include <cmath>
-#include <optional>
-#include <string_view>
 
-namespace myoid {
+namespace myoid::identification {
 namespace {
 
-/// Returns the row of the covariance that is about this parameter of this muscle. A label is
-/// "BIC+BRA.max_isometric_force": its owners, then the parameter.
-std::optional<Eigen::Index> row_of(const identification::IdentificationResult& method,
-                                   std::string_view muscle,
-                                   std::string_view parameter) {
+/// Returns the reported standard error over the estimate; 0 without one.
+double relative_error(const IdentificationResult& method,
+                      std::string_view muscle,
+                      std::string_view parameter) {
+  for (const ParameterEstimate& e : method.estimates) {
+    if (e.muscle == muscle && e.parameter == parameter && e.std_error && e.estimate != 0.0)
+      return *e.std_error / std::abs(e.estimate);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::optional<Eigen::Index> unknown_of(const IdentificationResult& method,
+                                       std::string_view muscle,
+                                       std::string_view parameter) {
   for (std::size_t k = 0; k < method.free_parameters.size(); ++k) {
     const std::string_view label = method.free_parameters[k];
     const std::size_t dot = label.rfind('.');
@@ -27,20 +36,7 @@ std::optional<Eigen::Index> row_of(const identification::IdentificationResult& m
   return std::nullopt;
 }
 
-/// Returns the reported standard error over the estimate; 0 without one.
-double relative_error(const identification::IdentificationResult& method,
-                      std::string_view muscle,
-                      std::string_view parameter) {
-  for (const identification::ParameterEstimate& e : method.estimates) {
-    if (e.muscle == muscle && e.parameter == parameter && e.std_error && e.estimate != 0.0)
-      return *e.std_error / std::abs(e.estimate);
-  }
-  return 0.0;
-}
-
-}  // namespace
-
-Eigen::MatrixXd log_covariance(const identification::IdentificationResult& method,
+Eigen::MatrixXd log_covariance(const IdentificationResult& method,
                                const std::string& muscle,
                                const std::vector<std::string>& names) {
   const auto n = static_cast<Eigen::Index>(names.size());
@@ -49,7 +45,7 @@ Eigen::MatrixXd log_covariance(const identification::IdentificationResult& metho
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::string& name = names[static_cast<std::size_t>(i)];
     spread[i] = relative_error(method, muscle, name);
-    rows.push_back(row_of(method, muscle, name));
+    rows.push_back(unknown_of(method, muscle, name));
   }
   Eigen::MatrixXd covariance = spread.cwiseAbs2().asDiagonal();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -64,4 +60,4 @@ Eigen::MatrixXd log_covariance(const identification::IdentificationResult& metho
   return covariance;
 }
 
-}  // namespace myoid
+}  // namespace myoid::identification

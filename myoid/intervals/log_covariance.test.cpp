@@ -1,12 +1,12 @@
-#include "myoid/results/log_covariance.h"
+#include "myoid/intervals/log_covariance.h"
 
 #include <gtest/gtest.h>
 
-namespace myoid {
+namespace myoid::identification {
 namespace {
 
 TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
-  identification::IdentificationResult fit;
+  IdentificationResult fit;
   fit.free_parameters = {"BRA.optimal_fiber_length", "BIC.optimal_fiber_length",
                          "TRI+BIC.max_isometric_force"};
   fit.covariance = Eigen::Matrix3d::Identity();
@@ -14,7 +14,7 @@ TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
   fit.covariance(2, 2) = 9.0;
   fit.covariance(1, 2) = fit.covariance(2, 1) = 3.0;  // a correlation of 3 / (2 * 3)
   const auto add = [&](const char* name, double estimate, double error) {
-    identification::ParameterEstimate e;
+    ParameterEstimate e;
     e.muscle = "BIC";
     e.parameter = name;
     e.estimate = estimate;
@@ -37,4 +37,4 @@ TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
 }
 
 }  // namespace
-}  // namespace myoid
+}  // namespace myoid::identification
