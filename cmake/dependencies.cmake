@@ -40,7 +40,7 @@ target_include_directories(myoid_toml SYSTEM INTERFACE ${MYOID_TOMLPLUSPLUS_INCL
 # config names an MPI that is not needed. Static, as above, where they are.
 find_path(MYOID_SUNDIALS_INCLUDE cvodes/cvodes.h REQUIRED)
 add_library(myoid_sundials INTERFACE)
-target_include_directories(myoid_sundials SYSTEM INTERFACE ${MYOID_SUNDIALS_INCLUDE})
+target_include_directories(myoid_sundials SYSTEM INTERFACE $<BUILD_INTERFACE:${MYOID_SUNDIALS_INCLUDE}>)
 foreach(part cvodes nvecserial sunmatrixdense sunlinsoldense)
   find_library(MYOID_SUNDIALS_${part} NAMES libsundials_${part}.a sundials_${part} REQUIRED)
   target_link_libraries(myoid_sundials INTERFACE ${MYOID_SUNDIALS_${part}})

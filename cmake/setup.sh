@@ -12,10 +12,13 @@ MYOID_PACKAGES=(
   "libeigen3-dev:linear algebra" "libfmt-dev:text formatting" "libpugixml-dev:.osim files"
   "libtomlplusplus-dev:study files" "nlohmann-json3-dev:JSON results" "libcli11-dev:command line"
   "libtbb-dev:threads" "libssl-dev:SHA-256 of the inputs" "libceres-dev:ceres/jet.h (exact derivatives); test oracle"
-  "libsundials-dev:ODE integration" "libboost-dev:Sobol points and distribution functions (headers)"
+  "libboost-dev:Sobol points and distribution functions (headers)"
   "libjs-three:three.js, for pages with a moving model" "esbuild:bundles it with our viewer"
+  "libmatio-dev:MATLAB files (--mat)"
+)
+MYOID_TEST_PACKAGES=(
   "libgtest-dev:tests" "libgmock-dev:tests" "libbenchmark-dev:benchmarks"
-  "libsimbody-dev:test oracle of the multibody engine" "libmatio-dev:MATLAB files (--mat)"
+  "libsimbody-dev:test oracle of the multibody engine"
 )
 
 myoid_log() { printf '%s\n' "$*" >&2; }
@@ -24,11 +27,13 @@ myoid_as_root() {  # myoid_as_root COMMAND...
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-myoid_install_packages() {
+myoid_is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed'; }
+
+myoid_install_packages() {  # myoid_install_packages PACKAGE:REASON...
   local missing=() entry name
-  for entry in "${MYOID_PACKAGES[@]}"; do
+  for entry in "$@"; do
     name="${entry%%:*}"
-    if ! dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed'; then
+    if ! myoid_is_installed "$name"; then
       missing+=("$name")
       myoid_log "missing package: $name (${entry#*:})"
     fi
@@ -42,6 +47,21 @@ myoid_install_packages() {
   myoid_as_root apt-get update -qq >&2
   myoid_as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+}
+
+# CVODES, for stiff differential equations. Debian's libsundials-dev depends on 157 packages (116 MB: MPI, PETSc and
+# Fortran), of which the serial solver uses none. Where it is not installed, its headers and static libraries are
+# unpacked beside the build.
+myoid_unpack_sundials() {
+  local place="$MYOID_ROOT/build/sundials"
+  [ -f /usr/include/cvodes/cvodes.h ] && return 0
+  export CMAKE_PREFIX_PATH="$place/usr${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}"
+  [ -f "$place/usr/include/cvodes/cvodes.h" ] && return 0
+  myoid_log "Unpacking libsundials-dev (ODE integration) in $place"
+  mkdir -p "$place"
+  (cd "$place" && { apt-get download -qq libsundials-dev ||
+      { myoid_as_root apt-get update -qq && apt-get download -qq libsundials-dev; }; } &&
+    dpkg-deb -x libsundials-dev_*.deb . && rm libsundials-dev_*.deb) >&2
 }
 
 # The browser in which the pages with a moving model are tested (90 MB to fetch). Without it that
@@ -63,7 +83,7 @@ myoid_install_python() {
   local wanted=(pybind11-dev python3-dev python3-numpy python3-pandas python3-xarray python3-pytest python3-pip
                 python3-scipy) name missing=()
   for name in "${wanted[@]}"; do
-    dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
+    myoid_is_installed "$name" || missing+=("$name")
   done
   [ "${#missing[@]}" -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
@@ -100,10 +120,11 @@ myoid_install_clang() {
 
 myoid_build() {  # myoid_build [target...]
   myoid_log "Configuring and building in $MYOID_BUILD"
-  local log
+  local log tests=ON entry
+  for entry in "${MYOID_TEST_PACKAGES[@]}"; do myoid_is_installed "${entry%%:*}" || tests=OFF; done
   cd "$MYOID_ROOT"
   log="$(mktemp)"
-  if ! cmake --preset release >"$log" 2>&1; then cat "$log" >&2; exit 1; fi
+  if ! cmake --preset release -DMYOID_TESTS="$tests" >"$log" 2>&1; then cat "$log" >&2; exit 1; fi
   rm -f "$log"
   local targets=()
   [ "$#" -gt 0 ] && targets=(--target "$@")

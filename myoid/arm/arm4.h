@@ -38,7 +38,7 @@ struct Arm4Options {
 /// Shoulder coordinates (flexion, adduction, rotation) [rad] of the two planes of movement.
 [[nodiscard]] Vec3 arm4_shoulder_rad(bool horizontal);
 
-/// Where a held mass acts, in the frame of forearm_hand [m].
+/// Returns the point at which a held mass acts, in the frame of forearm_hand [m].
 [[nodiscard]] Vec3 arm4_held_at_m(const ArmOptions& options = {});
 
 }  // namespace myoid::model

@@ -9,7 +9,7 @@
 
 namespace myoid {
 
-/// How much a remark matters, worst first.
+/// The weight of a remark, worst first.
 enum class Severity {
   error,    ///< The input is refused.
   warning,  ///< A number may be wrong.

@@ -296,7 +296,7 @@ struct Demand {
   double up = 0.0, down = 0.0;      ///< Sums of (share capacity)² in either direction.
 };
 
-/// Whether a channel pulls in the direction of the movement.
+/// Returns true if a channel pulls in the direction of the movement.
 bool is_agonist(double capacity_nm, const MovementCourse& course) {
   return (capacity_nm > 0.0) == course.movement.positive;
 }

@@ -39,7 +39,8 @@ class OpensimMuscle {
                                       double length_m,
                                       double velocity_mps) const;
 
-  /// Whether the class's curves are known here; every other class takes Thelen's.
+  /// Returns true if this program has the curves of the muscle's class; other classes take
+  /// Thelen's.
   [[nodiscard]] bool has_own_curves() const { return own_curves_; }
   [[nodiscard]] const model::MuscleProperties& properties() const { return p_; }
 

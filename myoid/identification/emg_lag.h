@@ -4,7 +4,7 @@
 
 namespace myoid::identification {
 
-/// How a muscle follows its EMG.
+/// The law by which a muscle follows its EMG.
 enum class EmgLag {
   /// A pure delay d: a(t) = env(t - d).
   delay,
@@ -21,7 +21,7 @@ enum class EmgLag {
   return lag == EmgLag::delay ? "delay" : lag == EmgLag::shared ? "shared" : "equation_1";
 }
 
-/// What of a delay is what: a pure delay of 10 ms and the time constants of excitation, 40 ms,
+/// The parts of a shared delay: a pure delay of 10 ms and the time constants of excitation, 40 ms,
 /// activation, 15 ms, and deactivation, 50 ms (Winters 1990; Thelen 2003), divided by their sum of
 /// 82.5 ms, in which the last two count as their mean, since activity rises as often as it falls:
 /// the mean lag is d.

@@ -52,10 +52,10 @@ class Envelope {
   double rate_hz_ = 0.0;       ///< Of an even clock; 0: uneven.
 };
 
-/// What multiplies the relative spread of rectified EMG, `spread`, in the envelope from which the
-/// noise of the electrode has been taken as power, u^2 = m^2 - rest^2: du / u = (1 + (rest/u)^2)
-/// dm / m; root mean square over the samples from `from_s` to `to_s`, weighted by u^2. Where chance
-/// makes u, it stays below what chance makes. 1 if `rest` is 0.
+/// Returns the factor on the relative spread of rectified EMG, `spread`, in an envelope from which
+/// the noise of the electrode has been taken as power, u^2 = m^2 - rest^2: du / u = (1 +
+/// (rest/u)^2) dm / m; root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
+/// Where chance makes u, it stays below what chance makes. 1 if `rest` is 0.
 [[nodiscard]] double noise_gain(
     const Envelope& envelope, double from_s, double to_s, double rest, double spread);
 

@@ -17,7 +17,7 @@ constexpr Eigen::Index kOwnLag = 6;
 constexpr double kLogRange = 2.3;
 constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's, without its force
 
-/// Whether an unknown is this number of this owner.
+/// Returns true if one of the unknowns is this number of this owner.
 bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
   return std::any_of(map.free().begin(), map.free().end(),
                      [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });

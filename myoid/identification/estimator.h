@@ -10,7 +10,7 @@
 
 namespace myoid::identification {
 
-/// How much a sample counts: held within a pass of the search.
+/// The weights of the samples, which a pass of the search holds fixed.
 struct Weighting {
   Eigen::VectorXd sd_nm;  ///< Per sample.
   double share = 1.0;     ///< nu: effective over all samples.

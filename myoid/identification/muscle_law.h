@@ -78,7 +78,7 @@ struct Tension {
                               double velocity_mps,
                               const MuscleValues& values);
 
-/// Whether only the paper's law acts, the share, and an optimal length that changes with the
+/// Returns true if only the paper's law, the share and an optimal length act that changes with the
 /// activation: then `plain_tension` gives the same, sooner.
 [[nodiscard]] bool is_plain(const MuscleValues& values);
 

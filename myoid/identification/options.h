@@ -15,7 +15,7 @@
 
 namespace myoid::identification {
 
-/// How V_sh V_shl is found.
+/// The unknown by which the search finds V_sh V_shl.
 enum class Eccentric {
   automatic,    ///< By the slope ratio where a prior for it is given, else the product itself.
   product,      ///< P = V_sh V_shl.
@@ -62,7 +62,7 @@ enum class EstimatorKind {
 inline constexpr std::string_view kEstimatorNames[] = {"least_squares", "posterior"};
 constexpr ChoiceNames choice_names(EstimatorKind) { return kEstimatorNames; }
 
-/// How intervals are made beside the sandwich.
+/// Intervals beside those of the sandwich estimator.
 struct IntervalOptions {
   int bootstrap = 0;               ///< Replicates; 0: none.
   double bootstrap_block_s = 0.0;  ///< Blocks of this length [s]; 0: whole trials if there are at

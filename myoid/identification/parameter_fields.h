@@ -57,7 +57,7 @@ struct ParameterField {
 /// ParameterField::zero_by_nature of this name; false of a name that is none.
 [[nodiscard]] bool zero_by_nature(std::string_view parameter);
 
-/// Whether the parameter is a time constant of equation (1). Such a lag acts only with `dynamics`.
+/// Returns true for a time constant of equation (1). Such a lag acts only with `dynamics`.
 [[nodiscard]] bool is_lag(std::string_view parameter);
 
 /// All numbers of the model.

@@ -63,7 +63,7 @@ bool product_is_held(const MuscleSetup& setup) {
   return contains(setup.fixed, "eccentric_curvature_product");
 }
 
-/// Whether a muscle's number is an unknown unless the study says otherwise.
+/// Returns true if a muscle's number is an unknown unless the study says otherwise.
 bool usually_free(int field,
                   const MuscleSetup& setup,
                   const EstimatorOptions& options,

@@ -9,7 +9,7 @@
 
 namespace myoid {
 
-/// What moves in a trial: its coordinates, or the paths of the markers that are always there.
+/// Returns the motion of a trial: its coordinates, or the paths of the markers that never are lost.
 [[nodiscard]] TimeSeries movement_of(const TrialInput& input);
 
 /// Faults of a trial's EMG, of its clocks, and of what was found of its markers before they were

@@ -35,7 +35,7 @@ std::vector<PossibleSize> possible_sizes(bool any_errors) {
   return sizes;
 }
 
-/// Of every shape, whether a muscle's or a joint's.
+/// Returns the size of every shape: `muscle` for a muscle's, `joint` for a joint's.
 Eigen::VectorXd sizes_of(const std::vector<bool>& of_muscle, double muscle, double joint) {
   Eigen::VectorXd e(static_cast<Eigen::Index>(of_muscle.size()));
   for (std::size_t b = 0; b < of_muscle.size(); ++b)

@@ -39,7 +39,8 @@ struct ActiveMotion {
   /// From the shortest to the longest musculotendon length, each but for a tenth of a second [m].
   double length_span_m = 0.0;
 };
-/// Of every muscle over the calibration trials, the activation `delay_s` late.
+/// Returns the active motion of every muscle in the calibration trials; activation acts `delay_s`
+/// later.
 [[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);
 
 /// The motion in which alone a muscle's number acts, if the muscle never made it while active
@@ -55,7 +56,7 @@ struct ActiveMotion {
 /// |z - prior mean| / prior sd, of the logarithm where the solver has that.
 [[nodiscard]] double distance_from_prior(const Unknown& parameter, double z);
 
-/// Of each muscle that has free parameters of its own with priors, at the solver's numbers `z`.
+/// Returns one distance for each muscle that has free parameters with priors, at the numbers `z`.
 [[nodiscard]] std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
                                                          const Eigen::VectorXd& z,
                                                          const StudyData& data);
@@ -64,8 +65,8 @@ struct ActiveMotion {
 void add_distances_to(std::vector<std::string>& warnings,
                       const std::vector<PriorDistance>& distances);
 
-/// How the muscles follow their EMG, where the fit chose that (`shared_lag_gain`), and whether the
-/// recording tells: a sentence; empty where nothing was chosen.
+/// Says in a sentence which lag of the EMG the fit chose (`shared_lag_gain`), and whether the
+/// recording tells it from the other. Empty if the study set the lag.
 [[nodiscard]] std::string lag_remark(const IdentificationResult& result);
 
 /// The last `count` estimates are one unknown of several owners: they get one verdict, the worst

@@ -54,7 +54,7 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   const bool told = e.verdict == Verdict::weak || e.verdict == Verdict::identified;
   const bool peak_of_none = no_muscle && told && e.parameter == "optimal_fiber_length";
   if (peak_of_none) {
-    // Where the peak of a curve lies that is none says nothing, however narrow it is.
+    // No muscle has this curve: the place of its peak says nothing, however narrow its interval.
     e.verdict = Verdict::not_identifiable;
     e.reason = fmt::format(
         "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of "

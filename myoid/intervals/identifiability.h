@@ -9,7 +9,7 @@ void judge(ParameterEstimate& estimate,
            const VerdictContext& context,
            const VerdictRules& rules = {});
 
-/// How far apart two verdicts are from being usable: greater is worse.
+/// Returns the rank of a verdict among all: a greater one is worse.
 [[nodiscard]] int severity(Verdict verdict);
 
 /// |N(0, 1)| that is as improbable as a sum of squares of `count` of them that is this or more

@@ -50,7 +50,7 @@ std::string unit_text(Unit unit) {
   return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
 }
 
-/// How much the recording narrows the prior, in words.
+/// Says in words how much the recording narrows the prior.
 std::string narrowing(double shrinkage) {
   return shrinkage > VerdictRules{}.any_shrinkage
              ? fmt::format("the recording narrows it by only {:.0f} %", 100.0 * shrinkage)
@@ -218,7 +218,7 @@ Judgment delay_by_width(const ParameterEstimate& e,
           "the movements are too slow to show a delay"};
 }
 
-/// How well the number is known, in words.
+/// Says in words how well the number is known.
 std::string known_words(const ParameterEstimate& e, double relative) {
   if (is_none(e))
     return fmt::format("none to be seen, at most {:.2g}{}", half_width(e), unit_text(e.unit));

@@ -10,7 +10,7 @@
 
 namespace myoid::identification {
 
-/// Where the solver has V_sh, V_ml and the slope ratio S of a muscle; -1: not among the unknowns.
+/// Positions of V_sh, V_ml and the slope ratio S of a muscle among the unknowns; -1: not there.
 struct ProductPositions {
   Eigen::Index curvature = -1, plateau = -1, ratio = -1;
 };

@@ -20,7 +20,7 @@ constexpr int kMostSteps = 20;
 constexpr double kNear = 0.12;
 constexpr int kMostDistances = 8;
 
-/// Where the search for the constrained minimum stands.
+/// The point that the search for the constrained minimum has reached.
 struct Point {
   Eigen::VectorXd x, gradient;
   double cost = 0.0;

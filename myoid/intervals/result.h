@@ -59,7 +59,7 @@ struct ParameterEstimate {
   std::string reason;  ///< One sentence.
 };
 
-/// How well a trial is predicted.
+/// The prediction of one trial beside the measurement.
 struct TrialFit {
   std::string trial;
   std::string joint;  ///< Of the torque; the forces belong to the trial.
@@ -142,13 +142,13 @@ struct IdentificationResult {
   std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (force, torque).
   ModelValues values;          ///< All numbers of the model with the estimates (force, torque).
   EmgLag lag = EmgLag::delay;  ///< How the muscles follow their EMG.
-  /// By how much the data prefer `shared` to `delay`, as a difference of chi-squares, where it was
-  /// chosen by that.
+  /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it: the data
+  /// prefer `shared` where it is positive.
   std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (torque).
-  /// Of the free parameters in the solver's scale (logarithms where logarithmic), given the slack
-  /// lengths of the tendons. Standard errors and intervals add the uncertainty of these
+  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic), for
+  /// given slack lengths of the tendons. Standard errors and intervals add the uncertainty of these
   /// (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Its rows.

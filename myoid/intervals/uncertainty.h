@@ -25,16 +25,16 @@ struct Sandwich {
   std::optional<Eigen::MatrixXd> jackknife;  ///< (K - 1)/K sum of those shifts squared, and the
                                              ///< prior's share as in the other two; with at least
                                              ///< 5 trials.
-  /// By how much chance alone makes an interval too wide or too narrow, as the standard deviation
-  /// of the logarithm of its width: of the sums over trials, and of the jackknife, by parameter,
-  /// the more so the fewer trials speak of it (Satterthwaite 1946) ...
+  /// Standard deviations of the logarithm of an interval's width by chance alone, from the sums
+  /// over trials and from the jackknife, by parameter. They grow as fewer trials tell of the
+  /// parameter (Satterthwaite 1946) ...
   Eigen::VectorXd trial_spread;
   double sample_spread = 0.0;   ///< ... and of Newey and West's, with its triangle of lags.
   Eigen::MatrixXd model_based;  ///< A^-1
   Eigen::MatrixXd information;  ///< Of the data alone, nu J'WJ.
-  /// By how much the estimates move where the variance of the EMG's noise is larger by its own
-  /// spread (NoiseLevel::log_variance_sd): the more, the less the data tell muscles from what is
-  /// not noisy.
+  /// Change of the estimates if the variance of the EMG's noise is larger by its own spread
+  /// (NoiseLevel::log_variance_sd). It is large if the data hardly tell the muscles from quantities
+  /// without noise.
   Eigen::VectorXd by_noise;
   int rank = 0;                  ///< Of the data with unit columns, tolerance 1e-7.
   double condition = 0.0;        ///< Of J with unit columns.

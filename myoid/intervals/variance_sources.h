@@ -5,7 +5,7 @@
 
 namespace myoid::identification {
 
-/// Where an uncertainty comes from.
+/// The origins of an uncertainty.
 enum class Source { noise, literature, geometry, electrodes, torque_scale, model };
 inline constexpr int kSourceCount = 6;
 

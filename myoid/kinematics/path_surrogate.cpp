@@ -404,7 +404,7 @@ std::vector<int> acting_coordinates(const model::BodyModel& model, const model::
     acting.insert(model.joints[j].coordinates.begin(), model.joints[j].coordinates.end());
   }
   acting.erase(-1);
-  // What depends on another coordinate is replaced by it, along chains of couplers.
+  // A dependent coordinate is replaced by the one that it depends on, along chains of couplers.
   for (std::size_t pass = 0; pass < model.couplers.size(); ++pass) {
     for (const model::CoordinateCoupler& k : model.couplers) {
       if (acting.erase(k.dependent) > 0) acting.insert(k.independent);

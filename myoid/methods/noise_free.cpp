@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStarts = 12;
 constexpr Eigen::Index kFewSamples = 500, kSamplesAnUnknown = 10;
-/// Of the data's sum of squares: a search that settles above it is at no minimum without residuals.
+/// A search that ends above this share of the data's sum of squares has left residuals.
 constexpr double kNear = 1e-4;
 constexpr double kMet = 1e-12;
 constexpr double kLeast = 10.0;  ///< Samples that even a short trial keeps.

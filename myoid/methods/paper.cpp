@@ -74,7 +74,7 @@ struct CaseFit {
   [[nodiscard]] Eigen::Index size() const {
     return static_cast<Eigen::Index>(samples.unknowns.size());
   }
-  /// Where an unknown is in x, or -1 if it is held.
+  /// Returns the position of an unknown in x, or -1 if it is held.
   [[nodiscard]] Eigen::Index position(std::string_view name) const {
     const std::vector<const muscle::HillField*>& list = samples.unknowns;
     const auto it = std::find_if(list.begin(), list.end(),

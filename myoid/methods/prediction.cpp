@@ -139,7 +139,7 @@ Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::Matrix
   return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
 }
 
-/// What a joint's own torque changes by with one of its numbers; empty without motion.
+/// Returns the derivative of a joint's own torque by one of its numbers; empty without motion.
 Eigen::VectorXd by_joint_field(const TrialData& trial, int field) {
   const Eigen::Index n = trial.time_s.size();
   if (field == kOffset) return Eigen::VectorXd::Ones(n);

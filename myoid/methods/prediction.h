@@ -44,7 +44,7 @@ struct Prediction {
 /// The standard deviation of a force is that of the parameters.
 class TrialPredictions {
  public:
-  /// Of `fit` it needs `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
+  /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
   /// `envelope_variance` and `noise`. Without a finite covariance there are no standard deviations.
   /// References must outlive it.
   TrialPredictions(const StudyData& data,

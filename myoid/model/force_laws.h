@@ -117,7 +117,7 @@ struct Contact {
   double radius_m = 0.0;
   Pose X_BO;                               ///< The half-space's frame, or the other's center.
   std::optional<double> other_radius_m{};  ///< Radius of another sphere; empty for a half-space.
-  /// Of the sphere and of the other: modulus [N/m^2], dissipation [s/m], coefficients of friction
+  /// A material has a modulus [N/m^2], a dissipation [s/m] and coefficients of friction
   /// (static, dynamic and viscous [s/m]).
   struct Material {
     double stiffness = 0.0, dissipation = 0.0;

@@ -55,7 +55,7 @@ class Sweep {
   PathResult result_;
 };
 
-/// By how much the length differs from what the arms at both ends say.
+/// Returns the difference of the length from the integral of the arms at both ends.
 double excess(const Sweep::Point& a, const Sweep::Point& b) {
   return std::abs(b.length_m - a.length_m + 0.5 * (a.arm_m + b.arm_m) * (b.q - a.q));
 }

@@ -8,7 +8,7 @@
 
 namespace myoid::muscle {
 
-/// How activation follows excitation.
+/// The law by which activation follows excitation.
 enum class ActivationLaw {
   envelope,   ///< a = u: the envelope is the activation, as in the source paper's experiment.
   two_lags,   ///< u -> e -> a, the source paper's equation (1).

@@ -60,7 +60,7 @@ Reach<T> reach(const Musculotendon<T>& unit, const T& l) {
   return {along + (l - shortest) / cosine, cosine};
 }
 
-/// How far the fiber is below its shortest length, over l0: negative, or 0.
+/// Returns the length of the fiber minus its shortest, over l0: negative, or 0 above the shortest.
 template <typename T>
 T squeeze(const Musculotendon<T>& unit, const T& l) {
   if (!(value_of(l) < value_of(unit.shortest_fiber_m()))) return T(0.0);
@@ -111,7 +111,7 @@ void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, 
   }
 }
 
-/// How much of an instant to find: the part that an integrator needs, or all of it.
+/// The part of an instant to compute: what an integrator needs, or all of it.
 enum class Depth { rate, all };
 
 /// The equilibrium's velocity, with its derivatives: one Newton step in T from the solution in

@@ -57,7 +57,7 @@ class ThelenPassive {
   T rate_, scale_;
 };
 
-/// Where the toe of Thelen's tendon ends, as a share of e0, 99 e^3 / (166 e^3 - 67) = 0.6091, and
+/// End of the toe of Thelen's tendon as a share of e0, 99 e^3 / (166 e^3 - 67) = 0.6091, and
 /// the slope beyond, 0.67 / (1 - that) [F_max / e0]: the exact values of his rounded 0.609
 /// and 1.712, which make the curve pass 1 at e0 with a continuous slope.
 inline const double kThelenToeShare = 99.0 * std::exp(3.0) / (166.0 * std::exp(3.0) - 67.0);

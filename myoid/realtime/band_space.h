@@ -25,7 +25,7 @@ class BandSpace {
             const std::vector<std::vector<Eigen::Index>>& variables,
             std::size_t joints);
 
-  /// Where the slopes of a block go, in the order of its unknowns.
+  /// Returns the place for the slopes of a block, in the order of its unknowns.
   [[nodiscard]] double* slopes_of(std::size_t block) { return slopes_.data() + first_[block]; }
   Eigen::MatrixXd arms;  ///< Blocks x joints: moment arms [m]; of a joint's own block 1 or 0.
 

@@ -24,7 +24,7 @@ namespace myoid {
 /// arms r are polynomials of the angles (kinematics::PathSurrogate). A value that does not change:
 /// several threads may use one predictor, each with a workspace of its own.
 struct Predictor {
-  /// How an unknown of the fit moves a number of the model: d number / d unknown.
+  /// The derivative of a number of the model by an unknown of the fit.
   struct Chain {
     int field = 0;
     Eigen::Index variable = 0;

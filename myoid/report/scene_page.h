@@ -23,7 +23,7 @@ struct ScenePage {
 /// Throws InvalidInput as `scene_page` for meshes.
 [[nodiscard]] std::string scenes_json(const ScenePage& page);
 
-/// Whether this build includes the viewer that `scene_page` needs.
+/// Returns true if this build includes the viewer that `scene_page` needs.
 [[nodiscard]] bool has_viewer();
 
 }  // namespace myoid::report

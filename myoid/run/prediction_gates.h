@@ -10,8 +10,8 @@
 
 namespace myoid {
 
-/// How much of a torque a prediction makes, of several trials and joints together, both below the
-/// fit's own cut-off:
+/// The share of the torque that a prediction explains, over several trials and joints, both below
+/// the fit's own cut-off:
 ///
 ///   R2 = 1 - (rms / spread)^2
 ///

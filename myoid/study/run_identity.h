@@ -21,10 +21,10 @@ struct RunIdentity {
   std::vector<std::string> coordinates, muscles;
 };
 
-/// Of a study. Throws ReadError if its model's file cannot be read.
+/// Returns the identity of a study. Throws ReadError if its model's file cannot be read.
 [[nodiscard]] RunIdentity identity_of(const Study& study);
 
-/// Of a folder's parameters.json. Throws ReadError if there is none.
+/// Returns the identity of a folder's parameters.json. Throws ReadError if there is none.
 [[nodiscard]] RunIdentity read_run_identity(const std::filesystem::path& folder);
 
 struct IdentityDifferences {

@@ -25,9 +25,9 @@ inline constexpr char kUpOfTheFile = 'a';
 /// The rotation that brings `up_L`, along an axis and either way, onto `model_up`.
 [[nodiscard]] Mat3 rotation_onto(const model::BodyModel& model, const Vec3& up_L);
 
-/// How well the model's markers, at its default pose, lie on the first complete frame when `up`
-/// points up: cosine of the angle between its vertical and the laboratory's; empty if fewer than
-/// four markers are known.
+/// Returns the cosine of the angle between `up` and the vertical of the model, whose markers at
+/// its default pose are laid on the first complete frame; empty if fewer than four markers are
+/// known.
 [[nodiscard]] std::optional<double> upright(const model::BodyModel& model,
                                             const recording::MarkerSeries& markers,
                                             const Vec3& up_L);

@@ -10,7 +10,7 @@
 
 namespace myoid::twin {
 
-/// Where a trial takes place.
+/// The plane in which a trial takes place, and the mass in the hand.
 struct Surroundings {
   Plane plane = Plane::vertical;
   double held_mass_kg = 0.0;
@@ -57,9 +57,9 @@ class ArmStepper {
   /// F_max of each head is this times that of the fresh muscle.
   void set_strength(const PerHead& share) { strength_ = share; }
 
-  /// What a nervous system might know of its muscles: torques about the elbow in a motion if the
-  /// tendons were stretched as at a tenth of F_max and the optimum were that of an activation of
-  /// 0.2.
+  /// Torques that a nervous system may expect of its muscles: those about the elbow in a motion if
+  /// the tendons were stretched as at a tenth of F_max and the optimum were that of an activation
+  /// of 0.2.
   struct Foresight {
     PerHead capacity_nm{};    ///< Of each head at full activation; signed.
     double passive_nm = 0.0;  ///< Of the muscles without activation.

@@ -23,10 +23,10 @@ inline constexpr double kStrengthSd = 0.15;       ///< The muscle's own.
                                    const HillSet& literature,
                                    simulation::Random& random);
 
-/// What of a person at L0 and L1 is in the fitted model beside the muscles' parameters.
+/// The parameters of a person at L0 and L1 that the fitted model has beside those of the muscles.
 struct BesideMuscles {
   double length_activation = 0.0;  ///< gamma of l_0 (1 + gamma (1 - a)), of all muscles.
-  /// Of the joint: torque_nm - stiffness q - viscosity qdot, beside the muscles'.
+  /// The joint's own torque is torque_nm - stiffness q - viscosity qdot.
   double joint_torque_nm = 0.0, joint_stiffness_nm_per_rad = 0.0, joint_viscosity_nms_per_rad = 0.0;
   PerMuscle emg_exponent = {1.0, 1.0, 1.0, 1.0};
 };

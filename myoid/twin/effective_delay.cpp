@@ -14,10 +14,10 @@ constexpr double kLongest_s = 0.25;
 constexpr double kDelayStep_s = 0.005;
 constexpr auto kCount = static_cast<std::size_t>(kLongest_s / kDelayStep_s + 0.5) + 1;
 constexpr double kRate_hz = 25.0;
-/// What makes a sample count less in a fit: noise of the torque, and of the EMG relative to it.
+/// Noise that lowers the weight of a sample: of the torque, and of the EMG relative to its value.
 constexpr double kTorqueSd_nm = 0.3, kEmgSd = 0.14;
 
-/// What every muscle makes unexcited: torque and viscosity over the joint's range, in steps of 2.5
+/// Torque and viscosity of every unexcited muscle over the joint's range, in steps of 2.5
 /// degrees.
 class RestingCurves {
  public:
@@ -55,7 +55,7 @@ struct Sums {
   [[nodiscard]] double left() const { return xx > 0.0 ? yy - xy * xy / xx : yy; }
 };
 
-/// Where there are contractions of a `held` joint they alone tell: in a movement every error of the
+/// Contractions of a `held` joint, if there are any, alone count: in a movement every error of the
 /// force-length and force-velocity curves shifts the torque, too.
 bool counts(TrialKind kind, bool held) {
   if (held) return kind == TrialKind::isometric_ramp;

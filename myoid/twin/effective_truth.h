@@ -23,7 +23,7 @@ namespace myoid::twin {
                                         const VirtualArm& modelled,
                                         PerMuscle* misfit = nullptr);
 
-/// What the heads of a muscle make at this angle and speed while nothing excites them [N m].
+/// Returns the torque of a muscle's unexcited heads at this angle and speed [N m].
 [[nodiscard]] double resting_torque_nm(const TrueArm& person,
                                        std::size_t muscle,
                                        double elbow_flexion_rad,

@@ -27,7 +27,7 @@ constexpr double kShortestDropout_s = 0.03;
 constexpr double kLongestDropout_s = 0.30;
 constexpr double kMostOffsetSd = 3.0;
 
-/// What an instrument shows of a value: a multiple of its resolution.
+/// Rounds values to multiples of the resolution of an instrument.
 template <typename Derived>
 void quantize(Eigen::MatrixBase<Derived>& values, double per_unit) {
   values = (values * per_unit).array().round().matrix() / per_unit;
@@ -83,7 +83,7 @@ Eigen::VectorXd stretched(const Eigen::VectorXd& values,
   return result;
 }
 
-/// What a muscle does, on the clock of kEnvelopeRate_hz from `first_s`.
+/// The activity of a muscle, on the clock of kEnvelopeRate_hz from `first_s`.
 struct Source {
   Eigen::VectorXd amplitude;   ///< Rms of its signal, of the greatest.
   Eigen::VectorXd excitation;  ///< 0..1
@@ -345,7 +345,7 @@ TimeSeries record_emg(const Protocol& protocol,
     const double gain = (1.0 + kColdGain * script.cold(t)) * script.emg_gain(t);
     for (std::size_t m = 0; m < 4; ++m) {
       const double p = instruments.exponent[m];
-      // Where an effort begins its level is 0 but for round-off of either sign.
+      // At the beginning of an effort its level is 0 but for round-off of either sign.
       sources[m].amplitude(k) = gain * (p == 1.0 ? u[m] : std::pow(std::max(u[m], 0.0), 1.0 / p));
       sources[m].excitation(k) = u[m];
       sources[m].fatigued(k) = fatigued[m];

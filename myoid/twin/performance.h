@@ -18,7 +18,7 @@ namespace myoid::twin {
 
 inline constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
 
-/// What happens at one instant of a trial.
+/// The state of the person at one instant of a trial.
 struct Instant {
   Moment q;                         ///< Elbow flexion.
   PerMuscle activation{};           ///< What the muscle does; of heads, the mean by strength.
@@ -75,7 +75,7 @@ struct Tiredness {
     for (std::size_t i = 0; i < N; ++i)
       state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
   }
-  /// What was active relaxes; then M_F decays with the rate r R.
+  /// Active muscle relaxes first; then M_F decays with the rate r R.
   void rest(double interval_s);
 };
 extern template struct Tiredness<4>;

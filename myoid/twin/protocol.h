@@ -9,7 +9,7 @@
 
 namespace myoid::twin {
 
-/// How far the virtual recording departs from what is fitted to it.
+/// The distance of the virtual recording from the model that is fitted to it.
 enum class Level {
   noise_free,  ///< "L0": same model, exact activations and markers; for verification.
   noisy,       ///< "L1": same model; raw EMG and measurement noise.
@@ -18,7 +18,7 @@ enum class Level {
 };
 [[nodiscard]] std::string_view name(Level level);
 
-/// What a trial of the virtual experiment consists of.
+/// The task of a trial of the virtual experiment.
 enum class TrialKind {
   flexion,         ///< Sinusoidal flexion and extension.
   eccentric,       ///< A held mass is raised and lowered slowly.
@@ -54,7 +54,7 @@ struct SensorTruth {
   double torque_offset_nm = 0.0;
 };
 
-/// Where the true muscle parameters come from.
+/// The origin of the true muscle parameters.
 struct TruthSpec {
   double spread = 1.0;  ///< In standard deviations of the prior about the literature value.
   /// Names of the parameters that differ from the literature.
@@ -80,7 +80,7 @@ struct TruthSpec {
   SensorTruth sensors;
 };
 
-/// How the virtual person shares the effort.
+/// The rule by which the virtual person shares the effort.
 struct ControlSpec {
   double co_contraction_min = 0.02;  ///< Of the antagonist, a share of the greatest activation.
   double co_contraction_max = 0.15;
@@ -92,9 +92,10 @@ struct ControlSpec {
   double brachialis_synergy = 0.0;
   /// Relative standard deviation of each muscle's drive below 3 Hz that nobody intends. L2 only.
   double motor_noise = 0.08;
-  /// How unevenly people move, 1: as people do; 0: as machines. Swings come early and late by up to
-  /// a quarter of a radian; lifts last some 10 % more or less and end some 2 degrees off, and slow
-  /// ones are made of several movements; the antagonist comes and goes with the movement. L2: 1.
+  /// Unevenness of the movements, 1: as of people; 0: as of machines. Swings come early and late by
+  /// up to a quarter of a radian; lifts last some 10 % more or less and end some 2 degrees off, and
+  /// slow ones are made of several movements; the antagonist comes and goes with the movement.
+  /// L2: 1.
   double irregularity = 0.0;
 };
 
@@ -141,8 +142,8 @@ struct EmgNoise {
   double effort_max = 1.0;
   double exponent_min = 1.0;  ///< p: excitation = (rms / greatest rms)^p; 1 to 1.5.
   double exponent_max = 1.0;
-  /// Of Shwedyk's frequencies: what muscle fibers and the tissue between them and the electrode
-  /// make of them; 0.6 to 1.2.
+  /// Least factor on Shwedyk's frequencies, which muscle fibers and the tissue between them and the
+  /// electrode lower or raise; 0.6 to 1.2.
   double spectrum_min = 1.0;
   double spectrum_max = 1.0;
   /// Motor units that the electrode sees: few of them make single spikes. 0: Gaussian noise; 250.
@@ -192,7 +193,7 @@ struct TrialProtocol {
   double warm_up_s = 0.0;
 };
 
-/// What is recorded in a virtual experiment.
+/// The plan of a virtual experiment.
 struct Protocol {
   std::filesystem::path file;  ///< Where it was read from; may be empty.
   std::string name = "protocol";
@@ -227,7 +228,7 @@ struct Protocol {
 /// "curves=millard", "tendon_strain=[0.08, 0.08]". Throws ReadError as `read_protocol` does.
 void set_truth(Protocol& protocol, const std::vector<std::string>& settings);
 
-/// What a protocol is at this level before any key of a file is read.
+/// Returns the protocol of this level, before any key of a file is read.
 [[nodiscard]] Protocol default_protocol(Level level);
 
 }  // namespace myoid::twin

@@ -75,7 +75,7 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
     for (std::size_t i = 0; i + lag_count * kOversampling < length; ++i)
       r[lag_count] += response[i] * response[i + lag_count * kOversampling];
   }
-  // What is left after the poles is a moving average of autocovariance c.
+  // The poles leave a moving average of autocovariance c.
   std::array<double, 4> c = {};
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < 4; ++i) {

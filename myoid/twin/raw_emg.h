@@ -6,7 +6,7 @@
 
 namespace myoid::twin {
 
-/// Where the spectrum of surface EMG bends: power [1/Hz] ~ f^2 f_h^4 / ((f^2 + f_l^2) (f^2 +
+/// The bends of the spectrum of surface EMG: power [1/Hz] ~ f^2 f_h^4 / ((f^2 + f_l^2) (f^2 +
 /// f_h^2)^2) (Shwedyk, Balasubramanian & Scott 1977).
 struct EmgSpectrum {
   double low_hz = 60.0;    ///< f_l

@@ -23,7 +23,7 @@ constexpr double kDamping = 0.8;         ///< ... its damping ratio ...
 constexpr double kIntegral = 0.1;        ///< ... and integral part.
 constexpr double kForceSense_s = 0.05;   ///< Time over which felt forces are averaged.
 
-/// What the person plans at one time.
+/// The plan of the person at one time.
 struct Plan {
   Moment target;
   double torque_nm = 0.0;
@@ -39,7 +39,7 @@ Plan plan_at(const ArmStepper& stepper, const TrueArm& arm, const TrialScript& s
   return plan;
 }
 
-/// What the muscles exert beyond what was to be foreseen of them in this state [N m].
+/// Returns the torque of the muscles minus the one that the person expects in this state [N m].
 double surplus_nm(const ArmStepper& stepper) {
   const ArmState& state = stepper.state();
   const ArmStepper::Foresight foresight = stepper.foresee({state.q.value, state.q.first, 0.0});
@@ -49,7 +49,7 @@ double surplus_nm(const ArmStepper& stepper) {
   return state.muscle_torque_nm - foreseen_nm;
 }
 
-/// Of heads, the mean by strength.
+/// Returns the fatigue of each muscle: the mean of its heads, weighted by their strength.
 PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) {
   PerMuscle fatigued = {};
   PerMuscle strength = {};
@@ -108,7 +108,7 @@ class Controller {
   }
 
   PerMuscle corrected(double t, bool first) {
-    // What is commanded now acts a little later.
+    // A command acts a little later than it is given.
     const Plan later = plan_at(stepper_, arm_, script_, t + lead_s_);
     const Moment wanted = script_.motion(t);
     const Moment& is = stepper_.state().q;

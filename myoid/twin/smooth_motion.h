@@ -33,7 +33,7 @@ struct Move {
   double by_rad = 0.0;
 };
 
-/// By an angle at a constant speed, but for a smooth start and stop of `pace_s` each.
+/// A turn at a constant speed, with a smooth start and stop of `pace_s` each.
 struct Sweep {
   double start_s = 0.0;
   double by_rad = 0.0;       ///< Signed.

@@ -161,7 +161,7 @@ std::string truth_csv(const VirtualRecording& recording) {
     text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
                         muscle::slope_ratio(recording.truth.muscles[i].velocity_law()));
   if (!recording.truth.arm) {
-    // Where the fitted model is the person's: what a fit finds beside the muscles. Exact
+    // The numbers that a fit finds beside the muscles, if the fitted model is the person's. Exact
     // activations are the muscles' own: no electrode bends them.
     const bool exact = recording.protocol.level == Level::noise_free;
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {

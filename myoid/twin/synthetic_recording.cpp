@@ -51,7 +51,7 @@ std::optional<TimeSeries> true_heads(const Performance& performance,
   return TimeSeries(time_s, channels, values);
 }
 
-/// What is not as in a fresh and warm muscle.
+/// Returns how cold the muscles are and how tired each of them is, as channels.
 TimeSeries true_state(const Performance& performance, const Eigen::VectorXd& time_s) {
   std::vector<Channel> channels = {{"cold", Unit::dimensionless}};
   for (const std::string_view muscle : kArmMuscles)

@@ -19,7 +19,7 @@
 
 namespace myoid::twin {
 
-/// What the virtual person is made of, and what the identification is to find.
+/// The parameters of the virtual person, and the numbers that the identification is to find.
 struct Truth {
   /// In the order of kArmMuscles. At L2, where nobody has such parameters, those of the fitted
   /// model that come closest to the person (effective_truth.h).
@@ -51,7 +51,7 @@ struct TrueTrial {
   EmgClock emg_clock;
 };
 
-/// What the instruments recorded of one trial.
+/// The recording of one trial.
 struct VirtualTrial {
   TrialProtocol protocol;
   recording::MarkerSeries markers;  ///< In ground, Y up.

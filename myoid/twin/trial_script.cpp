@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMarginOfFlexion_s = 0.5;  ///< At rest before and after.
 
-/// Where and how fast an uneven person goes: one movement of several that overlap.
+/// Adds a movement of an uneven person: several submovements that overlap.
 void add_uneven_move(double start_s,
                      double duration_s,
                      double by_rad,
@@ -84,7 +84,7 @@ void add_oscillation(TrialScript& script, simulation::Random& random) {
   script.duration_s = std::max(p.duration_s, motion.end_s() + kMarginOfFlexion_s);
 }
 
-/// What else differs from cycle to cycle.
+/// Draws the other differences from cycle to cycle.
 void make_uneven(TrialScript& script, double irregularity, simulation::Random& random) {
   const TrialProtocol& p = script.protocol;
   script.eased = true;

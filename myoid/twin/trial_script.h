@@ -31,8 +31,8 @@ struct Modulation {
   [[nodiscard]] double operator()(double time_s) const;
 };
 
-/// What a virtual person does in one trial, at any time: before the beginning and after the end
-/// too, since muscles act on what the electrodes saw a little earlier.
+/// The acts of a virtual person in one trial, at any time. They begin before the recording and end
+/// after it, since muscles act a little later than the electrodes see.
 struct TrialScript {
   TrialProtocol protocol;
   double duration_s = 0.0;
@@ -51,7 +51,7 @@ struct TrialScript {
 
   [[nodiscard]] double emg_gain(double time_s) const;
 
-  /// How the torque is shared at this time, in trials with a motion.
+  /// Returns the shares of the torque at this time, in trials with a motion.
   [[nodiscard]] Coordination coordination(double time_s) const;
 
   /// Activations in a trial against the dynamometer, or of relaxed muscles.

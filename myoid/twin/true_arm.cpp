@@ -28,11 +28,11 @@ constexpr double kMostPureDelay_s = 0.020;
 /// 85 degrees, several newton meters at 20 degrees; a relaxed elbow has about one.
 constexpr double kLeastPassiveStrain = 0.8;
 constexpr double kMostPassiveStrain = 1.2;
-/// What the electrode over a muscle picks up of each head: the biceps' both, the triceps' above all
+/// Share of each head in the EMG of its muscle: of the biceps both, of the triceps above all that
 /// of the lateral one.
 constexpr PerHead kElectrodeShare = {0.5, 0.5, 1.0, 1.0, 0.3, 0.6, 0.1};
 
-/// What is drawn once for a muscle, in standard deviations.
+/// The draws for one muscle, in standard deviations.
 struct MuscleDraw {
   double strength, fiber_length, reach, speed, moment_arm, strain;
 };

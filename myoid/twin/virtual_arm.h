@@ -28,11 +28,11 @@ struct MuscleGeometry {
   PerMuscle moment_arm_m = {};
 };
 
-/// Of muscles along these paths.
+/// Returns lengths and moment arms of muscles along these paths.
 [[nodiscard]] MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
                                          const Moment& elbow_flexion_rad);
 
-/// How one marker of a person departs from the model's.
+/// The departure of one marker of a person from the model's.
 struct MarkerError {
   Vec3 misplaced_m = Vec3::Zero();    ///< In the frame of its body.
   Vec3 soft_tissue_m = Vec3::Zero();  ///< Times sin(q + phase): how far it moves on the skin.
