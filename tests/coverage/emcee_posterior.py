@@ -51,8 +51,11 @@ def cholesky(a):
     try:
         return np.linalg.cholesky(a), np.zeros(len(a), bool)
     except np.linalg.LinAlgError:
-        worse = np.linalg.eigvalsh(a)[:, 0] <= 1e-14 * np.trace(a, axis1=1, axis2=2)
-        return np.linalg.cholesky(np.where(worse[:, None, None], np.eye(a.shape[1]), a)), worse
+        one = np.eye(a.shape[1])
+        finite = np.isfinite(a).all(axis=(1, 2))
+        a = np.where(finite[:, None, None], a, one)
+        worse = ~(np.linalg.eigvalsh(a)[:, 0] > 1e-12 * np.trace(a, axis1=1, axis2=2)) | ~finite
+        return np.linalg.cholesky(np.where(worse[:, None, None], one, a)), worse
 
 
 class Run:
@@ -163,7 +166,8 @@ class Posterior:
             result -= np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
             gram += np.einsum("wmi,wmj->wij", both[:, :, 1:], both[:, :, 1:], optimize=True)
             seen += np.einsum("wmi,wm->wi", both[:, :, 1:], both[:, :, 0])
-        root = np.linalg.cholesky(gram)
+        root, worse = cholesky(gram)
+        far |= worse
         half = np.linalg.solve(root, seen[:, :, None])[:, :, 0]
         result += 0.5 * (half ** 2).sum(axis=1) - np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
         return np.where(far | ~np.isfinite(result), -np.inf, result)
