@@ -2,7 +2,8 @@
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs identification intervals posterior methods report phases study intake checks
-    design run scene results draft contents identify_files opensim_tools twin cohort realtime mat commands cli)
+    design run scene results draft contents identify_files opensim_tools virtual_person twin cohort
+    realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -16,7 +17,7 @@ set(MYOID_LAYER_osim core files muscle model)
 set(MYOID_LAYER_arm core muscle)
 set(MYOID_LAYER_kinematics core math files tables signals model)
 set(MYOID_LAYER_dynamics core math files tables recording signals model osim kinematics)
-set(MYOID_LAYER_forces core muscle model osim kinematics dynamics)
+set(MYOID_LAYER_forces core math muscle model osim kinematics dynamics)
 set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
 set(MYOID_LAYER_beliefs core)
 set(MYOID_LAYER_identification core math muscle beliefs)
@@ -30,7 +31,7 @@ set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forc
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core muscle arm kinematics dynamics simulation identification intervals
+set(MYOID_LAYER_design core math muscle arm kinematics dynamics simulation identification intervals
     methods report study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)
@@ -43,15 +44,21 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation beliefs
-    identification intervals study run)
+set(MYOID_LAYER_virtual_person core math files muscle model osim arm simulation beliefs
+    identification study)
+set(MYOID_LAYER_twin core math files muscle tables c3d arm simulation intervals study run
+    virtual_person)
 set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
-    results draft contents identify_files opensim_tools twin cohort)
+    results draft contents identify_files opensim_tools virtual_person twin cohort)
 set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)
+
+# Rooms that compute little themselves: they read, write, judge and call the rooms below.
+set(MYOID_LIGHT_LAYERS osim arm beliefs report phases study intake checks design run scene results draft contents
+    identify_files opensim_tools twin cohort mat commands cli)
 
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp
@@ -85,6 +92,11 @@ function(myoid_layer name)
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(myoid_${name} PUBLIC ${deps} ${ARG_EXTERNAL} Eigen3::Eigen fmt::fmt
                                       PRIVATE $<BUILD_INTERFACE:myoid_warnings>)
+  if(name IN_LIST MYOID_LIGHT_LAYERS)
+    myoid_optimize(myoid_${name} LIGHTLY)
+  else()
+    myoid_optimize(myoid_${name})
+  endif()
   set_target_properties(myoid_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS myoid_${name} EXPORT MyoidTargets DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   if(MYOID_TESTS AND tests)
@@ -92,10 +104,7 @@ function(myoid_layer name)
     list(TRANSFORM ARG_TESTS_USE PREPEND myoid_)
     target_link_libraries(${name}_tests PRIVATE myoid_${name} ${ARG_TESTS_USE} myoid_test_support
                                                 myoid_warnings)
-    if(NOT MYOID_SANITIZE)
-      # Quick to build; the library keeps -O2. At -O1 GCC 12 calls Eigen's vectors uninitialized that are not.
-      target_compile_options(${name}_tests PRIVATE -O1 -Wno-maybe-uninitialized)
-    endif()
+    myoid_optimize(${name}_tests LIGHTLY)
     gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                          PROPERTIES TIMEOUT 600)
   endif()
