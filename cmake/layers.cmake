@@ -53,6 +53,10 @@ set(MYOID_LAYER_commands core files muscle tables c3d recording signals model os
     results draft contents identify_files opensim_tools twin cohort)
 set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)
 
+# Rooms that compute little themselves: they read, write, judge and call the rooms below.
+set(MYOID_LIGHT_LAYERS osim arm beliefs report phases study intake checks design run scene results draft contents
+    identify_files opensim_tools twin cohort mat commands cli)
+
 # myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp
 # that exist. TESTS_USE names the layers that only the tests need.
@@ -85,6 +89,11 @@ function(myoid_layer name)
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(myoid_${name} PUBLIC ${deps} ${ARG_EXTERNAL} Eigen3::Eigen fmt::fmt
                                       PRIVATE $<BUILD_INTERFACE:myoid_warnings>)
+  if(name IN_LIST MYOID_LIGHT_LAYERS)
+    myoid_optimize(myoid_${name} LIGHTLY)
+  else()
+    myoid_optimize(myoid_${name})
+  endif()
   set_target_properties(myoid_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS myoid_${name} EXPORT MyoidTargets DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   if(MYOID_TESTS AND tests)
@@ -92,10 +101,7 @@ function(myoid_layer name)
     list(TRANSFORM ARG_TESTS_USE PREPEND myoid_)
     target_link_libraries(${name}_tests PRIVATE myoid_${name} ${ARG_TESTS_USE} myoid_test_support
                                                 myoid_warnings)
-    if(NOT MYOID_SANITIZE)
-      # Quick to build; the library keeps -O2. At -O1 GCC 12 calls Eigen's vectors uninitialized that are not.
-      target_compile_options(${name}_tests PRIVATE -O1 -Wno-maybe-uninitialized)
-    endif()
+    myoid_optimize(${name}_tests LIGHTLY)
     gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                          PROPERTIES TIMEOUT 600)
   endif()
