@@ -16,7 +16,7 @@ set(MYOID_LAYER_osim core files muscle model)
 set(MYOID_LAYER_arm core muscle)
 set(MYOID_LAYER_kinematics core math files tables signals model)
 set(MYOID_LAYER_dynamics core math files tables recording signals model osim kinematics)
-set(MYOID_LAYER_forces core muscle model osim kinematics dynamics)
+set(MYOID_LAYER_forces core math muscle model osim kinematics dynamics)
 set(MYOID_LAYER_simulation core math files muscle model osim arm kinematics dynamics forces)
 set(MYOID_LAYER_beliefs core)
 set(MYOID_LAYER_identification core math muscle beliefs)
@@ -30,7 +30,7 @@ set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forc
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core muscle arm kinematics dynamics simulation identification intervals
+set(MYOID_LAYER_design core math muscle arm kinematics dynamics simulation identification intervals
     methods report study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)

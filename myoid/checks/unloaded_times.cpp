@@ -3,12 +3,12 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/intake/limits.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid {
 namespace {
@@ -37,12 +37,12 @@ std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const Tr
 
 /// Returns the acceleration of the parabola through these samples.
 double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& height_m) {
-  Eigen::MatrixX3d terms(time_s.size(), 3);
+  Eigen::MatrixXd terms(time_s.size(), 3);
   const Eigen::ArrayXd t = time_s.array() - time_s.mean();
   terms.col(0).setOnes();
   terms.col(1) = t;
   terms.col(2) = 0.5 * t.square();
-  return terms.colPivHouseholderQr().solve(height_m)[2];
+  return math::nearest_solution(terms, height_m)[2];
 }
 
 }  // namespace

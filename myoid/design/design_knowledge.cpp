@@ -5,11 +5,11 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/intervals/identifiability.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/simulation/random.h"
 
 namespace myoid {
@@ -46,15 +46,15 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
   // Relative to what was known before: a direction that the run left undetermined has no variance
   // in its covariance, and is as unknown as it was. None is known better than to a millionth.
   const Eigen::VectorXd unit = sd_before.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(unit.asDiagonal() * known.covariance *
-                                                            unit.asDiagonal());
-  if (!axes.eigenvalues().allFinite())
+  const math::SymmetricEigen axes =
+      math::symmetric_eigen(unit.asDiagonal() * known.covariance * unit.asDiagonal());
+  if (!axes.values.allFinite())
     throw InvalidInput("design: the covariance of the earlier run is not finite");
-  Eigen::VectorXd variance = axes.eigenvalues();
+  Eigen::VectorXd variance = axes.values;
   for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-12);
-  const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.eigenvectors();
+  const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.vectors;
   known.covariance = scaled * variance.asDiagonal() * scaled.transpose();
-  const Eigen::MatrixXd inverse = unit.asDiagonal() * axes.eigenvectors();
+  const Eigen::MatrixXd inverse = unit.asDiagonal() * axes.vectors;
   known.precision = inverse * variance.cwiseInverse().asDiagonal() * inverse.transpose();
   return known;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <pugixml.hpp>

@@ -1,11 +1,10 @@
 #include "myoid/dynamics/forward_dynamics.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid::dynamics {
 namespace {
@@ -14,9 +13,9 @@ namespace {
 const std::string& massless_coordinate(const model::BodyModel& model,
                                        const Eigen::MatrixXd& allowed,
                                        const Eigen::MatrixXd& reduced) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(reduced);
+  const math::SymmetricEigen modes = math::symmetric_eigen(reduced);
   Eigen::Index most = 0;
-  (allowed * modes.eigenvectors().col(0)).cwiseAbs().maxCoeff(&most);
+  (allowed * modes.vectors.col(0)).cwiseAbs().maxCoeff(&most);
   return model.coordinates[at(most)].name;
 }
 
@@ -36,13 +35,8 @@ void ForwardDynamics::set(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot,
   allowed_ = Eigen::MatrixXd::Identity(n, n);
   particular_ = rest;
   if (constraints_.A.rows() > 0) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(constraints_.A.transpose());
-    qr.setThreshold(1e-9);
-    const Eigen::MatrixXd basis = qr.householderQ();
-    allowed_ = basis.rightCols(n - qr.rank());
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> rows;
-    rows.setThreshold(1e-9);
-    particular_ = rows.compute(constraints_.A).solve(constraints_.b);
+    allowed_ = math::null_space(constraints_.A);
+    particular_ = math::shortest_solution(constraints_.A, constraints_.b, 1e-9);
   }
   const Eigen::MatrixXd reduced = allowed_.transpose() * mass_ * allowed_;
   if (reduced.size() == 0) return;
@@ -69,10 +63,8 @@ ForwardDynamics::Solution ForwardDynamics::solve(const Eigen::VectorXd& tau,
   }
   solution.multipliers.resize(constraints_.A.rows());
   if (solution.multipliers.size() > 0) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> columns;
-    columns.setThreshold(1e-9);
     solution.multipliers =
-        columns.compute(constraints_.A.transpose()).solve(mass_ * solution.qddot - driving);
+        math::shortest_solution(constraints_.A.transpose(), mass_ * solution.qddot - driving, 1e-9);
   }
   return solution;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
@@ -14,6 +13,7 @@
 #include "myoid/forces/actuator_sharing.h"
 #include "myoid/forces/opensim_muscle.h"
 #include "myoid/kinematics/angular_speeds.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/motion_constraints.h"
@@ -103,11 +103,8 @@ class SharedFrame {
     model::compute_poses(model_, q, state_);
     model::compute_velocities(model_, u, state_);
     const auto [A, b] = model::acceleration_constraints(model_, state_, time_s);
-    udot += A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(b - A * udot));
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A.transpose());
-    qr.setThreshold(1e-9);
-    const Eigen::MatrixXd basis = qr.householderQ();
-    return basis.rightCols(nq - qr.rank());
+    udot += math::shortest_solution(A, b - A * udot);
+    return math::null_space(A);
   }
 
   /// Computes the generalized force of an actuator at control 1; returns its force.

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <Eigen/Eigenvalues>
-
 #include "myoid/identification/loss.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -226,10 +225,9 @@ void Estimator::correct_curvature(const Weighting& weighting, Eigen::MatrixXd& i
                                 std::pow(weighting.exponent[channel], 2);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
-  if (eigen.eigenvalues()[0] < 0.0) {
-    unit = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-           eigen.eigenvectors().transpose();
+  const math::SymmetricEigen eigen = math::symmetric_eigen(unit);
+  if (eigen.values[0] < 0.0) {
+    unit = eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
   }
   information = scale.asDiagonal() * unit * scale.asDiagonal();
 }

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <optional>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/moving_mean.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
@@ -295,7 +295,7 @@ class TrialCheck {
                        .transpose();
       const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
       total += dl.squaredNorm();
-      left += (dl - r * r.colPivHouseholderQr().solve(dl)).squaredNorm();
+      left += (dl - r * math::nearest_solution(r, dl)).squaredNorm();
     }
     return total > 0.0 ? 1.0 - left / total : 1.0;
   }

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -12,9 +11,8 @@ namespace {
 
 /// Draws from a normal distribution with this covariance, the same in every run.
 Eigen::MatrixXd draws_about(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance, int n) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  const Eigen::MatrixXd root =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const math::SymmetricEigen eigen = math::symmetric_eigen(covariance);
+  const Eigen::MatrixXd root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   Eigen::MatrixXd result(n, mean.size());
   // Quasi-random: the additive recurrence with square roots of primes, through the normal quantile.
   const double primes[] = {2.0, 3.0, 5.0};

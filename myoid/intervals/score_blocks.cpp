@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Eigenvalues>
-
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -40,11 +39,11 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
   // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const math::SymmetricEigen eigen = math::symmetric_eigen(scaled);
   const Eigen::VectorXd values =
-      eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff()).cwiseInverse();
-  return scale.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
-         eigen.eigenvectors().transpose() * scale.asDiagonal();
+      eigen.values.cwiseMax(1e-14 * eigen.values.maxCoeff()).cwiseInverse();
+  return scale.asDiagonal() * eigen.vectors * values.asDiagonal() * eigen.vectors.transpose() *
+         scale.asDiagonal();
 }
 
 Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
@@ -54,10 +53,10 @@ Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
   const auto lower = factor.matrixL();
   const Eigen::MatrixXd half = lower.solve(of_trial);
   const Eigen::MatrixXd share = lower.solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (share + share.transpose()));
-  const Eigen::VectorXd left = (1.0 - eigen.eigenvalues().array()).max(kLeast).rsqrt().matrix();
-  const Eigen::VectorXd turned = eigen.eigenvectors().transpose() * lower.solve(sum);
-  return lower * (eigen.eigenvectors() * left.cwiseProduct(turned));
+  const math::SymmetricEigen eigen = math::symmetric_eigen(0.5 * (share + share.transpose()));
+  const Eigen::VectorXd left = (1.0 - eigen.values.array()).max(kLeast).rsqrt().matrix();
+  const Eigen::VectorXd turned = eigen.vectors.transpose() * lower.solve(sum);
+  return lower * (eigen.vectors * left.cwiseProduct(turned));
 }
 
 double student_factor(double freedom) {

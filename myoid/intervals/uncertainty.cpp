@@ -7,12 +7,12 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
 #include "myoid/intervals/score_blocks.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -119,9 +119,9 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   const double largest_norm = norm.maxCoeff();
   Eigen::VectorXd unit(p);
   for (Eigen::Index j = 0; j < p; ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * information *
-                                                             unit.asDiagonal());
-  const Eigen::VectorXd& values = eigen.eigenvalues();  // rising
+  const math::SymmetricEigen eigen =
+      math::symmetric_eigen(unit.asDiagonal() * information * unit.asDiagonal());
+  const Eigen::VectorXd& values = eigen.values;  // rising
   const double top = values[values.size() - 1];
   Rank result;
   result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
@@ -131,7 +131,7 @@ Rank rank_of(const Eigen::MatrixXd& information) {
     if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
   }
   result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
-  result.undetermined = eigen.eigenvectors()(Eigen::all, open);
+  result.undetermined = eigen.vectors(Eigen::all, open);
   result.determined.assign(static_cast<std::size_t>(p), true);
   for (Eigen::Index j = 0; j < p; ++j) {
     result.determined[static_cast<std::size_t>(j)] =
@@ -372,9 +372,7 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
   const auto consider = [&](const std::vector<Eigen::Index>& set) {
     if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set))
       return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit(set, set),
-                                                               Eigen::EigenvaluesOnly);
-    const double smallest = eigen.eigenvalues()[0];
+    const double smallest = math::symmetric_eigenvalues(unit(set, set))[0];
     const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
     if (index > limit) found.push_back({set, index});
   };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"

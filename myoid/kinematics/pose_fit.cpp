@@ -6,10 +6,9 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include "myoid/core/index.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/model/constraints.h"
 
 namespace myoid::kinematics {
@@ -269,10 +268,7 @@ Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   for (Eigen::Index c = 0; c < q.size(); ++c) {
     if (reduced_[at(c)] >= 0) rows.col(reduced_[at(c)]) += gain_[c] * loops.col(c);
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  qr.setThreshold(1e-9);
-  const Eigen::MatrixXd basis = qr.householderQ();
-  return basis.rightCols(n - qr.rank());
+  return math::null_space(rows);
 }
 
 /// Returns the free coordinates at an end of their range whose descent leads outside: they are
@@ -421,15 +417,14 @@ double PoseFit::place(const Eigen::VectorXd& q) { return cost_at(q); }
 
 void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   linearize(state_.q);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gauss_);
-  const double largest =
-      eigen.eigenvalues().size() > 0 ? eigen.eigenvalues()[eigen.eigenvalues().size() - 1] : 0.0;
+  const math::SymmetricEigen eigen = math::symmetric_eigen(gauss_);
+  const double largest = eigen.values.size() > 0 ? eigen.values[eigen.values.size() - 1] : 0.0;
   for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
     // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest
     // singular value.
-    if (eigen.eigenvalues()[k] > 1e-14 * largest) continue;
+    if (eigen.values[k] > 1e-14 * largest) continue;
     for (Eigen::Index j = 0; j < gauss_.cols(); ++j) {
-      if (std::abs(eigen.eigenvectors()(j, k)) > 1e-3) undetermined[at(j)] = true;
+      if (std::abs(eigen.vectors(j, k)) > 1e-3) undetermined[at(j)] = true;
     }
   }
 }

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/QR>
-
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid::identification {
 namespace {
@@ -56,7 +55,7 @@ Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::Vect
   columns(n, 1) = columns(n + 1, 2) = 1.0 / beliefs::kRestingWeight.sd;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 2);
   right.head(n) = weight * torque_nm;
-  return columns.colPivHouseholderQr().solve(right);
+  return math::nearest_solution(columns, right);
 }
 
 /// Sets the weight if the torque is that of a weight.
@@ -108,7 +107,7 @@ std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad
   for (Eigen::Index i = 0; i < n; ++i)
     columns.row(i).head(terms) = legendre(position(result, angle_rad[i]), terms);
   if (both_ways) columns.col(terms) = -velocity_radps;
-  const Eigen::VectorXd found = columns.colPivHouseholderQr().solve(torque_nm);
+  const Eigen::VectorXd found = math::nearest_solution(columns, torque_nm);
   result.coefficient_nm = found.head(terms);
   if (both_ways) result.viscosity_nms = found[terms];
   find_weight(angle_rad,

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"

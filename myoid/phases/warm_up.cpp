@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "myoid/core/error.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid {
@@ -36,7 +37,7 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& x) {
     Eigen::MatrixXd regressors(rows, 4 + order);
     regressors.leftCols(4) = slow_columns(n).topRows(rows);
     for (Eigen::Index i = 1; i <= order; ++i) regressors.col(3 + i) = x.segment(i, rows);
-    const Eigen::VectorXd solution = regressors.colPivHouseholderQr().solve(x.head(rows));
+    const Eigen::VectorXd solution = math::nearest_solution(regressors, x.head(rows));
     const double squares = (x.head(rows) - regressors * solution).squaredNorm();
     const double schwarz = static_cast<double>(rows) * std::log(std::max(squares, 1e-300)) +
                            std::log(static_cast<double>(rows)) * static_cast<double>(order);

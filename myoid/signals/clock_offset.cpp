@@ -11,6 +11,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/math/butterworth.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/resample.h"
 
@@ -43,14 +44,14 @@ Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardize
       if (size > 0.0) x.col(c) /= size;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(x.transpose() * x);
+  const math::SymmetricEigen axes = math::symmetric_eigen(x.transpose() * x);
   const Eigen::Index count = std::min(most, x.cols());
-  const double largest = std::max(solver.eigenvalues()[x.cols() - 1], 0.0);
+  const double largest = std::max(axes.values[x.cols() - 1], 0.0);
   Eigen::MatrixXd result(x.rows(), 0);
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!(solver.eigenvalues()[x.cols() - 1 - k] > 1e-6 * largest)) break;
+    if (!(axes.values[x.cols() - 1 - k] > 1e-6 * largest)) break;
     result.conservativeResize(Eigen::NoChange, k + 1);
-    result.col(k) = x * solver.eigenvectors().col(x.cols() - 1 - k);
+    result.col(k) = x * axes.vectors.col(x.cols() - 1 - k);
     result.col(k) /= result.col(k).norm();
   }
   return result;

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
-
 #include "myoid/core/units.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/spectrum.h"
 
@@ -61,8 +60,7 @@ Eigen::VectorXd beyond_the_end(const Eigen::VectorXd& x,
   };
   const Eigen::Index fitted =
       std::min(n, static_cast<Eigen::Index>(std::lround(kHumFit_s * rate_hz)));
-  const Eigen::VectorXd weight =
-      sines(n - fitted, fitted).colPivHouseholderQr().solve(x.tail(fitted));
+  const Eigen::VectorXd weight = math::nearest_solution(sines(n - fitted, fitted), x.tail(fitted));
   const Eigen::VectorXd rest = x.tail(count + 1) - sines(n - 1 - count, count + 1) * weight;
   return rest.head(count).reverse() + sines(n, count) * weight;
 }
