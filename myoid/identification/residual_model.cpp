@@ -7,6 +7,7 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
+#include "myoid/core/normal.h"
 #include "myoid/identification/row_filter.h"
 
 namespace myoid::identification {
@@ -54,7 +55,7 @@ double envelope_spread(const EstimatorOptions& options, const std::string& chann
   const double bandwidth_hz = known != options.emg_bandwidth_hz.end() && known->second > 0.0
                                   ? known->second
                                   : beliefs::kEmgBandwidth.value;
-  return 0.7555 / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
+  return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
 }
 
 ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& options)

@@ -211,7 +211,7 @@ std::vector<Interval> profile(const Estimator& estimator,
   oneapi::tbb::parallel_for(Eigen::Index{0}, 2 * p, [&](Eigen::Index task) {
     const Eigen::Index j = task / 2;
     const bool above = task % 2 == 1;
-    const double goal = kProfileGoal * std::sqrt(rise[j]);
+    const double goal = kNormal95 * std::sqrt(rise[j]);
     if (const auto distance = profile_distance(problem, j, above, goal)) {
       Interval& interval = intervals[static_cast<std::size_t>(j)];
       (above ? interval.high : interval.low) =

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/normal.h"
 #include "myoid/identification/estimator.h"
 #include "myoid/intervals/uncertainty.h"
 
@@ -22,9 +23,6 @@ struct ProfileProblem {
   Eigen::MatrixXd curvature;  ///< ... and its curvature, about: J'J will do.
 };
 
-/// sqrt of the 95 % quantile of chi-squared with one degree of freedom.
-inline constexpr double kProfileGoal = 1.959963984540054;
-
 /// Distance from the minimum of variable j to the side where sqrt(2 (C - C_min)) reaches `goal`
 /// when all other variables adapt, to about 1 %; empty where a bound of j comes first: the profile
 /// is open.
@@ -39,7 +37,7 @@ inline constexpr double kProfileGoal = 1.959963984540054;
 [[nodiscard]] std::optional<double> profile_distance(const ProfileProblem& problem,
                                                      Eigen::Index j,
                                                      bool above,
-                                                     double goal = kProfileGoal);
+                                                     double goal = kNormal95);
 
 /// The 95 % intervals of all variables by profile likelihood, in parallel; weights are those of the
 /// solution.

@@ -34,7 +34,7 @@ TEST(ProfileLikelihood, OfAQuadraticReachesAsFarAsTheInverseOfItsCurvatureSays) 
   const Eigen::Matrix3d covariance = curvature().inverse();
   ProfileProblem problem = quadratic(curvature());
   for (Eigen::Index j = 0; j < 3; ++j) {
-    const double expected = kProfileGoal * std::sqrt(covariance(j, j));
+    const double expected = kNormal95 * std::sqrt(covariance(j, j));
     EXPECT_NEAR(profile_distance(problem, j, false).value(), expected, 1e-9 * expected);
     EXPECT_NEAR(profile_distance(problem, j, true).value(), expected, 1e-9 * expected);
   }
@@ -44,7 +44,7 @@ TEST(ProfileLikelihood, OfAQuadraticReachesAsFarAsTheInverseOfItsCurvatureSays) 
        {Eigen::Matrix3d(0.4 * curvature()), Eigen::Matrix3d(3.0 * curvature()), apart}) {
     problem.curvature = wrong;
     for (Eigen::Index j = 0; j < 3; ++j) {
-      const double expected = kProfileGoal * std::sqrt(covariance(j, j));
+      const double expected = kNormal95 * std::sqrt(covariance(j, j));
       EXPECT_NEAR(profile_distance(problem, j, true).value(), expected, 0.01 * expected);
     }
   }
@@ -68,7 +68,7 @@ TEST(ProfileLikelihood, EndsWhereABoundIsAndNotedWhereTheOthersMeetTheirs) {
   problem.lower[2] = 3.0;  // z_2 cannot follow: then z_0 and z_1 alone say where
   problem.upper[2] = 3.0;
   const Eigen::Matrix2d left = curvature().topLeftCorner<2, 2>().inverse();
-  const double expected = kProfileGoal * std::sqrt(left(1, 1));
+  const double expected = kNormal95 * std::sqrt(left(1, 1));
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), expected, 0.005 * expected);
 }
 
@@ -87,7 +87,7 @@ TEST(ProfileLikelihood, WhereOneMeetsItsBoundTheRestAnswersToThat) {
   for (int i = 0; i < 60; ++i) {
     const double t = 0.5 * (low + high);
     const Eigen::Vector3d d((5.0 * t + 99.0 * 0.05) / 100.0, t, 0.05);
-    (std::sqrt(d.dot(h * d)) < kProfileGoal ? low : high) = t;
+    (std::sqrt(d.dot(h * d)) < kNormal95 ? low : high) = t;
   }
   EXPECT_NEAR(profile_distance(problem, 1, true).value(), low, 0.005 * low);
 }
@@ -115,8 +115,8 @@ TEST(ProfileLikelihood, FollowsACurvedValley) {
                                .gradient = Eigen::Vector2d::Zero(),
                                .curvature = h};
   for (const bool above : {false, true})
-    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kProfileGoal * 0.3,
-                0.01 * kProfileGoal * 0.3);
+    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kNormal95 * 0.3,
+                0.01 * kNormal95 * 0.3);
   const auto profiled = [&](double y) {
     double least = 1e300;
     for (int i = -2000; i <= 2000; ++i) least = std::min(least, cost(std::sqrt(y) + 1e-5 * i, y));
@@ -126,7 +126,7 @@ TEST(ProfileLikelihood, FollowsACurvedValley) {
     double low = 0.0, high = above ? 4.0 : 0.99;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (profiled(1.0 + (above ? middle : -middle)) < kProfileGoal ? low : high) = middle;
+      (profiled(1.0 + (above ? middle : -middle)) < kNormal95 ? low : high) = middle;
     }
     EXPECT_NEAR(profile_distance(problem, 1, above).value(), low, 0.01 * low) << above;
   }
@@ -156,7 +156,7 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWh
       // Levenberg-Marquardt, of which the profile uses nothing. v to 2 %.
       const NormalSearchResult fit =
           estimator.search(start, solution.weighting, 1e-9, 1e-11, 200, {}, held);
-      const double goal = kProfileGoal * std::sqrt(rise[static_cast<Eigen::Index>(j)]);
+      const double goal = kNormal95 * std::sqrt(rise[static_cast<Eigen::Index>(j)]);
       EXPECT_NEAR(std::sqrt(2.0 * (fit.cost - solution.search.cost)), goal, 0.02 * goal)
           << estimator.free()[j].label << " " << *end;
       ++checked;

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/core/normal.h"
+
 namespace myoid::identification {
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;
 
 struct OneNumber {
   OneNumber() {

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "myoid/core/normal.h"
 #include "myoid/core/numbers.h"
 #include "myoid/core/provenance.h"
 #include "myoid/realtime/read_predictor.h"
@@ -19,8 +20,6 @@ struct myoid_workspace {
 };
 
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;
 
 template <typename List>
 int count_of(const List& list) {
@@ -41,7 +40,7 @@ void put(const Eigen::VectorXd& value,
          double* low,
          double* high) {
   for (Eigen::Index i = 0; i < value.size(); ++i) {
-    const double half = kNormal95 * sd[i];
+    const double half = myoid::kNormal95 * sd[i];
     if (middle != nullptr) middle[i] = done ? value[i] : myoid::kNan;
     if (low != nullptr) low[i] = done ? value[i] - half : myoid::kNan;
     if (high != nullptr) high[i] = done ? value[i] + half : myoid::kNan;

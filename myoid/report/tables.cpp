@@ -9,13 +9,8 @@ namespace myoid::report {
 namespace {
 
 std::string csv_cell(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
+  return text.find_first_of(",\"\n\r") == std::string_view::npos ? std::string(text)
+                                                                 : csv_quoted(text);
 }
 
 std::string csv_number(const std::vector<double>& values, std::size_t k) {
@@ -24,6 +19,15 @@ std::string csv_number(const std::vector<double>& values, std::size_t k) {
 }
 
 }  // namespace
+
+std::string csv_quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
 
 std::string table_csv(const Table& table) {
   std::string text;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
@@ -16,7 +17,6 @@ namespace {
 using report::Badge;
 using report::Cell;
 
-constexpr double k95 = 1.959963984540054;
 constexpr std::size_t kFewestForGroup = 3;
 
 std::string compared_method(const std::vector<PersonChange>& changes) {
@@ -120,7 +120,7 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
   for (const double d : differences) squares += (d - mean) * (d - mean);
   const std::string group = differences.size() < kFewestForGroup
                                 ? "-"
-                                : report::format_value(k95 * std::sqrt(squares / (n - 1.0)));
+                                : report::format_value(kNormal95 * std::sqrt(squares / (n - 1.0)));
   table.rows.push_back(report::text_row(
       {grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
        grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),

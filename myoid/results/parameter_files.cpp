@@ -16,6 +16,7 @@
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/report/json_values.h"
+#include "myoid/report/tables.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -28,12 +29,6 @@ using nlohmann::ordered_json;
 
 std::string number_or_empty(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? recording::format_number(*value) : "";
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
 }
 
 /// A member of an estimate as a cell of parameters.csv.
@@ -108,7 +103,8 @@ std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
-    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? quoted(cell) : cell);
+    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? report::csv_quoted(cell)
+                                                                  : cell);
   }
   for (const std::string& route : more.routes) {
     const auto it = std::find_if(e.routes.begin(), e.routes.end(),
@@ -340,7 +336,8 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   for (const identification::Fold& fold : folds) {
     for (const ParameterEstimate& e : fold.parameters) {
       // The joints of one trial are predicted by one fit.
-      const std::string row = fmt::format("{},{},{}", quoted(fold.trial), e.muscle, e.parameter);
+      const std::string row =
+          fmt::format("{},{},{}", report::csv_quoted(fold.trial), e.muscle, e.parameter);
       if (!written.insert(row).second) continue;
       text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate),
                           identification::name(fold.lag));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/normal.h"
 #include "myoid/math/moving_mean.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
@@ -22,8 +23,6 @@ constexpr double kRest_s = 1.0;
 /// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
 /// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
-/// sqrt(pi/2 - 1): coefficient of variation of rectified Gaussian noise.
-constexpr double kRectifiedSpread = 0.7555;
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
   const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
@@ -225,8 +224,7 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
           "EMG channel '{}' never rises above its resting level: was the electrode connected?",
           channel.name));
     }
-    // Rectified Gaussian noise of bandwidth B averaged over a window T has CV = 0.7555 / sqrt(2 B
-    // T).
+    // Rectified Gaussian noise of bandwidth B, averaged over a window T, has this relative spread.
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
     const auto spread_over = [&](double window_s) {
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
