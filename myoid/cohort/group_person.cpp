@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/tables/storage_reader.h"
@@ -55,7 +56,7 @@ std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<st
 
 json read_json(const fs::path& file) {
   try {
-    return json::parse(recording::read_text_file(file));
+    return parse_json(recording::read_text_file(file));
   } catch (const json::exception& error) {
     throw ReadError(file, 0, fmt::format("is damaged: {}; run the study again", error.what()));
   }

@@ -32,7 +32,7 @@ bool is_unchanged(const InputFile& input) {
 
 std::optional<Outcome> read_outcome(const fs::path& folder) {
   try {
-    const auto json = ordered_json::parse(recording::read_text_file(folder / kFile));
+    const auto json = parse_ordered_json(recording::read_text_file(folder / kFile));
     const auto kind = choice_named<OutcomeKind>(json.at("outcome").get<std::string>());
     if (!kind) return std::nullopt;
     Outcome outcome{.kind = *kind,

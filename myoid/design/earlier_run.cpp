@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/intervals/estimate_columns.h"
 
 namespace myoid {
@@ -23,7 +25,7 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
                     "there is no such file; --after must name the folder of a finished "
                     "`myoid run` or `myoid identify`");
   try {
-    const nlohmann::json all = nlohmann::json::parse(stream);
+    const nlohmann::json all = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}));
     for (const nlohmann::json& method : all.at("methods")) {
       if (method.at("method") != "torque") continue;
       EarlierRun run;

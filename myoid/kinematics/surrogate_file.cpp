@@ -123,7 +123,7 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
-    const ordered_json object = ordered_json::parse(recording::read_text_file(path));
+    const ordered_json object = parse_ordered_json(recording::read_text_file(path));
     if (object.value("kind", "") != kKind) {
       throw ReadError(path, 0,
                       "this is no file of path surrogates; it is left as it is, give another name");

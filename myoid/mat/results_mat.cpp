@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/numbers.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/csv_reader.h"
@@ -204,7 +205,7 @@ class Remarks {
 
 /// Trials, remarks and the run itself, of run.json.
 void add_run(const fs::path& folder, MatStruct& variables) {
-  const json run = json::parse(recording::read_text_file(folder / "run.json"));
+  const json run = parse_json(recording::read_text_file(folder / "run.json"));
   std::vector<MatStruct> trials;
   Remarks remarks;
   remarks.add_faults("", run.at("faults"));

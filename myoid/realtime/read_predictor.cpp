@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameter_fields.h"
@@ -31,7 +32,7 @@ constexpr int kMaxDegree = 16;
 
 json read_json(const fs::path& path) {
   try {
-    return json::parse(recording::read_text_file(path));
+    return parse_json(recording::read_text_file(path));
   } catch (const json::exception& error) {
     throw ReadError(path, 0, fmt::format("is no result of a run: {}", error.what()));
   }

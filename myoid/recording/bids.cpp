@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/text_table.h"
 
@@ -80,7 +81,7 @@ TableNumbers motion_rows(const std::filesystem::path& path,
 
 /// Returns SamplingFrequency of a sidecar.
 double rate_of(const std::filesystem::path& path) {
-  const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
+  const auto json = parse_json(read_text_file(path), false);
   if (!json.is_object()) throw ReadError(path, 0, "this is no JSON object");
   const auto it = json.find("SamplingFrequency");
   const double rate = it != json.end() && it->is_number() ? it->get<double>() : 0.0;

@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
+#include "myoid/core/normal.h"
 #include "myoid/files/text_file.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/study/run_identity.h"
@@ -23,7 +25,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kLevel = 0.05;
-constexpr double kNormal95 = 1.959963984540054;
 
 using identification::ParameterEstimate;
 using identification::Verdict;
@@ -50,7 +51,7 @@ Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   Run run;
   try {
-    const json content = json::parse(recording::read_text_file(path));
+    const json content = parse_json(recording::read_text_file(path));
     for (const json& method : content.at("methods")) {
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);

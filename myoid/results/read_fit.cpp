@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
 
@@ -61,7 +62,7 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
                                               const identification::EstimatorOptions& options) {
   const std::filesystem::path path = folder / "parameters.json";
   try {
-    const json content = json::parse(recording::read_text_file(path));
+    const json content = parse_json(recording::read_text_file(path));
     for (const json& method : content.at("methods")) {
       if (method.at("method") != "torque") continue;
       identification::IdentificationResult fit = fit_of(method);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -156,10 +157,11 @@ void remove_results(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::ifstream stream(folder / "run.json");
   if (!stream) return;
-  const ordered_json run = ordered_json::parse(stream, nullptr, false);
+  const nlohmann::json run =
+      parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
   if (run.is_discarded() || !run.contains("trials")) return;
   std::error_code ignored;
-  for (const ordered_json& trial : run["trials"]) {
+  for (const nlohmann::json& trial : run["trials"]) {
     const std::string name = trial.value("name", "");
     if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
     for (const auto& entry : fs::directory_iterator(folder / name, ignored)) {

@@ -258,7 +258,7 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
                        {"version", provenance.version},
                        {"command", provenance.command},
                        {"inputs", inputs},
-                       {"options", ordered_json::parse(provenance.options_json)},
+                       {"options", parse_ordered_json(provenance.options_json)},
                        {"finished", s.status == math::OdeStatus::done},
                        {"message", s.message},
                        {"reached_s", s.reached_s},

@@ -126,7 +126,7 @@ void StageStore::remove_unused() {
 std::string ik_key(const Study& study,
                    std::string_view model_text,
                    const recording::MarkerSeries& markers) {
-  const json settings = json::parse(study_json(study));
+  const json settings = parse_json(study_json(study));
   std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
   for (const char* section : {"model", "markers", "ik"})
     what += json_text(settings.at(section), -1) + '\n';

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/text_file.h"
 #include "myoid/study/study_text.h"
@@ -56,7 +57,7 @@ bool same_model(const RunIdentity& a, const RunIdentity& b) {
 }  // namespace
 
 RunIdentity identity_of(const Study& study) {
-  RunIdentity identity = identity_of(json::parse(study_json(study)));
+  RunIdentity identity = identity_of(parse_json(study_json(study)));
   if (study.model.file)
     identity.model_sha256 = sha256(recording::read_text_file(*study.model.file));
   return identity;
@@ -65,7 +66,7 @@ RunIdentity identity_of(const Study& study) {
 RunIdentity read_run_identity(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   try {
-    const json content = json::parse(recording::read_text_file(path));
+    const json content = parse_json(recording::read_text_file(path));
     const auto provenance = content.find("provenance");
     if (provenance == content.end()) return {};
     RunIdentity identity = identity_of(provenance->value("options", json::object()));

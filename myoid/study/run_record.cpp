@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid {
@@ -24,7 +25,7 @@ RunRecord read_run_record(const fs::path& folder) {
   const fs::path path = folder / "run.json";
   RunRecord record{.folder = folder};
   try {
-    const json run = json::parse(recording::read_text_file(path));
+    const json run = parse_json(recording::read_text_file(path));
     if (!run.contains("study"))
       throw ReadError(path, 0, "does not name its study; run the study again");
     record.study = run.at("study").get<std::string>();

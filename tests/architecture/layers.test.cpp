@@ -195,12 +195,15 @@ TEST(Architecture, OnlyTheProgramPrints) {
   }
 }
 
-// nlohmann's dump() throws for a name that is no UTF-8; json_text does not.
-TEST(Architecture, JsonIsRenderedInOnePlace) {
+// nlohmann's dump() throws for a name that is no UTF-8; json_text does not. A parser takes 2 s to
+// compile.
+TEST(Architecture, JsonIsRenderedAndParsedInOnePlace) {
   for (const SourceFile& source : sources()) {
     if (source.path.filename() == "json_text.cpp") continue;
     EXPECT_EQ(source.text.find(".dump("), std::string::npos)
         << source.path << ": json_text renders JSON";
+    EXPECT_EQ(source.text.find("json::parse("), std::string::npos)
+        << source.path << ": parse_json parses JSON";
   }
 }
 
