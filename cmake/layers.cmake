@@ -2,7 +2,8 @@
 # exactly these; tests/architecture compares every #include with this list.
 set(MYOID_LAYERS core math files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation beliefs identification intervals posterior methods report phases study intake checks
-    design run scene results draft contents identify_files opensim_tools twin cohort realtime mat commands cli)
+    design run scene results draft contents identify_files opensim_tools virtual_person twin cohort
+    realtime mat commands cli)
 set(MYOID_LAYER_core)
 set(MYOID_LAYER_math core)
 set(MYOID_LAYER_files core)
@@ -43,14 +44,16 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_twin core math files muscle tables c3d model osim arm simulation beliefs
-    identification intervals study run)
+set(MYOID_LAYER_virtual_person core math files muscle model osim arm simulation beliefs
+    identification study)
+set(MYOID_LAYER_twin core math files muscle tables c3d arm simulation intervals study run
+    virtual_person)
 set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)
 set(MYOID_LAYER_mat core files tables)
 set(MYOID_LAYER_commands core files muscle tables c3d recording signals model osim arm kinematics
     dynamics forces simulation identification intervals methods report study checks design run scene
-    results draft contents identify_files opensim_tools twin cohort)
+    results draft contents identify_files opensim_tools virtual_person twin cohort)
 set(MYOID_LAYER_cli core math files intervals methods report study results contents cohort mat commands)
 
 # Rooms that compute little themselves: they read, write, judge and call the rooms below.

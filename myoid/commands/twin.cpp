@@ -8,8 +8,8 @@
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/twin/truth_settings.h"
 #include "myoid/twin/write_recording.h"
+#include "myoid/virtual_person/truth_settings.h"
 
 namespace myoid::commands {
 namespace {

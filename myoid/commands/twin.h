@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "myoid/commands/call.h"
-#include "myoid/twin/protocol.h"
 #include "myoid/twin/synthetic_recording.h"
+#include "myoid/virtual_person/protocol.h"
 
 namespace myoid::commands {
 

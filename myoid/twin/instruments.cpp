@@ -9,7 +9,7 @@
 #include "myoid/core/units.h"
 #include "myoid/math/butterworth.h"
 #include "myoid/simulation/random.h"
-#include "myoid/twin/raw_emg.h"
+#include "myoid/virtual_person/raw_emg.h"
 
 namespace myoid::twin {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "myoid/core/time_series.h"
 #include "myoid/files/marker_series.h"
-#include "myoid/twin/performance.h"
-#include "myoid/twin/protocol.h"
-#include "myoid/twin/virtual_arm.h"
+#include "myoid/virtual_person/performance.h"
+#include "myoid/virtual_person/protocol.h"
+#include "myoid/virtual_person/virtual_arm.h"
 
 namespace myoid::twin {
 

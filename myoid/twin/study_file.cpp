@@ -8,9 +8,9 @@
 #include "myoid/files/toml_text.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/hill_parameters.h"
-#include "myoid/twin/effective_truth.h"
-#include "myoid/twin/truth_settings.h"
 #include "myoid/twin/write_recording.h"
+#include "myoid/virtual_person/effective_truth.h"
+#include "myoid/virtual_person/truth_settings.h"
 
 namespace myoid::twin {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "myoid/core/error.h"
 #include "myoid/simulation/random.h"
-#include "myoid/twin/draw_truth.h"
-#include "myoid/twin/effective_delay.h"
-#include "myoid/twin/effective_truth.h"
-#include "myoid/twin/performance.h"
-#include "myoid/twin/trial_script.h"
+#include "myoid/virtual_person/draw_truth.h"
+#include "myoid/virtual_person/effective_delay.h"
+#include "myoid/virtual_person/effective_truth.h"
+#include "myoid/virtual_person/performance.h"
+#include "myoid/virtual_person/trial_script.h"
 
 namespace myoid::twin {
 namespace {

@@ -9,13 +9,13 @@
 #include "myoid/core/geometry.h"
 #include "myoid/core/time_series.h"
 #include "myoid/files/marker_series.h"
-#include "myoid/twin/control.h"
-#include "myoid/twin/departures.h"
-#include "myoid/twin/draw_truth.h"
 #include "myoid/twin/instruments.h"
-#include "myoid/twin/protocol.h"
-#include "myoid/twin/true_arm.h"
-#include "myoid/twin/virtual_arm.h"
+#include "myoid/virtual_person/control.h"
+#include "myoid/virtual_person/departures.h"
+#include "myoid/virtual_person/draw_truth.h"
+#include "myoid/virtual_person/protocol.h"
+#include "myoid/virtual_person/true_arm.h"
+#include "myoid/virtual_person/virtual_arm.h"
 
 namespace myoid::twin {
 

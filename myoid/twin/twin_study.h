@@ -8,8 +8,8 @@
 #include "myoid/core/progress.h"
 #include "myoid/core/provenance.h"
 #include "myoid/intervals/result.h"
-#include "myoid/twin/protocol.h"
-#include "myoid/twin/truth_settings.h"
+#include "myoid/virtual_person/protocol.h"
+#include "myoid/virtual_person/truth_settings.h"
 
 namespace myoid::twin {
 

@@ -18,7 +18,7 @@
 #include "myoid/methods/torque.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/osim/osim_reader.h"
-#include "myoid/twin/virtual_arm.h"
+#include "myoid/virtual_person/virtual_arm.h"
 
 #include "tests/support/elbow_study.h"
 

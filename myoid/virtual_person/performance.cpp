@@ -1,0 +1,155 @@
+#include "myoid/virtual_person/performance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myoid::twin {
+namespace {
+
+constexpr double kFatigueStep_s = 0.05;
+
+}  // namespace
+
+template <std::size_t N>
+void Tiredness<N>::rest(double interval_s) {
+  if (!rates) return;
+  constexpr double kRelaxing_s = 2.0;  // e^-20 is left of what was active
+  const double relaxing_s = std::min(interval_s, kRelaxing_s);
+  work({}, relaxing_s);
+  const double decay =
+      std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
+  for (muscle::FatigueState<double>& s : state) {
+    s.fatigued *= decay;
+    s.resting = 1.0 - s.active - s.fatigued;
+  }
+}
+template struct Tiredness<4>;
+template struct Tiredness<7>;
+
+PerMuscle interpolated(const std::vector<PerMuscle>& values, double step_s, double time_s) {
+  const double s = std::clamp(time_s / step_s, 0.0, static_cast<double>(values.size() - 1));
+  const std::size_t before = std::min(static_cast<std::size_t>(s), values.size() - 1);
+  const std::size_t after = std::min(before + 1, values.size() - 1);
+  PerMuscle result;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = std::lerp(values[before][i], values[after][i], s - static_cast<double>(before));
+  return result;
+}
+
+ExactPerformance::ExactPerformance(const VirtualArm& arm,
+                                   const HillSet& muscles,
+                                   TrialScript script,
+                                   double delay_s,
+                                   const PerMuscle& effort,
+                                   Tiredness<4>& tiredness,
+                                   const BesideMuscles& beside,
+                                   const Departures& departures)
+    : Performance(std::move(script)),
+      arm_(&arm),
+      muscles_(&muscles),
+      beside_(beside),
+      body_(departures, arm, muscles),
+      elastic_(departures.elastic()),
+      delay_s_(delay_s),
+      effort_(effort) {
+  if (!tiredness.rates) return;
+  const auto count =
+      static_cast<std::size_t>(std::ceil(this->script().duration_s / kFatigueStep_s)) + 1;
+  strength_.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    strength_.push_back(tiredness.strength());
+    tiredness.work(at(static_cast<double>(k) * kFatigueStep_s).activation, kFatigueStep_s);
+  }
+}
+
+PerMuscle ExactPerformance::strength(double time_s) const {
+  if (strength_.empty()) return {1.0, 1.0, 1.0, 1.0};
+  return interpolated(strength_, kFatigueStep_s, time_s);
+}
+
+PerMuscle ExactPerformance::fatigued(double time_s) const {
+  PerMuscle share = strength(time_s);
+  for (double& value : share) value = 1.0 - value;
+  return share;
+}
+
+PerMuscle ExactPerformance::force_per_activation_n(const MuscleGeometry& geometry,
+                                                   const PerMuscle& activation,
+                                                   const PerMuscle& tension_n) const {
+  PerMuscle longer = {1.0, 1.0, 1.0, 1.0};
+  if (beside_.length_activation != 0.0) {
+    for (std::size_t i = 0; i < longer.size(); ++i)
+      longer[i] = 1.0 + beside_.length_activation * (1.0 - activation[i]);
+  }
+  return body_.full_force_n(geometry, longer, tension_n);
+}
+
+Instant ExactPerformance::at(double time_s) const {
+  const TrialScript& script = this->script();
+  Instant now;
+  now.q = script.motion(time_s);
+  const MuscleGeometry geometry = body_.geometry(now.q);
+  const PerMuscle left = strength(time_s);
+  now.passive_torque_nm = beside_.joint_torque_nm -
+                          beside_.joint_stiffness_nm_per_rad * now.q.value -
+                          beside_.joint_viscosity_nms_per_rad * now.q.first;
+  const double required_nm =
+      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) -
+      now.passive_torque_nm;
+  const bool prescribed = script.against_dynamometer();
+  if (prescribed) {
+    now.activation = script.prescribed_activations(time_s);
+    if (script.protocol.kind == TrialKind::mvc) {
+      for (std::size_t i = 0; i < 4; ++i) now.activation[i] *= effort_[i];
+    }
+  }
+  // The force per activation depends a little on the activation (its shift of the optimum) and on
+  // the force (the tendon's stretch): in turn, until all agree. Stretches that answer the force by
+  // more than itself settle too, because half of each step is taken.
+  constexpr int kMostTurns = 200;
+  const bool at_once = !elastic_ && (prescribed || beside_.length_activation == 0.0);
+  PerMuscle full_n{}, capacity_nm{}, tension_n{};
+  for (int turn = 0; turn < (at_once ? 1 : kMostTurns); ++turn) {
+    const PerMuscle before = now.activation;
+    full_n = force_per_activation_n(geometry, now.activation, tension_n);
+    for (std::size_t i = 0; i < 4; ++i) {
+      full_n[i] *= left[i];
+      capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
+    }
+    if (!prescribed)
+      now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+    double change = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      change = std::max(change, std::abs(now.activation[i] - before[i]));
+      if (!elastic_) continue;
+      const double step_n = now.activation[i] * full_n[i] - tension_n[i];
+      tension_n[i] += 0.5 * step_n;
+      change = std::max(change, std::abs(step_n) / (*muscles_)[i].max_isometric_force_n);
+    }
+    if (change < 1e-10) break;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    now.force_n[i] = now.activation[i] * full_n[i];
+    now.fiber_length_m[i] = body_.fiber_length_m(i, geometry.length_m[i], now.force_n[i]);
+    now.muscle_torque_nm += now.activation[i] * capacity_nm[i];
+  }
+  if (prescribed) now.external_torque_nm = required_nm - now.muscle_torque_nm;
+  return now;
+}
+
+PerMuscle ExactPerformance::drive(double time_s) const {
+  // The electrode sees now what the muscle does a delay later.
+  return at(time_s + delay_s_).activation;
+}
+
+double ExactPerformance::greatest_activation(double rate_hz) const {
+  double greatest = 0.0;
+  if (script().against_dynamometer()) return greatest;
+  for (double t = 0.0; t <= script().duration_s; t += 1.0 / rate_hz) {
+    const PerMuscle a = at(t).activation;
+    greatest = std::max(greatest, *std::max_element(a.begin(), a.end()));
+  }
+  return greatest;
+}
+
+}  // namespace myoid::twin

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "myoid/muscle/fatigue.h"
+#include "myoid/virtual_person/arm_stepper.h"
+#include "myoid/virtual_person/departures.h"
+#include "myoid/virtual_person/draw_truth.h"
+#include "myoid/virtual_person/trial_script.h"
+#include "myoid/virtual_person/true_arm.h"
+#include "myoid/virtual_person/virtual_arm.h"
+
+namespace myoid::twin {
+
+inline constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
+
+/// The state of the person at one instant of a trial.
+struct Instant {
+  Moment q;                         ///< Elbow flexion.
+  PerMuscle activation{};           ///< What the muscle does; of heads, the mean by strength.
+  PerMuscle force_n{};              ///< On the skeleton; of heads, the sum.
+  PerMuscle fiber_length_m{};       ///< Of heads, the mean by strength.
+  double muscle_torque_nm = 0.0;    ///< Flexion positive, as all of them.
+  double passive_torque_nm = 0.0;   ///< Of the joint itself.
+  double external_torque_nm = 0.0;  ///< Of the dynamometer.
+};
+
+/// One person doing one trial: the truth at any time, a little before the beginning and after the
+/// end too.
+class Performance {
+ public:
+  explicit Performance(TrialScript script) : script_(std::move(script)) {}
+  virtual ~Performance() = default;
+  Performance(const Performance&) = delete;
+  Performance& operator=(const Performance&) = delete;
+
+  [[nodiscard]] const TrialScript& script() const { return script_; }
+  [[nodiscard]] virtual Instant at(double time_s) const = 0;
+  [[nodiscard]] virtual Moment motion(double time_s) const = 0;
+  /// Excitation of each muscle as its electrode sees it, before any delay.
+  [[nodiscard]] virtual PerMuscle drive(double time_s) const = 0;
+  /// Share of the strength that fatigue has taken from each muscle by this time.
+  [[nodiscard]] virtual PerMuscle fatigued(double time_s) const = 0;
+  /// The heads at this time; empty where the truth has none.
+  [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const {
+    return std::nullopt;
+  }
+
+ private:
+  TrialScript script_;
+};
+
+/// A value of an even clock from 0 that is held before and after; straight lines in between.
+[[nodiscard]] PerMuscle interpolated(const std::vector<PerMuscle>& values,
+                                     double step_s,
+                                     double time_s);
+
+/// Fatigue of N muscles or heads from trial to trial.
+template <std::size_t N>
+struct Tiredness {
+  std::optional<muscle::FatigueRates<double>> rates;  ///< Empty: nobody tires.
+  std::array<muscle::FatigueState<double>, N> state{};
+
+  [[nodiscard]] std::array<double, N> strength() const {
+    std::array<double, N> share{};
+    for (std::size_t i = 0; i < N; ++i) share[i] = muscle::fatigue_capacity(state[i]);
+    return share;
+  }
+  void work(const std::array<double, N>& activation, double interval_s) {
+    if (!rates) return;
+    for (std::size_t i = 0; i < N; ++i)
+      state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
+  }
+  /// Active muscle relaxes first; then M_F decays with the rate r R.
+  void rest(double interval_s);
+};
+extern template struct Tiredness<4>;
+extern template struct Tiredness<7>;
+
+/// Levels L0 and L1: rigid tendons and prescribed motion, so that the equation of motion is solved
+/// by activations in closed form.
+class ExactPerformance : public Performance {
+ public:
+  /// `effort`: what the muscles reach of their greatest activation in an MVC trial. `tiredness` is
+  /// carried on.
+  ExactPerformance(const VirtualArm& arm,
+                   const HillSet& muscles,
+                   TrialScript script,
+                   double delay_s,
+                   const PerMuscle& effort,
+                   Tiredness<4>& tiredness,
+                   const BesideMuscles& beside = {},
+                   const Departures& departures = {});
+
+  [[nodiscard]] Instant at(double time_s) const override;
+  [[nodiscard]] Moment motion(double time_s) const override { return script().motion(time_s); }
+  [[nodiscard]] PerMuscle drive(double time_s) const override;
+  [[nodiscard]] PerMuscle fatigued(double time_s) const override;
+
+  /// The greatest activation that the motion asks for; 0 against a dynamometer.
+  [[nodiscard]] double greatest_activation(double rate_hz) const;
+
+ private:
+  [[nodiscard]] PerMuscle strength(double time_s) const;
+  /// Force over activation at these activations and tensions.
+  [[nodiscard]] PerMuscle force_per_activation_n(const MuscleGeometry& geometry,
+                                                 const PerMuscle& activation,
+                                                 const PerMuscle& tension_n) const;
+
+  const VirtualArm* arm_;
+  const HillSet* muscles_;
+  BesideMuscles beside_;
+  DepartedMuscles body_;
+  bool elastic_;
+  double delay_s_;
+  PerMuscle effort_;
+  std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.
+};
+
+/// The greatest activation that a person at level L2 would foresee for a trial; 0 against a
+/// dynamometer.
+[[nodiscard]] double foreseen_activation(const TrueArm& arm, const TrialScript& script);
+
+/// Level L2: a nervous system drives the arm forward in time (ArmStepper). It knows the motion it
+/// wants and about what its muscles can do; what it gets wrong it corrects by what it feels of
+/// angle and speed, and its drive is noisy. The motion is what comes of it.
+class SimulatedPerformance : public Performance {
+ public:
+  SimulatedPerformance(const TrueArm& arm,
+                       TrialScript script,
+                       const PerMuscle& effort,
+                       double motor_noise,
+                       Tiredness<7>& tiredness,
+                       std::uint64_t seed);
+
+  [[nodiscard]] Instant at(double time_s) const override;
+  [[nodiscard]] Moment motion(double time_s) const override;
+  [[nodiscard]] PerMuscle drive(double time_s) const override;
+  [[nodiscard]] PerMuscle fatigued(double time_s) const override;
+  [[nodiscard]] std::optional<ArmState> heads(double time_s) const override;
+
+  /// Why the person could not do the trial; empty if it went well.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+
+  /// The commands as the muscles' excitations, for simulating the same trial by other means: on the
+  /// clock of `sample_time_s`, the delay passed.
+  [[nodiscard]] std::size_t sample_count() const { return samples_.size(); }
+  [[nodiscard]] double sample_time_s(std::size_t k) const;
+  [[nodiscard]] const PerHead& excitation(std::size_t k) const { return samples_[k].excitation; }
+  [[nodiscard]] const ArmState& sample(std::size_t k) const { return samples_[k].arm; }
+
+ private:
+  struct Sample {
+    ArmState arm;
+    PerHead excitation{};
+    PerMuscle command{};
+    PerMuscle electrode{};
+  };
+  /// The interval that holds the time, and where in it, 0..1.
+  struct Place {
+    std::size_t before;
+    double share;
+  };
+  [[nodiscard]] Place place(double time_s) const;
+  void simulate(double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed);
+  /// The command that reaches the muscles at a time, from those given so far.
+  [[nodiscard]] PerMuscle delayed_command(double t) const;
+  /// Steps the arm from sample k - 1 to sample k.
+  void step_to_sample(std::size_t k, ArmStepper& stepper) const;
+  /// Adds the work of sample k, and weakens the muscles at every tenth.
+  void tire(std::size_t k, PerHead& worked, Tiredness<7>& tiredness, ArmStepper& stepper);
+
+  const TrueArm* arm_;
+  PerMuscle effort_;
+  std::vector<Sample> samples_;
+  std::vector<PerMuscle> fatigued_;  ///< On an even clock from 0; empty: nobody tires.
+  std::string failure_;
+};
+
+}  // namespace myoid::twin

@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "myoid/core/units.h"
+#include "myoid/virtual_person/performance.h"
+#include "myoid/virtual_person/raw_emg.h"
+
+namespace myoid::twin {
+namespace {
+
+constexpr double kStep_s = 0.001;
+constexpr int kStepsPerSample = 5;
+constexpr double kSample_s = kStep_s * kStepsPerSample;  ///< Of the command, and of what is kept.
+constexpr int kSamplesPerFatigue = 10;
+constexpr double kBefore_s = 1.0;  ///< The arm comes to rest, held, before the trial begins.
+constexpr double kAfter_s = 0.2;
+constexpr double kMotorNoiseCutoff_hz = 3.0;
+constexpr double kLost_rad = 0.6;        ///< So far from what was wanted, the movement has failed.
+constexpr double kFeedback_radps = 6.0;  ///< Natural frequency of the correction ...
+constexpr double kDamping = 0.8;         ///< ... its damping ratio ...
+constexpr double kIntegral = 0.1;        ///< ... and integral part.
+constexpr double kForceSense_s = 0.05;   ///< Time over which felt forces are averaged.
+
+/// The plan of the person at one time.
+struct Plan {
+  Moment target;
+  double torque_nm = 0.0;
+  PerMuscle capacity_nm{};
+};
+
+Plan plan_at(const ArmStepper& stepper, const TrueArm& arm, const TrialScript& script, double t) {
+  Plan plan{.target = script.motion(t)};
+  const ArmStepper::Foresight foresight = stepper.foresee(plan.target);
+  plan.torque_nm = foresight.torque_nm;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    plan.capacity_nm[arm.heads[i].muscle] += arm.heads[i].drive * foresight.capacity_nm[i];
+  return plan;
+}
+
+/// Returns the torque of the muscles minus the one that the person expects in this state [N m].
+double surplus_nm(const ArmStepper& stepper) {
+  const ArmState& state = stepper.state();
+  const ArmStepper::Foresight foresight = stepper.foresee({state.q.value, state.q.first, 0.0});
+  double foreseen_nm = foresight.passive_nm;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    foreseen_nm += foresight.capacity_nm[i] * state.activation[i];
+  return state.muscle_torque_nm - foreseen_nm;
+}
+
+/// Returns the fatigue of each muscle: the mean of its heads, weighted by their strength.
+PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) {
+  PerMuscle fatigued = {};
+  PerMuscle strength = {};
+  for (std::size_t i = 0; i < kHeadCount; ++i) {
+    const double force_n = arm.heads[i].parameters.hill.max_isometric_force_n;
+    fatigued[arm.heads[i].muscle] += force_n * tiredness.state[i].fatigued;
+    strength[arm.heads[i].muscle] += force_n;
+  }
+  for (std::size_t m = 0; m < fatigued.size(); ++m) fatigued[m] /= strength[m];
+  return fatigued;
+}
+
+/// Drive that nobody intends: a factor about 1 for each muscle, on the clock of the samples.
+std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std::uint64_t seed) {
+  std::array<Eigen::VectorXd, 4> factor;
+  simulation::Random random(seed);
+  for (Eigen::VectorXd& f : factor) {
+    const Eigen::VectorXd noise =
+        lowpass_noise(kMotorNoiseCutoff_hz, 1.0 / kSample_s, count, random);
+    f = (1.0 + sd * noise.array()).max(0.0).matrix();
+  }
+  return factor;
+}
+
+/// Chooses the muscles' activations: those foreseen for the movement, corrected by what is seen and
+/// felt of it.
+class Controller {
+ public:
+  Controller(const TrueArm& arm,
+             const TrialScript& script,
+             const ArmStepper& stepper,
+             const PerMuscle& effort)
+      : arm_(arm),
+        script_(script),
+        stepper_(stepper),
+        effort_(effort),
+        lead_s_(arm.delay_s + arm.activation.excitation_time_s + arm.activation.activation_time_s) {
+    const double inertia_kgm2 =
+        required_torque_nm(arm, 0.0, 1.0, script.protocol.plane, script.protocol.held_mass_kg);
+    stiffness_ = inertia_kgm2 * kFeedback_radps * kFeedback_radps;
+    viscosity_ = 2.0 * kDamping * inertia_kgm2 * kFeedback_radps;
+  }
+
+  /// The command at time `t`. The first one knows no error yet.
+  PerMuscle command(double t, bool first) {
+    return script_.against_dynamometer() ? prescribed(t) : corrected(t, first);
+  }
+
+ private:
+  [[nodiscard]] PerMuscle prescribed(double t) const {
+    PerMuscle u = script_.prescribed_activations(t);
+    if (script_.protocol.kind == TrialKind::mvc) {
+      for (std::size_t m = 0; m < 4; ++m) u[m] *= effort_[m];
+    }
+    return u;
+  }
+
+  PerMuscle corrected(double t, bool first) {
+    // A command acts a little later than it is given.
+    const Plan later = plan_at(stepper_, arm_, script_, t + lead_s_);
+    const Moment wanted = script_.motion(t);
+    const Moment& is = stepper_.state().q;
+    const double off_rad = wanted.value - is.value;
+    double correction_nm = 0.0;
+    if (!first) {
+      held_nm_ += kIntegral * stiffness_ * kFeedback_radps * off_rad * kSample_s;
+      felt_nm_ += kSample_s / kForceSense_s * (surplus_nm(stepper_) - felt_nm_);
+      correction_nm =
+          stiffness_ * off_rad + viscosity_ * (wanted.first - is.first) + held_nm_ - felt_nm_;
+    }
+    return activations_for(later.torque_nm + correction_nm, later.capacity_nm,
+                           script_.coordination(t));
+  }
+
+  const TrueArm& arm_;
+  const TrialScript& script_;
+  const ArmStepper& stepper_;
+  const PerMuscle& effort_;
+  double lead_s_;
+  double stiffness_ = 0.0, viscosity_ = 0.0;
+  double held_nm_ = 0.0;  ///< The integral part.
+  double felt_nm_ = 0.0;  ///< Torque of the muscles beyond the foreseen.
+};
+
+PerHead excitation_of(const TrueArm& arm, const PerMuscle& command) {
+  PerHead u;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    u[i] = std::clamp(command[arm.heads[i].muscle] * arm.heads[i].drive, 0.0, 1.0);
+  return u;
+}
+
+PerMuscle electrode_of(const TrueArm& arm, const PerMuscle& command) {
+  PerMuscle power = {};
+  const PerHead u = excitation_of(arm, command);
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    power[arm.heads[i].muscle] += arm.heads[i].electrode_share * u[i] * u[i];
+  for (double& p : power) p = std::sqrt(p);
+  return power;
+}
+
+/// The reason why a movement has failed in this state; empty if it goes well.
+std::string failure_of(const ArmState& state, const TrialScript& script, double t) {
+  const double off_rad = state.q.value - script.motion(t).value;
+  if (!(std::abs(off_rad) < kLost_rad))
+    return fmt::format("the arm got out of hand at {:.2f} s", t);
+  if (*std::max_element(state.activation.begin(), state.activation.end()) > kGreatestActivation)
+    return fmt::format("an activation rose above {} at {:.2f} s", kGreatestActivation, t);
+  return "";
+}
+
+}  // namespace
+
+double foreseen_activation(const TrueArm& arm, const TrialScript& script) {
+  constexpr double kLook_s = 0.02;
+  if (script.against_dynamometer()) return 0.0;
+  ArmStepper stepper(arm, kStep_s);
+  stepper.start({script.protocol.plane, script.protocol.held_mass_kg}, script.motion.start_rad, {});
+  double greatest = 0.0;
+  for (double t = 0.0; t <= script.duration_s; t += kLook_s) {
+    const Plan plan = plan_at(stepper, arm, script, t);
+    const PerMuscle a = activations_for(plan.torque_nm, plan.capacity_nm, script.coordination(t));
+    greatest = std::max(greatest, *std::max_element(a.begin(), a.end()));
+  }
+  return greatest;
+}
+
+SimulatedPerformance::SimulatedPerformance(const TrueArm& arm,
+                                           TrialScript script,
+                                           const PerMuscle& effort,
+                                           double motor_noise,
+                                           Tiredness<7>& tiredness,
+                                           std::uint64_t seed)
+    : Performance(std::move(script)), arm_(&arm), effort_(effort) {
+  simulate(motor_noise, tiredness, seed);
+}
+
+double SimulatedPerformance::sample_time_s(std::size_t k) const {
+  return static_cast<double>(k) * kSample_s - kBefore_s;
+}
+
+PerMuscle SimulatedPerformance::delayed_command(double t) const {
+  const double s = std::max(0.0, (t - arm_->delay_s + kBefore_s) / kSample_s);
+  const std::size_t last = samples_.size() - 1;
+  const std::size_t before = std::min(static_cast<std::size_t>(s), last);
+  const std::size_t after = std::min(before + 1, last);
+  const double share = s - static_cast<double>(before);
+  PerMuscle command;
+  for (std::size_t m = 0; m < 4; ++m)
+    command[m] =
+        std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
+  return command;
+}
+
+void SimulatedPerformance::step_to_sample(std::size_t k, ArmStepper& stepper) const {
+  for (int j = 1; j <= kStepsPerSample; ++j) {
+    const double now = sample_time_s(k - 1) + j * kStep_s;
+    const PerHead u = excitation_of(*arm_, delayed_command(now));
+    if (script().against_dynamometer()) {
+      stepper.step_moved(u, script().motion(now));
+    } else {
+      stepper.step_free(u);
+    }
+  }
+}
+
+void SimulatedPerformance::tire(std::size_t k,
+                                PerHead& worked,
+                                Tiredness<7>& tiredness,
+                                ArmStepper& stepper) {
+  if (!tiredness.rates || sample_time_s(k) < 0.0) return;
+  for (std::size_t i = 0; i < kHeadCount; ++i)
+    worked[i] += samples_[k].arm.activation[i] / kSamplesPerFatigue;
+  if (k % kSamplesPerFatigue != 0) return;
+  fatigued_.push_back(fatigue_of_muscles(*arm_, tiredness));
+  tiredness.work(worked, kSamplesPerFatigue * kSample_s);
+  worked = {};
+  stepper.set_strength(tiredness.strength());
+}
+
+void SimulatedPerformance::simulate(double motor_noise,
+                                    Tiredness<7>& tiredness,
+                                    std::uint64_t seed) {
+  const TrialScript& script = this->script();
+  const Surroundings surroundings{script.protocol.plane, script.protocol.held_mass_kg};
+  ArmStepper stepper(*arm_, kStep_s);
+  stepper.set_strength(tiredness.strength());
+  const auto count =
+      static_cast<std::size_t>(std::ceil((kBefore_s + script.duration_s + kAfter_s) / kSample_s)) +
+      1;
+  const std::array<Eigen::VectorXd, 4> noise =
+      motor_noise_of(motor_noise, static_cast<Eigen::Index>(count), seed);
+  Controller controller(*arm_, script, stepper, effort_);
+  const auto command_at = [&](std::size_t k) {
+    PerMuscle u = controller.command(sample_time_s(k), k == 0);
+    // Excitation has a floor and a ceiling; one that would need more is found by failure_of().
+    for (std::size_t m = 0; m < 4; ++m)
+      u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
+    return u;
+  };
+
+  samples_.reserve(count);
+  PerHead worked = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = sample_time_s(k);
+    Sample sample;
+    if (k == 0) {
+      stepper.start(surroundings, script.motion(t).value, {});
+      sample.command = command_at(0);
+      stepper.start(surroundings, script.motion(t).value, excitation_of(*arm_, sample.command));
+      sample.arm = stepper.state();
+    } else {
+      step_to_sample(k, stepper);
+      sample.arm = stepper.state();
+      sample.command = command_at(k);
+    }
+    sample.electrode = electrode_of(*arm_, sample.command);
+    samples_.push_back(sample);
+    samples_.back().excitation = excitation_of(*arm_, delayed_command(t));
+    tire(k, worked, tiredness, stepper);
+    if (!script.against_dynamometer()) failure_ = failure_of(sample.arm, script, t);
+    if (!failure_.empty()) return;
+  }
+}
+
+SimulatedPerformance::Place SimulatedPerformance::place(double time_s) const {
+  const double s =
+      std::clamp((time_s + kBefore_s) / kSample_s, 0.0, static_cast<double>(samples_.size() - 1));
+  const std::size_t before = std::min(static_cast<std::size_t>(s), samples_.size() - 2);
+  double share = s - static_cast<double>(before);
+  // Times on the grid mean its samples, whatever round-off says.
+  if (share < 1e-9) share = 0.0;
+  if (share > 1.0 - 1e-9) share = 1.0;
+  return {before, share};
+}
+
+Moment SimulatedPerformance::motion(double time_s) const {
+  const Place at = place(time_s);
+  const Moment& a = samples_[at.before].arm.q;
+  const Moment& b = samples_[at.before + 1].arm.q;
+  if (at.share == 0.0) return a;
+  if (at.share == 1.0) return b;
+  // The quintic that meets value, speed and acceleration at both ends.
+  const double h = kSample_s;
+  const double x = at.share;
+  const double rise = b.value - a.value - h * (a.first + 0.5 * h * a.second);
+  const double slope = h * (b.first - a.first - h * a.second);
+  const double bend = h * h * (b.second - a.second);
+  const double c3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
+  const double c4 = -15.0 * rise + 7.0 * slope - bend;
+  const double c5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
+  const double x2 = x * x;
+  return {a.value + h * x * (a.first + 0.5 * h * x * a.second) + x2 * x * (c3 + x * (c4 + x * c5)),
+          a.first + h * x * a.second + x2 * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)) / h,
+          a.second + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5)) / (h * h)};
+}
+
+std::optional<ArmState> SimulatedPerformance::heads(double time_s) const {
+  const Place at = place(time_s);
+  const ArmState& a = samples_[at.before].arm;
+  const ArmState& b = samples_[at.before + 1].arm;
+  if (at.share == 0.0) return a;
+  if (at.share == 1.0) return b;
+  ArmState now;
+  now.q = motion(time_s);
+  for (std::size_t i = 0; i < kHeadCount; ++i) {
+    now.activation[i] = std::lerp(a.activation[i], b.activation[i], at.share);
+    now.fiber_length_m[i] = std::lerp(a.fiber_length_m[i], b.fiber_length_m[i], at.share);
+    now.fiber_velocity_mps[i] =
+        std::lerp(a.fiber_velocity_mps[i], b.fiber_velocity_mps[i], at.share);
+    now.tendon_force_n[i] = std::lerp(a.tendon_force_n[i], b.tendon_force_n[i], at.share);
+  }
+  now.muscle_torque_nm = std::lerp(a.muscle_torque_nm, b.muscle_torque_nm, at.share);
+  now.passive_torque_nm = std::lerp(a.passive_torque_nm, b.passive_torque_nm, at.share);
+  return now;
+}
+
+Instant SimulatedPerformance::at(double time_s) const {
+  const ArmState now = *heads(time_s);
+  Instant result;
+  result.q = now.q;
+  PerMuscle strength = {};
+  for (std::size_t i = 0; i < kHeadCount; ++i) {
+    const TrueHead& head = arm_->heads[i];
+    const double force_n = head.parameters.hill.max_isometric_force_n;
+    strength[head.muscle] += force_n;
+    result.activation[head.muscle] += force_n * now.activation[i];
+    result.fiber_length_m[head.muscle] += force_n * now.fiber_length_m[i];
+    result.force_n[head.muscle] += now.tendon_force_n[i];
+  }
+  for (std::size_t m = 0; m < 4; ++m) {
+    result.activation[m] /= strength[m];
+    result.fiber_length_m[m] /= strength[m];
+  }
+  result.muscle_torque_nm = now.muscle_torque_nm;
+  result.passive_torque_nm = now.passive_torque_nm;
+  if (script().against_dynamometer()) {
+    result.external_torque_nm =
+        required_torque_nm(*arm_, now.q.value, now.q.second, script().protocol.plane,
+                           script().protocol.held_mass_kg) -
+        now.muscle_torque_nm - now.passive_torque_nm;
+  }
+  return result;
+}
+
+PerMuscle SimulatedPerformance::fatigued(double time_s) const {
+  if (fatigued_.empty()) return {};
+  return interpolated(fatigued_, kSamplesPerFatigue * kSample_s, time_s);
+}
+
+PerMuscle SimulatedPerformance::drive(double time_s) const {
+  const Place at = place(time_s);
+  PerMuscle drive;
+  for (std::size_t m = 0; m < 4; ++m)
+    drive[m] =
+        std::lerp(samples_[at.before].electrode[m], samples_[at.before + 1].electrode[m], at.share);
+  return drive;
+}
+
+}  // namespace myoid::twin

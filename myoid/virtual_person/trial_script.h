@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "myoid/virtual_person/control.h"
+#include "myoid/virtual_person/protocol.h"
+#include "myoid/virtual_person/smooth_motion.h"
+
+namespace myoid::twin {
+
+/// One effort against a dynamometer: rises, holds, falls; 0 outside.
+struct Effort {
+  double start_s = 0.0;
+  double rise_s = 1.0;
+  double hold_s = 1.0;
+  bool flexion = true;
+  Coordination coordination;  ///< Of this effort; its co-contraction is not used.
+
+  /// 0..1, with five continuous derivatives.
+  [[nodiscard]] double level(double time_s) const;
+  [[nodiscard]] double end_s() const { return start_s + 2.0 * rise_s + hold_s; }
+};
+
+/// A slow modulation: 1 + depth cos(2 pi f t + phase).
+struct Modulation {
+  double depth = 0.0;
+  double frequency_hz = 0.1;
+  double phase_rad = 0.0;
+
+  [[nodiscard]] double operator()(double time_s) const;
+};
+
+/// The acts of a virtual person in one trial, at any time. They begin before the recording and end
+/// after it, since muscles act a little later than the electrodes see.
+struct TrialScript {
+  TrialProtocol protocol;
+  double duration_s = 0.0;
+  SmoothMotion motion;
+  std::vector<Effort> efforts;        ///< Of isometric and maximal trials; else empty.
+  Coordination mean;                  ///< Of the trial.
+  Modulation brachioradialis_change;  ///< Its departure from 1 is added to the mean.
+  Modulation brachialis_change;
+  Modulation co_contraction_change;  ///< A factor.
+  bool eased = false;                ///< See Coordination.
+  double emg_gain_first = 1.0;       ///< EMG per excitation at the beginning ...
+  double emg_gain_last = 1.0;        ///< ... and at the end; a straight line in between.
+
+  /// 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
+  [[nodiscard]] double cold(double time_s) const;
+
+  [[nodiscard]] double emg_gain(double time_s) const;
+
+  /// Returns the shares of the torque at this time, in trials with a motion.
+  [[nodiscard]] Coordination coordination(double time_s) const;
+
+  /// Activations in a trial against the dynamometer, or of relaxed muscles.
+  [[nodiscard]] PerMuscle prescribed_activations(double time_s) const;
+
+  /// True if `prescribed_activations` holds and the dynamometer exerts what is left of the torque;
+  /// false if the muscles must exert the torque that the motion requires.
+  [[nodiscard]] bool against_dynamometer() const;
+};
+
+/// Draws what the protocol leaves to chance. The streams depend on the name of the trial: one trial
+/// more leaves the others as they were.
+[[nodiscard]] TrialScript make_script(const TrialProtocol& trial,
+                                      const ControlSpec& control,
+                                      std::uint64_t seed);
+
+}  // namespace myoid::twin

@@ -1,0 +1,176 @@
+#include "myoid/virtual_person/virtual_arm.h"
+
+#include <cmath>
+#include <utility>
+
+#include "myoid/arm/arm4.h"
+#include "myoid/arm/arm7.h"
+#include "myoid/arm/planar_elbow.h"
+#include "myoid/core/units.h"
+#include "myoid/model/kinematic_tree.h"
+#include "myoid/osim/osim_reader.h"
+
+namespace myoid::twin {
+namespace {
+
+/// Heads as one muscle each: F_max added up, the rest in the mean by F_max.
+void lump(const std::vector<model::ArmHead>& heads, HillSet& muscles) {
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    muscle::HillParameters<double> sum;
+    double total_n = 0.0;
+    for (const model::ArmHead& head : heads) {
+      if (static_cast<std::size_t>(head.lump) == m) total_n += head.hill.max_isometric_force_n;
+    }
+    for (const model::ArmHead& head : heads) {
+      if (static_cast<std::size_t>(head.lump) != m) continue;
+      const double share = head.hill.max_isometric_force_n / total_n;
+      for (const muscle::HillField& field : muscle::kHillFields)
+        sum.*(field.member) += share * (head.hill.*(field.member));
+    }
+    sum.max_isometric_force_n = total_n;
+    muscles[m] = sum;
+  }
+}
+
+}  // namespace
+
+model::ArmOptions arm_options(const VirtualSubject& subject) {
+  return {.mass_kg = subject.mass_kg,
+          .female = subject.sex == "female",
+          .upper_arm_length_m = subject.upper_arm_length_m,
+          .forearm_length_m = subject.forearm_length_m};
+}
+
+struct VirtualArm::Parts {
+  model::PlanarElbow elbow;
+  HillSet literature;
+  std::string osim;
+  Vec3 held_at_m = Vec3::Zero();
+  model::BodyModel body_model;
+  std::vector<std::string> marker_names;
+  int elbow_coordinate = 0;
+  std::vector<model::ArmHead> heads;  ///< Of the model file; empty: four muscles.
+};
+
+VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads)
+    : parts_(std::make_unique<Parts>()) {
+  const model::ArmOptions arm = arm_options(subject);
+  parts_->elbow = model::planar_elbow(arm);
+  parts_->literature = model::arm4_muscles(arm);
+  parts_->osim = heads ? model::arm7_osim({.person = arm}) : model::arm4_osim({.person = arm});
+  if (heads) {
+    const auto seven = model::arm7_heads(arm);
+    parts_->heads.assign(seven.begin(), seven.end());
+    lump(parts_->heads, parts_->literature);
+  }
+  parts_->held_at_m = model::arm4_held_at_m(arm);
+  // Read back from its own text: the markers are those of the file that goes with the recording.
+  parts_->body_model = model::parse_osim(parts_->osim, "model.osim");
+  parts_->elbow_coordinate = parts_->body_model.coordinate_index("elbow_flexion");
+  for (const model::Marker& marker : parts_->body_model.markers) {
+    parts_->marker_names.push_back(marker.name);
+  }
+}
+
+std::vector<MarkerSegment> VirtualArm::marker_segments() const {
+  std::vector<MarkerSegment> segments;
+  for (const model::Marker& marker : parts_->body_model.markers) {
+    const std::string& body = parts_->body_model.bodies[static_cast<std::size_t>(marker.body)].name;
+    segments.push_back(body == "forearm_hand" ? MarkerSegment::forearm
+                       : body == "upper_arm"  ? MarkerSegment::upper_arm
+                                              : MarkerSegment::trunk);
+  }
+  return segments;
+}
+
+model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle,
+                                                double elbow_flexion_rad) const {
+  if (parts_->heads.empty()) return model::travel(parts_->elbow.muscles[muscle], elbow_flexion_rad);
+  model::MuscleTravel mean;
+  double strength_n = 0.0;
+  for (const model::ArmHead& head : parts_->heads) {
+    if (static_cast<std::size_t>(head.lump) != muscle) continue;
+    const model::MuscleTravel now = model::travel(head.path, elbow_flexion_rad);
+    const double force_n = head.hill.max_isometric_force_n;
+    strength_n += force_n;
+    mean.length_m += force_n * now.length_m;
+    mean.moment_arm_m += force_n * now.moment_arm_m;
+    mean.moment_arm_slope_mprad += force_n * now.moment_arm_slope_mprad;
+  }
+  return {mean.length_m / strength_n, mean.moment_arm_m / strength_n,
+          mean.moment_arm_slope_mprad / strength_n};
+}
+
+VirtualArm::~VirtualArm() = default;
+VirtualArm::VirtualArm(VirtualArm&&) noexcept = default;
+VirtualArm& VirtualArm::operator=(VirtualArm&&) noexcept = default;
+
+MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
+                           const Moment& elbow_flexion_rad) {
+  MuscleGeometry result;
+  for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
+    const model::MuscleTravel now = model::travel(paths[i], elbow_flexion_rad.value);
+    result.length_m[i] = now.length_m;
+    result.velocity_mps[i] = -now.moment_arm_m * elbow_flexion_rad.first;
+    result.moment_arm_m[i] = now.moment_arm_m;
+  }
+  return result;
+}
+
+const std::array<model::PlanarMuscle, 4>& VirtualArm::paths() const {
+  return parts_->elbow.muscles;
+}
+
+MuscleGeometry VirtualArm::geometry(const Moment& elbow_flexion_rad) const {
+  return geometry_of(paths(), elbow_flexion_rad);
+}
+
+double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad,
+                                      Plane plane,
+                                      double held_mass_kg) const {
+  return model::required_torque_nm(parts_->elbow, elbow_flexion_rad.value, elbow_flexion_rad.second,
+                                   plane == Plane::vertical ? kStandardGravity : 0.0, held_mass_kg);
+}
+
+const std::string& VirtualArm::osim() const { return parts_->osim; }
+const HillSet& VirtualArm::literature() const { return parts_->literature; }
+const std::vector<std::string>& VirtualArm::marker_names() const { return parts_->marker_names; }
+const std::string& VirtualArm::held_body() const {
+  static const std::string kBody = "forearm_hand";
+  return kBody;
+}
+Vec3 VirtualArm::held_at_m() const { return parts_->held_at_m; }
+
+Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
+                                      Plane plane,
+                                      const std::vector<MarkerError>& errors) const {
+  const model::BodyModel& arm = parts_->body_model;
+  model::BodyState state = model::make_state(arm);
+  Eigen::VectorXd q = arm.default_q();
+  const Vec3 shoulder_rad = model::arm4_shoulder_rad(plane == Plane::horizontal);
+  q(arm.coordinate_index("shoulder_flexion")) = shoulder_rad.x();
+  q(arm.coordinate_index("shoulder_adduction")) = shoulder_rad.y();
+  q(arm.coordinate_index("shoulder_rotation")) = shoulder_rad.z();
+
+  Eigen::MatrixXd result(elbow_flexion_rad.size(),
+                         3 * static_cast<Eigen::Index>(arm.markers.size()));
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    q(parts_->elbow_coordinate) = elbow_flexion_rad(k);
+    model::compute_poses(arm, q, state);
+    Eigen::Index column = 0;
+    for (const model::Marker& marker : arm.markers) {
+      const Pose& X_GB = state.X_GB[static_cast<std::size_t>(marker.body)];
+      Vec3 p_BM = marker.p_BM;
+      if (!errors.empty()) {
+        const MarkerError& error = errors[static_cast<std::size_t>(column / 3)];
+        p_BM += error.misplaced_m +
+                std::sin(elbow_flexion_rad(k) + error.phase_rad) * error.soft_tissue_m;
+      }
+      result.block<1, 3>(k, column) = (X_GB * p_BM).transpose();
+      column += 3;
+    }
+  }
+  return result;
+}
+
+}  // namespace myoid::twin
