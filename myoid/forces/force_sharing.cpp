@@ -257,7 +257,7 @@ std::vector<Channel> reserve_channels(const TimeSeries& torques) {
   std::vector<Channel> channels = torques.channels();
   for (Channel& channel : channels) {
     for (const std::string_view suffix : {"_moment", "_force"}) {
-      if (channel.name.ends_with(suffix)) channel.name.resize(channel.name.size() - suffix.size());
+      if (channel.name.ends_with(suffix)) channel.name.erase(channel.name.size() - suffix.size());
     }
     channel.name += "_reserve";
   }
