@@ -124,7 +124,7 @@ double scale_of(const std::string& name,
   std::string parameter = name;
   for (const char* suffix : {"_lower", "_upper", "_prior_sd"}) {
     if (parameter.ends_with(suffix))
-      parameter.resize(parameter.size() - std::string_view(suffix).size());
+      parameter.erase(parameter.size() - std::string_view(suffix).size());
   }
   for (const identification::ParameterField& field : identification::parameter_fields()) {
     if (field.name != parameter || field.scope != identification::Scope::muscle) continue;

@@ -139,7 +139,7 @@ std::optional<Output> output_named(const model::BodyModel& model, const std::str
   std::string component = path.substr(0, bar);
   for (const char* tail : {"/path", "/geometrypath"}) {
     if (component.ends_with(tail))
-      component.resize(component.size() - std::string_view(tail).size());
+      component.erase(component.size() - std::string_view(tail).size());
   }
   if (const auto slash = component.rfind('/'); slash != std::string::npos)
     component.erase(0, slash + 1);
@@ -323,9 +323,9 @@ std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
   for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
     std::string name = file.data.channels()[column].name;
     if (name.ends_with("/speed")) {
-      name.resize(name.size() - 6);
+      name.erase(name.size() - 6);
     } else if (name.ends_with("_u") && !model.find_coordinate(name)) {
-      name.resize(name.size() - 2);
+      name.erase(name.size() - 2);
     } else if (!only_speeds) {
       continue;
     }
