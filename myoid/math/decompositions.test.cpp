@@ -36,7 +36,8 @@ TEST(Decompositions, TheShortestSolutionIsPerpendicularToTheNullSpace) {
   const Eigen::MatrixXd free = null_space(a);
   ASSERT_EQ(free.cols(), 2);
   EXPECT_NEAR((a * free).norm(), 0.0, kFewOperations);
-  EXPECT_NEAR((free.transpose() * free - Eigen::MatrixXd::Identity(2, 2)).norm(), 0.0, kFewOperations);
+  EXPECT_NEAR((free.transpose() * free - Eigen::MatrixXd::Identity(2, 2)).norm(), 0.0,
+              kFewOperations);
   EXPECT_NEAR((free.transpose() * x).norm(), 0.0, kFewOperations);
 }
 
