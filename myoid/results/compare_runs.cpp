@@ -16,6 +16,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/core/normal.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_columns.h"
 #include "myoid/study/run_identity.h"
 
@@ -56,6 +57,10 @@ Run read_run(const std::filesystem::path& folder) {
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
         if (!e) continue;
+        for (const json& route : row.value("intervals", json::array()))
+          e->routes.push_back({.route = route.at("route").get<std::string>(),
+                               .low = number(route, "ci_low"),
+                               .high = number(route, "ci_high")});
         // One unknown of several muscles is one number, listed under its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method,
                       e->fit_case};
@@ -99,6 +104,32 @@ double repeat_error(const ParameterEstimate& e) {
       own -= (*e.variance_shares)[static_cast<std::size_t>(same)];
   }
   return *e.std_error * std::sqrt(std::max(own, 0.0));
+}
+
+/// A number as one session tells it, and its standard error from session to session.
+struct OfSession {
+  double value = 0.0, sd = 0.0;
+};
+
+/// The number were geometry and sensors exact; empty without this route.
+std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
+  for (const identification::RouteInterval& route : e.routes) {
+    if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
+    const double low = *route.low, high = *route.high;
+    const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
+    const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
+                       .sd = (high - low) / (2.0 * kNormal95)};
+    if (of.sd > 0.0) return of;
+  }
+  return std::nullopt;
+}
+
+/// Both sessions of a number on the same footing: geometry and sensors given, or as the person's.
+std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first,
+                                            const ParameterEstimate& second) {
+  const auto one = given_geometry(first), other = given_geometry(second);
+  if (one && other) return {*one, *other};
+  return {{first.estimate, repeat_error(first)}, {second.estimate, repeat_error(second)}};
 }
 
 /// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
@@ -195,7 +226,9 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
     p.muscle += fmt::format(", {}", fmt::join(sharers->second, ", "));
   p.difference = p.second.estimate - p.first.estimate;
   if (told(p.first) && told(p.second)) {
-    const double se = std::hypot(repeat_error(p.first), repeat_error(p.second));
+    const auto [one, other] = of_sessions(p.first, p.second);
+    p.difference = other.value - one.value;
+    const double se = std::hypot(one.sd, other.sd);
     p.smallest_detectable = kNormal95 * se;
     p.p_value = std::erfc(std::abs(p.difference) / se / std::sqrt(2.0));
   }

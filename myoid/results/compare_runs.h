@@ -23,7 +23,7 @@ enum class Change {
 struct ComparedParameter {
   std::string muscle;  ///< All owners of the number, separated by commas.
   identification::ParameterEstimate first, second;
-  double difference = 0.0;                    ///< Second minus first.
+  double difference = 0.0;                    ///< Second minus first, as they are compared.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
   std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
   Change change = Change::cannot_tell;
@@ -45,8 +45,10 @@ struct RunComparison {
 
 /// Compares two finished runs number by number, of one person on two days or of one recording by
 /// two studies: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the
-/// p-values adjusted for their number by Holm's method. Of the estimator `posterior`, se leaves
-/// out what errs alike in both sessions: moment arms, tendons, the scale of the torque. A parameter
+/// p-values adjusted for their number by Holm's method. Where both runs are by the estimator
+/// `posterior`, numbers and standard errors are those of the route `geometry_and_sensors_exact`:
+/// what errs alike in both sessions (moment arms, tendons, the scale of the torque) changes both
+/// alike. Numbers without that route leave out its shares of the variance. A parameter
 /// that either verdict calls prior_dominated, not_identifiable or non_physical is not compared:
 /// both may agree on the prior alone. The sessions count as independent; a shared prior makes the
 /// test cautious. Throws ReadError if a folder holds no parameters.json of a run.
