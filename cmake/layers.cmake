@@ -31,8 +31,8 @@ set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forc
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core math muscle arm kinematics dynamics simulation identification intervals
-    methods report study)
+set(MYOID_LAYER_design core math muscle arm kinematics dynamics simulation beliefs identification
+    intervals posterior methods report study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)
 set(MYOID_LAYER_scene core files recording model osim report)

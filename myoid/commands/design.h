@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,14 @@ namespace myoid::commands {
 /// The movements to record next.
 struct DesignOptions {
   Call call;
-  std::string study;            ///< study.toml; or `model`.
-  std::string model;            ///< The built-in arm: "arm4".
-  bool wire = false;            ///< Of arm4: the brachialis has a wire electrode of its own.
-  std::string after;            ///< Folder of a run whose result is known beforehand; empty: none.
-  std::string criterion = "D";  ///< D or A.
-  bool dynamometer = true;      ///< Isokinetic movements are possible.
-  DesignStudyOptions design;    ///< Its seed, criterion and `earlier` follow from the above.
+  std::string study;  ///< study.toml; or `model`.
+  std::string model;  ///< The built-in arm: "arm4".
+  bool wire = false;  ///< Of arm4: the brachialis has a wire electrode of its own.
+  std::string after;  ///< Folder of a run whose result is known beforehand; empty: none.
+  std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
+  std::string criterion = "D";                             ///< D or A.
+  bool dynamometer = true;                                 ///< Isokinetic movements are possible.
+  DesignStudyOptions design;  ///< Its seed, criterion and `earlier` follow from the above.
 };
 
 struct DesignResult {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "myoid/core/error.h"
 #include "myoid/design/design_fatigue.h"
 #include "myoid/design/design_knowledge.h"
+#include "myoid/design/posterior_information.h"
 #include "myoid/identification/residual_model.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/muscle/fatigue.h"
@@ -69,6 +72,8 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   torque.muscles = study.identify.muscles;
   torque.delay_s = study.emg.delay_s;
   torque.max_rate_hz = 25.0;
+  torque.estimator = study.identify.estimator;
+  torque.unseen = study.beliefs;
   for (const identification::MuscleSetup& m : data.muscles)
     torque.gain_prior_sd[m.emg_channel] = gain_sd;
   return torque;
@@ -131,6 +136,37 @@ std::optional<identification::ParameterMap> parameters_of(
   return std::nullopt;
 }
 
+/// The information of the trial of person k, who has these numbers in the solver's scale.
+using Information =
+    std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z, std::size_t k)>;
+
+/// Whether the earlier run is by the posterior.
+bool has_shares(const std::optional<EarlierRun>& earlier) {
+  return earlier &&
+         std::any_of(earlier->estimates.begin(), earlier->estimates.end(),
+                     [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
+}
+
+/// The errors by which the posterior is planned: what the earlier run found; else the noise of the
+/// options, and the median of the belief about the model's error.
+PlannedErrors planned_errors(const DesignStudyOptions& options, const EstimatorOptions& torque) {
+  constexpr double kMedian = 0.6745;  // of the half normal distribution
+  const Noise noise = noise_of(options);
+  PlannedErrors errors{.torque_sd_nm = noise.torque_sd_nm,
+                       .emg_factor = noise.emg_cv / identification::envelope_spread(torque, ""),
+                       .model_error = kMedian * torque.unseen.model_error};
+  if (options.earlier) errors.model_error = options.earlier->model_error;
+  if (has_shares(options.earlier)) return errors;
+  // Other noise of envelopes is that below 2 Hz.
+  const identification::EnvelopeError plain(torque.envelope_cutoff_hz, {});
+  const Eigen::VectorXd frequency = plain.frequencies_hz();
+  double below = 0.0;
+  for (Eigen::Index i = 0; i < frequency.size() && frequency[i] < 2.0; ++i)
+    below += plain.spectrum()[i];
+  errors.emg_factor /= std::sqrt(below);
+  return errors;
+}
+
 /// One movement as every person performs it.
 struct Performance {
   identification::MovementInformation information;
@@ -140,25 +176,85 @@ struct Performance {
 /// `persons`: numbers of each person in the solver's scale.
 Performance performance_of(const MovementCourse& course,
                            const StudyData& muscles,
-                           const EstimatorOptions& torque,
                            const identification::ParameterMap& parameters,
                            const std::vector<Eigen::VectorXd>& persons,
-                           const DesignStudyOptions& options) {
+                           std::uint64_t seed,
+                           const Information& information_in) {
   Performance result;
   result.information.name = course.movement.description();
   result.information.duration_s = course.movement.duration_s;
   std::vector<std::optional<TrialData>> trials;
   for (std::size_t k = 0; k < persons.size(); ++k) {
-    trials.push_back(perform(course, muscles.muscles,
-                             person_of(parameters.values(persons[k]), k, options.seed)));
+    trials.push_back(
+        perform(course, muscles.muscles, person_of(parameters.values(persons[k]), k, seed)));
     Eigen::MatrixXd& information = result.information.per_person.emplace_back();
-    if (!trials.back()) continue;
-    StudyData one = muscles;
-    one.trials = {*trials.back()};
-    information = information_of(one, torque, persons[k], noise_of(options));
+    if (trials.back()) information = information_in(*trials.back(), persons[k], k);
   }
   result.effort = effort_of(trials, muscles.muscles, course.movement.duration_s);
   return result;
+}
+
+/// All movements of the catalogue that a person of these numbers can do.
+std::vector<TrialData> session_of(const std::vector<MovementCourse>& courses,
+                                  const StudyData& muscles,
+                                  const identification::ModelValues& values,
+                                  std::uint64_t seed) {
+  std::vector<TrialData> session;
+  for (const MovementCourse& course : courses) {
+    if (auto trial = perform(course, muscles.muscles, person_of(values, 0, seed)))
+      session.push_back(std::move(*trial));
+  }
+  return session;
+}
+
+/// How the study's estimator takes information from a movement, and what else it then learns of:
+/// the posterior's unseen quantities, which movements of one person have in common.
+struct Teller {
+  Information information;
+  std::vector<std::string> quantities;
+};
+
+Teller teller_of(const StudyData& muscles,
+                 const EstimatorOptions& torque,
+                 const std::vector<MovementCourse>& courses,
+                 const identification::ModelValues& start,
+                 const DesignStudyOptions& options) {
+  if (torque.estimator == identification::EstimatorKind::least_squares)
+    return {[&](const TrialData& trial, const Eigen::VectorXd& z, std::size_t) {
+              StudyData one = muscles;
+              one.trials = {trial};
+              return information_of(one, torque, z, noise_of(options));
+            },
+            {}};
+  // An earlier run has the same moment arms, tendons and scales: a further one does not narrow
+  // their part of the intervals.
+  const auto posterior = std::make_shared<const PosteriorInformation>(
+      muscles, session_of(courses, muscles, start, options.seed), torque,
+      planned_errors(options, torque),
+      has_shares(options.earlier) ? identification::Believed::geometry_and_sensors_exact
+                                  : identification::Believed::nothing_exact);
+  return {[posterior, seed = options.seed](const TrialData& trial, const Eigen::VectorXd& z,
+                                           std::size_t k) {
+            return posterior->of(trial, z,
+                                 simulation::seed_for(seed, fmt::format("{} {}", k, trial.name)));
+          },
+          posterior->quantities()};
+}
+
+/// The choice of movements: unknowns, then quantities of precision 1.
+identification::DesignProblem problem_of(const std::vector<Unknown>& free,
+                                         const Knowledge& known,
+                                         const std::vector<std::string>& quantities,
+                                         const std::vector<std::string>& targets) {
+  identification::DesignProblem problem;
+  for (const Unknown& f : free) problem.parameters.push_back(f.label);
+  problem.parameters.insert(problem.parameters.end(), quantities.begin(), quantities.end());
+  const auto size = static_cast<Eigen::Index>(problem.parameters.size());
+  problem.prior_precision.setIdentity(size, size);
+  problem.prior_precision.topLeftCorner(known.precision.rows(), known.precision.cols()) =
+      known.precision;
+  problem.targets = targets_of(free, targets);
+  return problem;
 }
 
 /// The targets as they are expected to be known with standard deviations `sd`.
@@ -181,10 +277,24 @@ struct Expected {
                              .prior_sd = f.prior.sd > 0.0 ? f.prior.sd : prior_sd[j],
                              .model_error = earlier ? earlier->model_error : 0.0,
                              .found = found_by(earlier, f),
-                             .ratio = prior_sd[j] > 0.0 ? sd[j] / prior_sd[j] : 1.0},
+                             .ratio = ratio(j, sd)},
                             muscles));
     }
     return estimates;
+  }
+
+  /// An interval over that beforehand. What moment arms, tendons and the scale of the torque make
+  /// of it stays.
+  [[nodiscard]] double ratio(Eigen::Index j, const Eigen::VectorXd& sd) const {
+    if (!(prior_sd[j] > 0.0)) return 1.0;
+    const double narrower = sd[j] / prior_sd[j];
+    const ParameterEstimate* found = found_by(earlier, free[static_cast<std::size_t>(j)]);
+    if (found == nullptr || !found->variance_shares) return narrower;
+    using identification::Source;
+    const identification::SourceShares& shares = *found->variance_shares;
+    const double stays = std::min(1.0, shares[static_cast<std::size_t>(Source::geometry)] +
+                                           shares[static_cast<std::size_t>(Source::torque_scale)]);
+    return std::sqrt(stays + (1.0 - stays) * narrower * narrower);
   }
 
   /// Before the recording. The earlier run has judged its numbers with all that it knows: profiles,
@@ -251,15 +361,16 @@ DesignStudyResult design_study(const Study& study,
     return result;
   }
   const std::vector<Unknown>& free = parameters->free();
-  const Knowledge known = knowledge_of(free, options.earlier);
+  Knowledge known = knowledge_of(free, options.earlier);
+  const bool by_posterior = torque.estimator == identification::EstimatorKind::posterior;
+  if (by_posterior && !options.earlier) join_strengths(free, torque.unseen.common_strength, known);
   const std::vector<Eigen::VectorXd> persons =
       draw_persons(free, known, options.persons, options.seed);
 
   options.progress.tell(0.2, "information");
-  identification::DesignProblem problem;
-  for (const Unknown& f : free) problem.parameters.push_back(f.label);
-  problem.prior_precision = known.precision;
-  problem.targets = targets_of(free, options.targets);
+  const Teller teller = teller_of(data, torque, courses, parameters->values(known.mean), options);
+  identification::DesignProblem problem =
+      problem_of(free, known, teller.quantities, options.targets);
   problem.catalogue.resize(movements.size());
   std::vector<Effort> efforts(movements.size());
   const muscle::FatigueRates<double> rates = muscle::published_fatigue_rates("elbow_rest");
@@ -267,7 +378,7 @@ DesignStudyResult design_study(const Study& study,
   oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
     options.progress.check();
     Performance performance =
-        performance_of(courses[i], data, torque, *parameters, persons, options);
+        performance_of(courses[i], data, *parameters, persons, options.seed, teller.information);
     tiring[i] = fatigued_share(performance.effort, rates) > options.fatigued_share ? 1 : 0;
     if (tiring[i] != 0) {
       for (Eigen::MatrixXd& m : performance.information.per_person) m.resize(0, 0);

@@ -1,6 +1,9 @@
 #include "myoid/design/design_study.h"
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -160,6 +163,123 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   EXPECT_LT(rms, 1.1);
   // The standard error that identification states must agree with what the plan promised.
   EXPECT_NEAR(std::sqrt(expected_square / count), 1.0, 0.25);
+}
+
+/// The trial with a torque error of this size that another takes the place of after 0.3 s, and the
+/// noise of EMG of 150 Hz behind a low-pass of 6 Hz.
+identification::TrialData recorded(identification::TrialData trial,
+                                   double torque_sd_nm,
+                                   simulation::Random& random) {
+  constexpr double kRate_hz = 50.0;
+  const double kept = std::exp(-1.0 / (0.3 * kRate_hz));
+  const Eigen::VectorXd steps = random.normals(trial.torque_nm.size());
+  double error = steps[0];
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+    if (i > 0) error = kept * error + std::sqrt(1.0 - kept * kept) * steps[i];
+    trial.torque_nm[i] += torque_sd_nm * error;
+  }
+  const auto filter = math::design_butterworth(
+      math::FilterBand::low_pass, 2,
+      math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz), kRate_hz);
+  Eigen::MatrixXd noisy = trial.activation.values();
+  for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
+    const Eigen::VectorXd noise = math::zero_phase(filter, random.normals(noisy.rows()));
+    const double size = std::sqrt(noise.squaredNorm() / static_cast<double>(noise.size()));
+    noisy.col(c).array() *= (1.0 + 0.154 / size * noise.array()).max(0.0);
+  }
+  trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), noisy);
+  return trial;
+}
+
+TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsHave) {
+  Study study = planned_study();
+  study.identify.estimator = identification::EstimatorKind::posterior;
+  study.beliefs.model_error = 0.03;  // the person is as the model
+  DesignStudyOptions options;
+  options.persons = 1;
+  options.choice.movements = 5;
+  options.catalogue.held_masses_kg = {0.0, 2.0};
+  options.catalogue.frequencies_hz = {0.3, 1.0};
+  const DesignStudyResult design = design_study(study, options);
+  ASSERT_EQ(design.plan.size(), 5U);
+  identification::StudyData data;
+  data.muscles = muscle_setups(study, load_model(study));
+  identification::free_speeds(data, identification::unstated_speeds(data));
+  const MovementPerson person = typical(data.muscles);
+  std::map<std::string, std::vector<double>> ratios;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    simulation::Random random(seed);
+    data.trials.clear();
+    for (const PlannedMovement& planned : design.plan) {
+      auto trial = perform(
+          movement_course(study, movement_models(study, load_model(study)), planned.movement),
+          data.muscles, person);
+      ASSERT_TRUE(trial);
+      data.trials.push_back(recorded(std::move(*trial), options.torque_sd_nm, random));
+    }
+    const auto found = identification::identify_torque(
+        data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
+               .max_rate_hz = 25.0,
+               .predictions = false,
+               .estimator = identification::EstimatorKind::posterior,
+               .unseen = study.beliefs});
+    for (const auto& e : found.estimates) {
+      for (const auto& expected : design.plan.back().expected) {
+        if (e.muscle == expected.muscle && e.parameter == expected.parameter)
+          ratios[e.parameter].push_back((*e.std_error / e.estimate) /
+                                        (*expected.std_error / expected.estimate));
+      }
+    }
+  }
+  for (const char* name : {"max_isometric_force", "optimal_fiber_length", "force_length_width",
+                           "concentric_curvature"}) {
+    double sum = 0.0;
+    for (const double ratio : ratios[name]) sum += std::log(ratio);
+    ASSERT_EQ(ratios[name].size(), 12U);
+    const double mean = std::exp(sum / 12.0);
+    EXPECT_GT(mean, 0.8) << name;
+    EXPECT_LT(mean, 1.25) << name;
+  }
+  // Moment arms of 15 % stay in F_max whatever is recorded; the priors take a third off.
+  for (const auto& e : design.plan.back().expected) {
+    if (e.parameter == "max_isometric_force") {
+      EXPECT_GT(*e.std_error, 0.1 * e.estimate);
+    }
+  }
+}
+
+TEST(DesignStudy, AfterARunByThePosteriorTheGeometrysPartOfAnIntervalStays) {
+  Study study = planned_study();
+  study.identify.estimator = identification::EstimatorKind::posterior;
+  DesignStudyOptions options;
+  options.persons = 1;
+  options.choice.movements = 2;
+  options.catalogue.held_masses_kg = {2.0};
+  options.catalogue.frequencies_hz = {0.3, 1.0};
+  options.targets = {"BIC.max_isometric_force"};
+  EarlierRun earlier;
+  earlier.parameters = {"BIC.max_isometric_force"};
+  earlier.estimate = Eigen::VectorXd::Constant(1, 600.0);
+  earlier.covariance = Eigen::MatrixXd::Constant(1, 1, 0.04);
+  earlier.torque_sd_nm = 0.3;
+  earlier.emg_cv = 0.154;
+  earlier.model_error = 0.02;
+  identification::ParameterEstimate row;
+  row.muscle = "BIC";
+  row.parameter = "max_isometric_force";
+  row.estimate = 600.0;
+  row.ci_low = 600.0 * std::exp(-0.4);
+  row.ci_high = 600.0 * std::exp(0.4);
+  row.variance_shares = identification::SourceShares{};
+  (*row.variance_shares)[static_cast<std::size_t>(identification::Source::noise)] = 0.36;
+  (*row.variance_shares)[static_cast<std::size_t>(identification::Source::geometry)] = 0.64;
+  earlier.estimates = {row};
+  options.earlier = earlier;
+  const DesignStudyResult design = design_study(study, options);
+  ASSERT_EQ(design.plan.size(), 2U);
+  const double upper = std::log(*design.plan.back().expected[0].ci_high / 600.0);
+  EXPECT_LT(upper, 0.38);
+  EXPECT_GT(upper, 0.8 * 0.4);
 }
 
 TEST(DesignStudy, MoreMovementsTellMoreAndFatigueStaysInItsBudget) {

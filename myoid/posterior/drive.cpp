@@ -233,6 +233,9 @@ Drive drive_behind(const Envelope& recorded,
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
       n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
   const Eigen::VectorXd values = evenly(recorded, time);
+  // What never changes has no spectrum: a dead electrode, a muscle that is held at one level.
+  if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff())
+    return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
   Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(error.spectrum().size()),

@@ -27,7 +27,8 @@ struct NoiseOverEnvelope {
 /// set to P in the upper half of the envelope's band, where there is hardly a drive, but to at most
 /// 3.3 times the expected power. A model
 /// that takes u for the drive finds lags that are not there, for a lag damps the noise of u, too.
-/// The error that is left has the spectrum (1 - W)^2 S + W^2 N.
+/// The error that is left has the spectrum (1 - W)^2 S + W^2 N. An envelope that never changes is
+/// its own drive.
 struct Drive {
   Envelope envelope;     ///< Of the drive.
   Eigen::VectorXd left;  ///< Power of its error over N, at the frequencies of `EnvelopeError`.

@@ -48,6 +48,17 @@ double error_of(const Recorded& of, const Envelope& envelope) {
   return std::sqrt(sum / count);
 }
 
+TEST(Drive, OfAnEnvelopeThatNeverChangesIsTheEnvelope) {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(2001, 0.0, 20.0);
+  for (const double level : {0.0, 0.05}) {
+    const Envelope envelope(time, Eigen::VectorXd::Constant(2001, level));
+    const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+    const Drive drive = drive_behind(envelope, 0.15, 0.0, error, kCutoff_hz);
+    EXPECT_EQ(drive.envelope.at(7.3).value, level);
+    EXPECT_EQ(drive.left.minCoeff(), 1.0);
+  }
+}
+
 TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
   for (const double noise_sd : {0.1, 0.15, 0.25}) {
     const Recorded of = recorded(noise_sd);

@@ -79,14 +79,17 @@ struct Likelihood::Block {
   bool positive = false;
 };
 
-Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options)
+Likelihood::Likelihood(const StudyData& data,
+                       const EstimatorOptions& options,
+                       const Recorded* session)
     : data_(data),
       options_(options),
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
       motion_(runs_.size()),
       columns_(runs_.size()),
-      recorded_(recorded(runs_, map_.held().muscles)) {
+      recorded_(session != nullptr ? *session
+                                   : identification::recorded(runs_, map_.held().muscles)) {
   for (const TrialRun& run : runs_) {
     rows_ += run.measured_nm.size();
     if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
@@ -369,6 +372,28 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
   }
   for (const Eigen::MatrixXd& part : result.by_source) result.information += part;
   return result;
+}
+
+std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::VectorXd& z,
+                                                              const NoiseValues& noise) const {
+  std::vector<ParameterMap::Chain> chains;
+  const ModelValues values = map_.values(z, &chains);
+  const ChainsByOwner by_owner(map_, chains);
+  const Eigen::VectorXd w = weights(noise);
+  const Eigen::Index p = map_.size();
+  std::vector<Eigen::MatrixXd> found;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
+      found.emplace_back(Eigen::MatrixXd::Zero(p + w.size(), p + w.size()));
+    Block block;
+    block.evaluation =
+        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
+    if (!fill(r, w, noise, block)) continue;
+    Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
+    both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
+    found.back() += both.transpose() * block.factor.solve(both);
+  }
+  return found;
 }
 
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,

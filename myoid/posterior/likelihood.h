@@ -31,8 +31,11 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// to sample, belong to reference values of the unknowns. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
-  /// The reference is the start.
-  Likelihood(const StudyData& data, const EstimatorOptions& options);
+  /// The reference is the start. `session` is what was recorded where the data are a part of it;
+  /// null: the data are all.
+  Likelihood(const StudyData& data,
+             const EstimatorOptions& options,
+             const Recorded* session = nullptr);
 
   /// Takes S and Q at these values of the unknowns.
   void refer_to(const Eigen::VectorXd& z);
@@ -42,6 +45,7 @@ class Likelihood {
   [[nodiscard]] const ParameterMap& parameters() const { return map_; }
   [[nodiscard]] const std::vector<TrialRun>& runs() const { return runs_; }
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
+  [[nodiscard]] const Recorded& recorded() const { return recorded_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
   /// The fitted trials, in whose order ln b stands in NoiseValues.
   [[nodiscard]] Eigen::Index trial_count() const { return trials_; }
@@ -71,6 +75,12 @@ class Likelihood {
     std::vector<Eigen::MatrixXd> by_source;  ///< Indexed by Source; that of literature is zero.
   };
   [[nodiscard]] Information information(const Eigen::VectorXd& z, const NoiseValues& noise) const;
+
+  /// Of each calibration trial, Fisher's information of z and of the unseen quantities x, each over
+  /// its standard deviation: [L J, L S W]' A^-1 [L J, L S W]. Trials add, and x has a precision of
+  /// 1 beforehand; with x integrated over, the sum is `information`.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> information_by_trial(const Eigen::VectorXd& z,
+                                                                  const NoiseValues& noise) const;
 
   /// The unseen quantities given the torque and z, each over its standard deviation.
   struct UnseenGiven {

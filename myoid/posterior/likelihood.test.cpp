@@ -410,6 +410,23 @@ TEST(Likelihood, HasTheSameBitsForEveryNumberOfThreads) {
   EXPECT_EQ(one.by_noise, three.by_noise);
 }
 
+TEST(Likelihood, TheInformationOfTrialsAddsToThatOfAllWhereTheUnseenIsIntegratedOver) {
+  const ElbowStudy study = crowded_study();
+  const Likelihood likelihood(study.data, crowded_options());
+  const Eigen::VectorXd z = likelihood.parameters().start();
+  const std::vector<Eigen::MatrixXd> trials = likelihood.information_by_trial(z, kNoise);
+  ASSERT_EQ(trials.size(), 2U);
+  const Eigen::Index p = z.size(), q = trials[0].rows() - p;
+  const Eigen::MatrixXd sum = trials[0] + trials[1];
+  // Schur's complement of the quantities, whose precision is 1 beforehand.
+  const Eigen::MatrixXd of_unseen = sum.bottomRightCorner(q, q) + Eigen::MatrixXd::Identity(q, q);
+  const Eigen::MatrixXd left =
+      sum.topLeftCorner(p, p) -
+      sum.topRightCorner(p, q) * of_unseen.ldlt().solve(sum.bottomLeftCorner(q, p));
+  const Eigen::MatrixXd whole = likelihood.information(z, kNoise).information;
+  EXPECT_LT((left - whole).norm(), 1e-8 * whole.norm());
+}
+
 TEST(Likelihood, TheSharesOfTheSourcesAddToTheInformation) {
   const ElbowStudy study = crowded_study();
   const Likelihood likelihood(study.data, crowded_options());

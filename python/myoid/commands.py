@@ -216,8 +216,8 @@ class DesignResult:
 
 
 def design(study: File | None = None, *, model: str | None = None, wire: bool = False, targets: Texts | None = None,
-           after: File | None = None, criterion: str | None = None, movements: int | None = None,
-           repeat: int | None = None, budget: float | None = None, fatigue: float | None = None,
+           after: File | None = None, estimator: str | None = None, criterion: str | None = None,
+           movements: int | None = None, repeat: int | None = None, budget: float | None = None, fatigue: float | None = None,
            masses: Sequence[float] | float | None = None, no_dynamometer: bool = False, persons: int | None = None,
            torque_noise: float | None = None, emg_noise: float | None = None, threads: int | None = None,
            seed: int | None = None, progress: Report = None) -> DesignResult:  # fmt: skip
@@ -229,6 +229,7 @@ def design(study: File | None = None, *, model: str | None = None, wire: bool = 
         wire: With arm4: the brachialis has a wire electrode of its own.
         targets: "all", parameters, muscles or MUSCLE.PARAMETER.
         after: Folder of a finished run, whose result is known beforehand.
+        estimator: "least_squares" or "posterior", in place of the study's.
         criterion: "D" (volume of the confidence ellipsoid) or "A" (sum of relative variances).
         movements: How many to choose.
         repeat: The same movement at most so often.

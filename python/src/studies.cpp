@@ -297,6 +297,9 @@ commands::DesignOptions design_options(Keywords& k) {
   k.take("wire", o.wire);
   k.take("targets", o.design.targets);
   k.take("after", o.after);
+  std::string estimator;
+  k.word("estimator", estimator, {"least_squares", "posterior"});
+  if (!estimator.empty()) o.estimator = choice_named<identification::EstimatorKind>(estimator);
   k.word("criterion", o.criterion, {"D", "A"});
   k.count("movements", o.design.choice.movements, 1, 50);
   k.count("repeat", o.design.choice.most_of_each, 1, 50);
