@@ -25,15 +25,18 @@ constexpr double kJitter = 1e-5;           // of the variance
 constexpr Eigen::Index kFiner = 6;         // samples of the drive for one that is smoothed
 constexpr int kPasses = 3;                 // the noise follows the drive
 
+Eigen::ArrayXd hann_window(Eigen::Index n) {
+  return 0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
+                      Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5))
+                         .cos();
+}
+
 /// One-sided power density of evenly sampled values at each frequency, behind a Hann window.
 Eigen::VectorXd power_density(const Eigen::VectorXd& values,
                               double rate_hz,
                               const Eigen::VectorXd& frequency_hz) {
   const Eigen::Index n = values.size();
-  const Eigen::ArrayXd window =
-      0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
-                   Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5))
-                      .cos();
+  const Eigen::ArrayXd window = hann_window(n);
   const double mean = (values.array() * window).sum() / window.sum();
   const Eigen::VectorXd x = (values.array() - mean) * window;
   Eigen::VectorXd power(frequency_hz.size());
@@ -127,18 +130,24 @@ Spectra spectra_of(const Eigen::VectorXd& values,
   return of;
 }
 
+/// cos(w j) and sin(w j), j = 0 ... n - 1, for an angle w of one sample.
+Eigen::ArrayX2d turning(double angle, Eigen::Index n) {
+  Eigen::ArrayX2d turns(n, 2);
+  const std::complex<double> turn = std::polar(1.0, angle);
+  std::complex<double> phase = 1.0;
+  for (Eigen::Index j = 0; j < n; ++j, phase *= turn) turns.row(j) << phase.real(), phase.imag();
+  return turns;
+}
+
 /// sum_f power cos(2 pi f j interval), j = 0 ... last, faded before the sum repeats itself.
 Eigen::VectorXd covariances(const Eigen::VectorXd& power,
                             const EnvelopeError& error,
                             double interval_s,
                             Eigen::Index last) {
-  const Eigen::VectorXd frequency = error.frequencies_hz();
+  const Eigen::VectorXd angle = 2.0 * std::numbers::pi * interval_s * error.frequencies_hz();
   Eigen::VectorXd c = Eigen::VectorXd::Zero(last + 1);
   for (Eigen::Index i = 0; i < power.size(); ++i)
-    c.array() += power[i] * error.step_hz() *
-                 (2.0 * std::numbers::pi * frequency[i] * interval_s *
-                  Eigen::ArrayXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)))
-                     .cos();
+    c += power[i] * error.step_hz() * turning(angle[i], last + 1).col(0).matrix();
   const double fade_s = kFade / error.step_hz();
   for (Eigen::Index j = 0; j <= last; ++j)
     c[j] *= std::exp(-0.5 * std::pow(static_cast<double>(j) * interval_s / fade_s, 2));
@@ -155,22 +164,27 @@ Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
   return m;
 }
 
-/// Sums of the products of a matrix's entries with a Hann window along its diagonals.
-Eigen::VectorXd windowed_diagonals(const Eigen::MatrixXd& m) {
-  const Eigen::Index n = m.rows();
-  const Eigen::ArrayXd window =
-      0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
-                   Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5))
-                      .cos();
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < n; ++j)
-    sums.head(n - j).array() += window[j] * window.tail(n - j) * m.col(j).tail(n - j).array();
-  sums.tail(n - 1) *= 2.0;
-  return sums;
+/// Columns h_j cos(w j) and h_j sin(w j) for each frequency, h a Hann window: with v of one
+/// frequency, v' M v over both columns is the power of an error of covariance M there.
+Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz,
+                               double interval_s,
+                               Eigen::Index n) {
+  const Eigen::ArrayXd window = hann_window(n);
+  Eigen::MatrixXd waves(n, 2 * frequency_hz.size());
+  for (Eigen::Index i = 0; i < frequency_hz.size(); ++i)
+    waves.middleCols<2>(2 * i) =
+        turning(2.0 * std::numbers::pi * frequency_hz[i] * interval_s, n).colwise() * window;
+  return waves;
 }
 
-/// The drive of evenly sampled values, and the sums of its error's and of the noise's covariance
-/// along their diagonals.
+/// Sums of the entries of the products of both columns of each frequency.
+Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::VectorXd each = a.cwiseProduct(b).colwise().sum();
+  return each.reshaped(2, each.size() / 2).colwise().sum();
+}
+
+/// The drive of evenly sampled values, and the powers of its error and of the noise at the
+/// frequencies of the spectra, behind a Hann window.
 struct Smoothed {
   Eigen::VectorXd drive, error, noise;
 };
@@ -198,9 +212,12 @@ Smoothed smooth(const Eigen::VectorXd& values,
     const Eigen::VectorXd off = factor.solve((values.array() - mean).matrix());
     result.drive = mean + (prior * off).array();
     if (pass + 1 < kPasses) continue;
-    const Eigen::MatrixXd half = factor.matrixL().solve(prior);
-    result.error = windowed_diagonals(prior - half.transpose() * half);
-    result.noise = windowed_diagonals(noise);
+    // The error of the drive has the covariance P - P (P + N)^-1 P.
+    const Eigen::MatrixXd waves =
+        windowed_waves(error.frequencies_hz().head(spectra.drive.size()), interval_s, n);
+    const Eigen::MatrixXd of_prior = prior * waves, half = factor.matrixL().solve(of_prior);
+    result.error = power_of(waves, of_prior) - power_of(half, half);
+    result.noise = power_of(waves, noise * waves);
   }
   return result;
 }
@@ -238,7 +255,7 @@ Drive drive_behind(const Envelope& recorded,
     return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
-  Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(error.spectrum().size()),
+  Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(spectra.drive.size()),
                             noise_power = left_power;
   for (Eigen::Index first = 0; first < n; first += longest) {
     const Eigen::Index end = std::min(n, first + longest),
@@ -247,16 +264,8 @@ Drive drive_behind(const Envelope& recorded,
     const Smoothed part =
         smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
     drive.segment(first, end - first) = part.drive.segment(first - from, end - first);
-    const Eigen::VectorXd frequency = error.frequencies_hz();
-    for (Eigen::Index i = 0; i < spectra.drive.size(); ++i) {
-      const Eigen::ArrayXd turn =
-          (2.0 * std::numbers::pi * frequency[i] / rate_hz *
-           Eigen::ArrayXd::LinSpaced(part.error.size(), 0.0,
-                                     static_cast<double>(part.error.size() - 1)))
-              .cos();
-      left_power[i] += turn.matrix().dot(part.error);
-      noise_power[i] += turn.matrix().dot(part.noise);
-    }
+    left_power += part.error;
+    noise_power += part.noise;
   }
   const Eigen::Index count = spectra.drive.size();
   for (Eigen::Index i = 0; i < left.size(); ++i) {
