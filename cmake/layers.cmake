@@ -26,7 +26,7 @@ set(MYOID_LAYER_posterior core math muscle beliefs identification intervals)
 set(MYOID_LAYER_methods core math muscle forces beliefs identification intervals posterior)
 set(MYOID_LAYER_report core files)
 set(MYOID_LAYER_phases core math)
-set(MYOID_LAYER_study core files muscle recording model osim arm kinematics forces identification
+set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics forces identification
     phases)
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study

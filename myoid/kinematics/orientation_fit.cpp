@@ -8,6 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 
@@ -93,7 +94,7 @@ class AngleFit {
     double cost = linearize(q, frame);
     for (int iteration = 0; iteration < 50 && !free_.empty(); ++iteration) {
       hold_at_ends(q);
-      Eigen::VectorXd step = hessian_.completeOrthogonalDecomposition().solve(pull_);
+      Eigen::VectorXd step = math::shortest_solution(hessian_, pull_);
       const double longest = step.cwiseAbs().maxCoeff();
       if (longest < 1e-10) return true;
       if (longest > kFar) step *= kFar / longest;

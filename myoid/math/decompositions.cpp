@@ -1,7 +1,9 @@
 #include "myoid/math/decompositions.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 namespace myoid::math {
 
@@ -32,6 +34,17 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   qr.setThreshold(1e-9);
   const Eigen::MatrixXd basis = qr.householderQ();
   return basis.rightCols(a.cols() - qr.rank());
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
+  return a.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace myoid::math

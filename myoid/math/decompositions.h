@@ -36,4 +36,12 @@ struct SymmetricEigen {
 /// the largest counts as zero.
 [[nodiscard]] Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
 
+/// Returns the Moore-Penrose inverse, by a complete orthogonal decomposition.
+[[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
+/// Returns the rotation R with the greatest trace of R' m, by the singular values of m (Kabsch,
+/// 1976). With m = sum a b' over pairs of centered points, R turns the b onto the a at the least
+/// squared distance.
+[[nodiscard]] Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m);
+
 }  // namespace myoid::math

@@ -1,5 +1,6 @@
 #include "myoid/math/decompositions.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace myoid::math {
@@ -39,6 +40,21 @@ TEST(Decompositions, TheShortestSolutionIsPerpendicularToTheNullSpace) {
   EXPECT_NEAR((free.transpose() * free - Eigen::MatrixXd::Identity(2, 2)).norm(), 0.0,
               kFewOperations);
   EXPECT_NEAR((free.transpose() * x).norm(), 0.0, kFewOperations);
+}
+
+TEST(Decompositions, ThePseudoInverseOfAColumnIsTheRowOverItsSquare) {
+  const Eigen::MatrixXd a{{3.0}, {4.0}};
+  EXPECT_NEAR((pseudo_inverse(a) - Eigen::RowVector2d(3.0, 4.0) / 25.0).norm(), 0.0,
+              kFewOperations);
+}
+
+TEST(Decompositions, TheNearestRotationIsTheTurnAndNeverAReflection) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 2) / 3.0).matrix();
+  const Eigen::Vector3d size(3.0, 2.0, 1.0);
+  EXPECT_NEAR((nearest_rotation(turn * size.asDiagonal()) - turn).norm(), 0.0, 1e-14);
+  // Of a mirror image the axis of the smallest size turns back.
+  const Eigen::Vector3d mirrored(3.0, 2.0, -1.0);
+  EXPECT_NEAR((nearest_rotation(turn * mirrored.asDiagonal()) - turn).norm(), 0.0, 1e-14);
 }
 
 TEST(Decompositions, ARowWithinTheThresholdOfAnotherDoesNotCount) {

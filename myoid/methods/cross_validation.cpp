@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/identification/muscle_activation.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
 
@@ -165,7 +166,7 @@ Baselines baselines(const std::vector<TrialData>& training, const Predictors& by
     right += x.transpose() * active;
   }
   return {.gain = square > 0.0 ? product / square : 0.0,
-          .slopes = normal.completeOrthogonalDecomposition().solve(right),
+          .slopes = math::shortest_solution(normal, right),
           .mean_nm = sum / count};
 }
 
@@ -243,7 +244,8 @@ Fold score_joint(const std::string& name,
 
 /// The curves that method `paper` finds from the calibration trials.
 void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
-  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles}).estimates) {
+  for (const ParameterEstimate& e :
+       identify_paper(data, {.muscles = muscles, .diagnoses = false}).estimates) {
     if (!std::isfinite(e.estimate)) continue;
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       if (data.muscles[k].name == e.muscle)

@@ -109,7 +109,7 @@ void add_statistics(CaseFit& fit) {
   fit.exact = search.residual.norm() <= kExact * force.norm();
 }
 
-CaseFit search_case(PaperCase samples) {
+CaseFit search_case(PaperCase samples, bool for_diagnoses) {
   CaseFit fit;
   fit.samples = std::move(samples);
   fit.search.x = fit.samples.start_vector();
@@ -118,7 +118,11 @@ CaseFit search_case(PaperCase samples) {
     fit.search = search_as_published(fit.samples, fit.samples.start_vector());
     if (fit.search.termination != math::Termination::converged) fit.failure = fit.search.message;
   }
-  fit.minimum = fit.failure.empty() ? std::optional(fit.search.x) : damped_minimum(fit.samples);
+  if (fit.failure.empty()) {
+    fit.minimum = fit.search.x;
+  } else if (for_diagnoses) {
+    fit.minimum = damped_minimum(fit.samples);
+  }
   add_statistics(fit);
   return fit;
 }
@@ -214,7 +218,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   result.samples_used += static_cast<int>(samples.samples.size());
   result.muscles[muscle] = samples.start;
   if (samples.unknowns.empty()) return std::nullopt;
-  const CaseFit fit = search_case(std::move(samples));
+  const CaseFit fit = search_case(std::move(samples), options.diagnoses);
   result.iterations += fit.search.iterations;
   if (!fit.failure.empty())
     result.message += fmt::format("{}, {}: {}. ", setup.name,

@@ -11,6 +11,9 @@ struct PaperOptions {
   int multistart = 0;
   std::vector<std::string> muscles;  ///< Empty: all.
   bool shared_forces = false;        ///< Computed by an optimizer: at best `weak`.
+  /// Looks for signatures of errors (IdentificationResult::diagnoses) by damped steps, where plain
+  /// ones do not converge.
+  bool diagnoses = true;
 };
 
 /// The source paper's estimator, as published: for every muscle, shortening (v <= 0) and

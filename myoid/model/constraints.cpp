@@ -7,6 +7,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/model/motion_constraints.h"
 
 namespace myoid::model {
@@ -173,7 +174,7 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
     }
     // The rates nearest to the unit rate that obey all rows.
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, k);
-    const Eigen::VectorXd rates = unit - rows.completeOrthogonalDecomposition().solve(rows * unit);
+    const Eigen::VectorXd rates = unit - math::shortest_solution(rows, rows * unit);
     const Eigen::Index c = involved[static_cast<std::size_t>(k)];
     C.col(c).setZero();
     if (!(std::abs(rates[k]) > 1e-12)) continue;
@@ -247,8 +248,7 @@ AssemblyResult approach(const BodyModel& model,
     const Eigen::MatrixXd A = J * T;
     const Eigen::VectorXd back = way_to(free, wished, result.q);
     // The point nearest to the desired posture on the linearized constraints.
-    const Eigen::VectorXd step =
-        back - A.completeOrthogonalDecomposition().solve(Eigen::VectorXd(A * back + errors));
+    const Eigen::VectorXd step = back - math::shortest_solution(A, A * back + errors);
     const double longest = step.cwiseAbs().maxCoeff();
     if (result.error < accuracy && longest < 1e-10) break;
     const double share = longest > 0.5 ? 0.5 / longest : 1.0;

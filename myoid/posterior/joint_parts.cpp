@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
+#include "myoid/math/decompositions.h"
 
 namespace myoid::identification {
 namespace {
@@ -32,7 +32,7 @@ JointParts::JointParts(const std::vector<TrialRun>& runs) {
   }
   mean.array().colwise() /= samples.array().max(1.0);
   // Joints x muscles: dq = -turn dl.
-  const Eigen::MatrixXd turn = mean.transpose().completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd turn = math::pseudo_inverse(mean.transpose());
   // dl less what the angles make of it.
   const Eigen::MatrixXd left =
       Eigen::MatrixXd::Identity(muscles, muscles) - turn.transpose() * mean;

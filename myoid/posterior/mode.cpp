@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "myoid/core/parallel.h"
+#include "myoid/math/decompositions.h"
 
 namespace myoid::identification {
 namespace {
@@ -119,15 +119,15 @@ void add_curvature(const Density& density, Mode& mode, const Progress& progress)
   const Eigen::MatrixXd scaled =
       scale.asDiagonal() * (0.5 * (h + h.transpose())).eval() * scale.asDiagonal();
   const Eigen::MatrixXd scaled_expected = scale.asDiagonal() * expected * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  Eigen::VectorXd curvature = eigen.eigenvalues();
+  const math::SymmetricEigen eigen = math::symmetric_eigen(scaled);
+  Eigen::VectorXd curvature = eigen.values;
   for (Eigen::Index j = 0; j < d; ++j) {
-    const auto direction = eigen.eigenvectors().col(j);
+    const auto direction = eigen.vectors.col(j);
     curvature[j] =
         std::max(curvature[j], kLeastCurvature * direction.dot(scaled_expected * direction));
   }
   const Eigen::MatrixXd root =
-      scale.asDiagonal() * eigen.eigenvectors() * curvature.cwiseSqrt().cwiseInverse().asDiagonal();
+      scale.asDiagonal() * eigen.vectors * curvature.cwiseSqrt().cwiseInverse().asDiagonal();
   mode.covariance = root * root.transpose();
   mode.log_evidence = mode.log_density +
                       0.5 * static_cast<double>(d) * std::log(2.0 * std::numbers::pi) +

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
@@ -143,9 +142,8 @@ double canonical_correlation(const Moments& m, Eigen::Index nx) {
   if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return 0.0;
   const Moments left = xx.matrixL().solve(c.topRightCorner(nx, ny));
   const Moments both = yy.matrixL().solve(left.transpose());
-  const Eigen::SelfAdjointEigenSolver<Moments> squared(both * both.transpose(),
-                                                       Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, squared.eigenvalues()[ny - 1]));
+  const double squared = math::symmetric_eigenvalues(both * both.transpose())[ny - 1];
+  return std::sqrt(std::max(0.0, squared));
 }
 
 struct Peak {

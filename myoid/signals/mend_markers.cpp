@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "myoid/math/decompositions.h"
 #include "myoid/math/spline.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/marker_swaps.h"
@@ -92,9 +92,9 @@ std::optional<Vec3> from_segment(const MarkerSeries& seen,
   local.conservativeResize(3, count);
   there.conservativeResize(3, count);
   const Eigen::Matrix3Xd centered = local.colwise() - Vec3(local.rowwise().mean());
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(centered);
   constexpr double kLeastWidth_m = 0.01;
-  if (svd.singularValues()[1] < kLeastWidth_m) return std::nullopt;
+  const double squared_m2 = math::symmetric_eigenvalues(centered * centered.transpose())[1];
+  if (squared_m2 < kLeastWidth_m * kLeastWidth_m) return std::nullopt;
   return fit_rigid(local, there).apply(wanted);
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::signals {
@@ -64,11 +64,8 @@ RigidFit fit_rigid(const Eigen::Matrix3Xd& local_m, const Eigen::Matrix3Xd& seen
   const Vec3 from = local_m.rowwise().mean();
   const Vec3 to = seen_m.rowwise().mean();
   const Mat3 covariance = (seen_m.colwise() - to) * (local_m.colwise() - from).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs = Vec3::Ones();
-  signs[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   RigidFit fit;
-  fit.R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  fit.R = math::nearest_rotation(covariance);
   fit.p_m = to - fit.R * from;
   const Eigen::Matrix3Xd rest = seen_m - ((fit.R * local_m).colwise() + fit.p_m);
   fit.rms_m = std::sqrt(rest.squaredNorm() / static_cast<double>(rest.cols()));

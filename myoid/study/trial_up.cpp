@@ -1,8 +1,8 @@
 #include "myoid/study/trial_up.h"
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "myoid/math/decompositions.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/recording/plate_standing.h"
 
@@ -60,9 +60,7 @@ std::optional<double> upright(const model::BodyModel& model,
     if (a.cols() < 4) continue;
     const Vec3 mean_a = a.rowwise().mean(), mean_b = b.rowwise().mean();
     const Mat3 h = (b.colwise() - mean_b) * (a.colwise() - mean_a).transpose();
-    const Eigen::JacobiSVD<Mat3> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-    const Mat3 R = svd.matrixU() * Vec3(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
+    const Mat3 R = math::nearest_rotation(h);
     const Vec3 down = model.gravity_G.norm() > 0.0 ? model.gravity_G.normalized() : Vec3(0, -1, 0);
     return (R * down).dot(down);
   }
