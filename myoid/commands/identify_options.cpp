@@ -70,6 +70,7 @@ identification::EstimatorSettings settings_of(const IdentifyOptions& o) {
   settings.residual_cutoff_hz.reset();
   if (o.residual_hz > 0.0) settings.residual_cutoff_hz = o.residual_hz;
   settings.loss = *choice_named<identification::Loss>(o.loss);
+  settings.posterior_draws = o.posterior_draws;
   settings.starts = o.starts.value_or(1);
   settings.intervals = {.bootstrap = o.bootstrap, .profile = o.profile, .seed = o.call.seed};
   return settings;
@@ -176,6 +177,11 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
                   "moment arms, tendons, the scale of the torque, cross-talk and drift, which "
                   "residuals do not show ([how](../theory/posterior.md)).",
           .words = choice_names(identification::EstimatorKind{})});
+  v.count("posterior-draws", o.posterior_draws,
+          {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the "
+                   "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
+                   "none.",
+           .limits = within(0, 100000)});
   v.text(
       "loss", o.loss,
       {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
@@ -249,6 +255,8 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   const bool paper = o.method == "paper", torque = o.method == "torque";
   tell(!torque && o.estimator == "posterior", "--estimator",
        "the posterior is that of joint torques, of method torque");
+  tell(o.posterior_draws > 0 && (!torque || o.estimator != "posterior"), "--posterior-draws",
+       "only the estimator posterior has draws (--estimator posterior)");
   tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
   tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
        "the published method fits the forces as they are");

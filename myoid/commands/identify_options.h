@@ -28,6 +28,7 @@ struct IdentifyOptions {
   double residual_hz = identification::EstimatorOptions{}.residual_cutoff_hz.value_or(0.0);
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
   std::string estimator = "least_squares";
+  int posterior_draws = 0;
   std::string loss = "square";
   int bootstrap = 0;
   bool profile = false;

@@ -30,6 +30,10 @@ TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--torques has no effect")));
   o.method = "paper";
   o.no_priors = true;
+  o.posterior_draws = 400;
+  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--posterior-draws"),
+                                             HasSubstr("--no-priors"), HasSubstr("--torques")));
+  o.posterior_draws = 0;
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--no-priors"), HasSubstr("--torques")));
 }
 

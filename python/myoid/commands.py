@@ -74,11 +74,12 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
              coordinate: Texts | None = None, motion: Files | None = None, lowpass: float | None = None,
              method: str | None = None, delay: float | None = None, lag: str | None = None, no_priors: bool = False,
              free: Texts | None = None, residual_cutoff: float | None = None, max_rate: float | None = None,
-             estimator: str | None = None, loss: str | None = None, bootstrap: int | None = None,
-             profile: bool = False, compare_solvers: bool = False, starts: int | None = None,
-             folds: str | None = None, validate: Texts | None = None, out: File | None = None,
-             mat: File | None = None, threads: int | None = None, seed: int | None = None, start: float | None = None,
-             end: float | None = None, overwrite: bool = False, progress: Report = None) -> Result:  # fmt: skip
+             estimator: str | None = None, posterior_draws: int | None = None, loss: str | None = None,
+             bootstrap: int | None = None, profile: bool = False, compare_solvers: bool = False,
+             starts: int | None = None, folds: str | None = None, validate: Texts | None = None,
+             out: File | None = None, mat: File | None = None, threads: int | None = None, seed: int | None = None,
+             start: float | None = None, end: float | None = None, overwrite: bool = False,
+             progress: Report = None) -> Result:  # fmt: skip
     """Muscle parameters straight from files, where the earlier stages are done elsewhere.
 
     Args:
@@ -100,6 +101,7 @@ def identify(*, muscles: File, activations: Files, lengths: Files, velocities: F
         residual_cutoff: Low-pass of both sides of the residual [Hz] (default 1.5).
         max_rate: Samples are thinned to at most this [Hz] (default 20).
         estimator: "least_squares" or "posterior".
+        posterior_draws: Draws by Hamiltonian Monte Carlo, in place of an approximation; 0: none.
         loss: "square", "huber" or "cauchy".
         bootstrap: Bootstrap replicates.
         profile: Profile likelihood of every parameter.
@@ -217,10 +219,11 @@ class DesignResult:
 
 def design(study: File | None = None, *, model: str | None = None, wire: bool = False, targets: Texts | None = None,
            after: File | None = None, estimator: str | None = None, criterion: str | None = None,
-           movements: int | None = None, repeat: int | None = None, budget: float | None = None, fatigue: float | None = None,
-           masses: Sequence[float] | float | None = None, no_dynamometer: bool = False, persons: int | None = None,
-           torque_noise: float | None = None, emg_noise: float | None = None, threads: int | None = None,
-           seed: int | None = None, progress: Report = None) -> DesignResult:  # fmt: skip
+           movements: int | None = None, repeat: int | None = None, budget: float | None = None,
+           fatigue: float | None = None, masses: Sequence[float] | float | None = None,
+           no_dynamometer: bool = False, persons: int | None = None, torque_noise: float | None = None,
+           emg_noise: float | None = None, threads: int | None = None, seed: int | None = None,
+           progress: Report = None) -> DesignResult:  # fmt: skip
     """Which movements to record so that the targets become identifiable.
 
     Args:
