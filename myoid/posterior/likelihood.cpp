@@ -86,7 +86,7 @@ Likelihood::Likelihood(const StudyData& data,
       options_(options),
       map_(data, options),
       runs_(trial_runs(data, options, map_)),
-      motion_(runs_.size()),
+      given_(runs_.size()),
       columns_(runs_.size()),
       recorded_(session != nullptr ? *session
                                    : identification::recorded(runs_, map_.held().muscles)) {
@@ -115,13 +115,20 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
+    const Eigen::Index rows = runs_[r].measured_nm.size(), m = reduction.outputs();
+    given_[r].setZero(rows, rows);
+    for (std::size_t j = 0; j < runs_[r].joints.size(); ++j)
+      given_[r]
+          .diagonal()
+          .segment(static_cast<Eigen::Index>(j) * m, m)
+          .setConstant(std::pow(
+              kLeastTorqueError * recorded_.torque_nm * recorded_.size_share(runs_[r].joints[j]),
+              2));
     if (options_.angle_sd_rad <= 0.0 && options_.angle_rate_sd_radps <= 0.0) continue;
-    const Eigen::Index rows = runs_[r].measured_nm.size();
-    motion_[r].setZero(rows, rows);
     add_noise(
         runs_[r], EmgNoise(reduction, Eigen::VectorXd::Ones(1)),
         [&](const JointPair& pair) { return motion_variance(runs_[r], at[r], pair.i, pair.j); },
-        motion_[r]);
+        given_[r]);
   }
 }
 
@@ -213,7 +220,7 @@ bool Likelihood::fill(std::size_t r,
   const TorqueSignals& signals = block.evaluation->signals();
   Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
   add_torque_error(run, torque_variance(r, noise), noise[kTorqueTime], a);
-  if (motion_[r].size() > 0) a += motion_[r];
+  a += given_[r];
   block.factor.compute(a);
   if (block.factor.info() != Eigen::Success) return false;
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);

@@ -19,18 +19,22 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// behind the operator L of each run,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
-///   A_ij = [i = j] L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + L Q_ij L'
+///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
 /// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque
 /// errors of two joints are independent, sigma_i = sigma_T times the root mean square of the
-/// joint's torque over that of all. One noise of an envelope and one error of an angle act on all
-/// joints that the muscle crosses. A is one block per run; S W^2 S', of the unseen quantities, goes
-/// through all runs and is taken in by Woodbury's identity. K_c is L behind the filters of the
-/// envelope and the drive (EmgNoise). S and Q, the error of angle and rate, independent from sample
-/// to sample, belong to reference values of the unknowns. The constant -n/2 ln(2 pi) is left out.
+/// joint's torque over that of all. A torque errs by 0.2 % of its root mean square y_i at the least
+/// (kLeastTorqueError): a torque that never changes would be infinitely exact otherwise. One noise
+/// of an envelope and one error of an angle act on all joints that the muscle crosses. A is one
+/// block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken in by
+/// Woodbury's identity. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and
+/// Q, the error of angle and rate, independent from sample to sample, belong to reference values of
+/// the unknowns. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
+  static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
+
   /// The reference is the start. `session` is what was recorded where the data are a part of it;
   /// null: the data are all.
   Likelihood(const StudyData& data,
@@ -148,8 +152,9 @@ class Likelihood {
   ParameterMap map_;
   std::vector<TrialRun> runs_;
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
-  std::vector<Eigen::MatrixXd> motion_;                ///< Per run: L Q L', or empty.
-  std::vector<Eigen::Index> trial_of_run_;             ///< Among the fitted trials.
+  /// Per run: L Q L' and the least error of the torque, which no unknown changes.
+  std::vector<Eigen::MatrixXd> given_;
+  std::vector<Eigen::Index> trial_of_run_;  ///< Among the fitted trials.
   Eigen::Index trials_ = 0;
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;

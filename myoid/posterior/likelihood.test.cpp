@@ -251,6 +251,12 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
                                       written_covariance(run, written, written_torque_sizes(runs),
                                                          noise, options.envelope_cutoff_hz) *
                                       l.transpose();
+    // The least error of a joint's torque, in each row.
+    for (Eigen::Index j = 0; j < joints; ++j)
+      sigma.diagonal().segment(first + j * of_joint.rows(), of_joint.rows()).array() +=
+          std::pow(0.002 * likelihood.torque_size_nm() *
+                       written_torque_sizes(runs)[static_cast<std::size_t>(j)],
+                   2);
     residual.segment(first, m) = run.measured_nm - l * written.torque;
     shapes.middleRows(first, m) = l * likelihood.unseen().columns[r];
     first += m;

@@ -16,6 +16,8 @@ constexpr double kLogRange = 2.3;
 constexpr double kLag_s = 0.15;            // a model's relative error of 10 % is a lag of 15 ms
 constexpr double kLeastActivation = 0.02;  // of the logarithm
 constexpr double kNoneActs = 1e-4;         // force over activation is finite down to it
+constexpr double kLeastSpan = 0.5;         // of l0: the range of lengths of a muscle that is held
+constexpr double kLeastSpeed = 0.1;        // of v_max, likewise
 
 bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
   return std::any_of(map.free().begin(), map.free().end(),
@@ -87,10 +89,13 @@ class Collector {
     const auto place = [&](const OfMuscle& of) { return range.place(of.length); };
     shape("strength", 1.0, [](const OfMuscle&) { return 1.0; });
     shape("length_1", 1.0, place);
+    // Beyond the recorded lengths the higher polynomials stay at their ends: their own growth there
+    // is no belief about muscles.
+    const auto inside = [&](const OfMuscle& of) { return place(of).max(-1.0).min(1.0).eval(); };
     shape("length_2", 1.0,
-          [&](const OfMuscle& of) { return (1.5 * place(of).square() - 0.5).eval(); });
+          [&](const OfMuscle& of) { return (1.5 * inside(of).square() - 0.5).eval(); });
     shape("length_3", 0.5,
-          [&](const OfMuscle& of) { return (2.5 * place(of).cube() - 1.5 * place(of)).eval(); });
+          [&](const OfMuscle& of) { return (2.5 * inside(of).cube() - 1.5 * inside(of)).eval(); });
     if (!is_free(map_, Scope::channel, kExponent, channel) &&
         !is_free(map_, Scope::channel, kShape, channel))
       shape("effort", 1.0, [&](const OfMuscle& of) {
@@ -302,7 +307,7 @@ namespace {
 /// The range of one muscle's lengths and rates, n each of every run.
 template <typename Lengths>
 Recorded::Range range_of(const std::vector<TrialRun>& runs,
-                         double fiber_length_m,
+                         const MuscleValues& muscle,
                          const Lengths& lengths) {
   Recorded::Range range;
   for (const TrialRun& run : runs) {
@@ -312,7 +317,8 @@ Recorded::Range range_of(const std::vector<TrialRun>& runs,
     range.fastest_mps =
         std::max(range.fastest_mps, lengths(run.velocity_mps).cwiseAbs().maxCoeff());
   }
-  const double more = std::max(0.0, 0.5 * fiber_length_m - range.span_m());
+  range.fastest_mps = std::max(range.fastest_mps, kLeastSpeed * muscle[kSpeed]);
+  const double more = std::max(0.0, kLeastSpan * muscle[kFiberLength] - range.span_m());
   range.shortest_m -= 0.5 * more;
   range.longest_m += 0.5 * more;
   return range;
@@ -345,13 +351,12 @@ Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleVal
   Recorded found{.parts = JointParts(runs)};
   found.by_joint.resize(static_cast<std::size_t>(found.parts.joint_count()));
   for (std::size_t k = 0; k < muscles.size(); ++k) {
-    const double fiber_m = muscles[k][kFiberLength];
-    found.muscles.push_back(range_of(runs, fiber_m, [&](const Eigen::MatrixXd& all) {
+    found.muscles.push_back(range_of(runs, muscles[k], [&](const Eigen::MatrixXd& all) {
       return Eigen::VectorXd(all.col(static_cast<Eigen::Index>(k)));
     }));
     for (int joint = 0; joint < found.parts.joint_count(); ++joint)
       found.by_joint[static_cast<std::size_t>(joint)].push_back(
-          range_of(runs, fiber_m,
+          range_of(runs, muscles[k],
                    [&](const Eigen::MatrixXd& all) { return found.parts.of(all, k, joint); }));
   }
   add_torque_sizes(runs, found);

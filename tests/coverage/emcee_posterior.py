@@ -160,7 +160,7 @@ class Posterior:
             for c, (kernel, at) in enumerate(run.noise):
                 scale = np.exp(2.0 * noise[:, KAPPA]) * run.sd[c] ** 2 * run.share[c]
                 a += (scale[:, None] * torque[c][:, at] ** 2) @ kernel
-            root, worse = cholesky(a.reshape(-1, m, m))
+            root, worse = cholesky(a.reshape(-1, m, m) + (0.002 * self.torque_size) ** 2 * np.eye(m))
             far |= worse
             r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
             right = np.concatenate([r[:, :, None], run.seen[None] * width[:, None, :]], axis=2)

@@ -347,6 +347,12 @@ class Maker {
     for (std::size_t r = 0; r < runs.size(); ++r)
       torque_of(runs[r]) += unseen.columns[r] * x + envelope_error(runs[r], at[r]);
     add_torque_errors();
+    // The least error, independent behind L: white before.
+    const double least_nm = Likelihood::kLeastTorqueError * std::sqrt(squares / count);
+    for (const TrialRun& run : runs) {
+      for (double& t : torque_of(run))
+        t += least_nm / run.reduction.weights().norm() * random_.normal();
+    }
   }
 
   /// The samples of the run in the torque of its trial.
