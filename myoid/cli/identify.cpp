@@ -137,7 +137,7 @@ void print_basins(const identification::BasinTable& table) {
   if (table.failed > 0) fmt::print("  {:<20}{:>12}\n", "no minimum", table.failed);
 }
 
-void print_contest(const commands::NamedContest& named) {
+void print_contest(const identification::NamedContest& named) {
   const identification::SolverContest& c = named.contest;
   if (c.runs.empty()) {
     fmt::print("\nSolvers, {}: nothing to fit\n", named.fit);
@@ -162,7 +162,7 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
     fmt::print("\nSearches, {}:\n", searches.fit);
     print_basins(searches);
   }
-  for (const commands::NamedContest& contest : result.contests) print_contest(contest);
+  for (const identification::NamedContest& contest : result.contests) print_contest(contest);
 }
 
 /// True if the fit did not converge or, with --strict, a parameter is not identifiable.

@@ -113,6 +113,20 @@ Provenance provenance_of(const IdentifyOptions& o) {
   return provenance;
 }
 
+/// solvers.csv: a row per search.
+std::string solvers_csv(const std::vector<identification::NamedContest>& contests) {
+  const auto number = [](double value) { return recording::format_number(value); };
+  std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
+  for (const auto& [fit, c] : contests) {
+    for (const identification::SolverRun& run : c.runs) {
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", fit, run.solver, run.start, number(run.cost),
+                          number(run.distance), run.evaluations, number(run.seconds),
+                          math::name(run.termination));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 IdentifyResult identify(const IdentifyOptions& o) {
@@ -135,10 +149,11 @@ IdentifyResult identify(const IdentifyOptions& o) {
     EstimatorOptions as_fitted = as_asked;
     as_fitted.lag = result.fit.lag;
     as_fitted.choose_lag = false;
-    result.contests = solver_contests(result.data, o.method, as_fitted,
-                                      {.starts = o.starts.value_or(kStartsToCompare),
-                                       .seed = o.call.seed,
-                                       .progress = o.call.progress});
+    result.contests =
+        identification::solver_contests(result.data, o.method, as_fitted,
+                                        {.starts = o.starts.value_or(kStartsToCompare),
+                                         .seed = o.call.seed,
+                                         .progress = o.call.progress});
   }
   for (const std::string& text : result.fit.warnings) remarks.warn(text);
   result.speed_may_be_free = !table.speed_may_be_free.empty();

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "myoid/commands/identify_options.h"
-#include "myoid/commands/solver_contests.h"
 #include "myoid/core/provenance.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/cross_validation.h"
+#include "myoid/methods/solver_contests.h"
 #include "myoid/results/parameter_files.h"
 
 namespace myoid::commands {
@@ -20,7 +20,7 @@ struct IdentifyResult {
   identification::StudyData data;  ///< The samples that were fitted.
   std::vector<identification::Fold> folds;
   std::string why_no_folds;  ///< Empty where there are folds, or none were asked for.
-  std::vector<NamedContest> contests;
+  std::vector<identification::NamedContest> contests;
   bool speed_may_be_free = false;  ///< muscles.csv leaves open whether v_max is known.
   ParameterContext told;
   Provenance provenance;

@@ -42,7 +42,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/commands/run.h", "exercised by running the program"},
     {"myoid/commands/settings.h", "exercised by running the program"},
     {"myoid/commands/simulate.h", "exercised by running the program"},
-    {"myoid/commands/solver_contests.h", "exercised by running the program"},
+    {"myoid/methods/solver_contests.h", "exercised by running the program"},
     {"myoid/commands/twin.h", "exercised by running the program"},
     {"myoid/commands/twin_study.h", "exercised by running the program"},
     {"myoid/commands/update_file.h", "exercised by running the program"},

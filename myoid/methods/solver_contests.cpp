@@ -1,18 +1,14 @@
-#include "myoid/commands/solver_contests.h"
+#include "myoid/methods/solver_contests.h"
 
 #include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/files/text_file.h"
 #include "myoid/methods/force.h"
 
-namespace myoid::commands {
+namespace myoid::identification {
 namespace {
-
-using identification::ContestOptions;
-using identification::SolverContest;
 
 struct ContestedFit {
   std::string name;
@@ -31,29 +27,28 @@ Progress part_of(const Progress& whole, std::size_t index, std::size_t count) {
 
 }  // namespace
 
-std::vector<NamedContest> solver_contests(const identification::StudyData& data,
+std::vector<NamedContest> solver_contests(const StudyData& data,
                                           const std::string& method,
-                                          const identification::EstimatorOptions& estimator,
+                                          const EstimatorOptions& estimator,
                                           const ContestOptions& options) {
   std::vector<ContestedFit> fits;
   if (method == "torque") {
     fits.push_back({"all muscles", [&](const ContestOptions& how) {
-                      return identification::compare_solvers(data, estimator, how);
+                      return compare_solvers(data, estimator, how);
                     }});
   }
   for (std::size_t k = 0; method != "torque" && k < data.muscles.size(); ++k) {
     const std::string& muscle = data.muscles[k].name;
     if (method == "force") {
       fits.push_back({muscle, [&, k](const ContestOptions& how) {
-                        return identification::compare_solvers(identification::force_study(data, k),
-                                                               estimator, how);
+                        return compare_solvers(force_study(data, k), estimator, how);
                       }});
       continue;
     }
     for (const bool shortening : {true, false}) {
       fits.push_back({muscle + (shortening ? " shortening" : " lengthening"),
                       [&, k, shortening](const ContestOptions& how) {
-                        return identification::compare_paper_solvers(data, k, shortening, how);
+                        return compare_paper_solvers(data, k, shortening, how);
                       }});
     }
   }
@@ -66,17 +61,4 @@ std::vector<NamedContest> solver_contests(const identification::StudyData& data,
   return contests;
 }
 
-std::string solvers_csv(const std::vector<NamedContest>& contests) {
-  const auto number = [](double value) { return recording::format_number(value); };
-  std::string text = "fit,solver,start,cost,distance,evaluations,seconds,termination\n";
-  for (const auto& [fit, c] : contests) {
-    for (const identification::SolverRun& run : c.runs) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", fit, run.solver, run.start, number(run.cost),
-                          number(run.distance), run.evaluations, number(run.seconds),
-                          math::name(run.termination));
-    }
-  }
-  return text;
-}
-
-}  // namespace myoid::commands
+}  // namespace myoid::identification
