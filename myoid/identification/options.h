@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,6 +72,8 @@ struct IntervalOptions {
   std::uint64_t seed = 1;
 };
 
+class DriveMemory;  // posterior/drive.h
+
 /// Options of methods `torque` and `force`.
 struct EstimatorOptions {
   std::vector<std::string> muscles;  ///< To identify; the others keep their start. Empty: all.
@@ -128,6 +131,7 @@ struct EstimatorOptions {
   UnseenSpreads unseen;     ///< Of the estimator `posterior`.
   int posterior_draws = 0;  ///< By Hamiltonian Monte Carlo; 0: of an approximation.
   bool marginals = true;    ///< The approximation has the skewness of each unknown.
+  std::shared_ptr<DriveMemory> drives;  ///< Shared by fits of one recording; empty: none.
 };
 
 }  // namespace myoid::identification

@@ -13,6 +13,7 @@
 #include "myoid/math/decompositions.h"
 #include "myoid/methods/paper.h"
 #include "myoid/methods/prediction.h"
+#include "myoid/posterior/drive.h"
 
 namespace myoid::identification {
 namespace {
@@ -392,9 +393,10 @@ std::vector<Fold> cross_validate(const StudyData& data,
                                  const EstimatorOptions& options,
                                  const CrossValidationOptions& how) {
   std::vector<Split> all = splits(data, how);
+  const EstimatorOptions shared = remembering_drives(options);
   std::vector<std::vector<Fold>> of_split(all.size());
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t f) {
-    of_split[f] = score_split(std::move(all[f]), fit, options, how.paper);
+    of_split[f] = score_split(std::move(all[f]), fit, shared, how.paper);
   });
   std::vector<Fold> folds;
   for (std::vector<Fold>& of_one : of_split)

@@ -10,6 +10,7 @@
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/smooth_prediction.h"
+#include "myoid/posterior/drive.h"
 #include "myoid/posterior/posterior.h"
 
 namespace myoid::identification {
@@ -120,8 +121,9 @@ Estimator::Solution best_solution(const Estimator& estimator,
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
   if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {
-    IdentificationResult result = identify_by_posterior(data, options);
-    if (options.predictions) add_predictions(data, options, result);
+    const TorqueOptions remembering = remembering_drives(options);
+    IdentificationResult result = identify_by_posterior(data, remembering);
+    if (options.predictions) add_predictions(data, remembering, result);
     return result;
   }
   validate(data);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -282,6 +283,32 @@ Drive drive_behind(const Envelope& recorded,
           fine,
           math::Spline::interpolate(time, drive).evaluate(fine).value.cwiseMax(kLeastDrive * rest)),
       std::move(left)};
+}
+
+std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
+                                                 const std::string& channel,
+                                                 double noise_sd,
+                                                 double rest,
+                                                 const EnvelopeError& error,
+                                                 double cutoff_hz) {
+  const Eigen::VectorXd values = recorded.column(channel);
+  Key key{noise_sd, rest, cutoff_hz};
+  key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
+  key.insert(key.end(), values.begin(), values.end());
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = drives_.find(key); known != drives_.end()) return known->second;
+  }
+  auto found = std::make_shared<const Drive>(
+      drive_behind(Envelope(recorded.time_s(), values), noise_sd, rest, error, cutoff_hz));
+  const std::lock_guard lock(mutex_);
+  return drives_.emplace(std::move(key), std::move(found)).first->second;
+}
+
+EstimatorOptions remembering_drives(EstimatorOptions options) {
+  if (options.estimator == EstimatorKind::posterior && !options.drives)
+    options.drives = std::make_shared<DriveMemory>();
+  return options;
 }
 
 }  // namespace myoid::identification

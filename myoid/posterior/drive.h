@@ -1,8 +1,16 @@
 #pragma once
 
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
+#include "myoid/core/time_series.h"
 #include "myoid/identification/envelope.h"
+#include "myoid/identification/options.h"
 #include "myoid/posterior/noise_model.h"
 
 namespace myoid::identification {
@@ -38,5 +46,26 @@ struct Drive {
                                  double rest,
                                  const EnvelopeError& error,
                                  double cutoff_hz);
+
+/// The drives that fits of one recording have found: its folds and predictions need the same ones.
+/// Several threads may ask at once.
+class DriveMemory {
+ public:
+  /// Returns drive_behind of the channel, found once for each envelope and noise.
+  [[nodiscard]] std::shared_ptr<const Drive> behind(const TimeSeries& recorded,
+                                                    const std::string& channel,
+                                                    double noise_sd,
+                                                    double rest,
+                                                    const EnvelopeError& error,
+                                                    double cutoff_hz);
+
+ private:
+  using Key = std::vector<double>;  ///< All that the drive depends on.
+  std::mutex mutex_;
+  std::map<Key, std::shared_ptr<const Drive>> drives_;
+};
+
+/// Returns the options with a memory of drives, where the estimator is the posterior.
+[[nodiscard]] EstimatorOptions remembering_drives(EstimatorOptions options);
 
 }  // namespace myoid::identification

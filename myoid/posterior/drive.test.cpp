@@ -59,6 +59,21 @@ TEST(Drive, OfAnEnvelopeThatNeverChangesIsTheEnvelope) {
   }
 }
 
+TEST(DriveMemory, FindsADriveOnceForEachEnvelopeAndNoise) {
+  const Recorded of = recorded(0.15);
+  const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
+  const TimeSeries series(of.time, {{"BIC", ""}, {"TRI", ""}},
+                          (Eigen::MatrixXd(of.time.size(), 2) << of.values, of.drive).finished());
+  DriveMemory memory;
+  const auto first = memory.behind(series, "BIC", 0.15, 0.0, error, kCutoff_hz);
+  EXPECT_EQ(memory.behind(series, "BIC", 0.15, 0.0, error, kCutoff_hz), first);
+  EXPECT_NE(memory.behind(series, "BIC", 0.2, 0.0, error, kCutoff_hz), first);
+  EXPECT_NE(memory.behind(series, "TRI", 0.15, 0.0, error, kCutoff_hz), first);
+  const Drive alone = drive_behind(Envelope(of.time, of.values), 0.15, 0.0, error, kCutoff_hz);
+  EXPECT_EQ(first->left, alone.left);
+  EXPECT_EQ(first->envelope.at(7.3).value, alone.envelope.at(7.3).value);
+}
+
 TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
   for (const double noise_sd : {0.1, 0.15, 0.25}) {
     const Recorded of = recorded(noise_sd);

@@ -68,21 +68,20 @@ double floor_of(const std::string& channel, const EstimatorOptions& options) {
   return raw && rest != options.emg_rest.end() ? rest->second : 0.0;
 }
 
+using Drives = std::vector<std::shared_ptr<const Drive>>;  // by channel
+
 /// The drive behind the envelope of each channel.
-std::vector<Drive> drives_of(const TrialData& trial,
-                             const EstimatorOptions& options,
-                             const ParameterMap& map) {
+Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const ParameterMap& map) {
   const EnvelopeError plain(options.envelope_cutoff_hz, {});
-  std::vector<Drive> drives;
-  for (const std::string& name : map.channels()) {
-    const Envelope recorded(trial.activation.time_s(), trial.activation.column(name));
-    drives.push_back(drive_behind(recorded, envelope_spread(options, name), floor_of(name, options),
-                                  plain, options.envelope_cutoff_hz));
-  }
+  const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();
+  Drives drives;
+  for (const std::string& name : map.channels())
+    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name),
+                                    floor_of(name, options), plain, options.envelope_cutoff_hz));
   return drives;
 }
 
-void add_envelopes(const std::vector<Drive>& drives,
+void add_envelopes(const Drives& drives,
                    const EstimatorOptions& options,
                    const ParameterMap& map,
                    TrialRun& run) {
@@ -93,10 +92,10 @@ void add_envelopes(const std::vector<Drive>& drives,
     const auto column = static_cast<Eigen::Index>(c);
     run.envelope_sd[column] = envelope_spread(options, name);
     run.rest[column] = floor_of(name, options);
-    run.envelopes.push_back(drives[c].envelope);
+    run.envelopes.push_back(drives[c]->envelope);
     run.errors.push_back(
         EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
-            .behind(drives[c].left));
+            .behind(drives[c]->left));
   }
 }
 
@@ -126,7 +125,7 @@ void add_joint(const TrialData& view,
 
 TrialRun make_run(const TrialData& trial,
                   const std::vector<Eigen::Index>& rows,
-                  const std::vector<Drive>& drives,
+                  const Drives& drives,
                   const EstimatorOptions& options,
                   const ParameterMap& map) {
   const auto n = static_cast<Eigen::Index>(rows.size());
@@ -172,7 +171,7 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
     if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
       throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
     const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
-    const std::vector<Drive> drives = drives_of(trial, options, map);
+    const Drives drives = drives_of(trial, options, map);
     for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
       if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
       for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
