@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLogRange = 2.3;
 constexpr double kLag_s = 0.15;            // a model's relative error of 10 % is a lag of 15 ms
-constexpr double kLeastActivation = 0.02;  // of the logarithm
-constexpr double kNoneActs = 1e-4;         // force over activation is finite down to it
+constexpr double kLeastActivation = 0.02;  // least activation whose logarithm is taken
+constexpr double kNoneActs = 1e-4;         // least activation that force is divided by
 
 bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
   return std::any_of(map.free().begin(), map.free().end(),
@@ -102,8 +102,7 @@ class Collector {
     lags_.push_back(quantities_.size() - 1);
   }
 
-  /// A delay that is free takes the lag that its muscles have in common: the model errs by the
-  /// rest.
+  /// A free delay takes the lag that its muscles have in common; only the differences are errors.
   void center_lags() {
     for (const Unknown& delay : map_.free()) {
       if (!delay.is(Scope::channel, kDelay)) continue;
@@ -119,7 +118,7 @@ class Collector {
     }
   }
 
-  /// A constant and a slope of each joint, of the size of its measured torque.
+  /// Adds a constant and a slope of each joint, scaled by the joint's measured torque.
   void add_joint_errors() {
     const int joints = recorded_.parts.joint_count();
     for (int joint = 0; joint < joints; ++joint) {
@@ -152,8 +151,8 @@ class Collector {
   }
 
  private:
-  /// A muscle at one joint of one run: its torque r F, how that changes with length and rate, and
-  /// both.
+  /// A muscle at one joint of one run: its torque r F, the derivatives of this torque by length and
+  /// rate, and length and rate themselves.
   struct OfMuscle {
     const TrialRun& run;
     const RunEvaluation& at;
@@ -168,7 +167,7 @@ class Collector {
     return value;
   }
 
-  /// Change of ln a by an activation that comes earlier [1/s].
+  /// Returns the change of ln a by an activation that comes earlier [1/s].
   static Eigen::ArrayXd earlier(const RunEvaluation& at, std::size_t channel) {
     const std::vector<Activation>& a = at.activations()[channel];
     Eigen::ArrayXd by_time(static_cast<Eigen::Index>(a.size()));
@@ -279,7 +278,7 @@ class Collector {
   const ModelValues& values_;
   const std::vector<RunEvaluation>& at_;
   std::vector<UnseenQuantity> quantities_;
-  std::vector<std::size_t> lags_;                     ///< Per muscle: the quantity of its lag.
+  std::vector<std::size_t> lags_;                     ///< Per muscle: index of its lag's quantity.
   std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
 };
 
@@ -299,7 +298,7 @@ double Recorded::size_share(int joint) const {
 
 namespace {
 
-/// The range of one muscle's lengths and rates, n each of every run.
+/// Returns the range of one muscle's lengths and rates, n of each for every run.
 template <typename Lengths>
 Recorded::Range range_of(const std::vector<TrialRun>& runs,
                          double fiber_length_m,
@@ -318,7 +317,7 @@ Recorded::Range range_of(const std::vector<TrialRun>& runs,
   return range;
 }
 
-/// Fills the root mean squares of L y, of all and of each joint.
+/// Fills the root mean squares of L y, over all joints and for each.
 void add_torque_sizes(const std::vector<TrialRun>& runs, Recorded& found) {
   const auto joints = static_cast<std::size_t>(found.parts.joint_count());
   std::vector<double> sums(joints, 0.0), counts(joints, 0.0);
