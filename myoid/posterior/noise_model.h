@@ -50,8 +50,8 @@ class EnvelopeError {
 /// The torque error that the noise of envelopes causes, behind L: white noise times the torque's
 /// sensitivity D at each sample, then the envelope's filter h and L. The error has the covariance
 ///
-///   A(i, j) = sum_t k(t - first_i) k(t - first_j) v(t),      k = weights of L * h,  v = sum_c
-///   D_c^2
+///   A(i, j) = sum_t k(t - first_i) k(t - first_j) v(t),
+///   k = weights of L * h,  v = sum_c D_c^2
 ///
 /// At the ends of a run v continues with its first and last value.
 class EmgNoise {
