@@ -95,7 +95,7 @@ void visit_name(TrialSpec& trial, SettingVisitor& v) {
                      name));
 }
 
-/// The recordings of a trial.
+/// Visits the recordings of a trial.
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
