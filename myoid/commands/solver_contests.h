@@ -20,7 +20,7 @@ struct NamedContest {
     const identification::EstimatorOptions& estimator,
     const identification::ContestOptions& options);
 
-/// solvers.csv: a row per search.
+/// Returns the text of solvers.csv, a row per search.
 [[nodiscard]] std::string solvers_csv(const std::vector<NamedContest>& contests);
 
 }  // namespace myoid::commands
