@@ -24,7 +24,7 @@ constexpr std::array kAll = {
     &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,  &kCrossTalk,
     &kGainDrift,        &kRiseAndFall,        &kUnknownEmgNoise};
 
-/// The parameters of a muscle's law whose prior stands about its starting value.
+/// The muscle parameters whose prior lies about their starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,
                                    &kProduct,  &kPlateau,     &kSpeed, &kTendonSlack};
 

@@ -19,18 +19,18 @@ enum class SpreadOf {
 
 /// An expectation about a number before a recording is looked at.
 struct Belief {
-  std::string_view name;  ///< Of the parameter, as in parameters.csv, or of another quantity.
+  std::string_view name;  ///< Name of the parameter, as in parameters.csv, or of another quantity.
   std::string_view mean;  ///< The expected value in words: "the model's", "0".
-  double value = 0.0;     ///< The expected value where it is a number of its own.
+  double value = 0.0;     ///< The expected value as a number.
   double sd = 0.0;        ///< Standard deviation.
   SpreadOf spread = SpreadOf::value;
-  std::string_view unit;  ///< Of mean and, for SpreadOf::value, of the standard deviation.
+  std::string_view unit;  ///< Unit of the mean and, for SpreadOf::value, of the standard deviation.
   std::string_view when;  ///< The case in which the estimator uses it.
   std::string_view source;
 };
 
-/// Every belief of the identification, once each. The estimator uses these constants, the twin
-/// draws its persons from them, and docs/theory/priors.md prints them.
+/// All beliefs of the identification. The estimator uses these constants, the twin draws its
+/// persons' muscles from them, and docs/theory/priors.md prints them.
 namespace beliefs {
 
 using enum SpreadOf;
@@ -113,7 +113,7 @@ inline constexpr Belief kTendonStrain{"tendon_strain", kModels, 0.0,       0.4,
 inline constexpr Belief kActivationShare{"activation_share", "1", 1.0,       0.3,
                                          logarithm,          "",  kWhenFree, "judgment"};
 
-// An EMG channel's numbers.
+// An EMG channel's numbers. `emg_delay` is the electromechanical delay.
 inline constexpr Belief kEmgDelay{
     "emg_delay", "0.06",
     0.060,       0.020,
@@ -155,9 +155,9 @@ inline constexpr Belief kActivationTime{"activation_time", "the start", 0.0,    
 inline constexpr Belief kDeactivationTime{"deactivation_time", "the start", 0.0,       0.25,
                                           logarithm,           "s",         kWhenFree, "judgment"};
 
-// A joint's own torque beside the muscles': as a share of the greatest torque of its muscles
-// together
-// (`run`), and as numbers of an elbow (where a study frees one without a prior, and in the twin).
+// A joint's own torque beside the muscles', relative to the greatest torque of its muscles together
+// (`run`), and as numbers of an elbow (for a study that frees one without a prior, and in the
+// twin).
 inline constexpr std::string_view kJointSource =
     "a relaxed elbow's own torque: 1 N m/rad, 1 N m, 0.2 N m s/rad";
 inline constexpr std::string_view kKnownMotion = "always, of joints whose motion is known";
@@ -176,7 +176,7 @@ inline constexpr Belief kViscosity{"joint_viscosity", "0",       0.0,         0.
 inline constexpr Belief kInertia{"joint_inertia", "0",     0.0,       0.01,
                                  value,           "kg m²", kWhenFree, "judgment"};
 
-// Quantities that are no parameters.
+// Quantities other than parameters.
 inline constexpr Belief kLeastEffort{
     "least share of its maximum that a muscle's greatest effort is",
     "0.05",
@@ -238,7 +238,7 @@ inline constexpr Belief kStrengthRatio{
     "by more than this an exchange of two electrodes must improve the fit",
     "each differs by 30 % between published sets"};
 
-// Quantities that residuals hardly tell: estimator `posterior`.
+// Quantities that residuals hardly determine: estimator `posterior`.
 inline constexpr std::string_view kPosterior = "estimator `posterior`";
 inline constexpr Belief kTorqueNoise{"error of the torque, over its root mean square",
                                      "0.05",
@@ -355,29 +355,30 @@ inline constexpr Belief kUnknownEmgNoise{
 }  // namespace beliefs
 
 /// The spreads of estimator `posterior` that a study may state for its person, model and
-/// instruments (`[beliefs]`). 0: the quantity is exact.
+/// instruments (`[beliefs]`). At 0 the quantity is exact.
 struct UnseenSpreads {
-  double moment_arm = beliefs::kMomentArm.sd;             ///< Of its logarithm.
-  double moment_arm_slope = beliefs::kMomentArmSlope.sd;  ///< Over half the range of lengths.
-  double tendon_strain = 0.053;  ///< About no strain: of kTendonStretch, the root mean square.
+  double moment_arm = beliefs::kMomentArm.sd;  ///< Spread of the logarithm.
+  double moment_arm_slope =
+      beliefs::kMomentArmSlope.sd;  ///< Spread over half the range of lengths.
+  double tendon_strain = 0.053;     ///< Root mean square of kTendonStretch about no strain.
   double torque_scale = beliefs::kTorqueScale.sd;
   double crosstalk = beliefs::kCrossTalk.sd;
   double gain_drift = beliefs::kGainDrift.sd;
   double model_error = beliefs::kModelError.sd;             ///< Half normal.
-  double common_strength = beliefs::kCommonStrength.value;  ///< A share, below 1.
+  double common_strength = beliefs::kCommonStrength.value;  ///< Share, below 1.
   bool operator==(const UnseenSpreads&) const = default;
 };
 
-/// All of them, in the order of the page.
+/// Returns all beliefs, in the order of the page.
 [[nodiscard]] std::span<const Belief* const> all_beliefs();
 
-/// The belief about a muscle's parameter as a prior about `start`, given the muscle's optimal fiber
-/// length; empty if a muscle's parameters have none of this name.
+/// Returns the belief about a muscle's parameter as a prior about `start`, given the muscle's
+/// optimal fiber length; empty if no muscle parameter has this name.
 [[nodiscard]] std::optional<Prior> literature_prior(std::string_view parameter,
                                                     double start,
                                                     double optimal_fiber_length_m);
 
-/// The beliefs as a table in Markdown.
+/// Returns the beliefs as a table in Markdown.
 [[nodiscard]] std::string beliefs_markdown();
 
 }  // namespace myoid::identification

@@ -174,10 +174,11 @@ class StudyCheck {
     together_->look_at(spec, input);
     add(unloaded_times(*model_, spec, input));
     if (input.markers) check_markers(*input.markers);
-    if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < 800.0) {
+    if (input.emg && study_.emg.kind == EmgKind::raw &&
+        input.emg->mean_rate_hz() < kLimits.slowest_raw_emg_hz) {
       add(RemarkCode::emg_rate, Severity::warning, spec.name,
-          fmt::format("EMG at {:.0f} Hz: 1000 Hz or more is needed for raw EMG",
-                      input.emg->mean_rate_hz()));
+          fmt::format("EMG at {:.0f} Hz: raw EMG reaches 400 Hz and needs {:g} Hz or more",
+                      input.emg->mean_rate_hz(), kLimits.slowest_raw_emg_hz));
     }
   }
 

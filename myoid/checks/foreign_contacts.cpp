@@ -17,11 +17,12 @@ namespace myoid {
 namespace {
 
 constexpr double kLeast_n = 20.0;
-constexpr double kMergedContact_s = 0.025;  ///< A shorter pause does not end a contact.
-constexpr double kLevel_m = 0.04;  ///< Feet at equal height within this both stand on the ground.
+constexpr double kMergedContact_s = 0.025;  ///< longest pause within a contact
+constexpr double kLevel_m =
+    0.04;  ///< greatest height difference of two feet that both stand on the ground
 constexpr double kStill_m_per_s = 0.25;
-constexpr double kFloorPush = 0.5;   ///< Cosine of 60 degrees, as `recording::is_floor`.
-constexpr double kTwoSteps_m = 0.5;  ///< The other foot may be two steps of stairs lower.
+constexpr double kFloorPush = 0.5;   ///< cosine of 60 degrees, as `recording::is_floor`
+constexpr double kTwoSteps_m = 0.5;  ///< the other foot may be two steps of stairs lower
 constexpr Eigen::Index kContactFrames = 1500;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 
@@ -130,7 +131,7 @@ class GroundContacts {
   [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const {
     return of_force_[force];
   }
-  /// True if the force is that of a plate in the floor.
+  /// Returns true if a plate in the floor measures the force.
   [[nodiscard]] bool is_of_floor(std::size_t force) const {
     Vec3 sum_n = Vec3::Zero();
     std::vector<double> above;
@@ -218,14 +219,14 @@ class GroundContacts {
     return height;
   }
 
-  /// True for a body that does not move and is as low as the body of the force.
+  /// Returns true for a body that does not move and is as low as the body of the force.
   [[nodiscard]] bool stands(std::size_t body, model::BodyIndex own, const Lowest& lowest) const {
     const auto& mine = lowest.point_m[static_cast<std::size_t>(own)];
     return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kStill_m_per_s &&
            std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLevel_m;
   }
 
-  /// True if another force acts on the body, or under it.
+  /// Returns true if another force acts on the body, or under it.
   [[nodiscard]] bool has_a_force(std::size_t but,
                                  std::size_t body,
                                  const std::vector<std::optional<Vec3>>& centers) const {

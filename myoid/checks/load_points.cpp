@@ -17,7 +17,7 @@ constexpr double kLoaded = 0.2;  ///< Share of the largest force.
 constexpr int kFrames = 200;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// True for a force on a body whose center of pressure moves over the ground.
+/// Returns true for a force on a body whose center of pressure moves over the ground.
 bool is_under_a_foot(const dynamics::ExternalForce& force) {
   return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
          force.point && !force.force->splines.empty() && !force.point->splines.empty();

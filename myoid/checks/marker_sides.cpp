@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSides{{{
                                                                                {"R", "L"},
                                                                                {"L", "R"}}};
 
-/// True if a letter for the side at the beginning stands apart: before a sign or another capital.
+/// Returns true if an initial letter for the side stands apart: before a sign or another capital.
 bool stands_apart(const std::string& label, std::size_t length) {
   if (label.size() <= length) return false;
   const auto next = static_cast<unsigned char>(label[length]);

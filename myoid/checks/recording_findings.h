@@ -15,7 +15,7 @@ namespace myoid {
 /// The findings about the recordings of a study after processing of its EMG.
 struct RecordingFindings {
   std::vector<std::vector<Remark>> of_trials;  ///< Ungrouped, in the study's order.
-  std::vector<Remark> levels;                  ///< On EMG channels, over all trials.
+  std::vector<Remark> levels;                  ///< About EMG channels, over all trials.
   std::vector<Remark> dynamometers;            ///< Grouped; `where` is the trial.
 };
 

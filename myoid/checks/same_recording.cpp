@@ -14,11 +14,11 @@ namespace {
 
 constexpr Eigen::Index kStretch = 32;
 constexpr std::uint64_t kOneIn = 4;
-constexpr std::size_t kFewestStretches = 8;  ///< Fewer stretches allow no comparison.
-/// Adjacent windows of one file may share their edges.
+constexpr std::size_t kFewestStretches = 8;  ///< fewer stretches allow no comparison
+/// Share of the shorter recording that adjacent windows of one file may have in common.
 constexpr double kEdges = kLimits.same_samples;
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+/// Returns the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x ^= x >> 30U;
   x *= 0xbf58476d1ce4e5b9U;

@@ -21,8 +21,8 @@ class StudyPlausibility {
   StudyPlausibility(const Study& study, const model::BodyModel& model);
 
   void look_at(const TrialSpec& trial, const TrialInput& input);
-  /// Returns the findings on the trials so far, one by one and together. A finding of several
-  /// trials is given for the first, and names the others.
+  /// Returns the findings on the trials so far, one by one and together. A finding about several
+  /// trials stands with the first, and names the others.
   [[nodiscard]] std::vector<Remark> findings() const;
 
  private:

@@ -14,7 +14,7 @@
 
 namespace myoid {
 
-/// For each of the study's coordinates that turns.
+/// Capacities of the study's coordinates that turn, by name.
 using Capacities = std::map<std::string, dynamics::JointCapacity>;
 [[nodiscard]] Capacities joint_capacities(const Study& study, const model::BodyModel& model);
 
@@ -27,10 +27,10 @@ using Capacities = std::map<std::string, dynamics::JointCapacity>;
                                               const TrialSpec& trial,
                                               const TrialInput& input);
 
-/// A trial has active muscles if its activation exceeds this somewhere.
+/// Activation that a trial with active muscles exceeds at some time.
 inline constexpr double kFlatActivation = kLimits.flat_activation;
 
-/// Returns the size that one sample in a hundred exceeds, so that a spike does not decide.
+/// Returns the size that one sample in a hundred exceeds, so that a single spike does not decide.
 [[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an

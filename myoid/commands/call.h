@@ -27,10 +27,10 @@ namespace myoid::commands {
 /// Values that every command takes beside its own options.
 struct Call {
   std::uint64_t seed = 1;
-  std::optional<double> start_s, end_s;  ///< The time of the data that is used [s].
+  std::optional<double> start_s, end_s;  ///< Time of the data in use [s].
   std::string command;                   ///< Written into results as the command that made them.
   Progress progress;
-  /// Hears each remark at once, also of a command that throws later; may be empty.
+  /// Receives each remark at once, also from a command that throws later; may be empty.
   std::function<void(const Remark&)> listener;
 };
 

@@ -13,17 +13,17 @@ namespace myoid::commands {
 struct CheckOptions {
   Call call;
   std::string input;  ///< study.toml, or a recording.
-  std::string up;     ///< Of a recording's laboratory: x, -y, ...; empty: as the file says.
+  std::string up;  ///< Vertical of a recording's laboratory: x, -y, ...; empty: as the file states.
 };
 
 struct CheckResult {
   std::vector<Remark> findings;  ///< Worst first.
   bool of_study = false;
-  std::size_t trials = 0, muscles = 0;  ///< Of the study.
-  std::size_t errors = 0;               ///< Findings because of which `run` refuses the study.
+  std::size_t trials = 0, muscles = 0;  ///< Counts in the study.
+  std::size_t errors = 0;               ///< Findings for which `run` refuses the study.
 };
 
-/// A fault of an input is a finding. Throws ReadError for a study that cannot be read.
+/// Checks the inputs; a fault of an input is a finding. Throws ReadError for an unreadable study.
 [[nodiscard]] CheckResult check(const CheckOptions& options);
 
 }  // namespace myoid::commands

@@ -26,7 +26,7 @@ using cohort::Outcome;
 using cohort::OutcomeKind;
 using cohort::Person;
 
-/// Folder of a person's stages, which an interrupted job continues from.
+/// Folder of a person's stages, from which an interrupted job continues.
 constexpr const char* kStageFolder = ".stages";
 
 std::string settings_of(const CohortOptions& o) {

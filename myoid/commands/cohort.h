@@ -21,32 +21,31 @@ struct CohortOptions {
   Call call;
   std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
   std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
-  std::vector<std::string> persons;  ///< Names or labels; empty: everybody.
+  std::vector<std::string> persons;  ///< Names or labels; empty: all persons.
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the studies'.
-  std::size_t jobs = 0;  ///< Persons at a time; 0: as many as threads.
-  /// Hears the end of each person at once; may be empty. Called by one thread at a time.
+  std::size_t jobs = 0;  ///< Persons computed at the same time; 0: as many as threads.
+  /// Receives the end of each person at once; may be empty. Called by one thread at a time.
   std::function<void(const cohort::PersonOutcome&)> heard;
 };
 
 /// Computes the persons and writes each into a folder of its own, `persons/NAME` in `folder`. A
-/// person with current results is not computed again. A person who fails is recorded, and the
-/// others go on. The files are the same to the byte for every number of jobs and threads: they hold
-/// no times. Throws InvalidInput for a manifest that cannot be read and for a name that no person
-/// has.
+/// person with current results is not computed again. A person whose computation fails is recorded,
+/// and the others go on. The files hold no times and are the same to the byte for every number of
+/// jobs and threads. Throws InvalidInput for an unreadable manifest and for an unknown person.
 std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& options,
                                                         const std::filesystem::path& folder);
 
 /// Puts the persons' results in `folder` side by side, and writes tables, page and BIDS derivative.
 cohort::Group write_cohort_group(const CohortOptions& options, const std::filesystem::path& folder);
 
-/// Writes the files by which an engine computes the cohort into `workflow` in `folder`; returns the
-/// command that starts the engine.
+/// Writes the files with which a workflow engine computes the cohort into `workflow` in `folder`;
+/// returns the command that starts the engine.
 std::string write_cohort_workflow(const CohortOptions& options,
                                   cohort::Engine engine,
                                   const std::filesystem::path& folder);
 
-/// Makes the folder of a cohort whose manifest can be read. Throws InvalidInput for a file, or for
-/// a folder with other content than a cohort's unless `overwrite`, and for the manifest as
+/// Makes the folder of a cohort with a readable manifest. Throws InvalidInput for a file, for a
+/// folder with other content than a cohort's unless `overwrite`, and for the manifest as
 /// `write_cohort_persons` does; then no folder is made.
 void prepare_cohort_folder(const CohortOptions& options,
                            const std::filesystem::path& folder,

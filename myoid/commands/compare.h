@@ -9,7 +9,7 @@
 
 namespace myoid::commands {
 
-/// Two finished runs, number by number.
+/// Two finished runs, to be compared number by number.
 struct CompareOptions {
   Call call;
   std::string first, second;  ///< Folders with parameters.json.
@@ -20,7 +20,7 @@ struct CompareResult {
   std::vector<Remark> remarks;
 };
 
-/// Throws InvalidInput if both names are one folder.
+/// Compares the runs. Throws InvalidInput if both names are one folder.
 [[nodiscard]] CompareResult compare(const CompareOptions& options);
 
 /// Writes report.html, figures and tables.

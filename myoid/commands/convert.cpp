@@ -80,7 +80,7 @@ class Converter {
     warn_of_repairs(path, repairs, remarks_);
   }
 
-  /// Voltages of a file, in --unit where it does not say.
+  /// Returns the voltages of a file, in --unit if the file states none.
   [[nodiscard]] TimeSeries voltages(const std::string& path) const {
     recording::EmgFile file = recording::read_emg(
         path, o_.unit, false, path == o_.in ? o_.channels : std::vector<std::string>());
@@ -111,7 +111,7 @@ class Converter {
     report(file.repairs);
   }
 
-  /// Writes channels that were read in SI.
+  /// Writes channels that are in SI.
   void write_read(const fs::path& out, const recording::RowSource& rows) const {
     require_channels(rows.channels);
     recording::write_channels(out, rows, recording::statement_of(rows.channels, o_.in));
@@ -139,7 +139,7 @@ class Converter {
     recording::write_channels(out, recording::rows_of(written), said);
   }
 
-  /// True if all channels are written unchanged, in the compact form of their file.
+  /// Returns true if all channels are written unchanged, in the compact form of their file.
   [[nodiscard]] bool stays(const recording::AnalogChannels& channels, const fs::path& out) const {
     return o_.channels.empty() && !o_.call.start_s && !o_.call.end_s && o_.rate_hz <= 0.0 &&
            (!is_storage(out.string()) || channels.all_finite());
@@ -341,7 +341,7 @@ class Converter {
   std::vector<std::string> written_;
 };
 
-/// The options with the kind of content that the endings of the names imply.
+/// Returns the options with the kind of content that the endings of the names imply.
 ConvertOptions with_kind(ConvertOptions o) {
   if (o.what.empty() && recording::extension_of(o.out) == ".mot" &&
       recording::format_of(o.in) == FileFormat::c3d)

@@ -13,7 +13,7 @@
 namespace myoid::commands {
 namespace {
 
-/// The elbow of the source paper: surface electrodes on three muscles, the brachialis taken to act
+/// Returns the elbow of the source paper: surface electrodes on three muscles; the brachialis acts
 /// as the biceps does.
 Study arm4_study(bool wire) {
   Study study;

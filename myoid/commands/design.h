@@ -9,13 +9,13 @@
 
 namespace myoid::commands {
 
-/// The movements to record next.
+/// Options of the choice of movements to record next.
 struct DesignOptions {
   Call call;
   std::string study;  ///< study.toml; or `model`.
   std::string model;  ///< The built-in arm: "arm4".
-  bool wire = false;  ///< Of arm4: the brachialis has a wire electrode of its own.
-  std::string after;  ///< Folder of a run whose result is known beforehand; empty: none.
+  bool wire = false;  ///< For arm4: the brachialis has a wire electrode of its own.
+  std::string after;  ///< Folder of a run whose results count as known; empty: none.
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   std::string criterion = "D";                             ///< D or A.
   bool dynamometer = true;                                 ///< Isokinetic movements are possible.
@@ -27,8 +27,8 @@ struct DesignResult {
   std::vector<Remark> remarks;
 };
 
-/// Throws InvalidInput where the earlier run is of another study, or no movement of the catalogue
-/// is within the muscles' strength.
+/// Chooses the movements. Throws InvalidInput if the earlier run is of another study, or no
+/// movement of the catalogue is within the muscles' strength.
 [[nodiscard]] DesignResult design(const DesignOptions& options);
 
 }  // namespace myoid::commands

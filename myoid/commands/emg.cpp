@@ -22,7 +22,7 @@ void warn_of_levels(const std::vector<signals::TrialEnvelope>& trials, Remarks& 
   }
 }
 
-/// The EMG of all files, cleaned, whitened and smoothed. All are whitened or none.
+/// The EMG of all files, cleaned, whitened and smoothed. Either all files are whitened or none.
 struct SmoothedFiles {
   std::vector<signals::EmgStages> stages;
   signals::Whitening whitening;

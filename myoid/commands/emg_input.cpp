@@ -20,7 +20,7 @@ std::string channel_in(const std::string& path, const std::string& channel) {
   return fmt::format("{} '{}'", std::filesystem::path(path).filename().string(), channel);
 }
 
-/// The defect for which a channel can be neither filtered nor normalized; empty: none.
+/// Returns the defect that prevents filtering or normalization of a channel; empty: none.
 std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
   if (std::string gaps = recording::gaps_of(emg, column); !gaps.empty()) return gaps;
   const auto x = emg.values().col(column);
@@ -63,7 +63,7 @@ TimeSeries usable_channels(const std::string& path,
   return emg.select(usable);
 }
 
-/// The channels that all files have: activation is relative to the largest effort of all.
+/// Keeps the channels that all files have: activation is relative to the largest effort of all.
 void keep_common_channels(const std::vector<std::string>& paths,
                           std::vector<TimeSeries>& files,
                           GroupedWarnings& warnings) {

@@ -9,8 +9,8 @@
 
 namespace myoid::commands {
 
-/// Collects warnings until the end: one that several channels or files share is said
-/// once. They are told although an exception leaves the scope.
+/// Collects warnings until the end of the scope. A warning that several channels or files share is
+/// given once. An exception that leaves the scope does not suppress the warnings.
 class GroupedWarnings {
  public:
   explicit GroupedWarnings(Remarks& remarks) : remarks_(remarks) {}
@@ -18,7 +18,7 @@ class GroupedWarnings {
   GroupedWarnings& operator=(const GroupedWarnings&) = delete;
   ~GroupedWarnings();
 
-  /// `where` is the file and channel; warnings of one code and one matter (`about`) are alike.
+  /// Adds a warning about `where`, file and channel; warnings of equal code and `about` are joined.
   void add(RemarkCode code, std::string where, std::string about, std::string says);
 
  private:
@@ -26,12 +26,12 @@ class GroupedWarnings {
   std::vector<Remark> found_;
 };
 
-/// The inputs, then the maximal contractions.
+/// Returns the inputs, then the maximal contractions.
 [[nodiscard]] std::vector<std::string> emg_paths(const EmgOptions& options);
 
-/// The raw EMG of all these files, of the channels that all have and that can be filtered and
-/// normalized; another one is left out with a warning. Throws ReadError where that leaves none, or
-/// one that was asked for, and for a file that is rectified and smoothed already.
+/// Returns the raw EMG of all these files, with the channels that all have and that can be filtered
+/// and normalized. Other channels are left out with a warning. Throws ReadError if none remains, or
+/// a requested channel does not, and for a file that is rectified and smoothed already.
 [[nodiscard]] std::vector<TimeSeries> read_raw_emg(const EmgOptions& options,
                                                    GroupedWarnings& warnings);
 

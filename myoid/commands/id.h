@@ -9,18 +9,18 @@
 
 namespace myoid::commands {
 
-/// Inverse dynamics of a motion.
+/// Options of inverse dynamics of a motion.
 struct IdOptions {
   Call call;
   std::string model;                  ///< A file (.osim), or "arm4".
   std::string compat = "exact";       ///< Paths and joints: exact, or opensim.
   std::string motion;                 ///< Joint angles (.mot, .sto).
-  double cutoff_hz = 0.0;             ///< Angles are smoothed, -3 dB here; 0: not at all.
+  double cutoff_hz = 0.0;             ///< Cut-off of the angles' smoothing, -3 dB; 0: none.
   std::string speeds, accelerations;  ///< In place of the motion's derivatives; empty: none.
   std::string loads;                  ///< <ExternalLoads> (.xml); empty: none.
   double held_mass_kg = 0.0;
-  std::string held_body;                         ///< Empty: the hand of arm4, else none.
-  std::vector<double> held_at_m{0.0, 0.0, 0.0};  ///< Where on that body; of arm4's hand its grip.
+  std::string held_body;                         ///< Empty: the hand of arm4, else no body.
+  std::vector<double> held_at_m{0.0, 0.0, 0.0};  ///< Point on that body; for arm4's hand its grip.
 };
 
 struct IdResult {
@@ -28,7 +28,8 @@ struct IdResult {
   std::vector<Remark> remarks;
 };
 
-/// Throws InvalidInput where a held mass has no body, or smoothing meets given derivatives.
+/// Computes the forces. Throws InvalidInput for a held mass without a body, and for smoothing
+/// together with given derivatives.
 [[nodiscard]] IdResult id(const IdOptions& options);
 
 /// Writes the forces as a storage file (.sto, .mot) or table (.csv).

@@ -71,7 +71,7 @@ IdentificationResult fit_data(const IdentifyOptions& o,
   return fit;
 }
 
-/// Predicts trials or blocks by the fit of the others. `data` are the data before the fit.
+/// Predicts trials or blocks by the fit to the others. `data` are the data before the fit.
 std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const StudyData& data,
                                            const EstimatorOptions& options,

@@ -17,9 +17,9 @@ namespace myoid::commands {
 
 struct IdentifyResult {
   identification::IdentificationResult fit;
-  identification::StudyData data;  ///< The samples that were fitted.
+  identification::StudyData data;  ///< The fitted samples.
   std::vector<identification::Fold> folds;
-  std::string why_no_folds;  ///< Empty where there are folds, or none were asked for.
+  std::string why_no_folds;  ///< Empty if there are folds, or none were asked for.
   std::vector<identification::NamedContest> contests;
   bool speed_may_be_free = false;  ///< muscles.csv leaves open whether v_max is known.
   ParameterContext told;
@@ -27,19 +27,18 @@ struct IdentifyResult {
   std::vector<Remark> remarks;
 };
 
-/// Reads the files, fits by the method, predicts the part that is left out, and compares solvers
-/// where the options ask for it. Throws InvalidInput for options that the method or the files
-/// cannot fulfil.
+/// Reads the files, fits by the method, predicts the left-out parts, and compares solvers if the
+/// options ask for this. Throws InvalidInput for options that the method or the files cannot meet.
 [[nodiscard]] IdentifyResult identify(const IdentifyOptions& options);
 
-/// parameters.json
+/// Returns the text of parameters.json.
 [[nodiscard]] std::string identify_json(const IdentifyResult& result);
 
-/// Beginnings of the names of the files that `write_identify` writes.
+/// Initial parts of the names of the files that `write_identify` writes.
 inline const std::vector<std::string_view> kIdentifyFiles{"parameters.", "fold_parameters.",
                                                           "posterior.", "predictions.", "solvers."};
 
-/// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv,
+/// Writes parameters.json, parameters.csv and, if there are such results, fold_parameters.csv,
 /// posterior.csv, solvers.csv, predictions.csv and the folders of predicted trials.
 void write_identify(const IdentifyResult& result, const std::filesystem::path& folder);
 

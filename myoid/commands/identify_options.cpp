@@ -22,7 +22,7 @@ bool is_free(const StudyData& data, bool (*about)(const ParameterRule&)) {
   });
 }
 
-/// A parameter of the joint that acts by its motion.
+/// Returns true for a parameter of the joint that acts by its motion.
 bool is_about_motion(const ParameterRule& rule) {
   const identification::ParameterField& field = identification::parameter_field(rule.parameter);
   return field.scope == identification::Scope::joint && field.field != identification::kOffset;
@@ -45,7 +45,7 @@ std::vector<std::string> beyond_the_paper(const IdentifyOptions& o, const Muscle
   return asked;
 }
 
-/// Parameters of the joint need its torque, and most of them its motion.
+/// Refuses free parameters of the joint without its torque or, for most of them, its motion.
 void refuse_free_without_motion(const IdentifyOptions& o) {
   for (const std::string& name : o.free_more) {
     const identification::ParameterField& field = identification::parameter_field(name);
@@ -131,7 +131,7 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
             .otherwise = "not smoothed"});
 }
 
-/// The method and the law that it fits.
+/// Visits the method and the law that the method fits.
 void visit_law(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kMethods[] = {"torque", "force", "paper"};
   static constexpr std::string_view kLags[] = {"automatic", "delay", "shared"};
@@ -160,7 +160,7 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
            .otherwise = "none"});
 }
 
-/// The fit and the certainty of its result.
+/// Visits the fit and the certainty of its result.
 void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kFolds[] = {"trial", "block", "none"};
   v.number("residual-cutoff", o.residual_hz,

@@ -15,7 +15,7 @@
 
 namespace myoid::commands {
 
-/// Muscle parameters straight from files. `visit` says what each option means.
+/// Options of the identification of muscle parameters from files. `visit` explains each option.
 struct IdentifyOptions {
   Call call;
   std::filesystem::path muscles;
@@ -33,27 +33,26 @@ struct IdentifyOptions {
   int bootstrap = 0;
   bool profile = false;
   bool compare_solvers = false;
-  std::optional<int> starts;  ///< Empty: one, of the comparison of solvers three.
+  std::optional<int> starts;  ///< Empty: one, and three for the comparison of solvers.
   std::string folds = "trial";
 };
 
-/// Names every option of `myoid identify` once: key, allowed values, default and meaning. The
-/// command line, the check of the options and the guide's table rest on it.
+/// Visits every option of `myoid identify` once: key, allowed values, default and meaning. The
+/// command line, the check of the options and the guide's table use this list.
 void visit(IdentifyOptions& options, SettingVisitor& v);
 
-/// Throws InvalidInput for numbers out of range and for words that name no method, loss, lag or
-/// kind of folds.
+/// Throws InvalidInput for numbers out of range and for unknown methods, losses, lags or kinds of
+/// folds.
 void check_values(const IdentifyOptions& options);
 
-/// Throws InvalidInput where the options ask for something that the method or the files cannot
-/// give.
+/// Throws InvalidInput if the options ask for a result that the method or the files cannot give.
 void refuse_impossible(const IdentifyOptions& options, const MuscleTable& table);
 
-/// A sentence for each option that was given and changes nothing.
+/// Returns a sentence for each given option that has no effect.
 [[nodiscard]] std::vector<std::string> without_effect(const IdentifyOptions& options);
 
-/// The estimator's options for data with these rules. Throws InvalidInput where two of the options
-/// say how muscles follow their EMG.
+/// Returns the estimator's options for data with these rules. Throws InvalidInput if two of the
+/// options state how muscles follow their EMG.
 [[nodiscard]] identification::EstimatorOptions estimator_options(
     const IdentifyOptions& options, const identification::StudyData& data, Remarks& remarks);
 

@@ -15,8 +15,8 @@
 namespace myoid::commands {
 namespace {
 
-/// Runs of frames that did not converge: "12 to 15 (0.11 to 0.14 s)". Frames count from 1, as in
-/// the first column of a .trc.
+/// Returns the runs of frames that did not converge: "12 to 15 (0.11 to 0.14 s)". Frames count from
+/// 1, as in the first column of a .trc.
 std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) {
   std::vector<std::string> runs;
   const auto fails = [&](std::size_t i) {
@@ -35,8 +35,8 @@ std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) 
   return runs;
 }
 
-/// The rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); where `up` is
-/// empty by the vertical that the file states, with a note; else none.
+/// Returns the rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); if
+/// `up` is empty by the file's stated vertical, with a note; else none.
 Mat3 onto_model(const model::BodyModel& model,
                 const std::string& markers,
                 const std::string& up,

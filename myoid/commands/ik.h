@@ -10,14 +10,14 @@
 
 namespace myoid::commands {
 
-/// Inverse kinematics of markers.
+/// Options of inverse kinematics of markers.
 struct IkOptions {
   Call call;
-  std::string model;                 ///< A file (.osim), or "arm4".
-  std::string compat = "exact";      ///< Paths and joints: exact, or opensim.
-  std::string markers;               ///< .trc, .c3d
-  std::string up;                    ///< Of the laboratory: x, -y, ...; empty: as the file says.
-  std::vector<std::string> weights;  ///< "MARKER=WEIGHT"; 1 where not given.
+  std::string model;             ///< A file (.osim), or "arm4".
+  std::string compat = "exact";  ///< Paths and joints: exact, or opensim.
+  std::string markers;           ///< .trc, .c3d
+  std::string up;  ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
+  std::vector<std::string> weights;       ///< "MARKER=WEIGHT"; 1 for other markers.
   std::vector<std::string> lock, unlock;  ///< Coordinates.
 };
 
@@ -31,10 +31,10 @@ struct IkResult {
 
 [[nodiscard]] IkResult ik(const IkOptions& options);
 
-/// The file of the marker errors that belongs to this motion file: NAME_marker_errors.sto.
+/// Returns the file of the marker errors for this motion file: NAME_marker_errors.sto.
 [[nodiscard]] std::filesystem::path marker_errors_path(const std::filesystem::path& motion);
 
-/// Writes the joint angles (.mot) and beside them the marker errors.
+/// Writes the joint angles (.mot) and the marker errors in a second file.
 void write_ik(const IkResult& result, const std::filesystem::path& path);
 
 }  // namespace myoid::commands

@@ -48,7 +48,7 @@ ordered_json contents_of(const InfoOptions& o) {
   if (is_model(o.file)) return contents_of_model(o);
   const auto format = recording::format_of(o.file);
   if (format == recording::FileFormat::toml) return study_contents(o.file);
-  (void)recording::read_text_file(o.file);  // a missing or empty file is told as such
+  (void)recording::read_text_file(o.file);  // reports a missing or empty file
   throw ReadError(
       o.file, 0,
       fmt::format("files of kind '{}' are not known; known are {}", recording::extension_of(o.file),

@@ -14,15 +14,15 @@ namespace myoid::commands {
 struct InfoOptions {
   Call call;
   std::string file;              ///< A recording, table, model or study; or "arm4".
-  std::string compat = "exact";  ///< Of a model: exact, or opensim.
-  ModelQuestions ask;            ///< Of a model; its seed is the call's.
+  std::string compat = "exact";  ///< Paths of a model: exact, or opensim.
+  ModelQuestions ask;            ///< Questions about a model; their seed is the call's.
 };
 
-/// "file", "kind" and the content: channels, units, rates, bodies, muscles, ...
-/// (`contents_text` makes text of it). Throws ReadError for a file of no known kind.
+/// Returns "file", "kind" and the content: channels, units, rates, bodies, muscles, ...
+/// `contents_text` formats the content as text. Throws ReadError for a file of no known kind.
 [[nodiscard]] nlohmann::ordered_json info(const InfoOptions& options);
 
-/// True if the name belongs to a model: an .osim file, or the built-in "arm4".
+/// Returns true if the name is that of a model: an .osim file, or the built-in "arm4".
 [[nodiscard]] bool is_model(const std::string& file);
 
 }  // namespace myoid::commands

@@ -9,13 +9,14 @@
 
 namespace myoid::commands {
 
-/// A first study.toml.
+/// Options of the draft of a study.toml.
 struct InitOptions {
   Call call;
-  std::string folder;             ///< Where study.toml will stand: paths are relative to it.
-  std::vector<std::string> from;  ///< Recordings, or folders of them; none: the folder itself.
-  std::string model;              ///< .osim; empty: the only one in the folders, else arm4.
-  std::string coordinate;         ///< The joint; empty: guessed.
+  std::string folder;  ///< Folder of study.toml: paths are relative to it.
+  std::vector<std::string>
+      from;                ///< Recordings, or folders of recordings; empty: the folder itself.
+  std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
+  std::string coordinate;  ///< The joint; empty: guessed.
 };
 
 struct InitResult {

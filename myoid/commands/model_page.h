@@ -9,16 +9,16 @@
 
 namespace myoid::commands {
 
-/// A page that shows a model in the browser, moving.
+/// Options of a page that shows a moving model in the browser.
 struct ModelPageOptions {
   Call call;
   std::string model;                ///< A file (.osim), or "arm4".
   std::string compat = "exact";     ///< Paths: exact, or opensim.
   std::string motion;               ///< Joint angles (.mot, .sto); empty: the default posture.
-  std::string forces, activations;  ///< To color the muscles by, along the motion (.sto).
-  std::string markers;              ///< Measured ones to show beside the model's (.trc, .c3d).
+  std::string forces, activations;  ///< Color the muscles along the motion (.sto).
+  std::string markers;              ///< Measured markers, shown beside the model's (.trc, .c3d).
   std::string up = "y";             ///< Vertical axis of the markers: x, y or z.
-  std::vector<std::string> mesh_folders;  ///< Beside the model's folder and its Geometry.
+  std::vector<std::string> mesh_folders;  ///< Searched after the model's folder and its Geometry.
 };
 
 struct ModelPageResult {
@@ -27,7 +27,7 @@ struct ModelPageResult {
   std::vector<Remark> remarks;
 };
 
-/// Throws InvalidInput where forces, activations or markers come without a motion.
+/// Makes the page. Throws InvalidInput for forces, activations or markers without a motion.
 [[nodiscard]] ModelPageResult model_page(const ModelPageOptions& options);
 
 /// Writes the page: one file, which works offline.

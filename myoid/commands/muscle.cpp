@@ -30,7 +30,7 @@ void refuse_contradictions(const MuscleOptions& o) {
   }
 }
 
-/// The force of which errors are shares [N].
+/// Returns the reference force of relative errors [N].
 double related_to(const MuscleOptions& o, const muscle::MuscleFile& file) {
   return o.isometric_n > 0.0 ? o.isometric_n : file.parameters.hill.max_isometric_force_n;
 }
@@ -77,7 +77,7 @@ ImposedLength simulate_muscle(const MuscleOptions& o,
   return result;
 }
 
-/// The rows of a fit; `left_out` counts the recordings from 1, empty: none.
+/// Returns the rows of a fit; `left_out` counts the recordings from 1, empty: none.
 std::string table_rows(const std::string& left_out, const muscle::IsolatedFit& fit) {
   std::string rows;
   for (const muscle::IsolatedEstimate& e : fit.estimates)

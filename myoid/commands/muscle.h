@@ -11,30 +11,30 @@
 
 namespace myoid::commands {
 
-/// Mean absolute difference from a measured force at its times.
+/// Mean absolute difference between simulated and measured force, at the times of measurement.
 struct ForceComparison {
   double error_n = 0.0;
-  double share = 0.0;  ///< Of the force that errors are related to.
+  double share = 0.0;  ///< Error relative to the reference force.
   Eigen::Index samples = 0;
 };
 
 /// The simulated experiment.
 struct ImposedLength {
   muscle::IsolatedMuscleResult simulated;
-  std::optional<ForceComparison> comparison;  ///< Where a force was measured.
+  std::optional<ForceComparison> comparison;  ///< If a force was measured.
 };
 
 struct MuscleResult {
-  std::string name;                        ///< The muscle's.
-  std::optional<ImposedLength> simulated;  ///< One of these two.
+  std::string name;                        ///< Name of the muscle.
+  std::optional<ImposedLength> simulated;  ///< Either this or `fit`.
   std::optional<MuscleFit> fit;
   std::string command;
   std::vector<Remark> remarks;
 };
 
 /// Simulates the muscle under the imposed length, or fits it to the measured forces. Throws
-/// InvalidInput for options that contradict each other, lengths that this muscle cannot have and
-/// forces that it cannot make.
+/// InvalidInput for options that contradict each other, and for lengths and forces that this muscle
+/// cannot have.
 [[nodiscard]] MuscleResult muscle(const MuscleOptions& options);
 
 /// Writes the simulated series (.sto), or the table of the fits (.csv): left out, parameter, unit,

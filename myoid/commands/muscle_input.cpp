@@ -43,7 +43,7 @@ void check_length(const Eigen::VectorXd& length_m,
   }
 }
 
-/// A number, or a file with the drive over time.
+/// Reads the drive: a number, or a file with the drive over time.
 void read_drive(const MuscleOptions& o, Remarks& remarks, muscle::IsolatedMuscleInput& input) {
   input.drive_is_excitation = !o.excitation.empty();
   const std::string& drive = input.drive_is_excitation ? o.excitation : o.activation;

@@ -15,24 +15,24 @@ struct Column {
   std::string name;
 };
 
-/// The only column of a file, or the one of this name. Throws ReadError where it is not there, is
-/// one of several, or has gaps.
+/// Returns the only column of a file, or the one of this name. Throws ReadError if the column is
+/// missing, is one of several, or has gaps.
 [[nodiscard]] Column read_column(const std::string& path,
                                  const std::string& wanted,
                                  Remarks& remarks);
 
-/// A number of the command line; empty where the text is no number.
+/// Returns a number of the command line; empty if the text is not a number.
 [[nodiscard]] std::optional<double> as_number(const std::string& text);
 
-/// The experiment of the length file `index`, over the call's time. Throws InvalidInput for lengths
-/// that are not positive, or below 0.3 or above 3 times fiber and tendon at rest.
+/// Reads the experiment of the length file `index`, over the call's time. Throws InvalidInput for
+/// lengths that are not positive, or below 0.3 or above 3 times fiber and tendon at rest.
 [[nodiscard]] muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& options,
                                                           std::size_t index,
                                                           const muscle::MuscleFile& file,
                                                           Remarks& remarks);
 
-/// Share of the maximal force: the guess of half of it errs by no more, for every force between 0
-/// and the maximum.
+/// Largest error of a guess, as a share of the maximal force: half of this force is at most this
+/// far from any force between 0 and the maximum.
 inline constexpr double kErrorOfAGuess = 0.5;
 
 }  // namespace myoid::commands

@@ -13,7 +13,7 @@ void check_output(const std::filesystem::path& path,
   if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
   std::error_code ignored;
   for (const std::string& input : inputs) {
-    // A folder of the path that is not there yet ("new/../a.sto") hides the file from `equivalent`.
+    // A folder of the path that does not exist ("new/../a.sto") hides the file from `equivalent`.
     if (fs::weakly_canonical(path, ignored) == fs::weakly_canonical(input, ignored) ||
         fs::equivalent(path, input, ignored)) {
       throw InvalidInput(fmt::format(

@@ -42,7 +42,7 @@ void tell_errors(const std::vector<PathSurrogate>& surrogates,
   }
 }
 
-/// Reads the polynomials of the file; fits new ones where the file has none of this model.
+/// Reads the polynomials of the file; fits new ones if the file has none of this model.
 std::vector<PathSurrogate> load_surrogates(const PathsOptions& o,
                                            const model::BodyModel& model,
                                            Remarks& remarks) {

@@ -10,19 +10,20 @@
 
 namespace myoid::commands {
 
-/// Musculotendon lengths, velocities and moment arms along a motion.
+/// Options of musculotendon lengths, velocities and moment arms along a motion.
 struct PathsOptions {
   Call call;
   std::string model;                 ///< A file (.osim), or "arm4".
   std::string compat = "exact";      ///< Paths: exact, or opensim.
-  bool compare_with_opensim = true;  ///< Warn of muscles whose exact path differs by 1 mm.
+  bool compare_with_opensim = true;  ///< Warns of muscles whose exact path differs by 1 mm.
   std::string motion;                ///< Joint angles (.mot, .sto).
-  double cutoff_hz = 0.0;            ///< Angles are smoothed, -3 dB here; 0: not at all.
-  /// File of fitted polynomials (.json) in the place of paths; made where it is not there or
-  /// belongs to another model. Empty: paths are computed.
+  double cutoff_hz = 0.0;            ///< Cut-off of the angles' smoothing, -3 dB; 0: none.
+  /// File of fitted polynomials (.json) that replace paths; made if it is missing or belongs to
+  /// another model. Empty: paths are computed.
   std::string surrogates;
-  double tolerance_mm = 0.2;  ///< Of their lengths; of moment arms five times that a radian.
-  bool check_jumps = false;   ///< Warn where a length or moment arm jumps.
+  double tolerance_mm =
+      0.2;  ///< Tolerance of their lengths; of moment arms five times as much per radian.
+  bool check_jumps = false;  ///< Warns of jumps of a length or moment arm.
 };
 
 struct PathsResult {
@@ -31,10 +32,10 @@ struct PathsResult {
   std::vector<Remark> remarks;
 };
 
-/// Writes the file of polynomials where it makes them, and nothing else.
+/// Computes the paths. Writes the file of polynomials if it makes them, and no other file.
 [[nodiscard]] PathsResult paths(const PathsOptions& options);
 
-/// Beginnings of the names of the files that `write_paths` writes.
+/// Initial parts of the names of the files that `write_paths` writes.
 inline const std::vector<std::string_view> kPathsFiles{"MuscleAnalysis_"};
 
 /// Writes MuscleAnalysis_*.sto.

@@ -17,7 +17,7 @@
 namespace myoid::commands {
 namespace {
 
-/// Tells the faults of recordings and trials and the repairs of files; returns the count of
+/// Reports the faults of recordings and trials and the repairs of files; returns the count of
 /// repairs.
 std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
   const auto reused =

@@ -17,13 +17,14 @@ namespace myoid::commands {
 /// Folder in the folder of the results with the stages that a repeated run need not compute again.
 inline constexpr const char* kStageFolder = ".stages";
 
-/// The whole pipeline, from a study's recordings to muscle parameters.
+/// Options of the whole pipeline, from a study's recordings to muscle parameters.
 struct RunOptions {
   Call call;
   std::string study;                                       ///< study.toml
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   VideoChoice video;                                       ///< In place of the study's films.
-  std::optional<std::filesystem::path> store;  ///< Where stages are kept between runs; or nowhere.
+  std::optional<std::filesystem::path>
+      store;  ///< Folder that keeps stages between runs; empty: none.
 };
 
 struct RunResult {
@@ -33,8 +34,8 @@ struct RunResult {
   Provenance provenance;
   std::vector<Remark> remarks;
 
-  /// True if a gate failed, or the method torque did not converge; `strict`: or has a parameter
-  /// that is not identifiable.
+  /// Returns true if a gate failed, or method torque did not converge; with `strict` also if method
+  /// torque has a parameter that is not identifiable.
   [[nodiscard]] bool failed(bool strict) const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace myoid::commands {
 
-/// A set-up file of one of OpenSim's tools. The tools take their times from that file.
+/// Options for a set-up file of one of OpenSim's tools. The tools take their times from that file.
 struct RunToolOptions {
   Call call;
   std::string setup;               ///< .xml
@@ -17,10 +17,10 @@ struct RunToolOptions {
 };
 
 struct RunToolResult {
-  ToolResult tool;  ///< Its files are written.
+  ToolResult tool;  ///< Names its written files.
   std::vector<Remark> remarks;
 
-  /// True if every frame was solved and the markers are in the unit that their file states.
+  /// Returns true if every frame was solved and the markers are in their file's stated unit.
   [[nodiscard]] bool good() const;
 };
 
@@ -28,7 +28,7 @@ struct RunToolResult {
 /// reading, computing and writing are one call.) Throws as `myoid::run_tool`.
 RunToolResult run_tool(const RunToolOptions& options);
 
-/// Tool, summary, counts of frames, notes and files.
+/// Returns tool, summary, counts of frames, notes and files as JSON.
 [[nodiscard]] std::string run_tool_json(const RunToolResult& result);
 
 }  // namespace myoid::commands

@@ -10,23 +10,23 @@
 
 namespace myoid::commands {
 
-/// The settings of study files: the reference of all, or the values of one study.
+/// Options of the list of study settings: the reference of all, or the values of one study.
 struct SettingsOptions {
   Call call;
   std::string study;  ///< study.toml; empty: the reference of all settings.
 };
 
 struct SettingsResult {
-  std::optional<Study> study;        ///< With all settings that it leaves to their defaults.
-  std::vector<SettingTable> tables;  ///< The reference, where no study was named.
+  std::optional<Study> study;        ///< The study, with defaults for the settings that it omits.
+  std::vector<SettingTable> tables;  ///< The reference, if no study was named.
 };
 
 [[nodiscard]] SettingsResult settings(const SettingsOptions& options);
 
-/// The study as a study file, or the reference for a terminal.
+/// Returns the study as a study file, or the reference for a terminal.
 [[nodiscard]] std::string settings_text(const SettingsResult& result);
 
-/// The study as it stands in run.json, or the reference as a list of tables.
+/// Returns the study as in run.json, or the reference as a list of tables.
 [[nodiscard]] std::string settings_json(const SettingsResult& result);
 
 }  // namespace myoid::commands

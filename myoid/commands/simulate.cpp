@@ -166,7 +166,7 @@ SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   return result;
 }
 
-/// Warns of simulations that ended early, and of jumps of the equations.
+/// Warns of simulations that ended early, and of jumps in the equations.
 void tell_trouble(const SimulateResult& result, Remarks& remarks) {
   if (result.sensitivities && result.sensitivities->status != math::OdeStatus::done)
     remarks.warn(fmt::format("sensitivities not to the end: {}", result.sensitivities->message));

@@ -51,7 +51,7 @@ Value value_of(const std::map<std::string, Value>& map,
   return map.at(word);
 }
 
-/// "NAME=NUMBER" of an option.
+/// Splits "NAME=NUMBER" of an option.
 std::pair<std::string, double> assignment(const std::string& text, std::string_view option) {
   const std::size_t at = text.find('=');
   const auto number =

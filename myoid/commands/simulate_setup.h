@@ -13,12 +13,12 @@
 
 namespace myoid::commands {
 
-/// The laws that the words of the options name. Throws InvalidInput for other words.
+/// Returns the law that a word of the options names. Throws InvalidInput for other words.
 [[nodiscard]] muscle::TendonMode tendon_mode(const SimulateOptions& options);
 [[nodiscard]] simulation::MuscleCurves muscle_curves(const SimulateOptions& options);
 [[nodiscard]] muscle::ActivationLaw activation_law(const SimulateOptions& options);
 
-/// Excitations of the muscles, and the time that is simulated [s].
+/// Excitations of the muscles, and the simulated time [s].
 struct Drive {
   std::vector<simulation::Signal> excitation;
   double start_s = 0.0, end_s = 1.0;
@@ -42,10 +42,10 @@ void place(const SimulateOptions& options,
            simulation::SimulationStart& start,
            std::vector<simulation::Device>& devices);
 
-/// Throws InvalidInput if a coordinate that follows another one by a coupler is to be placed.
+/// Throws InvalidInput if the options place a coordinate that follows another by a coupler.
 void refuse_followers(const SimulateOptions& options, const model::BodyModel& body);
 
-/// The parameters of the arm that `sensitivity` names, each once, in their order.
+/// Returns the parameters of the arm that `sensitivity` names, each once, in their order.
 [[nodiscard]] std::vector<std::string> wanted_parameters(const SimulateOptions& options,
                                                          const simulation::Arm<double>& arm);
 

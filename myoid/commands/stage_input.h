@@ -15,7 +15,7 @@
 
 namespace myoid::commands {
 
-/// Throws InvalidInput, naming the option, unless the word is one of `words`.
+/// Throws InvalidInput with the option's name, unless the word is one of `words`.
 void check_word(std::string_view option,
                 const std::string& word,
                 const std::vector<std::string>& words);
@@ -61,7 +61,7 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                           const kinematics::JointMotion& motion,
                                                           Remarks& remarks);
 
-/// Cuts the series to the call's time. Throws InvalidInput where no sample lies in that time.
+/// Cuts the series to the call's time. Throws InvalidInput if no sample lies in that time.
 [[nodiscard]] TimeSeries cut(const TimeSeries& series, const Call& call);
 [[nodiscard]] recording::MarkerSeries cut(recording::MarkerSeries markers, const Call& call);
 

@@ -12,14 +12,14 @@
 
 namespace myoid::commands {
 
-/// Virtual recordings with known parameters. The call's seed makes the person.
+/// Options of virtual recordings with known parameters. The call's seed determines the person.
 struct TwinOptions {
   Call call;
-  std::string model = "arm4";      ///< That goes with the recording: arm4, or arm7 at level L2.
-  std::string protocol;            ///< Of the recording (.toml).
+  std::string model = "arm4";      ///< Model for the recording: arm4, or arm7 at level L2.
+  std::string protocol;            ///< Protocol of the recording (.toml).
   std::string level;               ///< L0, L1 or L2; empty: the protocol's.
   std::vector<std::string> truth;  ///< Keys of [truth] beyond the protocol's: "KEY=VALUE".
-  std::string format = "trc";      ///< Of markers and EMG: trc (.trc and .sto), or c3d.
+  std::string format = "trc";      ///< Format of markers and EMG: trc (.trc and .sto), or c3d.
 };
 
 struct TwinResult {
@@ -27,33 +27,35 @@ struct TwinResult {
   std::string format;
 };
 
-/// One person's recording. Throws InvalidInput for an arm7 at another level than L2.
+/// Makes one person's recording. Throws InvalidInput for an arm7 at another level than L2.
 [[nodiscard]] TwinResult twin(const TwinOptions& options);
 
-/// Writes the folder that `run` takes, which may hold files.
+/// Writes the folder that `run` reads; the folder may hold files already.
 void write_twin(const TwinResult& result, const std::filesystem::path& folder);
 
-/// Many persons, whose seeds count up from the call's.
+/// Options of many persons, whose seeds count up from the call's.
 struct TwinPersonsOptions {
   TwinOptions twin;
   std::size_t persons = 1;
-  bool truth_only = false;  ///< Only the table, no recordings.
+  bool truth_only = false;  ///< Makes only the table, no recordings.
 };
 
 struct TwinPersonsResult {
-  std::filesystem::path table;                 ///< persons.csv: a person's truth in each row.
-  std::vector<std::filesystem::path> studies;  ///< study.toml of each person; none by truth_only.
+  std::filesystem::path table;  ///< persons.csv: a person's truth in each row.
+  std::vector<std::filesystem::path>
+      studies;  ///< study.toml of each person; empty with truth_only.
 };
 
-/// Makes the persons and writes each into a folder of its own and all into the table, one at a
-/// time: no more recordings are held than threads work. The folder may hold files.
+/// Makes the persons, writes each into a folder of its own and all into the table. At most one
+/// recording per thread is in memory. The folder may hold files already.
 TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options,
                                      const std::filesystem::path& folder);
 
-/// The keys of a protocol's [truth], for a terminal.
+/// Returns the keys of a protocol's [truth], for a terminal.
 [[nodiscard]] std::string truth_help();
 
-/// The level of this name: L0, L1 or L2; nothing for an empty name. Throws InvalidInput for others.
+/// Returns the level of this name, L0, L1 or L2; empty for an empty name. Throws InvalidInput for
+/// others.
 [[nodiscard]] std::optional<twin::Level> level_named(const std::string& name);
 
 }  // namespace myoid::commands

@@ -11,18 +11,19 @@
 
 namespace myoid::commands {
 
-/// Studies of many virtual persons, compared with their true parameters.
+/// Options of studies of many virtual persons, compared with their true parameters.
 struct TwinStudyOptions {
   Call call;
-  std::string protocol;            ///< Of the recording (.toml).
-  std::string level;               ///< L0, L1 or L2; empty: the protocol's.
-  std::optional<double> offset;    ///< Mean of the persons away from the priors', in sd.
+  std::string protocol;  ///< Protocol of the recording (.toml).
+  std::string level;     ///< L0, L1 or L2; empty: the protocol's.
+  std::optional<double>
+      offset;  ///< Mean of the persons' distances from the priors, in standard deviations.
   std::vector<std::string> truth;  ///< Keys of [truth] beyond the protocol's: "KEY=VALUE".
   twin::TwinStudyOptions study;    ///< Its seed and progress are the call's.
 };
 
 struct TwinStudyResult {
-  twin::TwinStudyResult study;  ///< Of a study that was stopped: the persons that were finished.
+  twin::TwinStudyResult study;  ///< After a stop: the finished persons.
   std::vector<twin::TwinSummary> summaries;
   Provenance provenance;
   std::vector<Remark> remarks;

@@ -8,11 +8,11 @@
 
 namespace myoid::commands {
 
-/// An OpenSim model, set-up or set of any version in the newest form.
+/// Options of the conversion of an OpenSim model, set-up or set to the newest version.
 struct UpdateFileOptions {
   Call call;
   std::string file;              ///< .osim, .xml
-  std::string compat = "exact";  ///< opensim: offsets are rounded to six digits, as OpenSim does.
+  std::string compat = "exact";  ///< opensim: rounds offsets to six digits, as OpenSim does.
 };
 
 struct UpdateFileResult {

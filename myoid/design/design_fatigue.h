@@ -24,14 +24,14 @@ struct Effort {
 [[nodiscard]] double fatigued_share(const Effort& effort,
                                     const muscle::FatigueRates<double>& rates);
 
-/// A rest before a movement, and the fatigued share of the most tired muscle at the movement's end.
+/// A rest before a movement, and the most tired muscle's fatigued share at the movement's end.
 struct PlannedRest {
   double before_s = 0.0;
   double fatigued_share = 0.0;
 };
 
-/// Plans rests before movements that are done one after the other, by steps of 15 s, so that no
-/// muscle ends a movement with more than `budget` fatigued. No rest is longer than half an hour.
+/// Plans rests between successive movements in steps of 15 s, so that no muscle is fatigued by more
+/// than `budget` at the end of a movement. No rest is longer than half an hour.
 [[nodiscard]] std::vector<PlannedRest> plan_rests(const std::vector<const Effort*>& efforts,
                                                   double budget,
                                                   const muscle::FatigueRates<double>& rates);

@@ -43,8 +43,8 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
         known.covariance(a, b) = earlier->covariance(from_a, from_b);
     }
   }
-  // Relative to what was known before: a direction that the run left undetermined has no variance
-  // in its covariance, and is as unknown as it was. None is known better than to a millionth.
+  // Scaled by the prior: a direction that the run left undetermined has no variance in its
+  // covariance, and keeps its prior. The least variance of a direction is a millionth.
   const Eigen::VectorXd unit = sd_before.cwiseInverse();
   const math::SymmetricEigen axes =
       math::symmetric_eigen(unit.asDiagonal() * known.covariance * unit.asDiagonal());
@@ -86,7 +86,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
     const std::size_t dot = label.find('.');
     const std::string owner = label.substr(0, dot);
     const std::string parameter = label.substr(dot + 1);
-    // A nuisance is freed so that the others carry its uncertainty; named, it is a target too.
+    // A nuisance is free so that the others include its uncertainty; if named, it is a target, too.
     const bool nuisance =
         free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
     for (const std::string& w : wanted) {
@@ -140,7 +140,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.initial = e.estimate = f.to_value(mean);
   double below = 1.96 * sd, above = 1.96 * sd;
   if (found != nullptr) {
-    // Narrower than the run's own interval, by which other routes count too, in the same ratio.
+    // The run's own interval, which includes other routes, shrinks by the same ratio.
     const bool logarithmic = f.field->logarithmic;
     const auto scaled = [&](double value) {
       return logarithmic ? std::log(std::max(value, 1e-300)) : value;

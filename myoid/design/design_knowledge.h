@@ -21,9 +21,9 @@ struct Knowledge {
   Eigen::MatrixXd precision;  ///< Inverse covariance.
 };
 
-/// Returns the priors, replaced by estimate and covariance of an earlier run for the parameters
-/// that it fitted. A direction that the run left undetermined keeps its prior. Throws InvalidInput
-/// if the run's covariance is not finite.
+/// Returns the priors. For the parameters that an earlier run fitted, its estimate and covariance
+/// replace them. A direction that the run left undetermined keeps its prior. Throws InvalidInput if
+/// the run's covariance is not finite.
 [[nodiscard]] Knowledge knowledge_of(const std::vector<identification::Unknown>& free,
                                      const std::optional<EarlierRun>& earlier);
 
@@ -35,18 +35,18 @@ struct Knowledge {
     int count,
     std::uint64_t seed);
 
-/// Returns the places of the parameters that `wanted` names: "all" (but the EMG gains), an owner
-/// ("BIC"), a parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for an unknown
-/// name.
+/// Returns the indices of the parameters that `wanted` names: "all" (except the EMG gains), an
+/// owner ("BIC"), a parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for an
+/// unknown name.
 [[nodiscard]] std::vector<Eigen::Index> targets_of(const std::vector<identification::Unknown>& free,
                                                    const std::vector<std::string>& wanted);
 
-/// Returns the run's row of an unknown (of the first owner where it is tied) if the row has an
+/// Returns the run's row of an unknown (for tied ones, of the first owner) if the row has an
 /// interval; else nullptr.
 [[nodiscard]] const identification::ParameterEstimate* found_by(
     const std::optional<EarlierRun>& earlier, const identification::Unknown& parameter);
 
-/// The verdict on an interval of this width.
+/// The expected knowledge of a number, from which its verdict follows.
 struct Expectation {
   double mean = 0.0, sd = 0.0, prior_sd = 0.0;  ///< In the estimator's scale.
   double model_error = 0.0;

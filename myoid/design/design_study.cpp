@@ -30,20 +30,21 @@ using identification::StudyData;
 using identification::TrialData;
 using identification::Unknown;
 
-/// Noise of the recording that is planned.
+/// Noise of the planned recording.
 struct Noise {
   double torque_sd_nm = 0.0, emg_cv = 0.0;
 };
 
-/// The earlier run's noise where a recording, not simulated data, gave it; else that of the
-/// options.
+/// Returns the earlier run's noise if it stems from a recording, not from simulated data; else the
+/// options' noise.
 Noise noise_of(const DesignStudyOptions& options) {
   if (options.earlier && options.earlier->torque_sd_nm > 1e-3)
     return {.torque_sd_nm = options.earlier->torque_sd_nm, .emg_cv = options.earlier->emg_cv};
   return {.torque_sd_nm = options.torque_sd_nm, .emg_cv = options.emg_cv};
 }
 
-/// J' W J nu of one trial at the truth: the estimator's weights and effective number of samples.
+/// Returns J' W J nu of one trial at the truth, with the estimator's weights and effective number
+/// of samples.
 Eigen::MatrixXd information_of(const StudyData& data,
                                const EstimatorOptions& torque,
                                const Eigen::VectorXd& z,
@@ -58,7 +59,7 @@ Eigen::MatrixXd information_of(const StudyData& data,
   return share * at.gradient * weight.asDiagonal() * at.gradient.transpose();
 }
 
-/// The study's muscles without trials; unstated v_max are free.
+/// Returns the study's muscles without trials; unstated v_max are free.
 StudyData muscles_of(const Study& study, const model::BodyModel& model) {
   StudyData data;
   data.muscles = muscle_setups(study, model);
@@ -79,7 +80,7 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   return torque;
 }
 
-/// The movements that the study's equipment allows.
+/// Returns the movements that the study's equipment allows.
 std::vector<Movement> catalogue_of(const Study& study,
                                    const model::BodyModel& model,
                                    CatalogueOptions options) {
@@ -104,7 +105,7 @@ std::vector<MovementCourse> courses_of(const Study& study,
   return courses;
 }
 
-/// Person k with these numbers.
+/// Returns person k with these numbers.
 MovementPerson person_of(const identification::ModelValues& values,
                          std::size_t k,
                          std::uint64_t seed) {
@@ -116,8 +117,8 @@ MovementPerson person_of(const identification::ModelValues& values,
   return person;
 }
 
-/// The estimator's parameters, from the first movement that a person of the starting values can do;
-/// empty: none can be done.
+/// Returns the estimator's parameters, from the first movement within the strength of a person with
+/// the starting values; empty if there is none.
 std::optional<identification::ParameterMap> parameters_of(
     const StudyData& muscles,
     const EstimatorOptions& torque,
@@ -136,19 +137,19 @@ std::optional<identification::ParameterMap> parameters_of(
   return std::nullopt;
 }
 
-/// The information of the trial of person k, who has these numbers in the solver's scale.
+/// Returns the information of the trial of person k, who has the numbers z in the solver's scale.
 using Information =
     std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z, std::size_t k)>;
 
-/// Whether the earlier run is by the posterior.
+/// Returns true if the earlier run is by the posterior.
 bool has_shares(const std::optional<EarlierRun>& earlier) {
   return earlier &&
          std::any_of(earlier->estimates.begin(), earlier->estimates.end(),
                      [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
 }
 
-/// The errors by which the posterior is planned: what the earlier run found; else the noise of the
-/// options, and the median of the belief about the model's error.
+/// Returns the errors for a plan by the posterior: the earlier run's; else the options' noise, and
+/// the median of the belief about the model's error.
 PlannedErrors planned_errors(const DesignStudyOptions& options, const EstimatorOptions& torque) {
   constexpr double kMedian = 0.6745;  // of the half normal distribution
   const Noise noise = noise_of(options);
@@ -157,7 +158,7 @@ PlannedErrors planned_errors(const DesignStudyOptions& options, const EstimatorO
                        .model_error = kMedian * torque.unseen.model_error};
   if (options.earlier) errors.model_error = options.earlier->model_error;
   if (has_shares(options.earlier)) return errors;
-  // Other noise of envelopes is that below 2 Hz.
+  // Without a known bandwidth the envelopes' noise is the noise below 2 Hz.
   const identification::EnvelopeError plain(torque.envelope_cutoff_hz, {});
   const Eigen::VectorXd frequency = plain.frequencies_hz();
   double below = 0.0;
@@ -173,7 +174,7 @@ struct Performance {
   Effort effort;
 };
 
-/// `persons`: numbers of each person in the solver's scale.
+/// Performs a movement. `persons`: numbers of each person in the solver's scale.
 Performance performance_of(const MovementCourse& course,
                            const StudyData& muscles,
                            const identification::ParameterMap& parameters,
@@ -194,7 +195,7 @@ Performance performance_of(const MovementCourse& course,
   return result;
 }
 
-/// All movements of the catalogue that a person of these numbers can do.
+/// Returns all movements of the catalogue that a person with these numbers can do.
 std::vector<TrialData> session_of(const std::vector<MovementCourse>& courses,
                                   const StudyData& muscles,
                                   const identification::ModelValues& values,
@@ -207,8 +208,8 @@ std::vector<TrialData> session_of(const std::vector<MovementCourse>& courses,
   return session;
 }
 
-/// How the study's estimator takes information from a movement, and what else it then learns of:
-/// the posterior's unseen quantities, which movements of one person have in common.
+/// The information that the study's estimator takes from a movement, and the further quantities
+/// that it informs: the posterior's unseen quantities, which all movements of a person share.
 struct Teller {
   Information information;
   std::vector<std::string> quantities;
@@ -226,8 +227,8 @@ Teller teller_of(const StudyData& muscles,
               return information_of(one, torque, z, noise_of(options));
             },
             {}};
-  // An earlier run has the same moment arms, tendons and scales: a further one does not narrow
-  // their part of the intervals.
+  // Moment arms, tendons and scales are the same as in an earlier run, so a further recording does
+  // not narrow their part of the intervals.
   const auto posterior = std::make_shared<const PosteriorInformation>(
       muscles, session_of(courses, muscles, start, options.seed), torque,
       planned_errors(options, torque),
@@ -241,7 +242,7 @@ Teller teller_of(const StudyData& muscles,
           posterior->quantities()};
 }
 
-/// The choice of movements: unknowns, then quantities of precision 1.
+/// Returns the choice of movements: unknowns, then quantities of precision 1.
 identification::DesignProblem problem_of(const std::vector<Unknown>& free,
                                          const Knowledge& known,
                                          const std::vector<std::string>& quantities,
@@ -257,7 +258,7 @@ identification::DesignProblem problem_of(const std::vector<Unknown>& free,
   return problem;
 }
 
-/// The targets as they are expected to be known with standard deviations `sd`.
+/// The targets with expected standard deviations `sd`.
 struct Expected {
   const std::vector<Unknown>& free;
   const Knowledge& known;
@@ -283,8 +284,8 @@ struct Expected {
     return estimates;
   }
 
-  /// An interval over that beforehand. What moment arms, tendons and the scale of the torque make
-  /// of it stays.
+  /// Returns the interval relative to the one beforehand. The part by moment arms, tendons and the
+  /// torque's scale stays.
   [[nodiscard]] double ratio(Eigen::Index j, const Eigen::VectorXd& sd) const {
     if (!(prior_sd[j] > 0.0)) return 1.0;
     const double narrower = sd[j] / prior_sd[j];
@@ -297,8 +298,8 @@ struct Expected {
     return std::sqrt(stays + (1.0 - stays) * narrower * narrower);
   }
 
-  /// Before the recording. The earlier run has judged its numbers with all that it knows: profiles,
-  /// trials left out. Its verdicts stand.
+  /// Returns the estimates before the recording. The earlier run judged its numbers by profiles and
+  /// left-out trials, so its verdicts stay.
   [[nodiscard]] std::vector<ParameterEstimate> beforehand() const {
     std::vector<ParameterEstimate> estimates = with(prior_sd);
     for (std::size_t t = 0; t < targets.size(); ++t) {

@@ -18,11 +18,11 @@ namespace myoid {
 namespace {
 
 constexpr double kRate_hz = 50.0;
-constexpr double kLead_s = 0.4;  ///< Before the trial: more than the longest delay.
+constexpr double kLead_s = 0.4;  ///< lead before the trial, longer than the longest delay
 
 double degrees(double rad) { return rad * 180.0 / kPi; }
 
-/// From 0 to 1 with a smooth start and end.
+/// Rises from 0 to 1 with a smooth start and end.
 double smooth(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * x * (10.0 + x * (6.0 * x - 15.0));
@@ -55,8 +55,8 @@ double angle_at(const Movement& m, double t) {
   return centre;
 }
 
-/// Effort of an isometric trial: two ramps of 2 s up, 1 s held, 2 s down; of an isokinetic one: all
-/// the time but for its ends.
+/// Returns the effort of an isometric trial (two ramps of 2 s up, 1 s held, 2 s down) or of an
+/// isokinetic one (constant except at the ends).
 double effort_at(const Movement& m, double t) {
   if (m.kind == MovementKind::isokinetic) return smooth(t / 0.5) * smooth((m.duration_s - t) / 0.5);
   constexpr double kCycle_s = 5.5;
@@ -82,10 +82,10 @@ bool by_device(MovementKind kind) {
   return kind == MovementKind::isometric || kind == MovementKind::isokinetic;
 }
 
-/// (x + sqrt(x^2 + e^2)) / 2: positive, smooth, and p(x) - p(-x) = x.
+/// Returns (x + sqrt(x^2 + e^2)) / 2 = p(x): positive, smooth, and p(x) - p(-x) = x.
 double positive_part(double x, double e) { return 0.5 * (x + std::sqrt(x * x + e * e)); }
 
-/// The EMG channels in the order in which the muscles name them.
+/// Returns the EMG channels in the order in which the muscles name them.
 std::vector<std::string> channels_of(const std::vector<identification::MuscleSetup>& muscles) {
   std::vector<std::string> channels;
   for (const identification::MuscleSetup& m : muscles) {
@@ -95,7 +95,7 @@ std::vector<std::string> channels_of(const std::vector<identification::MuscleSet
   return channels;
 }
 
-/// The proportion in which a channel takes part: a constant and a slow change.
+/// A channel's proportion of the effort: a constant and a slow change.
 struct Share {
   double mean = 0.0, depth = 0.0, frequency_hz = 0.1, phase = 0.0;
 
@@ -143,7 +143,7 @@ struct UsedRange {
   [[nodiscard]] double middle_rad() const { return 0.5 * (low_rad + high_rad); }
 };
 
-/// Swings, and slow lowerings of a held mass: movements that need no device.
+/// Returns swings, and slow lowerings of a held mass: movements without a device.
 std::vector<Movement> free_movements(const UsedRange& range, const CatalogueOptions& options) {
   const double low = range.low_rad, middle = range.middle_rad(), high = range.high_rad;
   std::vector<Movement> movements;
@@ -175,7 +175,8 @@ std::vector<Movement> free_movements(const UsedRange& range, const CatalogueOpti
   return movements;
 }
 
-/// Isometric contractions and, with a dynamometer, movements of constant speed, in one direction.
+/// Returns isometric contractions and, with a dynamometer, movements of constant speed, in one
+/// direction.
 std::vector<Movement> movements_on_device(bool positive,
                                           const UsedRange& range,
                                           const CatalogueOptions& options) {
@@ -301,7 +302,7 @@ bool is_agonist(double capacity_nm, const MovementCourse& course) {
   return (capacity_nm > 0.0) == course.movement.positive;
 }
 
-/// Torque of every channel's muscles at full activation at sample i [N m].
+/// Returns the torque of every channel's muscles at full activation at sample i [N m].
 std::vector<double> capacities(const MovementCourse& course,
                                const MovementPerson& person,
                                const std::vector<std::size_t>& channel_of,
@@ -337,7 +338,7 @@ Demand demand_of(const MovementCourse& course,
   return d;
 }
 
-/// Activation of channel c at sample i that the demand asks for.
+/// Returns the activation of channel c at sample i that meets the demand.
 double activation_of(const Demand& d,
                      std::size_t c,
                      const MovementCourse& course,
@@ -360,7 +361,7 @@ double activation_of(const Demand& d,
   return a;
 }
 
-/// The samples from time 0 on as a trial; the EMG leads the torque by the person's delay.
+/// Returns the samples from time 0 on as a trial; the EMG leads the torque by the person's delay.
 identification::TrialData recorded_trial(const MovementCourse& course,
                                          const MovementPerson& person,
                                          const std::vector<std::string>& channels,
@@ -414,7 +415,7 @@ std::optional<identification::TrialData> perform(
       activation(i, static_cast<Eigen::Index>(c)) = a;
       torque_nm[i] += a * demand.capacity_nm[c];
     }
-    // Without an antagonist or an agonist the muscles cannot make the torque asked for.
+    // Without an antagonist or an agonist the muscles cannot produce the required torque.
     if (course.effort.size() == 0 &&
         std::abs(torque_nm[i] - course.required_torque_nm[i]) > 1e-6 * (1.0 + demand.total_nm))
       return std::nullopt;

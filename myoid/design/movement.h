@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/kinematics/lumped_muscles.h"
@@ -49,8 +50,8 @@ struct CatalogueOptions {
   std::string coordinate;   ///< Names the directions of effort.
 };
 
-/// Returns all combinations over the coordinate's range [rad] without a tenth of it at each end:
-/// swings over the whole and either half of it, lowerings, isometric and isokinetic efforts in both
+/// Returns all combinations over the coordinate's range [rad] without a tenth at each end: swings
+/// over the whole and over either half, lowerings, isometric and isokinetic efforts in both
 /// directions.
 [[nodiscard]] std::vector<Movement> movement_catalogue(double lowest_rad,
                                                        double highest_rad,
@@ -87,7 +88,7 @@ struct MovementModels {
 /// A virtual person's muscles and coordination.
 struct MovementPerson {
   std::vector<identification::MuscleValues> muscles;  ///< In the study's order.
-  double emg_delay_s = 0.06;
+  double emg_delay_s = identification::beliefs::kEmgDelay.value;
   double co_contraction = 0.05;  ///< Least activation of every muscle.
   double synergy = 0.35;  ///< Spread of ln(share of each EMG channel), over trials and within.
   double most_activation = 0.8;
@@ -96,8 +97,8 @@ struct MovementPerson {
 
 /// Returns the trial as `person` would perform it, ready for an estimator. The torque is shared
 /// among the EMG channels with the least sum of squares of activations about person-specific,
-/// slowly changing proportions. Muscles of one channel act as one. Empty if an activation above the
-/// person's greatest would be needed.
+/// slowly changing proportions. Muscles of one channel act as one. Empty if the trial needs an
+/// activation above the person's greatest.
 [[nodiscard]] std::optional<identification::TrialData> perform(
     const MovementCourse& course,
     const std::vector<identification::MuscleSetup>& muscles,

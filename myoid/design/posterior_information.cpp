@@ -22,7 +22,7 @@ using identification::TrialData;
 
 namespace {
 
-/// The trial with the noise of rectified EMG behind the filter of the envelopes.
+/// Returns the trial with the noise of rectified EMG behind the filter of the envelopes.
 TrialData with_emg_noise(TrialData trial,
                          const EstimatorOptions& options,
                          double factor,
@@ -56,7 +56,7 @@ PosteriorInformation::PosteriorInformation(StudyData muscles,
       options_(std::move(options)),
       emg_factor_(errors.emg_factor),
       believed_(believed) {
-  // A movement is one trial, whose share b of the torque's error is 1.
+  // A movement is one trial, whose factor b of the torque's error is 1.
   noise_.setZero(identification::kNoiseFieldCount + 1);
   noise_[identification::kTorqueSd] = std::log(errors.torque_sd_nm);
   noise_[identification::kTorqueTime] = std::log(identification::beliefs::kTorqueNoiseTime.value);

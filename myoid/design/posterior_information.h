@@ -13,36 +13,37 @@
 
 namespace myoid {
 
-/// The errors of a recording that is planned.
+/// The errors of a planned recording.
 struct PlannedErrors {
   double torque_sd_nm = 0.3;
-  double emg_factor = 1.0;   ///< Noise of the envelopes over that of their bandwidth.
+  double emg_factor =
+      1.0;  ///< Noise of the envelopes over the noise that their bandwidth predicts.
   double model_error = 0.0;  ///< Relative size s.
 };
 
-/// What a movement tells of the unknowns z and of the unseen quantities x, by the likelihood of the
-/// estimator `posterior`.
+/// The information of a movement about the unknowns z and the unseen quantities x, by the
+/// likelihood of the estimator `posterior`.
 ///
 ///   M = [L J, L S W]' A^-1 [L J, L S W],   unknowns and quantities, square
 ///
-/// A is the covariance of the run's own errors (Likelihood). Movements of one person have x in
-/// common: their M add, and beside the priors of z each x has a precision of 1. The covariance of z
-/// is a block of the inverse.
+/// A is the covariance of the run's own errors (Likelihood). Movements of one person share x, so
+/// their M add; each x has a prior precision of 1, and z its priors. The covariance of z is a block
+/// of the inverse.
 class PosteriorInformation {
  public:
-  /// `session` are the movements that there are, of a person of the starting values: what is
-  /// relative to a muscle's recorded lengths is relative to theirs. `believed` geometry and scales
-  /// that are exact weigh nothing.
+  /// Prepares the likelihood. `session` holds all movements by a person with the starting values:
+  /// its lengths are the recorded lengths to which errors are relative. Geometry and scales that
+  /// are exact by `believed` have weight 0.
   PosteriorInformation(identification::StudyData muscles,
                        std::vector<identification::TrialData> session,
                        identification::EstimatorOptions options,
                        const PlannedErrors& errors,
                        identification::Believed believed);
 
-  /// Names of x.
+  /// Returns the names of x.
   [[nodiscard]] const std::vector<std::string>& quantities() const { return quantities_; }
-  /// M of a trial without noise of a person with these unknowns. The noise of its envelopes, drawn
-  /// by `seed`, is added: the estimator smooths an envelope by as much as it finds of it.
+  /// Returns M of a noise-free trial of a person with these unknowns. Adds noise drawn by `seed` to
+  /// the envelopes, because the estimator's smoothing depends on the noise in them.
   [[nodiscard]] Eigen::MatrixXd of(const identification::TrialData& trial,
                                    const Eigen::VectorXd& z,
                                    std::uint64_t seed) const;
@@ -57,7 +58,7 @@ class PosteriorInformation {
   std::vector<std::string> quantities_;
 };
 
-/// Gives the muscles' F_max the share of their variance that a person's muscles have in common
+/// Gives the muscles' F_max the common share of variance among one person's muscles
 /// (identification::prior_precision).
 void join_strengths(const std::vector<identification::Unknown>& free,
                     double common_share,

@@ -8,15 +8,16 @@
 namespace myoid::identification {
 namespace {
 
-/// The lags' output at the samples of the envelope, and what it changes by along D directions in
-/// the space of the three time constants.
+/// The lags' output at the samples of the envelope, and its derivatives along D directions in the
+/// space of the three time constants.
 template <int D>
 struct Lagged {
   Eigen::VectorXd value, slope;
   Eigen::Matrix<double, D, Eigen::Dynamic> by, slope_by;
 };
 
-/// `directions`: D x 3, by excitation, activation and deactivation time.
+/// Runs the envelope through the lags. `directions` is D x 3, by excitation, activation and
+/// deactivation time.
 template <int D>
 Lagged<D> lagged(const Envelope& envelope,
                  const ChannelValues& c,
@@ -31,7 +32,7 @@ Lagged<D> lagged(const Envelope& envelope,
   double e_ne = 0.0;
   const Slopes by_excitation = directions.col(0);
   Slopes a_by = Slopes::Zero();
-  // Factor kept over a step of h: most clocks have one h.
+  // Keeps the factor of a step of h, because most clocks have one h.
   double h = 0.0, keep_e = 0.0, by_keep_e = 0.0;
   struct Branch {
     double per_tau = 0.0, keep = 0.0;
@@ -51,7 +52,7 @@ Lagged<D> lagged(const Envelope& envelope,
         fall.keep = std::exp(-h * fall.per_tau);
       }
       const double input = 0.5 * (u[i - 1] + u[i]);
-      // Mean of e over the interval drives a.
+      // The mean of e over the interval drives a.
       const double e_before = e, e_ne_before = e_ne;
       e = input + keep_e * (e_before - input);
       e_ne = keep_e * (e_ne_before + (e_before - input) * by_keep_e);
@@ -73,7 +74,7 @@ Lagged<D> lagged(const Envelope& envelope,
   return r;
 }
 
-/// Cubic through values and slopes at both ends of an interval of h, at the share x of it.
+/// Cubic through values and slopes at both ends of an interval of length h, at its share x.
 struct Cubic {
   double value = 0.0, slope = 0.0;
 };
@@ -84,14 +85,14 @@ Cubic between(double y0, double y1, double slope0, double slope1, double h, doub
   return {y0 + x * (d0 + x * (c2 + x * c3)), (d0 + x * (2.0 * c2 + x * 3.0 * c3)) / h};
 }
 
-/// The envelope at one instant as activation() needs it, D directions as in Lagged.
+/// The envelope at one instant for activation(), with D directions as in Lagged.
 template <int D>
 struct Read {
   double value = 0.0, slope = 0.0;
   Eigen::Matrix<double, D, 1> by = Eigen::Matrix<double, D, 1>::Zero();
 };
 
-/// Reads the output of the lags at rising times; the end values beyond its ends.
+/// Reads the output of the lags at rising times; beyond the ends it returns the end values.
 template <int D>
 class LaggedReader {
  public:
@@ -123,8 +124,8 @@ class LaggedReader {
   Eigen::Index at_ = 0;
 };
 
-/// The channel with the delay that is left and the time constants that d is shared among. A time
-/// constant of nothing divides by nothing: 0.1 ms is none.
+/// Returns the channel with the remaining delay and the time constants into which d is divided. A
+/// time constant is at least 0.1 ms, because the lags divide by it.
 ChannelValues shared(const ChannelValues& c) {
   constexpr LagShares kShare;
   constexpr double kLeast_s = 1e-4;
@@ -136,7 +137,7 @@ ChannelValues shared(const ChannelValues& c) {
   return result;
 }
 
-/// (exp(A u) - 1) / (exp(A) - 1), its slope in u and in A.
+/// Computes (exp(A u) - 1) / (exp(A) - 1) and its slopes in u and in A.
 void shape(double u, double A, double& value, double& by_u, double& by_a) {
   if (std::abs(A) < 1e-4) {
     value = u + 0.5 * A * u * (u - 1.0);
@@ -151,8 +152,8 @@ void shape(double u, double A, double& value, double& by_u, double& by_a) {
   by_a = (u * (above + 1.0) * below - above * (below + 1.0)) / (below * below);
 }
 
-/// u^p, its slope in u and, if `with_exponent`, in p. Below 1e-4 of the maximum a straight line:
-/// where p < 1 the slope has no end.
+/// Computes u^p and its slopes in u and, if `with_exponent`, in p. Below 1e-4 of the maximum a
+/// straight line replaces u^p, whose slope is unbounded where p < 1.
 void power(double u, double p, bool with_exponent, double& value, double& by_u, double& by_p) {
   constexpr double kLeast = 1e-4;
   if (p == 1.0 && !with_exponent) {
@@ -168,8 +169,8 @@ void power(double u, double p, bool with_exponent, double& value, double& by_u, 
   by_p = value * log_u;
 }
 
-/// Slopes and curvatures at the samples, n x 2. Where the clock is even, from nine samples each
-/// (exact for polynomials of degree 8); at the ends and for uneven clocks from the quintic spline.
+/// Returns slopes and curvatures at the samples, n x 2. An even clock takes them from nine samples
+/// each (exact for polynomials of degree 8), an uneven clock and the ends from the quintic spline.
 Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, bool even) {
   const Eigen::Index n = time_s.size();
   constexpr Eigen::Index kEnd = 12;   // samples taken from a spline of ...
@@ -245,7 +246,7 @@ const Envelope::Piece& Envelope::piece_at(double time_s) const {
   }
   const auto i = std::clamp<Eigen::Index>(
       static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0, n - 2);
-  // Round-off and a clock that is even to a ten-thousandth may put it into the next one.
+  // Round-off, and a clock that is even only to 1e-4, may put time_s into the next interval.
   const Piece& piece = pieces_[place(i)];
   if (time_s < piece.left_s && i > 0) return pieces_[place(i - 1)];
   if (time_s >= piece.right_s && i + 2 < n) return pieces_[place(i + 1)];
@@ -287,8 +288,8 @@ std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag) {
 
 namespace {
 
-/// From the envelope, delayed and lagged, to activation with its derivatives but those by the lags;
-/// returned is d activation / d envelope.
+/// Fills the activation and all derivatives except by the lags from the delayed and lagged
+/// envelope; returns d activation / d envelope.
 inline double fill(
     Activation& a, double value, double slope, const ChannelValues& c, bool with_exponent) {
   double raised = value, by_value = 1.0, by_exponent = 0.0;

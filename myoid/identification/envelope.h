@@ -12,20 +12,22 @@
 
 namespace myoid::identification {
 
-/// One EMG channel of one trial, ready to be read at any delay: quintic polynomials between the
-/// samples, twice continuously differentiable, found by division where the clock is even. For an
-/// envelope below 6 Hz at 100 Hz or more the error is below 1e-7 of its amplitude.
+/// The envelope of one EMG channel of one trial, which can be read at any delay: quintic
+/// polynomials between the samples, twice continuously differentiable. An even clock finds its
+/// interval by a division. For an envelope below 6 Hz at 100 Hz or more the error is below 1e-7 of
+/// its amplitude.
 class Envelope {
  public:
-  /// `apart`: samples between the instants that it will be read at one after the other. What is
-  /// read together then lies together, which is what reading takes time for.
+  /// Builds the polynomials. `apart` is the number of samples between successive reads. Intervals
+  /// that are read one after the other lie next to each other in memory, whose access takes most of
+  /// the time.
   Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values, Eigen::Index apart = 1);
 
   struct Value {
     double value = 0.0;
     double slope = 0.0;  ///< d/dt
   };
-  /// Beyond the ends the end value; never negative.
+  /// Returns value and slope at `time_s`: never negative, and the end value beyond the ends.
   [[nodiscard]] Value at(double time_s) const;
 
   [[nodiscard]] double first_s() const { return time_s_[0]; }
@@ -47,38 +49,38 @@ class Envelope {
 
   Eigen::VectorXd time_s_, samples_;
   std::uint32_t apart_ = 1;
-  std::size_t row_ = 0;        ///< Intervals that are `apart` from the next.
+  std::size_t row_ = 0;  ///< Length of a row: number of intervals that are `apart` from the next.
   std::vector<Piece> pieces_;  ///< Row by row.
-  double rate_hz_ = 0.0;       ///< Of an even clock; 0: uneven.
+  double rate_hz_ = 0.0;       ///< Rate of an even clock; 0: uneven.
 };
 
-/// Returns the factor on the relative spread of rectified EMG, `spread`, in an envelope from which
-/// the noise of the electrode has been taken as power, u^2 = m^2 - rest^2: du / u = (1 +
-/// (rest/u)^2) dm / m; root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
-/// Where chance makes u, it stays below what chance makes. 1 if `rest` is 0.
+/// Returns the factor on the relative spread of rectified EMG, `spread`, in an envelope after
+/// subtraction of the electrode's noise as power, u^2 = m^2 - rest^2: du / u = (1 + (rest/u)^2) dm
+/// / m. The factor is a root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
+/// Where chance makes u, u counts as the level that chance makes. 1 if `rest` is 0.
 [[nodiscard]] double noise_gain(
     const Envelope& envelope, double from_s, double to_s, double rest, double spread);
 
-/// Time constants of the two lags that a channel's envelope passes, that of the activation as the
-/// mean of rise and fall; 0: none.
+/// Returns the time constants of the two lags that a channel's envelope passes (0: no lag); the
+/// activation's is the mean of rise and fall.
 [[nodiscard]] std::array<double, 2> lag_times_s(const ChannelValues& channel, EmgLag lag);
 
-/// Activation at one instant, before the muscle's share, and its derivatives.
+/// Activation at one instant, before the factor activation_share of the muscle, with derivatives.
 struct Activation {
   double value = 0.0;
   double by_log_envelope = 0.0;  ///< Change by a relative error of the envelope.
   std::array<double, kChannelFieldCount> by_field{};
 };
 
-/// Activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p), and but for
-/// `EmgLag::delay` the envelope first passes the two lags of equation (1),
+/// Returns the activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p). With
+/// `EmgLag::shared` and `EmgLag::equation_1` the envelope first passes the two lags of equation
+/// (1),
 ///
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),
 ///
 /// integrated exactly for an input that is constant between the samples of the envelope. With
-/// `EmgLag::shared` the time constants are shares of the channel's d, and so is the delay that is
-/// left.
-/// `with_exponent`: false where nobody needs the derivative by p (0 is given where p = 1).
+/// `EmgLag::shared` the time constants and the remaining delay are shares of the channel's d.
+/// Without `with_exponent` the derivative by p is left out (0 where p = 1).
 [[nodiscard]] std::vector<Activation> activation(const Envelope& envelope,
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,

@@ -15,7 +15,7 @@ constexpr Eigen::Index kPerMuscle = 7;
 constexpr Eigen::Index kLogActivation = 4;
 constexpr Eigen::Index kOwnLag = 6;
 constexpr double kLogRange = 2.3;
-constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's, without its force
+constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's shapes, without its force
 
 /// Returns true if one of the unknowns is this number of this owner.
 bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
@@ -23,9 +23,9 @@ bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
                      [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
 }
 
-/// The shapes of a muscle that are unknowns of the fit themselves. The data have had their say
-/// about these, and a prior bounds them. A number of an EMG channel that drives other muscles too,
-/// or that is tied to another channel's, belongs to no single muscle.
+/// Marks the shapes of a muscle that are unknowns of the fit: the data determine these, and a prior
+/// bounds them. A number of an EMG channel that drives other muscles too, or that is tied to
+/// another channel's, belongs to no single muscle.
 std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map,
                                              int muscle,
                                              bool measured_is_force) {
@@ -46,9 +46,9 @@ std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map,
   return found;
 }
 
-/// Replaces the lags of muscles that follow their EMG by one unknown delay by the differences from
-/// their mean: the delay is the mean. Muscles that follow by lags keep theirs, because the mean lag
-/// depends on the movement, on rises and falls of the EMG and on stretched tendons.
+/// Replaces the lags of muscles that follow their EMG by one unknown delay by their differences
+/// from the mean, which is the delay. Muscles that follow by lags keep their own, because the mean
+/// lag depends on the movement, on rises and falls of the EMG and on stretched tendons.
 void center_lags(const ParameterMap& map, Eigen::MatrixXd& contrast) {
   for (const Unknown& delay : map.free()) {
     if (!delay.is(Scope::channel, kDelay)) continue;
@@ -83,7 +83,7 @@ MotionRange range_of(const std::vector<ResidualBlock>& blocks, Eigen::Index musc
   return range;
 }
 
-/// Root mean square of the measured torque of each joint [N m].
+/// Returns the root mean square of the measured torque of each joint [N m].
 Eigen::VectorXd torque_sizes(const ResidualModel& model) {
   Eigen::VectorXd size_nm = Eigen::VectorXd::Zero(model.joint_count());
   Eigen::VectorXd count = size_nm;
@@ -94,7 +94,7 @@ Eigen::VectorXd torque_sizes(const ResidualModel& model) {
   return size_nm.cwiseQuotient(count.cwiseMax(1.0)).cwiseSqrt();
 }
 
-/// Shapes that are 0, with their weights, contrast and channels.
+/// Returns shapes of value 0, with their weights, contrast and channels.
 ErrorShapes shapes_without_values(const ParameterMap& map,
                                   const ModelValues& values,
                                   Eigen::Index samples,
@@ -131,7 +131,7 @@ ErrorShapes shapes_without_values(const ParameterMap& map,
   return result;
 }
 
-/// The factors by which a muscle's torque is multiplied in its shapes, at sample i of a block.
+/// Returns the factors on a muscle's torque in its shapes, at sample i of a block.
 std::array<double, kPerMuscle> factors_of(const ResidualBlock& block,
                                           const MotionRange& range,
                                           const Activation& activated,

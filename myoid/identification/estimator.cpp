@@ -65,7 +65,7 @@ Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j,
   const int channel = model_->channel_of_variable(j);
   if (channel < 0) return {};
   const ParameterField& field = *free()[static_cast<std::size_t>(j)].field;
-  // The solver's variable is ln p: d p = p d ln p, and T_ch / p times that is T_ch.
+  // The solver's variable is ln p: dp = p d ln p, and p times T_ch / p is T_ch.
   return {channel, exponent[channel], field.scope == Scope::channel && field.field == kExponent};
 }
 
@@ -156,11 +156,11 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
   prior.off = z - (variant.prior_mean.size() > 0 ? variant.prior_mean : prior_mean_);
   prior.slope = prior_precision_.cwiseProduct(prior.off);
   if (derivatives == Derivatives::gradient) return cost_and_gradient(z, weighting, prior, variant);
-  // Workspace of this thread: the gradient matrix is large, and allocating it anew costs more than
-  // a pass over it.
+  // Reuses this thread's workspace: the gradient matrix is large, and a new allocation costs more
+  // than a pass over the matrix.
   thread_local Evaluation at;
   Evaluation local;
-  std::swap(local, at);  // a task that this thread takes on meanwhile finds the shared one empty
+  std::swap(local, at);  // a task that this thread starts meanwhile finds an empty one
   const bool curved = derivatives == Derivatives::curvature;
   model_->evaluate(z, curved ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
   const Eigen::Index n = model_->sample_count();
@@ -287,13 +287,13 @@ NoiseLevel Estimator::noise_of_joint(const std::vector<Eigen::Index>& rows,
       squared[i] *= loss(options_.loss, residual[row] / weighting.sd_nm[row]).weight;
     }
   }
-  // The part that errors of the motion explain is not torque noise.
+  // The errors of the motion explain this part, so it is not torque noise.
   squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
   NoiseLevel level = emg_noise_known_
                          ? fit_known_noise(squared, power(rows).array(), weighting.share)
                          : fit_unknown_noise(squared, power(rows).array());
   // Muscles that start far too strong leave residuals larger than the torque itself. Taken for
-  // noise, these would silence the data, and the search would stay where it started.
+  // noise, these residuals would give the data no weight and the search would stay at its start.
   const double most =
       std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
   level.torque_sd_nm = std::max(std::min(level.torque_sd_nm, most), floor_nm_);
@@ -311,8 +311,8 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
                          ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
   const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
-  // A weight that follows the noise of the EMG itself would favor the samples in which the noise
-  // happens to be small: the power is averaged over a second.
+  // Averages the power over a second: a weight that follows the EMG's noise itself would favor
+  // samples in which the noise happens to be small.
   const Eigen::VectorXd power = averaged_twice(
       at.channel_torque.cwiseAbs2().transpose() * channel_variance_, model_->piece_lengths(),
       static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz())));
@@ -368,12 +368,12 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
   Evaluation at;
   int iterations = 0;
   for (int pass = 0; pass < options_.passes; ++pass) {
-    // Only the last pass needs all digits: the weights still move before.
+    // Only the last pass needs full precision, because the weights still change in earlier passes.
     const bool last = pass + 1 == options_.passes;
     solution.search = search(x, weighting, last ? 1e-9 : 1e-4, last ? 1e-11 : 1e-4);
     iterations += solution.search.iterations;
     if (last && weighting.emg_variance.size() > 0) {
-      // Residuals ten times as large as their weights say, or three times the torque: no fit.
+      // Residuals of ten standard deviations or three times the torque: fits anew, uncorrected.
       model_->evaluate(solution.search.x, ResidualModel::Depth::value, at);
       const Eigen::VectorXd residual = at.predicted - model_->measured();
       const double misfit =
@@ -405,8 +405,8 @@ Eigen::VectorXd Estimator::moved_start(const Eigen::VectorXd& start, int s) cons
     const double step = f.prior.sd > 0.0       ? f.prior.sd
                         : f.field->logarithmic ? 0.3
                                                : 0.1 * std::abs(f.start);
-    // Start s turns sign by the bits of a fixed mixing of its number and the parameter's: the same
-    // on every machine.
+    // A fixed mixing of the numbers of start and parameter chooses the sign, the same on every
+    // machine.
     const std::uint64_t mixed =
         (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^ ((j + 1) * 0xD1B54A32D192ED03ULL);
     const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;
@@ -418,12 +418,12 @@ Eigen::VectorXd Estimator::moved_start(const Eigen::VectorXd& start, int s) cons
 Estimator::Solution Estimator::solve_from_all_starts(const Eigen::VectorXd& start) const {
   Solution best = solve(start);
   const double first_cost = best.search.cost_history.front();
-  // Without priors there are more false minima, and nothing but the cost to tell them by.
+  // Without priors the cost has more false minima, and only its value tells them apart.
   const int starts = options_.weights ? options_.starts : 4 * options_.starts;
   for (int s = 1; s < starts && !(best.search.cost <= 1e-18 * first_cost); ++s) {
     Eigen::VectorXd x = moved_start(start, s);
     if (options_.weights) {
-      // Most starts lead to the same minimum: a glance tells, at the same weights.
+      // Most starts lead to the same minimum, which a short search at the same weights shows.
       const NormalSearchResult look = search(x, best.weighting, 1e-4, 1e-4, 40);
       if (!(look.cost < (1.0 - 1e-3) * best.search.cost)) continue;
       x = look.x;

@@ -10,41 +10,41 @@
 
 namespace myoid::identification {
 
-/// The weights of the samples, which a pass of the search holds fixed.
+/// The weights of the samples; a pass of the search holds them fixed.
 struct Weighting {
-  Eigen::VectorXd sd_nm;  ///< Per sample.
-  double share = 1.0;     ///< nu: effective over all samples.
+  Eigen::VectorXd sd_nm;  ///< Standard deviation, per sample.
+  double share = 1.0;     ///< nu: effective number of samples over all samples.
   /// Per sample: emg_share emg_factor^2 of its joint; empty: no correction.
   Eigen::VectorXd emg_variance;
   double offset = 0.0;  ///< Keeps the corrected cost positive.
-  /// The correction's term grows with the square of the torques. Where the data hardly bound the
-  /// torques, the term would outgrow the cost: then this is false and the correction is left out.
+  /// The correction's term grows with the square of the torques. False where the data hardly bound
+  /// the torques and the term would outgrow the cost; the correction is then left out.
   bool corrected = true;
-  Eigen::VectorXd noise_gain;     ///< Square of the model's noise gain by EMG channel, in the mean.
-  Eigen::VectorXd exponent;       ///< p of a = g u^p by EMG channel where the noise was found.
+  Eigen::VectorXd noise_gain;  ///< Mean square of the model's noise gain, by EMG channel.
+  Eigen::VectorXd
+      exponent;  ///< p of a = g u^p by EMG channel at the point where the noise was estimated.
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 
-/// The derivatives that NormalEquations gets beside the cost: none, the gradient, or both.
+/// The derivatives in NormalEquations beside the cost: none, the gradient, or both.
 enum class Derivatives { none, gradient, curvature };
 
-/// Residual, weights and priors of one study: the cost that is minimized,
+/// Residual, weights and priors of one study. The search minimizes the cost
 ///
 ///   C(z) = 1/2 nu sum_i m_i rho((T^_i - T_i) / s_i) + 1/2 sum_j ((z_j - prior_j) / sd_j)^2
 ///
-/// with multiplicities m_i that are 1 but for bootstrap replicates. The EMG, by which T^ is
-/// multiplied, has errors of its own: they make the squared residual larger by c_a^2 sum_channels
-/// T_channel^2 on average, the more so the greater the muscles are taken to be, so that plain least
-/// squares makes them too weak, above all where co-contracting muscles cancel (attenuation by
-/// errors in the regressors). With `EstimatorOptions::correct_attenuation` that expectation is
-/// subtracted,
+/// with multiplicities m_i that are 1 except in bootstrap replicates. The EMG, which multiplies T^,
+/// has errors of its own. On average they enlarge the squared residual by c_a^2 sum_channels
+/// T_channel^2, the more the stronger the muscles are. So plain least squares makes muscles too
+/// weak, above all where co-contracting muscles cancel (attenuation by errors in the regressors).
+/// With `EstimatorOptions::correct_attenuation` the cost subtracts that expectation,
 ///
 ///   rho -> rho - c_a^2 sum_channels T_channel(z)^2 / s_i^2,
 ///
-/// and from J'J, in the same way, what noise alone contributes to it. Of c_a^2 no more than the
-/// EMG's bandwidth makes expected: residuals that go with the muscles' torques beyond that are the
-/// model's error, which is in the torque and weakens nothing. Taken for noise of the EMG they would
-/// drive the strengths up, which makes more of them, and so on.
+/// and J'J in the same way loses the contribution of noise alone. c_a^2 is at most the expectation
+/// from the EMG's bandwidth. Residuals beyond it that vary with the muscles' torques are the
+/// model's error, which is in the torque and weakens no muscle. Taken for noise of the EMG they
+/// would raise the strengths, and so the residuals, again and again.
 class Estimator {
  public:
   Estimator(const StudyData& data, const EstimatorOptions& options);
@@ -52,19 +52,20 @@ class Estimator {
   [[nodiscard]] const ResidualModel& model() const { return *model_; }
   [[nodiscard]] const std::vector<Unknown>& free() const { return model_->parameters().free(); }
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
-  /// Expected c_a^2 of each EMG channel, or 1 where nothing is known.
+  /// Expected c_a^2 of each EMG channel, or 1 where its bandwidth is unknown.
   [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
-  /// Square of the relative spread of each channel's envelope before both sides are low-passed.
+  /// Squared relative spread of each channel's envelope before prediction and measurement are
+  /// low-passed.
   [[nodiscard]] Eigen::VectorXd envelope_variance(const NoiseLevel& found) const;
-  /// p of a = g u^p of every EMG channel.
+  /// Returns p of a = g u^p for every EMG channel.
   [[nodiscard]] Eigen::VectorXd exponents(const Eigen::VectorXd& z) const;
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// Departures from the plain cost, for replicates.
+  /// Deviations of a replicate from the plain cost.
   struct Variant {
-    Eigen::VectorXd multiplicity;  ///< Per sample; empty: 1.
-    Eigen::VectorXd prior_mean;    ///< Per variable; empty: the priors' own.
+    Eigen::VectorXd multiplicity;  ///< Per sample; empty: all 1.
+    Eigen::VectorXd prior_mean;    ///< Per variable; empty: the means of the priors.
   };
   [[nodiscard]] NormalEquations normal_equations(const Eigen::VectorXd& z,
                                                  const Weighting& weighting,
@@ -76,11 +77,11 @@ class Estimator {
     Weighting weighting;
     double misfit = 0.0;  ///< -2 log posterior up to a constant: comparable between starts.
   };
-  /// Weights and parameters in turn, EstimatorOptions::passes times.
+  /// Finds weights and parameters in turn, EstimatorOptions::passes times.
   [[nodiscard]] Solution solve(const Eigen::VectorXd& start) const;
-  /// From several starts; the best.
+  /// Solves from several starts and returns the best solution.
   [[nodiscard]] Solution solve_from_all_starts(const Eigen::VectorXd& start) const;
-  /// With given weights.
+  /// Searches with given weights.
   [[nodiscard]] NormalSearchResult search(const Eigen::VectorXd& start,
                                           const Weighting& weighting,
                                           double step_tolerance,
@@ -88,38 +89,39 @@ class Estimator {
                                           int iterations = 200,
                                           const Variant& variant = {},
                                           const std::vector<bool>& held = {}) const;
-  /// Per-sample contributions to the gradient (p x n), and nu J'WJ of the data with noise taken
-  /// out.
+  /// Per-sample contributions to the gradient (p x n), and nu J'WJ of the data after subtraction of
+  /// the noise.
   struct Scores {
     Eigen::MatrixXd scores;
     Eigen::MatrixXd information;
-    Eigen::MatrixXd rows;         ///< p x n: (nu W)^1/2 J', nothing taken out.
+    Eigen::MatrixXd rows;         ///< p x n: (nu W)^1/2 J', without subtraction.
     Eigen::VectorXd residual;     ///< n: predicted less measured, over the standard deviation.
     Eigen::VectorXd attenuation;  ///< The correction's part of the sum of the scores.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;
-  /// Start number s: the given one moved by a spread of the prior in a fixed pattern of signs.
+  /// Returns start number s: the given start moved by the prior's spread, in a fixed pattern of
+  /// signs.
   [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
 
  private:
-  /// Share of the variance of an envelope's noise that the low-pass of the residuals leaves.
+  /// Returns the share of an envelope's noise variance that passes the residuals' low-pass.
   [[nodiscard]] double kept_by_residual_filter() const;
   void find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const;
-  /// Noise of one joint from the residuals of its rows; `power`: expected EMG noise per row.
+  /// Finds one joint's noise from the residuals of its rows; `power`: expected EMG noise per row.
   [[nodiscard]] NoiseLevel noise_of_joint(const std::vector<Eigen::Index>& rows,
                                           const Eigen::VectorXd& residual,
                                           const Eigen::VectorXd& power,
                                           const Evaluation& at,
                                           const Weighting& weighting) const;
-  /// Sums over the rows of one piece or of all: the loss, and its expected part by the noise of
-  /// each EMG channel.
+  /// Sums over the rows of one piece or of all pieces: the loss, and its expected part by the noise
+  /// of each EMG channel.
   struct RowSums {
     double loss = 0.0;
     Eigen::VectorXd by_noise;
   };
-  /// From predicted torques and torques of the channels of the rows from `first` on: d (cost of the
-  /// data) / d predicted, the weights' roots, and in the torques' place what d (cost taken out by
-  /// the correction) / dz is of theirs.
+  /// Weighs the rows from `first` on: turns predicted torques into d (cost of the data) / d
+  /// predicted, sets the roots of the weights, and replaces the channels' torques by their part of
+  /// d (cost that the correction subtracts) / dz.
   RowSums weigh(const Weighting& weighting,
                 const Variant& variant,
                 Eigen::Index first,
@@ -127,11 +129,11 @@ class Estimator {
                 Eigen::Ref<Eigen::MatrixXd> channel_torque,
                 Eigen::Ref<Eigen::VectorXd> by_predicted,
                 Eigen::Ref<Eigen::VectorXd> scale) const;
-  /// Distance from the priors' means, and that over the priors' variances: the slope of their cost.
+  /// Distance from the priors' means, and the slope of the priors' cost: distance over variance.
   struct PriorTerm {
     Eigen::VectorXd off, slope;
   };
-  /// ResidualModel::pull_back's sums over the rows; p each.
+  /// Sums of ResidualModel::pull_back over the rows; p each.
   struct RowSlopes {
     Eigen::VectorXd by_prediction, by_channel;
   };
@@ -143,20 +145,20 @@ class Estimator {
                                             const RowSums& sums,
                                             const RowSlopes& slopes,
                                             const PriorTerm& prior) const;
-  /// Cost and gradient without the matrix of the prediction's gradient.
+  /// Computes cost and gradient without the matrix of the prediction's gradient.
   [[nodiscard]] NormalEquations cost_and_gradient(const Eigen::VectorXd& z,
                                                   const Weighting& weighting,
                                                   const PriorTerm& prior,
                                                   const Variant& variant) const;
-  /// The change of an EMG channel's torque with a variable, for T_ch = p T and an activation g u^p:
-  /// `slope` times the change of T, plus T_ch if `adds`.
+  /// Derivative of an EMG channel's torque by a variable, for T_ch = p T and an activation g u^p:
+  /// `slope` times the derivative of T, plus T_ch if `adds`.
   struct ChannelSlope {
-    int channel = -1;  ///< -1: none alone.
+    int channel = -1;  ///< -1: no single channel.
     double slope = 1.0;
     bool adds = false;
   };
   [[nodiscard]] ChannelSlope channel_slope(Eigen::Index j, const Eigen::VectorXd& exponent) const;
-  /// c_a^2 times the part of J'WJ that is within channels, taken away; what is left is positive.
+  /// Subtracts c_a^2 times the part of J'WJ within channels; the remainder stays positive.
   void correct_curvature(const Weighting& weighting, Eigen::MatrixXd& information) const;
 
   EstimatorOptions options_;

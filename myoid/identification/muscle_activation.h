@@ -6,8 +6,8 @@
 
 namespace myoid::identification {
 
-/// Activation of every muscle of a trial at `time_s - delay_s`, n x m; beyond the recording its end
-/// value. `slope`, if not null, receives d activation / dt.
+/// Returns the activation of every muscle of a trial at `time_s - delay_s`, n x m, with the end
+/// value beyond the recording. `slope`, if not null, receives d activation / dt.
 [[nodiscard]] Eigen::MatrixXd muscle_activation(const StudyData& data,
                                                 const TrialData& trial,
                                                 const Eigen::VectorXd& time_s,

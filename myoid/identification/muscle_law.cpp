@@ -12,8 +12,9 @@ struct ForceVelocity {
          by_plateau = 0.0;
 };
 
-/// Equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and beyond.
-ForceVelocity force_velocity(double v, const MuscleValues& p) {
+/// Evaluates equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and
+/// below.
+ForceVelocity velocity_factor(double v, const MuscleValues& p) {
   const double vm = p[kSpeed];
   ForceVelocity f;
   if (v > 0.0) {
@@ -57,11 +58,11 @@ class Contraction {
         stretch_(1.0 + p[kLengthActivation] * (1.0 - a)),
         sine_(p[kPennation] == 0.0 ? 0.0 : std::sin(p[kPennation])),
         passive_top_(std::exp(p[kPassiveShape]) - 1.0) {
-    if (p[kPennation] == 0.0) of_velocity_ = force_velocity(v_mt, p);
+    if (p[kPennation] == 0.0) of_velocity_ = velocity_factor(v_mt, p);
   }
 
-  /// Along the tendon, by the projected length l cos(alpha); the derivatives by field go to
-  /// `by_field`, if it is not null.
+  /// Returns the pull along the tendon at the projected length l cos(alpha). Writes the derivatives
+  /// by field to `by_field` unless null.
   Pull at(double along, Fields* by_field) const {
     if (by_field != nullptr) by_field->fill(0.0);
     if (p_[kPennation] == 0.0) return fiber(along, of_velocity_, by_field);
@@ -71,7 +72,7 @@ class Contraction {
     const double c = along / l;
     const double c_along = h * h / (l * l * l);
     const double c_h = -along * h / (l * l * l);
-    const Pull f = fiber(l, force_velocity(v_mt_ * c, p_), by_field);
+    const Pull f = fiber(l, velocity_factor(v_mt_ * c, p_), by_field);
     Pull r;
     r.force = f.force * c;
     r.by_activation = f.by_activation * c;
@@ -122,7 +123,7 @@ class Contraction {
     f.by_length += by_x / (l0 * e);
     if (by_field == nullptr) return;
     Fields& by = *by_field;
-    by[kPassiveForce] = grown / passive_top_;  // of an amount of 0, too
+    by[kPassiveForce] = grown / passive_top_;  // also where the amount c is 0
     if (c == 0.0) return;
     by[kFiberLength] -= by_x * l / (l0 * l0 * e);
     by[kPassiveStrain] = -by_x * x / e;
@@ -132,16 +133,16 @@ class Contraction {
 
   const MuscleValues& p_;
   double a_, v_mt_, stretch_, sine_, passive_top_;
-  ForceVelocity of_velocity_;  ///< Without pennation: the same at every length.
+  ForceVelocity of_velocity_;  ///< without pennation the same at every length
 };
 
-/// Strain at which the tendon pulls as the muscle does: the root of
+/// Returns the strain at which tendon and muscle pull equally, the root of
 ///
 ///   u(s) = ln(1 + m(s) / 0.2) / rise - s
 ///
-/// for the muscle's pull m, by Newton's steps within a bracket. u is nearly a line: the tendon's
-/// exponential is gone, and what is left of m's slope is small beside 1. A step of 3e-9 leaves an
-/// error below 1e-16.
+/// where m is the muscle's pull, by Newton's steps within a bracket. u is nearly a line, because
+/// the logarithm cancels the tendon's exponential and the remaining slope of m is small beside 1. A
+/// step of 3e-9 leaves an error below 1e-16.
 double tendon_strain(const Contraction& muscle, double a, double l_mt, double slack, double rise) {
   constexpr double kLastStep = 3e-9, kLongest = 10.0;
   double low = -1.0, high = kLongest;  // the tendon does not push: low is 0 once 0 was tried
@@ -206,7 +207,7 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
   const double strain = elastic ? tendon_strain(muscle, a, length_m, slack, rise) : 0.0;
   Tension t;
   Pull m = muscle.at(length_m - slack * (1.0 + strain), &t.by_field);
-  if (elastic) m.force = std::max(m.force, 0.0);  // no tendon pushes
+  if (elastic) m.force = std::max(m.force, 0.0);  // a tendon cannot push
   // G = muscle - tendon = 0 gives d strain / d x = G_x / (m_length l_ts + pull').
   const double grown = kTendonScale + m.force;
   const double stiff = elastic ? rise * grown / (m.by_length * slack + rise * grown) : 1.0;
@@ -242,7 +243,7 @@ void plain_tension(
   const double z = (length_m - p[kSlack] - l0 * stretch) * inverse_width;
   const double strength = p[kMaxForce] * std::exp(-z * z);  // at full activation, at rest
   const double active = a * strength;
-  const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = force_velocity(v, p);
+  const auto [fv, fv_v, fv_vm, fv_sh, fv_p, fv_ml] = velocity_factor(v, p);
   t.force_n = active * fv;
   t.by_length = -2.0 * z * inverse_width * t.force_n;
   t.by_velocity = active * fv_v;

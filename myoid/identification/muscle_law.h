@@ -11,15 +11,15 @@ namespace myoid::identification {
 /// The parts of a muscle beyond equations (2)-(4) of the source paper. All are off by default.
 struct MuscleExtras {
   double pennation_angle_rad = 0.0;  ///< At the optimal fiber length; fixed width l0 sin(alpha).
-  double passive_force = 0.0;        ///< Of the stretched fiber at `passive_strain`, over F_max.
-  double passive_strain = 0.6;       ///< l / l0 - 1 at which it is reached.
-  double passive_shape = 4.0;        ///< Exponent of its rise.
-  double length_activation = 0.0;    ///< gamma: optimal length l0 (1 + gamma (1 - a)).
-  double tendon_strain = 0.0;        ///< Of the tendon at F_max; 0: rigid.
-  double activation_share = 1.0;     ///< Activation of the muscle over that of its EMG channel.
+  double passive_force = 0.0;      ///< Passive force of the fiber at `passive_strain`, over F_max.
+  double passive_strain = 0.6;     ///< l / l0 - 1 of `passive_force`.
+  double passive_shape = 4.0;      ///< Exponent of the passive force's rise.
+  double length_activation = 0.0;  ///< gamma: optimal length l0 (1 + gamma (1 - a)).
+  double tendon_strain = 0.0;      ///< Strain of the tendon at F_max; 0: rigid.
+  double activation_share = 1.0;   ///< Activation of the muscle over that of its EMG channel.
 };
 
-/// The numbers of a muscle in the order in which derivatives are kept. The first eight are
+/// Indices of a muscle's numbers in MuscleValues and in derivatives. The first eight are
 /// muscle::kHillFields.
 enum MuscleField : int {
   kMaxForce,
@@ -49,16 +49,17 @@ using MuscleValues = std::array<double, kMuscleFieldCount>;
 /// Tension of a muscle-tendon unit and its partial derivatives.
 struct Tension {
   double force_n = 0.0;
-  std::array<double, kMuscleFieldCount> by_field{};  ///< By the share too.
-  double by_activation = 0.0;  ///< By the activation of the channel, before the share.
+  std::array<double, kMuscleFieldCount> by_field{};  ///< Includes activation_share.
+  double by_activation = 0.0;  ///< By the channel's activation, before activation_share.
   double by_length = 0.0;      ///< By the musculotendon length [N/m].
   double by_velocity = 0.0;    ///< By its rate [N s/m].
 };
 
-/// Tension [N] at a channel's activation, musculotendon length [m] and rate [m/s]:
+/// Returns the tension [N] at a channel's activation, musculotendon length [m] and rate [m/s]:
 ///
-///   F = F_max [ a f_l(l; l0 (1 + gamma (1 - a))) f_v(v) + f_p(l) ] cos(alpha),   a = share *
-///   activation f_p = c (exp(k (l/l0 - 1) / e) - 1) / (exp(k) - 1)  for l > l0, 0 below
+///   F = F_max [ a f_l(l; l0 (1 + gamma (1 - a))) f_v(v) + f_p(l) ] cos(alpha),
+///   a = share * activation,   f_p = c (exp(k (l/l0 - 1) / e) - 1) / (exp(k) - 1) for l > l0, else
+///   0
 ///
 /// f_l and f_v as in muscle/force_length.h and force_velocity.h; the width l_sh does not grow with
 /// the optimal length. Rigid tendon: l cos(alpha) = l_mt - l_ts, v = v_mt cos(alpha). With a tendon
@@ -78,23 +79,23 @@ struct Tension {
                               double velocity_mps,
                               const MuscleValues& values);
 
-/// Returns true if only the paper's law, the share and an optimal length act that changes with the
-/// activation: then `plain_tension` gives the same, sooner.
+/// Returns true if only the paper's law, the share and an optimal length that changes with the
+/// activation act; `plain_tension` is then faster and gives the same tension.
 [[nodiscard]] bool is_plain(const MuscleValues& values);
 
-/// The derivatives by field that `plain_tension` sets.
+/// Returns true for the fields by which `plain_tension` sets the derivative.
 [[nodiscard]] constexpr bool is_plain_field(int field) {
   return field <= kSlack || field == kLengthActivation || field == kShare;
 }
 
-/// As `tension` where `is_plain`; the other derivatives by field are left as they are.
+/// Computes `tension` where `is_plain`; leaves the derivatives by other fields as they are.
 void plain_tension(double activation,
                    double length_m,
                    double velocity_mps,
                    const MuscleValues& values,
                    Tension& out);
 
-/// `tension(...).force_n` alone, by the shorter way where there is one.
+/// Returns `tension(...).force_n` alone, by `plain_tension` where `is_plain`.
 [[nodiscard]] double tension_n(double activation,
                                double length_m,
                                double velocity_mps,

@@ -20,8 +20,8 @@ struct MuscleRows {
   Eigen::MatrixXd by_variable;  ///< v x n: by each of `variables` [N].
 };
 
-/// From the channel's activation, musculotendon lengths and rates (n each), by the variables that
-/// `of_muscle` and `of_channel` tie to it. `rows` may be used again: its content is overwritten.
+/// Fills `rows` from the channel's activation, musculotendon lengths and rates (n each), with
+/// derivatives by the variables of `of_muscle` and `of_channel`. Overwrites the content of `rows`.
 void evaluate_muscle(const std::vector<Activation>& activation,
                      const Eigen::Ref<const Eigen::VectorXd>& length_m,
                      const Eigen::Ref<const Eigen::VectorXd>& velocity_mps,

@@ -10,7 +10,7 @@
 namespace myoid::identification {
 namespace {
 
-/// Squared residuals and EMG power, averaged over samples of like power.
+/// Squared residuals and EMG power, averaged over samples of similar power.
 struct NoiseBins {
   std::vector<double> squared, power, count;
 };
@@ -39,7 +39,7 @@ NoiseBins bins_of(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
   return bins;
 }
 
-/// Least of a function with one minimum, to 1e-3.
+/// Returns the minimum of a function with one minimum, to 1e-3.
 template <typename Function>
 double golden(double low, double high, const Function& f) {
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
@@ -63,7 +63,7 @@ double golden(double low, double high, const Function& f) {
   return 0.5 * (low + high);
 }
 
-/// No envelope of EMG is noisier.
+/// Largest relative noise of an EMG envelope.
 constexpr double kLargestNoise = 0.5;
 
 }  // namespace
@@ -88,7 +88,7 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
     return golden(std::log(0.05 * mean), std::log(2.0 * mean),
                   [&](double log_a) { return cost(log_a, log_b); });
   };
-  // A factor of 4 either way.
+  // b varies by a factor of 16, the noise by a factor of 4, either way.
   const double reach = std::log(16.0);
   const double log_b = golden(-reach, reach, [&](double x) { return cost(best_a(x), x); });
   const double factor = std::exp(0.5 * log_b);
@@ -96,13 +96,13 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   const auto profile = [&](double x) { return cost(best_a(x), x); };
   const double curvature =
       (profile(log_b + h) - 2.0 * profile(log_b) + profile(log_b - h)) / (h * h);
-  const double least = 1.0 / std::pow(2.0 * kLogSd, 2);  // the prior's
+  const double least = 1.0 / std::pow(2.0 * kLogSd, 2);  // curvature of a prior twice as wide
   NoiseLevel level{.torque_sd_nm = std::exp(0.5 * best_a(log_b)),
                    .emg_cv = factor,
                    .emg_factor = factor,
                    .log_variance_sd = 1.0 / std::sqrt(std::max(curvature, least))};
   if (log_b > 0.0) {
-    // The excess over the expected level may be the EMG's too, within that level's uncertainty.
+    // The EMG may cause the excess over the expected level, too, within the level's uncertainty.
     level.emg_share = std::exp(-log_b);
     level.log_variance_sd = std::min(std::hypot(level.log_variance_sd, log_b), 2.0 * kLogSd);
   }
@@ -128,7 +128,7 @@ NoiseLevel fit_unknown_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd
       next_b = 0.0;
       next_a = y0 / s0;
     } else if (next_a < 0.05 * squared.mean()) {
-      // Torque is never without noise: at least a share of the whole.
+      // Torque is never without noise: a is at least this share of the mean square.
       next_a = 0.05 * squared.mean();
       next_b = std::max(0.0, (y1 - next_a * s1) / std::max(s2, 1e-300));
     }

@@ -13,7 +13,7 @@ namespace {
 
 using math::Termination;
 
-/// After a step that failed, the damping is at least twice this.
+/// Least half of the damping after a failed step.
 constexpr double kLeastRejected = 0.05;
 
 bool step_is_small(const Eigen::VectorXd& step, const Eigen::VectorXd& x, double tolerance) {
@@ -59,7 +59,7 @@ class Search {
   };
   struct Trial {
     Eigen::VectorXd x, moved;
-    bool clipped = false;   ///< A bound cut the step short.
+    bool clipped = false;   ///< A bound shortened the step.
     double promised = 0.0;  ///< Fall of the cost by the quadratic model.
   };
 
@@ -69,7 +69,7 @@ class Search {
     return std::isfinite(out.cost) && out.gradient.allFinite() && out.curvature.allFinite();
   }
 
-  /// Ends the search; true.
+  /// Ends the search and returns true.
   bool end(Termination termination, std::string message) {
     r_.termination = termination;
     r_.message = std::move(message);
@@ -110,7 +110,7 @@ class Search {
     const Eigen::LDLT<Eigen::MatrixXd> solver(damped);
     Eigen::VectorXd step = Eigen::VectorXd::Zero(r_.x.size());
     Eigen::VectorXd scaled = solver.solve(s.right);
-    // One refinement: the matrix is the square of an ill-conditioned one.
+    // Refines once, because the matrix is the square of an ill-conditioned one.
     scaled += solver.solve((s.right - damped * scaled).eval());
     for (Eigen::Index k = 0; k < s.d.size(); ++k)
       step[s.moving[static_cast<std::size_t>(k)]] = s.d[k] * scaled[k];
@@ -123,7 +123,7 @@ class Search {
     return trial;
   }
 
-  /// Takes one step, with as much damping as it needs. True: the search has ended.
+  /// Takes one step, with as much damping as the step needs; true: the search has ended.
   bool iterate() {
     const Scaled s = scaled();
     if (s.moving.empty()) return end(Termination::converged, "every parameter leans on a bound");
@@ -151,7 +151,7 @@ class Search {
     }
   }
 
-  /// Moves to the trial. True: the cost falls no further.
+  /// Moves to the trial; true: the cost falls no further.
   bool accept(const Trial& trial) {
     const double before = r_.cost;
     r_.x = trial.x;
@@ -165,13 +165,13 @@ class Search {
     return end(Termination::converged, "the cost falls no further");
   }
 
-  /// Raises the damping. True: no shorter step can lower the cost.
+  /// Raises the damping; true: no shorter step can lower the cost.
   bool reject(const Trial& trial, bool finite) {
-    // A step that a bound cut short may promise nothing and still hide a descent: shorten it.
+    // A step that a bound shortened may promise nothing and still hide a descent: shortens it.
     if (finite && !trial.clipped &&
         trial.promised <= std::max(options_.cost_tolerance, 1e-13) * r_.cost)
       return end(Termination::converged, "the cost can fall no further within round-off");
-    // Damping that changes nothing in the step is not worth an evaluation.
+    // Skips damping too small to change the step: an evaluation costs more.
     damping_ = std::max(damping_, kLeastRejected) * growth_;
     growth_ *= 2.0;
     return damping_ > 1e30 && end(Termination::no_descent, "no step lowers the cost");

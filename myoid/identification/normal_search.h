@@ -17,15 +17,15 @@ struct NormalEquations {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature;
 };
-/// Fills all three at z, or the cost alone.
+/// Fills all three members at z, or the cost alone.
 using NormalFunction =
     std::function<void(const Eigen::VectorXd& z, bool derivatives, NormalEquations& out)>;
 
 struct NormalSearchOptions {
-  bool gauss_newton = false;  ///< Full steps without damping.
+  bool gauss_newton = false;  ///< Takes full steps without damping.
   int max_iterations = 200;
-  double step_tolerance = 1e-12;  ///< Stop when |d| <= tol (|x| + tol).
-  double cost_tolerance = 1e-15;  ///< Stop when the cost falls by less than this share.
+  double step_tolerance = 1e-12;  ///< Stops when |d| <= tol (|x| + tol).
+  double cost_tolerance = 1e-15;  ///< Stops when the cost falls by less than this share.
   Progress progress;
 };
 
@@ -34,18 +34,18 @@ struct NormalSearchResult {
   std::string message;
   Eigen::VectorXd x;
   double cost = 0.0;
-  NormalEquations at;  ///< At x.
+  NormalEquations at;  ///< The normal equations at x.
   int iterations = 0;
   int evaluations = 0;
   std::vector<bool> at_bound;
   std::vector<double> cost_history;
 };
 
-/// Minimizes C(z) within bounds by Levenberg-Marquardt on the normal equations, which are p x p
-/// however many samples there are: one pass over the data per step. The columns are scaled to unit
-/// length before solving; the gradient is exact, so that the limit is exact too as long as the
-/// scaled condition number of J stays below about 1e7. `held` (empty, or one per variable) keeps
-/// variables where they start.
+/// Minimizes C(z) within bounds by Levenberg-Marquardt on the normal equations. These are p x p for
+/// any number of samples, with one pass over the data per step. The columns are scaled to unit
+/// length before solving. The gradient is exact, so the limit is exact, too, while the scaled
+/// condition number of J stays below about 1e7. `held` (empty, or one per variable) keeps variables
+/// at their start.
 [[nodiscard]] NormalSearchResult minimize_normal(const NormalFunction& function,
                                                  const Eigen::VectorXd& lower,
                                                  const Eigen::VectorXd& upper,

@@ -16,9 +16,9 @@
 
 namespace myoid::identification {
 
-/// The unknown by which the search finds V_sh V_shl.
+/// The unknown from which the search computes V_sh V_shl.
 enum class Eccentric {
-  automatic,    ///< By the slope ratio where a prior for it is given, else the product itself.
+  automatic,    ///< The slope ratio where it has a prior, else the product.
   product,      ///< P = V_sh V_shl.
   slope_ratio,  ///< S = f_v'(0+) / f_v'(0-), P = (V_ml - 1) V_sh / (S (1 + V_sh)).
   smooth,       ///< S = 1 held: f_v without a kink.
@@ -36,17 +36,18 @@ enum class Loss {
 inline constexpr std::string_view kLossNames[] = {"square", "huber", "cauchy"};
 constexpr ChoiceNames choice_names(Loss) { return kLossNames; }
 
-/// The part of the data that cross-validation leaves out of each fit.
+/// The part of the data that each fit of a cross-validation leaves out.
 enum class FoldKind {
   trial,      ///< One trial.
-  condition,  ///< All trials of one condition (TrialData::condition; a trial without one is its
-              ///< own).
-  block,  ///< A fifth of every trial, with half a second on either side that serves neither side.
+  condition,  ///< All trials of one condition (TrialData::condition); a trial without one is its
+              ///< own condition.
+  block,  ///< A fifth of every trial, with half a second on either side that is neither fitted nor
+          ///< tested.
 };
 inline constexpr std::string_view kFoldNames[] = {"trial", "condition", "block"};
 constexpr ChoiceNames choice_names(FoldKind) { return kFoldNames; }
 
-/// The ways to find the parameters.
+/// The methods of identification.
 enum class Method {
   paper,   ///< Each branch alone, as published.
   force,   ///< Each muscle against its own force.
@@ -55,7 +56,7 @@ enum class Method {
 inline constexpr std::string_view kMethodNames[] = {"paper", "force", "torque"};
 constexpr ChoiceNames choice_names(Method) { return kMethodNames; }
 
-/// The rule by which method `torque` finds numbers, intervals and verdicts.
+/// The rule by which method `torque` computes numbers, intervals and verdicts.
 enum class EstimatorKind {
   least_squares,  ///< Weighted and corrected for the errors of the EMG (estimator.h).
   posterior,      ///< One posterior (posterior/posterior.h).
@@ -63,12 +64,12 @@ enum class EstimatorKind {
 inline constexpr std::string_view kEstimatorNames[] = {"least_squares", "posterior"};
 constexpr ChoiceNames choice_names(EstimatorKind) { return kEstimatorNames; }
 
-/// Intervals beside those of the sandwich estimator.
+/// Intervals in addition to those of the sandwich estimator.
 struct IntervalOptions {
-  int bootstrap = 0;               ///< Replicates; 0: none.
-  double bootstrap_block_s = 0.0;  ///< Blocks of this length [s]; 0: whole trials if there are at
-                                   ///< least 8, else 2 s.
-  bool profile = false;            ///< Profile likelihood of every parameter.
+  int bootstrap = 0;  ///< Replicates; 0: none.
+  double bootstrap_block_s =
+      0.0;               ///< Block length [s]; 0: whole trials if there are at least 8, else 2 s.
+  bool profile = false;  ///< Profile likelihood of every parameter.
   std::uint64_t seed = 1;
 };
 
@@ -76,9 +77,10 @@ class DriveMemory;  // posterior/drive.h
 
 /// Options of methods `torque` and `force`.
 struct EstimatorOptions {
-  std::vector<std::string> muscles;  ///< To identify; the others keep their start. Empty: all.
+  std::vector<std::string>
+      muscles;  ///< Muscles to identify; the others keep their start. Empty: all.
   bool priors = true;
-  std::optional<double> delay_s;  ///< Held at this; empty: estimated, with a prior.
+  std::optional<double> delay_s;  ///< Fixed delay; empty: estimated, with a prior.
   double delay_prior_mean_s = beliefs::kEmgDelay.value;
   double delay_prior_sd_s = beliefs::kEmgDelay.sd;
   double delay_limit_s = 0.15;
@@ -86,52 +88,54 @@ struct EstimatorOptions {
   /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:
   /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.
   std::map<std::string, double> gain_prior_sd;
-  std::map<std::string, double> gain_prior_mean;  ///< Instead of 1.
-  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz),
-  /// which says how noisy an envelope is: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off
-  /// (two passes, -3 dB). Where known for every channel, c_a is found about it (ln 0.3), else from
-  /// the residuals alone.
+  std::map<std::string, double> gain_prior_mean;  ///< In place of 1.
+  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz). It
+  /// determines an envelope's noise: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off (two
+  /// passes, -3 dB). If known for every channel, c_a is estimated about this value (ln 0.3), else
+  /// from the residuals alone.
   std::map<std::string, double> emg_bandwidth_hz;
-  /// Resting level of each channel over the level that counts as 1: the noise of the electrode,
-  /// whose power was taken from the envelope's. Its spread is still there, and makes that of a
-  /// small envelope u larger than in proportion to u, by 1 + (rest / u)^2.
+  /// Resting level of each channel over the level that counts as 1: the electrode's noise, whose
+  /// power is subtracted from the envelope's. Its spread remains and enlarges the relative spread
+  /// of a small envelope u by the factor 1 + (rest / u)^2.
   std::map<std::string, double> emg_rest;
-  double envelope_cutoff_hz = 6.0;  ///< Of the smoothing of the rectified EMG.
-  /// Samples are thinned to at most this. EMG and motion hold 6 Hz, but a power of the envelope
-  /// reaches further, and at 12 Hz folds to where lags and delay are told apart.
+  double envelope_cutoff_hz = 6.0;  ///< Cut-off of the rectified EMG's smoothing.
+  /// Highest rate after thinning. EMG and motion reach 6 Hz, but a power of the envelope reaches
+  /// further, and at 12 Hz folds to frequencies that tell lags and delay apart.
   double max_rate_hz = 20.0;
-  /// Both sides of the residual are low-passed here (two passes, -3 dB). T^ is linear in the
-  /// envelope, whose noise reaches further up than what tells muscles apart: what is cut off would
-  /// only pull F_max towards zero (errors in the regressors). Empty: not at all.
+  /// Low-pass of both sides of the residual (two passes, -3 dB). T^ is linear in the envelope,
+  /// whose noise reaches higher frequencies than the differences between muscles do. The
+  /// frequencies above the cut-off would only pull F_max towards zero (errors in the regressors).
+  /// Empty: no low-pass.
   std::optional<double> residual_cutoff_hz = 1.5;
-  bool weights = true;      ///< Heteroscedastic weights and the effective number of samples; false:
-                            ///< plain least squares.
-  bool model_error = true;  ///< Widen the intervals by the systematic error that the residuals
-                            ///< show; needs `weights`. See discrepancy.h.
-  bool correct_attenuation = true;   ///< Take the errors of the EMG as errors of a regressor; needs
-                                     ///< `weights`. See estimator.h.
-  double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample ...
-  double angle_rate_sd_radps = 0.0;  ///< ... and of its rate.
+  bool weights = true;  ///< Heteroscedastic weights and effective number of samples; false: plain
+                        ///< least squares.
+  bool model_error = true;  ///< Widens the intervals by the systematic error in the residuals
+                            ///< (discrepancy.h); needs `weights`.
+  bool correct_attenuation =
+      true;  ///< Treats the EMG's errors as errors of a regressor (estimator.h); needs `weights`.
+  double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample.
+  double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
   Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
-  EmgLag lag = EmgLag::delay;  ///< How a muscle follows its EMG.
-  bool choose_lag = false;     ///< Method `torque`: `delay` or `shared`, whichever the data prefer.
+  EmgLag lag = EmgLag::delay;  ///< The law by which a muscle follows its EMG.
+  bool choose_lag =
+      false;  ///< Method `torque`: takes `delay` or `shared`, whichever fits the data better.
   bool measured_is_force = false;  ///< The fit is to the force of one muscle, not to a torque.
   bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
-  int passes = 4;                  ///< Of finding the noise and weighting by it.
-  int starts = 3;                  ///< The given start and moved ones; the best is kept.
-  int multistart = 0;              ///< Above 1: instead of these, the given start and Sobol points
-                                   ///< (start_box.h), and IdentificationResult::basins.
-  bool from_mvc = true;            ///< For the verdicts.
-  bool predictions = true;         ///< Fill IdentificationResult::trials.
+  int passes = 4;                  ///< Rounds of estimating the noise and weighting by it.
+  int starts = 3;                  ///< The given start and moved ones; the best result is kept.
+  int multistart = 0;       ///< Above 1: in place of `starts`, the given start and Sobol points
+                            ///< (start_box.h); fills IdentificationResult::basins.
+  bool from_mvc = true;     ///< Activation 1 is a maximal effort; verdicts use this.
+  bool predictions = true;  ///< Fills IdentificationResult::trials.
   IntervalOptions intervals;
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
-  UnseenSpreads unseen;     ///< Of the estimator `posterior`.
-  int posterior_draws = 0;  ///< By Hamiltonian Monte Carlo; 0: of an approximation.
-  bool marginals = true;    ///< The approximation has the skewness of each unknown.
-  std::shared_ptr<DriveMemory> drives;  ///< Shared by fits of one recording; empty: none.
+  UnseenSpreads unseen;     ///< Used by the estimator `posterior`.
+  int posterior_draws = 0;  ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
+  bool marginals = true;    ///< The approximation includes the skewness of each unknown.
+  std::shared_ptr<DriveMemory> drives;  ///< Drives that fits of one recording share.
 };
 
 }  // namespace myoid::identification

@@ -14,10 +14,11 @@ namespace myoid::identification {
 /// The kind of owner of a parameter.
 enum class Scope { muscle, channel, joint };
 
-/// Unknown of the force-velocity relation from which V_sh V_shl follows; no MuscleValues entry.
+/// Index of the unknown of the force-velocity relation from which V_sh V_shl follows; no
+/// MuscleValues entry.
 inline constexpr int kSlopeRatio = kMuscleFieldCount;
 
-/// Numbers of an EMG channel.
+/// Indices of an EMG channel's numbers.
 enum ChannelField : int {
   kDelay,
   kGain,
@@ -30,13 +31,13 @@ enum ChannelField : int {
 };
 using ChannelValues = std::array<double, kChannelFieldCount>;
 
-/// Numbers of a joint's own torque, which is subtracted from the muscles' torque:
+/// Indices of the numbers of a joint's own torque, which is subtracted from the muscles' torque:
 ///   T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset
 enum JointField : int { kViscosity, kInertia, kStiffness, kOffset, kJointFieldCount };
 using JointValues = std::array<double, kJointFieldCount>;
 
-/// A number that can be identified, with name, unit and bounds. `parameter_fields` is the table of
-/// all numbers.
+/// A number that can be identified, with name, unit and bounds. `parameter_fields` returns the
+/// table of all numbers.
 struct ParameterField {
   std::string_view name;
   Scope scope = Scope::muscle;
@@ -47,17 +48,17 @@ struct ParameterField {
   /// Spread of the usual prior about the start: of ln(value) if logarithmic; 0: none.
   double prior_sd = 0.0;
   std::string_view meaning;
-  /// Most people's value is near 0: an error relative to the value says little.
+  /// Most people's value is near 0, so an error relative to the value says little.
   bool zero_by_nature = false;
 };
 [[nodiscard]] std::span<const ParameterField> parameter_fields();
-/// The row of this name; throws InvalidInput listing the names there are.
+/// Returns the row of this name; throws InvalidInput with the list of names if there is none.
 [[nodiscard]] const ParameterField& parameter_field(std::string_view name);
 
-/// ParameterField::zero_by_nature of this name; false of a name that is none.
+/// Returns ParameterField::zero_by_nature of this name; false for an unknown name.
 [[nodiscard]] bool zero_by_nature(std::string_view parameter);
 
-/// Returns true for a time constant of equation (1). Such a lag acts only with `dynamics`.
+/// Returns true for a time constant of equation (1), which acts only with `dynamics`.
 [[nodiscard]] bool is_lag(std::string_view parameter);
 
 /// All numbers of the model.

@@ -21,9 +21,10 @@ bool holds(const muscle::Range& range, double value) {
   return value >= range.lower && value <= range.upper;
 }
 
-/// Bounds of l_sh in a fit with priors: the range of real muscles relative to the starting optimal
-/// fiber length. A recording that says little draws the curve together to a narrow peak at its few
-/// lengths, and l0 with it, where no interval holds. A start outside the range keeps `otherwise`.
+/// Returns the bounds of l_sh in a fit with priors: the range of real muscles relative to the
+/// starting optimal fiber length. With little information a fit narrows the curve to a peak at the
+/// recording's few lengths and moves l0 there, where no interval is valid. A start outside the
+/// range keeps `otherwise`.
 muscle::Range width_bounds(const muscle::HillParameters<double>& start,
                            const muscle::Range& otherwise) {
   const double l0_m = start.optimal_fiber_length_m;
@@ -37,7 +38,7 @@ void bound(ParameterSlot& slot, const muscle::Range& given) {
   slot.bounds_are_given = true;
 }
 
-/// Widens the usual bounds to the field's where they do not reach a value that the study states.
+/// Widens the usual bounds to the field's bounds if a value of the study lies outside.
 void make_room(ParameterSlot& slot, double stated) {
   if (holds(slot.usual, stated)) return;
   slot.usual = slot.field->bounds;
@@ -48,7 +49,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The slope ratio of a muscle's start by which its product follows; 0: the product stands alone.
+/// Returns the slope ratio at a muscle's start that determines its product; 0: the product is free.
 double starting_slope_ratio(const MuscleSetup& setup, const EstimatorOptions& options) {
   if (options.eccentric == Eccentric::smooth) return 1.0;
   const bool by_ratio = options.eccentric == Eccentric::slope_ratio ||
@@ -90,7 +91,8 @@ void decide_muscle(ParameterSlot& slot,
   slot.prior_is_given = contains(setup.given_priors, name);
 }
 
-/// One delay for all channels, unless each has its own: the first channel's is the unknown.
+/// Decides the delay: one for all channels, with the first channel's as the unknown, unless each
+/// has its own.
 void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels) {
   slot.free = !options.delay_s;
   slot.bounds.upper = options.delay_limit_s;
@@ -101,7 +103,7 @@ void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::siz
     slot.tied.push_back(static_cast<int>(c));
 }
 
-/// A gain is an unknown where something is known of it beforehand.
+/// Makes a gain an unknown if it has a prior.
 void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std::string& channel) {
   const auto sd = options.gain_prior_sd.find(channel);
   if (!options.priors || sd == options.gain_prior_sd.end() || !(sd->second > 0.0)) return;
@@ -111,7 +113,7 @@ void decide_gain(ParameterSlot& slot, const EstimatorOptions& options, const std
   slot.prior = Prior{.mean = slot.value, .sd = sd->second, .logarithmic = true};
 }
 
-/// Positions of the owners that a rule names, of all where it names none.
+/// Returns the positions of the owners that a rule names; of all if it names none.
 std::vector<int> owners_of(const ParameterRule& rule, const std::vector<std::string>& names) {
   std::vector<int> owners;
   for (const std::string& wanted : rule.owners) {
@@ -127,7 +129,7 @@ std::vector<int> owners_of(const ParameterRule& rule, const std::vector<std::str
   return owners;
 }
 
-/// Makes the slope ratio of a muscle the number from which its product follows.
+/// Makes a muscle's slope ratio the number that determines its product.
 void use_slope_ratio(ParameterSlot& ratio, ParameterSlots& of_study) {
   if (!(ratio.value > 0.0)) ratio.value = 1.0;
   of_study.slope_ratio[static_cast<std::size_t>(ratio.owner)] = ratio.value;
@@ -138,7 +140,7 @@ void use_slope_ratio(ParameterSlot& ratio, ParameterSlots& of_study) {
   }
 }
 
-/// The rule's prior; for a number that the rule frees without one, the field's own spread.
+/// Sets the rule's prior; a number that the rule frees without one gets the field's own spread.
 void set_prior(const ParameterRule& rule, ParameterSlot& slot) {
   const ParameterField& field = *slot.field;
   if (rule.prior_sd || rule.prior_mean) {
@@ -226,7 +228,7 @@ void apply_rules(const std::vector<ParameterRule>& rules,
           first->tied.push_back(slot.owner);
         }
       } else if (rule.free.value_or(false) && !rule.owners.empty()) {
-        slot.follows = false;  // freed by name: an unknown of its own
+        slot.follows = false;  // the rule names this owner, which gets an unknown of its own
         for (ParameterSlot& other : of_study.slots) {
           if (other.field == slot.field) std::erase(other.tied, slot.owner);
         }

@@ -10,20 +10,21 @@
 
 namespace myoid::identification {
 
-/// One number of a study with the decisions about it: free or held, value, bounds, prior. All
-/// figures are in the parameter's unit. `Unknown` is made of a slot that is free.
+/// One number of a study and its decisions: free or held, value, bounds, prior. All values are in
+/// the parameter's unit. Each free slot becomes an `Unknown`.
 struct ParameterSlot {
   const ParameterField* field = nullptr;
   int owner = 0;
   bool free = false;
   double value = 0.0;
-  bool start_is_given = false;  ///< By a rule; otherwise an unknown starts at its prior's mean.
-  muscle::Range usual;          ///< Bounds unless the study gives others.
+  bool start_is_given =
+      false;  ///< A rule gives the start; otherwise an unknown starts at its prior's mean.
+  muscle::Range usual;  ///< Bounds unless the study gives others.
   muscle::Range bounds;
-  bool bounds_are_given = false;  ///< By the study.
+  bool bounds_are_given = false;  ///< The study gives the bounds.
   std::optional<Prior> prior;
-  bool prior_is_given = false;  ///< By the study, in place of the literature's.
-  std::vector<int> tied;        ///< Owners whose numbers this one moves too; empty: none.
+  bool prior_is_given = false;  ///< The study gives the prior, in place of the literature's.
+  std::vector<int> tied;        ///< Owners whose numbers this slot moves too; empty: none.
   bool follows = false;         ///< Another owner's unknown moves it.
 };
 
@@ -33,13 +34,13 @@ struct OwnerNames {
   [[nodiscard]] const std::vector<std::string>& of(Scope scope) const;
 };
 
-/// The slots of every number of a study: field by field, owner by owner.
+/// The slots of all numbers of a study, field by field, owner by owner.
 struct ParameterSlots {
   std::vector<ParameterSlot> slots;
   std::vector<double> slope_ratio;  ///< Per muscle; 0: the product is the parameter.
 };
 
-/// Decides every number by the options, the muscles' set-ups and `values`, the starting values.
+/// Decides every number by the options, the muscles' set-ups and the starting `values`.
 [[nodiscard]] ParameterSlots default_slots(const StudyData& data,
                                            const EstimatorOptions& options,
                                            const ModelValues& values,

@@ -25,7 +25,7 @@ void check_start(const ParameterSlot& slot, const std::string& owner) {
     throw InvalidInput(fmt::format("{} of {} starts at {}; give it a positive start to identify it",
                                    field.name, owner, slot.value));
   }
-  // Given bounds may be wider than the field's: a rat's muscle is smaller.
+  // Given bounds may be wider than the field's, for example for a rat's muscle.
   const double least = std::min(field.bounds.lower, slot.bounds.lower);
   const double most = std::max(field.bounds.upper, slot.bounds.upper);
   if (slot.value < least || slot.value > most) {
@@ -34,7 +34,7 @@ void check_start(const ParameterSlot& slot, const std::string& owner) {
   }
 }
 
-/// The prior in the solver's scale.
+/// Returns the prior in the solver's scale.
 Prior scaled_prior(const ParameterField& field, const Prior& prior) {
   const double sd = prior.logarithmic == field.logarithmic ? prior.sd
                     : field.logarithmic                    ? prior.sd / prior.mean
@@ -67,7 +67,7 @@ Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool pri
   return p;
 }
 
-/// The muscles' slots, muscle by muscle, then the others.
+/// Returns the muscles' slots, muscle by muscle, and then the others.
 std::vector<const ParameterSlot*> in_order(const std::vector<ParameterSlot>& slots,
                                            std::size_t muscles) {
   std::vector<const ParameterSlot*> order;
@@ -89,7 +89,7 @@ double value_of(const std::vector<ParameterSlot>& slots, const ParameterField& f
   return 0.0;
 }
 
-/// The unknowns of the slots that are free, in the solver's order.
+/// Returns the unknowns of the free slots in the solver's order.
 std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots,
                                  const OwnerNames& owners,
                                  bool priors) {
@@ -115,7 +115,7 @@ std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots,
 
 using Chains = std::vector<ParameterMap::Chain>;
 
-/// Variables that move a muscle's number, each with its slope.
+/// Returns the variables that move a muscle's number, each with its slope.
 std::vector<std::pair<Eigen::Index, double>> slopes_of(const Chains& chains,
                                                        int muscle,
                                                        int field) {
@@ -146,7 +146,7 @@ void scale_with_length(MuscleValues& m, int owner, double held_length_m, Chains*
   }
 }
 
-/// A slope ratio S, and the variable that it is; -1: held.
+/// A slope ratio S and the index of its variable; -1: held.
 struct SlopeRatio {
   double value = 0.0;
   Eigen::Index variable = -1;
@@ -157,7 +157,7 @@ void set_product(MuscleValues& m, int owner, const SlopeRatio& ratio, Chains* ch
   const double vsh = m[kCurvature];
   const double rise = m[kPlateau] - 1.0;
   m[kProduct] = muscle::curvature_product_from_slope_ratio(ratio.value, vsh, m[kPlateau]);
-  // A plateau at 1 would make the product 0, and 0/0 of the law at v = 0.
+  // A plateau at 1 would make the product 0, and the law 0/0 at v = 0.
   m[kProduct] = std::max(m[kProduct], 1e-12);
   if (chains == nullptr) return;
   for (const auto& [variable, slope] : slopes_of(*chains, owner, kCurvature)) {

@@ -12,9 +12,8 @@
 
 namespace myoid::identification {
 
-/// One unknown of a fit: a number of one owner, or of several that are tied. Start, bounds and
-/// prior are in the solver's scale: natural logarithms where the field is logarithmic, SI units
-/// otherwise.
+/// One unknown of a fit: a number of one owner, or of several tied owners. Start, bounds and prior
+/// are in the solver's scale: natural logarithms for logarithmic fields, SI units otherwise.
 struct Unknown {
   const ParameterField* field = nullptr;
   std::string owner;  ///< Muscle, channel or joint; tied owners joined by '+'; "subject" for all.
@@ -27,8 +26,8 @@ struct Unknown {
   double start = 0.0;
   muscle::Range bounds;
   Prior prior;                  ///< Standard deviation 0: no prior.
-  bool prior_is_given = false;  ///< By the study, in place of the literature's.
-  bool lower_is_given = false;  ///< The study's bound, tighter than the usual one.
+  bool prior_is_given = false;  ///< The study gives the prior, in place of the literature's.
+  bool lower_is_given = false;  ///< The study's bound is tighter than the usual one.
   bool upper_is_given = false;
 
   [[nodiscard]] double to_value(double z) const;
@@ -36,14 +35,14 @@ struct Unknown {
     return field->scope == scope && field->field == number;
   }
   [[nodiscard]] bool acts_on(int target_owner) const;
-  /// 1 / sd² of the prior; 0 without one.
+  /// Returns 1 / sd² of the prior; 0 without a prior.
   [[nodiscard]] double prior_precision() const;
 };
 
 /// Maps the solver's vector to the numbers of the model.
 class ParameterMap {
  public:
-  /// Throws InvalidInput for names that refer to nothing and starts that cannot be.
+  /// Throws InvalidInput for unknown names and impossible starts.
   ParameterMap(const StudyData& data, const EstimatorOptions& options);
 
   [[nodiscard]] const std::vector<Unknown>& free() const { return free_; }
@@ -56,7 +55,7 @@ class ParameterMap {
   }
   [[nodiscard]] double longest_delay_s() const { return longest_delay_s_; }
 
-  /// d value / d z of a number of the model.
+  /// The derivative d value / d z of a number of the model.
   struct Chain {
     Scope scope = Scope::muscle;
     int owner = 0;
@@ -66,11 +65,11 @@ class ParameterMap {
   };
   [[nodiscard]] ModelValues values(const Eigen::VectorXd& z,
                                    std::vector<Chain>* chains = nullptr) const;
-  /// At the start, nothing identified.
+  /// Returns the values at the start, before identification.
   [[nodiscard]] const ModelValues& held() const { return held_; }
 
  private:
-  /// Takes over the values of the slots as held values and slope ratios.
+  /// Takes held values and slope ratios from the slots.
   void hold(const std::vector<ParameterSlot>& slots);
 
   std::vector<Unknown> free_;

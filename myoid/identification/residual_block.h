@@ -10,19 +10,19 @@
 
 namespace myoid::identification {
 
-/// A joint of a block; its n rows of the residual begin at `first`.
+/// A joint of a block. Its n rows of the residual begin at `first`.
 struct ResidualJoint {
   int joint = 0;
-  std::size_t piece = 0;  ///< In ResidualModel::pieces().
+  std::size_t piece = 0;  ///< Index in ResidualModel::pieces().
   Eigen::Index first = 0;
   Eigen::MatrixXd arm_m;       ///< n x m
-  Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if not known.
+  Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if unknown.
   Eigen::VectorXd resting_nm;  ///< n, or empty: none.
-  /// Change of the joint's own torque with a field, over the slope of its chain; n.
+  /// Returns the derivative of the joint's own torque by a field, over its chain's slope; n.
   [[nodiscard]] Eigen::VectorXd by_field(int field, Eigen::Index n) const;
 };
 
-/// A run of samples of one calibration trial without a hole, thinned: n samples, m muscles.
+/// A gapless, thinned run of samples of one calibration trial: n samples, m muscles.
 struct ResidualBlock {
   int trial = 0;
   Eigen::VectorXd time_s;

@@ -9,12 +9,12 @@
 namespace myoid::identification {
 namespace {
 
-/// Samples times muscles below which handing blocks to other threads costs more than it saves.
+/// Samples times muscles below which other threads cost more time than they save.
 constexpr Eigen::Index kWorthSharing = 8000;
 
 }  // namespace
 
-/// d value / d z of the model's numbers, by whose they are.
+/// Derivatives d value / d z of the model's numbers, grouped by owner.
 struct ResidualModel::Chains {
   std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
 };
@@ -46,7 +46,7 @@ void ResidualModel::for_each_block(const std::function<void(std::size_t)>& one) 
 const std::vector<MuscleRows>& ResidualModel::evaluate_muscles(const Block& block,
                                                                const ModelValues& values,
                                                                const Chains& chains) const {
-  // Allocating the rows anew would cost more than filling them.
+  // Keeps the rows: a new allocation costs more than filling them.
   thread_local std::vector<MuscleRows> rows;
   rows.resize(values.muscles.size());
   std::vector<std::vector<Activation>> activations;
@@ -78,8 +78,8 @@ void ResidualModel::add_torques(const Block& block,
       const auto arm = joint.arm_m.col(static_cast<Eigen::Index>(k));
       const Eigen::Index c = map_.channel_of_muscle(k);
       torque += arm.cwiseProduct(muscles[k].force_n);
-      // Effect of a relative error of the envelope on the torque; for a force proportional to the
-      // activation the effect is the torque itself.
+      // The change of torque by a relative error of the envelope. For a force proportional to the
+      // activation, this change is the torque itself.
       channel_torque.row(c).segment(joint.first, n) +=
           block.noise_gain[c] * arm.cwiseProduct(muscles[k].by_envelope_n).transpose();
     }
@@ -127,7 +127,7 @@ void ResidualModel::add_motion_variance(const Block& block,
   const Eigen::Index n = block.time_s.size();
   for (const ResidualJoint& joint : block.joints) {
     for (std::size_t k = 0; k < muscles.size(); ++k) {
-      // dq moves every length by -r dq.
+      // An angle error dq changes every length by -r dq.
       const Eigen::ArrayXd squared = joint.arm_m.col(static_cast<Eigen::Index>(k)).array().square();
       out.motion_variance.segment(joint.first, n).array() +=
           (squared * muscles[k].by_length.array() * angle_sd_rad_).square() +
@@ -148,7 +148,7 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
   }
   out.channel_torque.setZero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size());
   if (depth == Depth::noise) out.motion_variance.setZero(measured_.size());
-  // Every block writes rows of its own: the result does not depend on the number of threads.
+  // Every block writes its own rows, so the result does not depend on the number of threads.
   for_each_block([&](std::size_t b) {
     const Block& block = blocks_[b];
     const std::vector<MuscleRows>& muscles = evaluate_muscles(block, values, chains);

@@ -13,7 +13,7 @@
 namespace myoid::identification {
 namespace {
 
-/// noise_gain of every channel over the block, with the usual delay.
+/// Returns noise_gain of every channel over the block, with the usual delay.
 Eigen::VectorXd noise_gains(const ResidualBlock& block,
                             const std::vector<std::string>& channels,
                             const EstimatorOptions& options) {
@@ -21,7 +21,7 @@ Eigen::VectorXd noise_gains(const ResidualBlock& block,
   const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto rest = options.emg_rest.find(channels[c]);
-    // Nobody knows how much noise was taken from an envelope that was not made here.
+    // The noise subtracted from an envelope that another program computed is unknown.
     const auto bandwidth = options.emg_bandwidth_hz.find(channels[c]);
     const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
     gains[static_cast<Eigen::Index>(c)] =
@@ -33,8 +33,8 @@ Eigen::VectorXd noise_gains(const ResidualBlock& block,
   return gains;
 }
 
-/// Throws InvalidInput if a joint's own viscosity, inertia or stiffness is unknown and its motion
-/// is not given.
+/// Throws InvalidInput if a joint's own viscosity, inertia or stiffness is an unknown and its
+/// motion is not given.
 void check_motion(const ResidualBlock& block, const ParameterMap& map, const std::string& trial) {
   for (const Unknown& p : map.free()) {
     if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
@@ -95,14 +95,14 @@ void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorO
   const double interval = span / static_cast<double>(all - 1);
   const auto stride = std::max<Eigen::Index>(
       1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
-  // The ends of a trial are left out: splines and filters are unreliable there, and EMG must reach
-  // back by the delay.
+  // Leaves out the ends of a trial, where splines and filters are unreliable and the delay reaches
+  // beyond the recorded EMG.
   const double edge_s = std::min(0.1, 0.02 * span);
   const Eigen::VectorXd& clock = trial.activation.time_s();
   const double reach_s = std::min(map_.longest_delay_s(), 0.1 * span);
   std::vector<bool> included(static_cast<std::size_t>(all), false);
   for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
-  // One block for every run of samples without a hole: no filter reaches across.
+  // One block for every gapless run of samples, so that no filter reaches across a gap.
   std::vector<std::vector<Eigen::Index>> runs(1);
   for (Eigen::Index i = 0; i < all; i += stride) {
     const double t = trial.time_s[i];
@@ -121,7 +121,7 @@ void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorO
   }
 }
 
-/// One joint of a trial as it was recorded: all samples.
+/// One joint of a trial as recorded, with all samples.
 struct ResidualModel::JointRecording {
   const std::string& name;
   const Eigen::VectorXd& torque_nm;

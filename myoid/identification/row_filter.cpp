@@ -9,7 +9,7 @@ namespace {
 constexpr Eigen::Index kTogether = 8;
 using Lane = Eigen::Array<double, kTogether, 1>;
 
-/// Samples after which the slowest mode has died to 1e-4.
+/// Returns the number of samples after which the slowest mode has decayed to 1e-4.
 Eigen::Index memory_of(const std::vector<math::SecondOrderSection>& sections) {
   double radius = 0.0;
   for (const math::SecondOrderSection& s : sections) {
@@ -22,7 +22,7 @@ Eigen::Index memory_of(const std::vector<math::SecondOrderSection>& sections) {
       std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9))));
 }
 
-/// State of a section that has always been given 1.
+/// The state of a section after constant input 1.
 struct SteadyState {
   explicit SteadyState(const math::SecondOrderSection& s) {
     const double gain = (s.b0 + s.b1 + s.b2) / (1.0 + s.a1 + s.a2);
@@ -32,7 +32,7 @@ struct SteadyState {
   double z1 = 0.0, z2 = 0.0;
 };
 
-/// One section over the columns of y, from one end to the other; begins in the steady state of the
+/// Runs one section over the columns of y from one end to the other, from the steady state of the
 /// first sample.
 void run(const math::SecondOrderSection& s,
          Eigen::Matrix<double, kTogether, Eigen::Dynamic>& y,
@@ -51,7 +51,7 @@ void run(const math::SecondOrderSection& s,
   }
 }
 
-/// The transpose of `run` for one signal: the recursion's derivatives, last step first.
+/// Applies the transpose of `run` to one signal: the recursion's derivatives, last step first.
 void run_transposed(const math::SecondOrderSection& s, Eigen::VectorXd& y, bool forwards) {
   const Eigen::Index begin = forwards ? 0 : y.size() - 1;
   const Eigen::Index step = forwards ? 1 : -1;

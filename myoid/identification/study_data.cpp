@@ -49,7 +49,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   for (MuscleSetup& setup : data.muscles) {
     if (std::find(muscles.begin(), muscles.end(), setup.name) == muscles.end()) continue;
     ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
-    // A model's own value may lie where no muscle of a person is: it is free about that.
+    // A model's own value may lie outside a person's range; the bounds then lie about this value.
     const double start = setup.start.max_shortening_speed_mps;
     if (!setup.bounds.contains("max_shortening_speed") &&
         (start < usual.lower || start > usual.upper)) {
@@ -57,8 +57,8 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
       rule.upper = 3.0 * start;
     }
     rules.push_back(std::move(rule));
-    // The literature's V_sh goes with the v_max of its own source, of which this one may be off by
-    // as much: its prior is as much wider, ln 0.39 instead of 0.3.
+    // The literature's V_sh belongs to its source's v_max. This v_max may differ by its own spread,
+    // so the prior of V_sh is wider: ln 0.39 instead of 0.3.
     const auto curvature = setup.priors.find("concentric_curvature");
     const auto speed = setup.priors.find("max_shortening_speed");
     if (curvature != setup.priors.end() && speed != setup.priors.end() &&

@@ -6,7 +6,7 @@
 
 namespace myoid::identification {
 
-/// These samples of a trial, in rising order, as a trial of their own with the whole EMG.
+/// Returns these samples of a trial, in rising order, as a trial of their own with the whole EMG.
 [[nodiscard]] TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows);
 
 }  // namespace myoid::identification

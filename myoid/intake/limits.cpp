@@ -31,6 +31,8 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
   rows.push_back({"raw EMG that is called an envelope or an activation", "error",
                   fmt::format("a channel goes below zero by more than {:g} % of its maximum",
                               percent(l.below_zero))});
+  rows.push_back({"slow raw EMG", "warning",
+                  fmt::format("fewer than {:g} samples a second", l.slowest_raw_emg_hz)});
   rows.push_back({"EMG beyond any electrode", "error",
                   fmt::format("beyond {:g} V, which is too large even for a converter's counts; "
                               "beyond 10 V a fault of "

@@ -11,8 +11,9 @@ struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
   // EMG.
-  double no_converter_v = 1e8;  ///< More than the counts of a converter of 24 bits.
-  double below_zero = 0.2;      ///< Share of the maximum by which a filter may swing below zero.
+  double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
+  double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
+  double below_zero = 0.2;  ///< Share of the maximum by which a filter may swing below zero.
   double largest_activation = 2.0;  ///< A larger activation is in percent, unless it is a spike.
   double spike_s = 0.1;             ///< A spike is shorter than this.
   double flat_activation = 0.02;    ///< No muscle is active below this activation.

@@ -15,13 +15,13 @@
 namespace myoid::identification {
 namespace {
 
-/// A size that an error may have, and how probable that is beforehand.
+/// A possible size of an error, with its prior probability.
 struct PossibleSize {
   double size = 0.0, probability = 1.0;
 };
 
-/// 0 in one case of two, else half normal 0.1, on a grid even in the logarithm; 0 for certain where
-/// there is no error to have a size.
+/// Returns the prior: 0 in one case of two, else half normal 0.1 on a logarithmic grid. Without any
+/// errors the size is 0.
 std::vector<PossibleSize> possible_sizes(bool any_errors) {
   std::vector<PossibleSize> sizes{{0.0, 1.0}};
   if (!any_errors) return sizes;
@@ -43,8 +43,8 @@ Eigen::VectorXd sizes_of(const std::vector<bool>& of_muscle, double muscle, doub
   return e;
 }
 
-/// -2 log likelihood of h ~ N(0, C + C E^2 C), up to a constant, with sizes e on the diagonal of E:
-/// log |I + E C E| - h'E (I + E C E)^-1 E h.
+/// Returns -2 log likelihood of h ~ N(0, C + C E^2 C) up to a constant, with sizes e on the
+/// diagonal of E: log |I + E C E| - h'E (I + E C E)^-1 E h.
 double misfit(const Eigen::MatrixXd& c, const Eigen::VectorXd& h, const Eigen::VectorXd& e) {
   Eigen::MatrixXd m = e.asDiagonal() * c * e.asDiagonal();
   m.diagonal().array() += 1.0;
@@ -54,7 +54,7 @@ double misfit(const Eigen::MatrixXd& c, const Eigen::VectorXd& h, const Eigen::V
   return 2.0 * factor.matrixLLT().diagonal().array().log().sum() - eh.dot(factor.solve(eh));
 }
 
-/// Pairs of sizes with a posterior probability above 1e-4.
+/// Returns the pairs of sizes with a posterior probability above 1e-4.
 std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
                                                 const Eigen::VectorXd& h,
                                                 const std::vector<bool>& of_muscle) {
@@ -89,8 +89,8 @@ bool on_bound(const Unknown& p, double z) {
 }
 
 /// Gradient of the prediction (p x n) and response of the estimates (p x p, A^-1), given the
-/// parameters on their bounds: these have not followed the data, and their part of an error is in
-/// the residual.
+/// parameters on their bounds. These do not follow the data, so their part of an error stays in the
+/// residual.
 struct Followed {
   Eigen::MatrixXd gradient, response;
 };
@@ -110,8 +110,8 @@ Followed given_bounds(const std::vector<Unknown>& free, const Eigen::VectorXd& z
   return of;
 }
 
-/// Mean of each shape's product with the residual that the noise of the EMG makes: it is in both.
-/// `root`: n, (nu W)^1/2.
+/// Returns the mean of each shape's product with the residual that the EMG's noise causes; the
+/// noise is in both factors. `root`: n, (nu W)^1/2.
 Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
                                   const Weighting& weighting,
                                   const ErrorShapes& shapes,
@@ -133,7 +133,7 @@ Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
   return mean;
 }
 
-/// A = J W J' + P with nothing taken out, invertible. `jacobian`: p x n, J W^1/2.
+/// Returns A = J W J' + P without subtraction, invertible. `jacobian`: p x n, J W^1/2.
 Eigen::MatrixXd whole_information(const std::vector<Unknown>& free,
                                   const Eigen::MatrixXd& jacobian) {
   Eigen::MatrixXd a = jacobian * jacobian.transpose();
@@ -144,7 +144,7 @@ Eigen::MatrixXd whole_information(const std::vector<Unknown>& free,
   return a;
 }
 
-/// Rows of `errors` that are not 0: combinations of shapes that are errors of the model.
+/// Returns the rows of `errors` that are not 0: combinations of shapes that are model errors.
 std::vector<Eigen::Index> rows_of_errors(const Eigen::MatrixXd& errors) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index b = 0; b < errors.rows(); ++b) {
@@ -165,8 +165,8 @@ double Discrepancy::reach(Eigen::Index j, double variance, double probability) c
     all += s.probability;
   }
   if (!(most > 0.0) || !std::isfinite(most)) return most;
-  // The pairs that were left out are shared among the rest. The probability within x is concave in
-  // x: Newton's steps from below come to the root from below.
+  // The remaining pairs share the probability of the pairs below 1e-4. The probability within x is
+  // concave in x, so Newton's steps from below stay below the root.
   double x =
       math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
   for (int count = 0; count < 60; ++count) {
@@ -201,7 +201,7 @@ Discrepancy discrepancy(const Estimator& estimator,
   Eigen::VectorXd along = every * residual;
   if (weighting.emg_variance.size() > 0)
     along += mean_by_emg_noise(estimator, weighting, shapes, at.channel_torque, root);
-  // Only errors are kept, in directions of unit weight: from here S stands for D S.
+  // Keeps the errors alone, in directions of unit weight: from here S stands for D S.
   const Eigen::MatrixXd errors = shapes.weight.asDiagonal() * shapes.contrast;
   const std::vector<Eigen::Index> kept = rows_of_errors(errors);
   const Eigen::MatrixXd s = errors(kept, Eigen::all) * every;

@@ -15,7 +15,7 @@ namespace myoid::identification {
 /// A column of parameters.csv, and the key of the same number in parameters.json.
 struct EstimateColumn {
   enum class Kind {
-    key,       ///< Says which number the row is about; no row is without it.
+    key,       ///< Identifies the row's number; every row has it.
     value,     ///< In both files.
     json,      ///< In parameters.json only.
     sentence,  ///< In both files; quoted in parameters.csv.
@@ -31,11 +31,11 @@ struct EstimateColumn {
   Kind kind = Kind::value;
 };
 
-/// The columns of every row, in the files' order. The intervals of the routes follow them.
+/// Returns the columns of every row, in the files' order. The intervals of the routes follow them.
 [[nodiscard]] std::span<const EstimateColumn> estimate_columns();
 
-/// Reads a row of parameters.json without the intervals of its routes. Empty where the estimate is
-/// no number. Throws nlohmann::json::exception where a key is missing.
+/// Reads a row of parameters.json without the intervals of its routes. Empty if the estimate is not
+/// a number. Throws nlohmann::json::exception if a key is missing.
 [[nodiscard]] std::optional<ParameterEstimate> estimate_of_json(const nlohmann::json& row);
 
 }  // namespace myoid::identification

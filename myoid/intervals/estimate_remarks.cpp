@@ -14,11 +14,11 @@
 namespace myoid::identification {
 namespace {
 
-/// Widths of two intervals that differ by more than this speak of different things.
+/// Ratio of widths above which two intervals contradict each other.
 constexpr double kDisagreement = 1.5;
-/// Spreads by chance that two widths may differ by: of a hundred pairs none is farther apart.
+/// Chance spreads by which two widths may differ; no pair of a hundred differs by more.
 constexpr double kDeviations = 3.0;
-/// Share of an identified number's allowed error that no verdict depends on.
+/// Share of an identified number's allowed error below which no verdict changes.
 constexpr double kNegligible = 0.1;
 
 double tolerance(const ParameterEstimate& e) {
@@ -87,10 +87,10 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
 
 namespace {
 
-/// Lengths [m], each with the time [s] that it lasts.
+/// Lengths [m], each with its duration [s].
 using LengthsInTime = std::vector<std::pair<double, double>>;
 
-/// From the shortest to the longest, without this much time at either end.
+/// Returns the range of lengths without this much time at either end.
 double span_but_for(double time_s, LengthsInTime lengths) {
   if (lengths.empty()) return 0.0;
   std::sort(lengths.begin(), lengths.end());
@@ -170,7 +170,7 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
     int count = 0;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const Unknown& p = free[j];
-      // A number that is tied between muscles belongs to none of them.
+      // A number that is tied between muscles belongs to no single muscle.
       if (p.field->scope != Scope::muscle || p.targets.size() != 1 || !(p.prior.sd > 0.0) ||
           p.targets.front().owner != static_cast<int>(k))
         continue;

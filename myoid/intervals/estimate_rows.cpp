@@ -14,10 +14,10 @@
 namespace myoid::identification {
 namespace {
 
-/// A smaller relative change of a value is not worth a remark.
+/// Relative change of a value below which no remark is made.
 constexpr double kSubstance = 0.05;
 
-/// One row, and the two facts about its uncertainty that its verdict needs besides.
+/// One row, with two facts about its uncertainty that its verdict needs.
 struct UnjudgedRow {
   ParameterEstimate estimate;
   std::string rests_on;       ///< VerdictContext::rests_on.
@@ -47,13 +47,13 @@ class RowMaker {
   [[nodiscard]] const Unknown& unknown(Eigen::Index at) const {
     return estimator_.free()[static_cast<std::size_t>(at)];
   }
-  /// The solver's variable of a muscle's number; empty where the number is held.
+  /// Returns the solver's variable of a muscle's number; empty for a held number.
   [[nodiscard]] std::optional<Eigen::Index> position(int field, int muscle) const;
   [[nodiscard]] bool plateau_is_flat(int muscle) const;
-  /// The force-length width leans on a bound that physiology sets, not the study.
+  /// Returns true if the force-length width is on a bound of physiology, not of the study.
   [[nodiscard]] bool width_leans(int muscle) const;
   [[nodiscard]] std::string owner_name(const Unknown& p, const Unknown::Target& target) const;
-  /// The trial without which the value would leave its own interval and change by more than
+  /// Returns the trial without which the value would leave its own interval and change by more than
   /// kSubstance; empty: none.
   [[nodiscard]] std::string rests_on(const RowScale& row,
                                      const ParameterEstimate& e,
@@ -62,7 +62,7 @@ class RowMaker {
   [[nodiscard]] bool determined(Eigen::Index at) const;
   [[nodiscard]] UnjudgedRow row_of_unknown(Eigen::Index at, const Unknown::Target& target) const;
   [[nodiscard]] UnjudgedRow row_of_product(std::size_t muscle) const;
-  /// The part of the context that concerns the muscle of the row.
+  /// Adds the facts about the row's muscle to the context.
   void add_muscle(VerdictContext& v, const Unknown& p, int owner) const;
   [[nodiscard]] VerdictContext context_of(const UnjudgedRow& row, Eigen::Index at, int owner) const;
   [[nodiscard]] ParameterEstimate judged(UnjudgedRow row, Eigen::Index at, int owner) const;
@@ -174,7 +174,7 @@ UnjudgedRow RowMaker::row_of_product(std::size_t muscle) const {
   e.parameter = "eccentric_curvature_product";
   e.initial = data_.muscles[muscle].start.eccentric_curvature_product;
   e.estimate = fit_.values.muscles[muscle][kProduct];
-  // Where V_ml leans on 1 no force rises in lengthening, and P can leave its physical bounds.
+  // With V_ml at 1 no force rises in lengthening, and P can leave its physical bounds.
   const muscle::Range physical = muscle::hill_field(e.parameter).bounds;
   const double inside = std::clamp(e.estimate, physical.lower, physical.upper);
   e.at_bound = inside != e.estimate;

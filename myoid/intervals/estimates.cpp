@@ -34,7 +34,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
   return least;
 }
 
-/// Every route to the intervals that the options ask for.
+/// Computes the intervals by every route that the options ask for.
 Intervals all_intervals(const Estimator& estimator,
                         const Estimator::Solution& solution,
                         const StudyData& data) {
@@ -50,7 +50,7 @@ Intervals all_intervals(const Estimator& estimator,
   return intervals;
 }
 
-/// The figures of a fit as a whole: its end, samples, noise, values and covariance.
+/// Returns the facts about a fit as a whole: its end, samples, noise, values and covariance.
 IdentificationResult summary_of(const Estimator& estimator,
                                 const Estimator::Solution& solution,
                                 const StudyData& data,
@@ -91,7 +91,7 @@ IdentificationResult summary_of(const Estimator& estimator,
   return result;
 }
 
-/// Sets of parameters that the data hardly tell apart, as sentences.
+/// Describes sets of parameters that the data hardly separate, one sentence per set.
 std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free,
                                              const Eigen::MatrixXd& information) {
   const auto is_gain = [&](Eigen::Index j) {
@@ -99,7 +99,7 @@ std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free,
   };
   std::vector<std::string> sentences;
   for (const CollinearSet& set : collinear_sets(information)) {
-    // A gain is a nuisance that is known to go with F_max.
+    // A gain is a nuisance and always collinear with F_max.
     if (std::any_of(set.parameters.begin(), set.parameters.end(), is_gain)) continue;
     std::vector<std::string> names;
     for (const Eigen::Index j : set.parameters)
@@ -110,7 +110,7 @@ std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free,
   return sentences;
 }
 
-/// Directions that the data leave open, each as a sum of parameters.
+/// Returns the directions that the data leave open, each as a sum of parameters.
 std::vector<std::string> undetermined_sums(const std::vector<Unknown>& free,
                                            const Eigen::MatrixXd& directions) {
   std::vector<std::string> sums;
@@ -126,7 +126,7 @@ std::vector<std::string> undetermined_sums(const std::vector<Unknown>& free,
   return sums;
 }
 
-/// Reasons to doubt the fit as a whole.
+/// Returns reasons to doubt the fit as a whole.
 std::vector<std::string> warnings_of(const IdentificationResult& result,
                                      const EstimatorOptions& options,
                                      bool corrected) {

@@ -25,7 +25,7 @@ bool is_slack_of(const Unknown& p, int muscle) {
                      [&](const Unknown::Target& t) { return t.owner == muscle; });
 }
 
-/// Change of the fitted torques by a slack length that is held, n.
+/// Returns the derivative of the fitted torques by a held slack length, n.
 Eigen::RowVectorXd torque_by_slack(const Estimator& estimator,
                                    const Eigen::VectorXd& z,
                                    const StudyData& data,

@@ -10,7 +10,7 @@
 namespace myoid::identification {
 namespace {
 
-/// The sentence of this ground tells a distance from the prior.
+/// Returns true if the sentence of this ground states a distance from the prior.
 bool tells_distance(Ground ground) {
   return ground == Ground::unsure_and_far_from_prior || ground == Ground::contradicts_prior ||
          ground == Ground::moved_from_prior || ground == Ground::far_from_prior ||
@@ -41,7 +41,7 @@ double equivalent_deviations(double sum_of_squares, int count) {
   if (count < 1 || !(sum_of_squares > 0.0)) return 0.0;
   if (count == 1) return std::sqrt(sum_of_squares);
   const double beyond = math::chi_squared_tail(sum_of_squares, count);
-  // A tail too small for a number: one deviation of the same square is near enough.
+  // The tail underflows: one deviation of the same square is close enough.
   return beyond > 0.0 ? -math::normal_quantile(0.5 * beyond) : std::sqrt(sum_of_squares);
 }
 
@@ -54,7 +54,7 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   const bool told = e.verdict == Verdict::weak || e.verdict == Verdict::identified;
   const bool peak_of_none = no_muscle && told && e.parameter == "optimal_fiber_length";
   if (peak_of_none) {
-    // No muscle has this curve: the place of its peak says nothing, however narrow its interval.
+    // No muscle has this curve, so the place of its peak says nothing even with a narrow interval.
     e.verdict = Verdict::not_identifiable;
     e.reason = fmt::format(
         "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of "

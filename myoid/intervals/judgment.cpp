@@ -11,7 +11,8 @@
 namespace myoid::identification {
 namespace {
 
-/// The likely error behind a value outside physiology; found by simulation of each single error.
+/// Returns the likely error behind a value outside physiology, known from simulation of single
+/// errors.
 std::string diagnosis(const ParameterEstimate& e) {
   const std::string& p = e.parameter;
   if (p == "eccentric_plateau" && e.estimate < 1.0) {
@@ -50,7 +51,7 @@ std::string unit_text(Unit unit) {
   return unit == Unit::dimensionless ? "" : " " + std::string(symbol(unit));
 }
 
-/// Says in words how much the recording narrows the prior.
+/// Describes how much the recording narrows the prior.
 std::string narrowing(double shrinkage) {
   return shrinkage > VerdictRules{}.any_shrinkage
              ? fmt::format("the recording narrows it by only {:.0f} %", 100.0 * shrinkage)
@@ -59,12 +60,12 @@ std::string narrowing(double shrinkage) {
 
 using MaybeJudgment = std::optional<Judgment>;
 
-/// Standard deviation beforehand of a number that is 0 by nature; 0 for any other number.
+/// Returns the prior's standard deviation of a number that is 0 by nature; 0 for other numbers.
 double spread_of_nothing(const ParameterEstimate& e) {
   return zero_by_nature(e.parameter) ? e.prior_sd.value_or(0.0) : 0.0;
 }
 
-/// A number that is 0 by nature, and 0 on its bound.
+/// Returns true for a number that is 0 by nature and 0 on its bound.
 bool is_none(const ParameterEstimate& e) {
   const double prior_sd = spread_of_nothing(e);
   return e.at_bound && prior_sd > 0.0 && std::abs(e.estimate) <= 1e-6 * prior_sd;
@@ -74,7 +75,7 @@ bool unexplained(const VerdictContext& context, const VerdictRules& rules) {
   return context.r2 < rules.least_r2;
 }
 
-/// The fit gave no number, or no number that speaks of a muscle's length.
+/// Judges a fit that gave no number, or none that depends on a muscle's length.
 MaybeJudgment without_fit(const ParameterEstimate& e,
                           const VerdictContext& context,
                           const VerdictRules& rules) {
@@ -90,7 +91,7 @@ MaybeJudgment without_fit(const ParameterEstimate& e,
                   one_length_text(*context.length_span)};
 }
 
-/// The number, or another one of the same fit, lies where no muscle can be.
+/// Judges a number that, or whose companion in the fit, no muscle can have.
 MaybeJudgment without_muscle(const ParameterEstimate& e,
                              const VerdictContext& context,
                              const VerdictRules& rules) {
@@ -122,7 +123,7 @@ MaybeJudgment without_muscle(const ParameterEstimate& e,
           context.bad_company)};
 }
 
-/// The number leans on a bound.
+/// Judges a number on a bound.
 MaybeJudgment on_a_bound(const ParameterEstimate& e,
                          const VerdictContext& context,
                          const VerdictRules& rules) {
@@ -148,7 +149,7 @@ MaybeJudgment on_a_bound(const ParameterEstimate& e,
             "possible"};
 }
 
-/// Nothing in the recording depends on the number alone.
+/// Judges a number on which alone nothing in the recording depends.
 MaybeJudgment without_effect(const ParameterEstimate& e,
                              const VerdictContext& context,
                              const VerdictRules& rules) {
@@ -171,7 +172,7 @@ MaybeJudgment without_effect(const ParameterEstimate& e,
                   "without one this number has no effect"};
 }
 
-/// The number is known hardly better than beforehand.
+/// Judges a number that the recording hardly improves beyond its prior.
 MaybeJudgment mostly_prior(const ParameterEstimate& e,
                            const VerdictContext& context,
                            const VerdictRules& rules) {
@@ -183,8 +184,8 @@ MaybeJudgment mostly_prior(const ParameterEstimate& e,
         Ground::unsure_and_far_from_prior, Verdict::not_identifiable,
         fmt::format("{} and no surer than that: use neither before the cause is known", away)};
   }
-  // A fit moves a value by N(0, P - C) if recording and prior agree, P the prior's variance and C
-  // the posterior's. A much longer way is a contradiction between the two.
+  // If recording and prior agree, a fit moves a value by N(0, P - C), P the prior's variance and C
+  // the posterior's. A much longer distance is a contradiction between the two.
   const double conflict = context.prior_is_given && *e.shrinkage > rules.any_shrinkage
                               ? context.prior_distance / std::sqrt(*e.shrinkage)
                               : 0.0;
@@ -202,7 +203,7 @@ MaybeJudgment mostly_prior(const ParameterEstimate& e,
                   fmt::format("{}, though the fit moved it {}", narrowing(*e.shrinkage), away)};
 }
 
-/// The verdict on an EMG delay by the half width of its interval [s].
+/// Judges an EMG delay by the half width of its interval [s].
 Judgment delay_by_width(const ParameterEstimate& e,
                         const VerdictContext& context,
                         const VerdictRules& rules) {
@@ -218,7 +219,7 @@ Judgment delay_by_width(const ParameterEstimate& e,
           "the movements are too slow to show a delay"};
 }
 
-/// Says in words how well the number is known.
+/// Describes how well the number is known.
 std::string known_words(const ParameterEstimate& e, double relative) {
   if (is_none(e))
     return fmt::format("none to be seen, at most {:.2g}{}", half_width(e), unit_text(e.unit));
@@ -227,14 +228,14 @@ std::string known_words(const ParameterEstimate& e, double relative) {
   return fmt::format("known to {:.1f} %", 100.0 * relative);
 }
 
-/// The verdict by the width of the interval.
+/// Judges the number by the width of its interval.
 Judgment by_width(const ParameterEstimate& e,
                   const VerdictContext& context,
                   const VerdictRules& rules) {
   const double relative = half_width(e) / std::max(std::abs(e.estimate), 1e-300);
   const double prior_sd = spread_of_nothing(e);
   const std::string known = known_words(e, relative);
-  // An interval of a number that is 0 by nature tells at any width that it is no larger.
+  // For a number that is 0 by nature, an interval of any width bounds the number's size.
   if (context.prior_distance > rules.prior_conflict &&
       (prior_sd > 0.0 || relative <= rules.weak_half_width)) {
     return {
@@ -254,8 +255,8 @@ Judgment by_width(const ParameterEstimate& e,
           fmt::format("the truth may be {:.0f} % away from the value", 100.0 * relative)};
 }
 
-/// The gravest reason why a narrow interval is not enough, which makes `identified` weak; empty:
-/// none. `known` says how narrow the interval is.
+/// Returns the gravest reason that makes a narrow interval weak instead of `identified`; empty:
+/// none. `known` describes the interval's width.
 MaybeJudgment weakened(const ParameterEstimate& e,
                        const std::string& known,
                        const VerdictContext& context,

@@ -9,12 +9,12 @@
 namespace myoid::identification {
 namespace {
 
-/// Draws from a normal distribution with this covariance, the same in every run.
+/// Draws from a normal distribution with this covariance; every run gives the same draws.
 Eigen::MatrixXd draws_about(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance, int n) {
   const math::SymmetricEigen eigen = math::symmetric_eigen(covariance);
   const Eigen::MatrixXd root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   Eigen::MatrixXd result(n, mean.size());
-  // Quasi-random: the additive recurrence with square roots of primes, through the normal quantile.
+  // Quasi-random draws: additive recurrence with square roots of primes, normal quantiles.
   const double primes[] = {2.0, 3.0, 5.0};
   for (int i = 0; i < n; ++i) {
     Eigen::VectorXd u(mean.size());
@@ -38,11 +38,11 @@ Spread spread_of(std::vector<double> logs) {
   const auto at = [&](double share) {
     return logs[static_cast<std::size_t>(share * static_cast<double>(logs.size() - 1))];
   };
-  // Robust: the far tail is where V_ml comes down to 1 and the logarithm has no end.
+  // Quantiles are robust where V_ml approaches 1 and the logarithm has no lower end.
   return {(at(0.8413) - at(0.1587)) / 2.0, std::exp(at(0.025)), std::exp(at(0.975))};
 }
 
-/// ln P of draws of (ln V_sh, V_ml, ln S).
+/// Returns ln P of draws of (ln V_sh, V_ml, ln S).
 std::vector<double> log_products(const Eigen::MatrixXd& draws) {
   std::vector<double> logs;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {

@@ -10,14 +10,14 @@
 
 namespace myoid::identification {
 
-/// Positions of V_sh, V_ml and the slope ratio S of a muscle among the unknowns; -1: not there.
+/// Indices of V_sh, V_ml and the slope ratio S of a muscle among the unknowns; -1: no unknown.
 struct ProductPositions {
   Eigen::Index curvature = -1, plateau = -1, ratio = -1;
 };
 
 /// Fills interval, standard error, prior and shrinkage of P = V_sh V_shl, which follows from three
-/// unknowns, by draws of (ln V_sh, V_ml, ln S) about the solution `z`. Nothing if
-/// one of them is none. `bootstrap` may be null.
+/// unknowns, by draws of (ln V_sh, V_ml, ln S) about the solution `z`. Does nothing if one of the
+/// three is no unknown. `bootstrap` may be null.
 void add_product_interval(ParameterEstimate& e,
                           const ProductPositions& where,
                           const std::vector<Unknown>& free,

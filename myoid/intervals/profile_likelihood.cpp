@@ -12,21 +12,21 @@
 namespace myoid::identification {
 namespace {
 
-/// A step of the others that promises to lower C by less than this share of its rise to the goal is
-/// not tried.
+/// Least fall of C that makes a step of the other variables worth trying, as a share of C's rise to
+/// the goal.
 constexpr double kSmallFall = 0.05;
 constexpr int kMostSteps = 20;
-/// The root is taken from the parabola once v is as near as this share of the goal.
+/// Distance of v from the goal, relative, within which the parabola gives the root.
 constexpr double kNear = 0.12;
 constexpr int kMostDistances = 8;
 
-/// The point that the search for the constrained minimum has reached.
+/// The point that the search for the constrained minimum reached.
 struct Point {
   Eigen::VectorXd x, gradient;
   double cost = 0.0;
 };
 
-/// C(x) of a problem with variable `held` where it is and the others free within their bounds.
+/// C(x) of a problem with variable `held` fixed and the others free within their bounds.
 class Constrained {
  public:
   Constrained(const ProfileProblem& problem, Eigen::Index held, double goal)
@@ -41,8 +41,8 @@ class Constrained {
     return point;
   }
 
-  /// Step of the others to the minimum of the model of C within the bounds: those that would leave
-  /// them go as far as they can, and the rest answer to that.
+  /// Returns the others' step to the minimum of the model of C within the bounds. Variables that
+  /// would leave the bounds stop there, and the rest adapts.
   [[nodiscard]] Eigen::VectorXd step_from(const Point& from) const {
     const Eigen::VectorXd down = problem_.lower - from.x, up = problem_.upper - from.x;
     std::vector<Eigen::Index> moving;
@@ -71,7 +71,7 @@ class Constrained {
     return -(from.gradient.dot(step) + 0.5 * step.dot(curvature_ * step));
   }
 
-  /// BFGS: the model learns how the gradient changed along a step.
+  /// Updates the model by BFGS with the gradient's change along a step.
   void learn(const Eigen::VectorXd& step, const Eigen::VectorXd& change) {
     const double along = step.dot(change);
     const Eigen::VectorXd expected = curvature_ * step;
@@ -80,7 +80,7 @@ class Constrained {
     curvature_ += change * change.transpose() / along - expected * expected.transpose() / before;
   }
 
-  /// Brings the others to their minimum and returns it as the last step promises it.
+  /// Brings the others to their minimum and returns the point that the last step promises.
   Point minimize(Point best) {
     double shorter = 1.0;
     for (int count = 0;; ++count) {
@@ -104,7 +104,7 @@ class Constrained {
     }
   }
 
-  /// Solution of C_mm x = b, with the columns scaled to 1.
+  /// Solves C_mm x = b, with the columns scaled to 1.
   [[nodiscard]] Eigen::VectorXd solve(const std::vector<Eigen::Index>& moving,
                                       const Eigen::VectorXd& b) const {
     Eigen::MatrixXd matrix = curvature_(moving, moving);
@@ -121,7 +121,7 @@ class Constrained {
   Eigen::MatrixXd curvature_;
 };
 
-/// Root of v = goal of the parabola through (0, 0) and (t, v) with slope `slope` there.
+/// Returns the root of v = goal on the parabola through (0, 0) and (t, v) with this slope at t.
 double parabola_root(double t, double v, double slope, double goal) {
   if (!(v > 0.0)) return 4.0 * t;
   const double a = 2.0 * v / t - slope;
@@ -143,7 +143,7 @@ std::optional<double> profile_distance(const ProfileProblem& problem,
   const double reach = std::abs((above ? problem.upper[j] : problem.lower[j]) - minimum[j]);
   if (!(reach > 0.0)) return std::nullopt;
   Constrained others(problem, j, goal);
-  // The response of the others to this one, to first order; variables held by a bound stay.
+  // The others' response to variable j, to first order; variables on a bound stay.
   std::vector<Eigen::Index> following;
   for (Eigen::Index k = 0; k < minimum.size(); ++k) {
     const bool held = (minimum[k] <= problem.lower[k] && problem.gradient[k] > 0.0) ||
@@ -154,7 +154,7 @@ std::optional<double> profile_distance(const ProfileProblem& problem,
   along(following) = others.solve(following, -problem.curvature(following, j).eval());
   along[j] = 1.0;
   const double stiffness = along.dot(problem.curvature * along);
-  // Then how their path bends, by the last minimum.
+  // The curvature of the others' path, from the last minimum.
   Eigen::VectorXd bend = Eigen::VectorXd::Zero(minimum.size());
   double near = 0.0, beyond = reach;
   bool bracketed = false;
@@ -179,7 +179,7 @@ std::optional<double> profile_distance(const ProfileProblem& problem,
     const double margin = bracketed ? 0.05 * (beyond - near) : 0.0;
     t = std::clamp(root, std::max(near + margin, 0.25 * t), std::min(beyond - margin, 4.0 * t));
   }
-  // Good enough if the steps run out.
+  // The steps ran out; the bracket is close enough.
   return bracketed ? std::optional<double>(0.5 * (near + beyond)) : std::nullopt;
 }
 

@@ -12,40 +12,39 @@
 
 namespace myoid::identification {
 
-/// A cost within bounds, about its minimum.
+/// A cost within bounds, with its values at the minimum.
 struct ProfileProblem {
   /// Returns C(z) and fills its gradient.
   std::function<double(const Eigen::VectorXd& z, Eigen::VectorXd& gradient)> cost;
   Eigen::VectorXd lower, upper;
   Eigen::VectorXd minimum;
-  double least = 0.0;         ///< C there ...
-  Eigen::VectorXd gradient;   ///< ... its gradient, not zero for what leans on a bound ...
-  Eigen::MatrixXd curvature;  ///< ... and its curvature, about: J'J will do.
+  double least = 0.0;         ///< C at the minimum.
+  Eigen::VectorXd gradient;   ///< Gradient at the minimum; not zero for variables on a bound.
+  Eigen::MatrixXd curvature;  ///< Approximate curvature at the minimum, for example J'J.
 };
 
-/// Distance from the minimum of variable j to the side where sqrt(2 (C - C_min)) reaches `goal`
-/// when all other variables adapt, to about 1 %; empty where a bound of j comes first: the profile
-/// is open.
+/// Returns the distance from the minimum of variable j to the side at which sqrt(2 (C - C_min))
+/// reaches `goal` while all other variables adapt, to about 1 %. Empty if a bound of j comes first:
+/// the profile is open.
 ///
-/// The others are brought to their constrained minimum by quasi-Newton steps (BFGS, bounds by
-/// projection) that begin with `curvature` and end when the next would lower C by less than a
-/// twentieth of its rise to the goal; that fall, which the model knows to a third or better, is
-/// taken as if it had been made. The root is sought
-/// on v(t) = sqrt(2 (C - C_min)), which is nearly proportional to t: its slope is dC/dz_j / v,
-/// because the others are at their minimum, and the parabola through the origin, v and v' leads to
-/// the root in one or two steps.
+/// Quasi-Newton steps (BFGS, bounds by projection) bring the others to their constrained minimum.
+/// They begin with `curvature` and end when the next step would lower C by less than a twentieth of
+/// its rise to the goal. The model predicts this last fall to a third or better, and C is taken as
+/// if the step had been made. The root is sought on v(t) = sqrt(2 (C - C_min)), which is nearly
+/// proportional to t. Its slope is dC/dz_j / v, because the others are at their minimum. The
+/// parabola through the origin, v and v' reaches the root in one or two steps.
 [[nodiscard]] std::optional<double> profile_distance(const ProfileProblem& problem,
                                                      Eigen::Index j,
                                                      bool above,
                                                      double goal = kNormal95);
 
-/// The 95 % intervals of all variables by profile likelihood, in parallel; weights are those of the
-/// solution.
+/// Returns the 95 % intervals of all variables by profile likelihood, in parallel, with the
+/// solution's weights.
 ///
-/// Residuals are correlated, so that C is no likelihood but a composite one: 2 (C - C_min) of a
-/// parameter is as chi-squared times the ratio of its `variance`, which the sandwich knows, to the
-/// one that the curvature of C would give it (Rotnitzky & Jewell 1990; Pace, Salvan & Sartori
-/// 2011). Where either is not to be had the ratio is 1.
+/// Residuals are correlated, so C is a composite likelihood: 2 (C - C_min) of a parameter is
+/// distributed as chi-squared times the ratio of its `variance` by the sandwich to its variance by
+/// the curvature of C (Rotnitzky & Jewell 1990; Pace, Salvan & Sartori 2011). If either variance is
+/// missing the ratio is 1.
 [[nodiscard]] std::vector<Interval> profile(const Estimator& estimator,
                                             const Estimator::Solution& solution,
                                             const Eigen::VectorXd& variance);

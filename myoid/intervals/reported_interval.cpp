@@ -17,8 +17,8 @@ struct RowOfFit {
   Eigen::Index at = 0;
   double z = 0.0;
 
-  /// The row's value of a solver's number. No interval reaches beyond the bounds: they are
-  /// knowledge, too.
+  /// Returns the row's value of a solver's number, clamped to the bounds: these are knowledge, too,
+  /// and no interval reaches beyond.
   [[nodiscard]] double clipped(double x) const {
     return row.value(std::clamp(x, row.parameter->bounds.lower, row.parameter->bounds.upper));
   }
@@ -26,7 +26,7 @@ struct RowOfFit {
 
 double quantile() { return math::normal_quantile(0.5 + 0.5 * kReportedProbability); }
 
-/// Half width of the interval of a normal number of this variance.
+/// Returns the half width of the interval of a normal number with this variance.
 double reach(double variance) { return quantile() * std::sqrt(std::max(0.0, variance)); }
 
 std::vector<RouteInterval> routes_of(const RowOfFit& of) {
@@ -55,7 +55,7 @@ std::vector<RouteInterval> routes_of(const RowOfFit& of) {
   return routes;
 }
 
-/// Reaches of the noise below and above the estimate: the farther of sandwich and profile.
+/// Returns the noise's reach below and above the estimate: the wider of sandwich and profile.
 std::pair<double, double> reaches_of_noise(const RowOfFit& of) {
   const double normal = reach(of.intervals.sandwich.newey_west(of.at, of.at));
   if (!of.intervals.profiles) return {normal, normal};
@@ -65,14 +65,14 @@ std::pair<double, double> reaches_of_noise(const RowOfFit& of) {
           std::max(normal, profile.high.value_or(p.bounds.upper) - of.z)};
 }
 
-/// The reach that the differences between trials ask for at least; 0 with few trials. With fewer
-/// trials than clusters need the jackknife stands in, which is never too small.
+/// Returns the least reach by the differences between trials; 0 with few trials. With too few
+/// trials for clusters the jackknife replaces them; it is never too small.
 double reach_of_trials(const Sandwich& sandwich, Eigen::Index at) {
   if (sandwich.cluster) return reach((*sandwich.cluster)(at, at));
   return sandwich.jackknife ? reach((*sandwich.jackknife)(at, at)) : 0.0;
 }
 
-/// The reach `noise` with the errors of EMG noise, held tendons and the model on top.
+/// Adds the errors of EMG noise, held tendons and the model to the reach `noise`.
 double whole_reach(const RowOfFit& of, double noise) {
   const Intervals& intervals = of.intervals;
   const double sd = noise / quantile();

@@ -11,7 +11,7 @@
 
 namespace myoid::identification {
 
-inline constexpr double kReportedProbability = 0.95;  ///< Of every interval.
+inline constexpr double kReportedProbability = 0.95;  ///< Probability of every interval.
 
 /// All routes to the intervals of one fit.
 struct Intervals {
@@ -29,12 +29,12 @@ struct RowScale {
   [[nodiscard]] double value(double z) const { return ratio * parameter->to_value(z); }
 };
 
-/// The solver's number of a value of this row.
+/// Returns the solver's number for a value of this row.
 [[nodiscard]] double z_of(const RowScale& row, double value);
 
-/// Fills `e.routes`, and `e.ci_low`, `e.ci_high` with the interval that is reported, 95 %: to
-/// either side the farther of sandwich and profile, with the model's error on top, but never less
-/// than trials show that differ by both (of few trials the jackknife, which is never too small).
+/// Fills `e.routes` with all intervals, and `e.ci_low`, `e.ci_high` with the reported 95 % one.
+/// Either side reaches as far as the wider of sandwich and profile, plus the model's error, and at
+/// least as far as trials differ (with few trials by the jackknife, which is never too small).
 void add_routes(ParameterEstimate& e,
                 const RowScale& row,
                 const Intervals& intervals,

@@ -17,27 +17,28 @@
 
 namespace myoid::identification {
 
-/// The degree to which a number may be believed.
+/// The degree to which a number can be trusted.
 enum class Verdict {
   identified,        ///< The recording determines it.
-  weak,              ///< It says something, but the interval is wide.
+  weak,              ///< The recording determines it in part; the interval is wide.
   prior_dominated,   ///< The value is mostly the prior's.
-  not_identifiable,  ///< The recording cannot tell.
-  non_physical,      ///< No muscle can have the value: the fit describes something else.
+  not_identifiable,  ///< The recording does not determine it.
+  non_physical,  ///< No muscle can have the value: the fit describes something other than a muscle.
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-/// The 95 % interval that one way of reckoning gives.
+/// The 95 % interval by one route.
 struct RouteInterval {
   std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
   std::optional<double> low, high;  ///< Empty: open on that side.
-  double spread = 0.0;  ///< Of the logarithm of the width, from the route's own sample; 0: none.
+  double spread =
+      0.0;  ///< Chance spread of the width's logarithm, from the route's own sample; 0: none.
 };
 
 /// One row of parameters.csv.
 struct ParameterEstimate {
-  std::string muscle;   ///< Or the EMG channel, or "subject".
-  std::string tied_to;  ///< The first owner of the same unknown; empty: its own.
+  std::string muscle;   ///< Muscle, EMG channel, or "subject".
+  std::string tied_to;  ///< The first owner of the same unknown; empty: no tie.
   std::string parameter;
   Unit unit = Unit::dimensionless;
   std::string method;    ///< paper | force | torque
@@ -47,13 +48,13 @@ struct ParameterEstimate {
   std::optional<double> std_error;
   std::optional<double> ci_low, ci_high;  ///< 95 %, by the first of `routes`.
   std::vector<RouteInterval> routes;      ///< At least two, where they were asked for.
-  bool routes_disagree = false;           ///< One is more than half as wide again as another.
+  bool routes_disagree = false;  ///< One interval is more than 1.5 times as wide as another.
   std::optional<double> prior_mean, prior_sd;
-  std::optional<double> prior_distance;  ///< Of the estimate from the prior's mean, in its spreads
-                                         ///< (of the logarithm where the prior is on that).
-  std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance; negative where
-                                    ///< the model's own error makes it less sure than that.
-  std::optional<SourceShares> variance_shares;  ///< Of the posterior; else empty.
+  std::optional<double> prior_distance;  ///< Distance of the estimate from the prior's mean, in
+                                         ///< prior spreads (in the prior's scale).
+  std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance; negative if the
+                                    ///< model's error exceeds the prior.
+  std::optional<SourceShares> variance_shares;  ///< By the posterior; else empty.
   bool at_bound = false;
   Verdict verdict = Verdict::not_identifiable;
   std::string reason;  ///< One sentence.
@@ -62,35 +63,37 @@ struct ParameterEstimate {
 /// The prediction of one trial beside the measurement.
 struct TrialFit {
   std::string trial;
-  std::string joint;  ///< Of the torque; the forces belong to the trial.
+  std::string joint;  ///< Joint of the torque; the forces belong to the trial.
   bool calibration = true;
   Eigen::VectorXd time_s;
   Eigen::VectorXd torque_nm;             ///< From inverse dynamics.
-  Eigen::VectorXd literature_torque_nm;  ///< Starting parameters.
-  /// The law with the identified parameters, as it is; of the posterior, its expectation.
+  Eigen::VectorXd literature_torque_nm;  ///< By the starting parameters.
+  /// The law with the identified parameters, not smoothed; by the posterior, its expectation.
   Eigen::VectorXd torque_fit_nm;
-  /// Standard deviation of a measured torque about the prediction: of the parameters and of the
-  /// noise. Empty: not known.
+  /// Standard deviation of a measured torque about the prediction, from parameters and noise.
+  /// Empty: unknown.
   Eigen::VectorXd torque_sd_nm;
-  double smooth_hz = 0.0;              ///< Where its noise does least harm (smooth_prediction.h).
+  double smooth_hz =
+      0.0;  ///< Cut-off at which the prediction's noise does least harm (smooth_prediction.h).
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
-  Eigen::MatrixXd force_sd_n;          ///< n x m: of the parameters. Empty: not known.
-  Score score;                         ///< Of `torque_fit_nm`.
-  /// Both torques below the fit's own cut-off (EstimatorOptions::residual_cutoff_hz): without most
-  /// of the noise of the EMG envelope, which the prediction carries and a muscle does not.
+  Eigen::MatrixXd force_sd_n;          ///< n x m: from the parameters. Empty: unknown.
+  Score score;                         ///< Score of `torque_fit_nm`.
+  /// Score of both torques below the fit's cut-off (EstimatorOptions::residual_cutoff_hz). It
+  /// leaves out most of the EMG envelope's noise, which the prediction carries and a muscle does
+  /// not.
   Score band;
 };
 
 /// A minimum at which searches from several starts end.
 struct BasinRow {
-  Eigen::VectorXd x;      ///< Of its lowest end, in the solver's scale.
-  double cost = 0.0;      ///< Of that end.
-  int starts = 0;         ///< That ended here ...
-  int converged = 0;      ///< ... and converged.
-  double distance = 0.0;  ///< From the best: root mean square over the unknowns, in spreads of the
-                          ///< priors (start_box.h).
-  bool rival = false;     ///< As good as the best: a chi-square of at most 4 worse.
+  Eigen::VectorXd x;      ///< The lowest end in this basin, in the solver's scale.
+  double cost = 0.0;      ///< Cost at `x`.
+  int starts = 0;         ///< Number of starts that ended here.
+  int converged = 0;      ///< Number of these starts that converged.
+  double distance = 0.0;  ///< Root mean square distance from the best over the unknowns, in prior
+                          ///< spreads (start_box.h).
+  bool rival = false;     ///< Almost as good as the best: at most a chi-square of 4 worse.
   bool given = false;     ///< The given start ended here.
 };
 
@@ -98,18 +101,19 @@ struct BasinRow {
 struct BasinTable {
   std::string fit;  ///< "all muscles", a muscle's name, or with its branch: "BIC shortening".
   int starts = 0;
-  /// Starts from which the search did not converge, nor end where another one did, or ended at no
-  /// finite cost. The best end is a basin in any case.
+  /// Number of starts whose search found no finite cost, or neither converged nor ended where
+  /// another did. The best end is a basin in any case.
   int failed = 0;
   std::vector<BasinRow> basins;  ///< By rising cost.
 };
 
-/// The comparison of the numbers that both branches of method `paper` share.
+/// Compares the numbers that both branches of method `paper` share.
 struct BranchTest {
   std::string muscle;
   double length_difference_m = 0.0;  ///< l0 in lengthening minus in shortening.
   double width_difference_m = 0.0;
-  double wald = 0.0;  ///< Chi-square with two degrees of freedom if both are the same.
+  double wald =
+      0.0;  ///< Chi-square with two degrees of freedom if both branches have equal numbers.
   double p_value = 1.0;
 };
 
@@ -117,18 +121,18 @@ struct BranchTest {
 ///
 ///   D^2 = sum_j ((z_j - prior_j) / sd_j)^2 over its own free parameters
 ///
-/// A fit with priors moves an estimate by N(0, P - C), P the prior's and C its own covariance: by
-/// less than P, which therefore stands for it here.
+/// A fit with priors moves an estimate by N(0, P - C), P the prior's and C its own covariance. P
+/// exceeds P - C and stands for it here.
 struct PriorDistance {
   std::string muscle;
-  double distance = 0.0;           ///< D, as as many standard deviations of one normal number.
-  std::string farthest;            ///< The parameter that is farthest ...
-  double farthest_distance = 0.0;  ///< ... and how far.
+  double distance = 0.0;           ///< D, converted to standard deviations of one normal number.
+  std::string farthest;            ///< The parameter with the greatest distance.
+  double farthest_distance = 0.0;  ///< The distance of `farthest`.
 };
 
-/// True if a parameter is no muscle's and no person's, but freed so that its uncertainty enters the
-/// others: gain and exponent of an EMG channel, torque of the joint itself. Nuisances do not count
-/// among the results of a recording.
+/// Returns true if a parameter belongs to no muscle and no person but is free so that its
+/// uncertainty enters the others: gain and exponent of an EMG channel, torque of the joint itself.
+/// Nuisances do not count among the results of a recording.
 [[nodiscard]] inline bool is_nuisance(const ParameterEstimate& estimate) {
   return estimate.parameter == "emg_gain" || estimate.parameter == "emg_exponent" ||
          estimate.parameter.starts_with("joint_");
@@ -139,45 +143,47 @@ struct IdentificationResult {
   math::Termination termination = math::Termination::no_descent;
   std::string message;
   std::vector<ParameterEstimate> estimates;
-  std::vector<muscle::HillParameters<double>> muscles;  ///< With the estimates (force, torque).
-  ModelValues values;          ///< All numbers of the model with the estimates (force, torque).
-  EmgLag lag = EmgLag::delay;  ///< How the muscles follow their EMG.
-  /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it: the data
-  /// prefer `shared` where it is positive.
+  std::vector<muscle::HillParameters<double>>
+      muscles;         ///< With the estimates (methods force, torque).
+  ModelValues values;  ///< All numbers of the model with the estimates (methods force, torque).
+  EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
+  /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it. A
+  /// positive value favors `shared`.
   std::optional<double> shared_lag_gain;
-  double delay_s = 0.0;      ///< Of the first channel.
-  Eigen::VectorXd solution;  ///< In the solver's scale (torque).
+  double delay_s = 0.0;      ///< Delay of the first channel.
+  Eigen::VectorXd solution;  ///< In the solver's scale (method torque).
   /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic), for
-  /// given slack lengths of the tendons. Standard errors and intervals add the uncertainty of these
-  /// (`held_tendon_shift`).
+  /// given slack lengths of the tendons. Standard errors and intervals include the slack lengths'
+  /// uncertainty (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
-  std::vector<std::string> free_parameters;  ///< Its rows.
-  /// Draws from the posterior, one column each, of the values of `free_parameters` (SI), and their
+  std::vector<std::string> free_parameters;  ///< Names of the rows of `covariance`.
+  /// Draws of the values of `free_parameters` (SI) from the posterior, one column each, and their
   /// weights, which add to 1; else empty.
   Eigen::MatrixXd draws;
   Eigen::VectorXd draw_weights;
   /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
   Eigen::VectorXd noise;
-  std::vector<std::string> collinear;     ///< Sets that the data hardly tell apart, as sentences.
+  std::vector<std::string>
+      collinear;  ///< Sets of numbers that the data hardly separate, as sentences.
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
-  std::vector<PriorDistance> prior_distances;  ///< Of each muscle with priors.
-  std::vector<std::string> diagnoses;          ///< Errors whose signature the values show.
+  std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
+  std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
   std::vector<std::string> warnings;
   std::vector<BranchTest> branch_tests;  ///< Method paper.
-  std::vector<BasinTable> basins;        ///< Of each fit, where several starts were asked for.
-  int bootstrap_replicates = 0;          ///< Converged ones.
+  std::vector<BasinTable> basins;        ///< One for each fit, if several starts were asked for.
+  int bootstrap_replicates = 0;          ///< Number of converged replicates.
   int bootstrap_failed = 0;
-  bool exact = false;  ///< The data are free of noise: fitted as they are, without priors.
+  bool exact = false;  ///< The data are free of noise and are fitted without priors and weights.
   int samples_used = 0;
   int samples_dropped = 0;
   double effective_samples = 0.0;
-  double torque_sd_nm = 0.0;  ///< s_T
+  double torque_sd_nm = 0.0;  ///< s_T [N m]
   double emg_cv = 0.0;        ///< c_a
-  /// Square of the relative spread of each EMG channel's envelope, as it is (force, torque).
+  /// Squared relative spread of each EMG channel's envelope, not low-passed (force, torque).
   Eigen::VectorXd envelope_variance;
   double model_error = 0.0;  ///< Systematic error, relative to the muscles' torques.
-  /// 1 - SSE/SST of the fitted samples (both sides below the residual's cut-off), about
-  /// the mean over all trials; of several joints or muscles the least.
+  /// 1 - SSE/SST of the fitted samples (both sides below the residual's cut-off), about the mean
+  /// over all trials; the least of several joints or muscles.
   double r2 = 1.0;
   double condition = 0.0;
   int iterations = 0;

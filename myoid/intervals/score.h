@@ -4,32 +4,33 @@
 
 namespace myoid::identification {
 
-/// A prediction of a torque against the measured one, as sums over the samples: scores of several
-/// trials are made from their parts.
+/// A torque's prediction against its measurement, as sums over the samples; the sums of several
+/// trials make a joint score.
 struct Score {
   double n = 0.0;                 ///< Samples.
   double sse = 0.0;               ///< Sum of the squared errors [N^2 m^2].
   double sst = 0.0;               ///< Sum of the squares of the torque about its mean.
-  double mean_nm = 0.0;           ///< Of the measured torque.
-  double range_nm = 0.0;          ///< Of the measured torque: largest minus smallest.
+  double mean_nm = 0.0;           ///< Mean of the measured torque.
+  double range_nm = 0.0;          ///< Range of the measured torque: largest minus smallest.
   double error_spread_nm2 = 0.0;  ///< Sum of the squares of the error about its mean.
 
   [[nodiscard]] double rmse_nm() const;      ///< sqrt(SSE / n); 0 without samples.
   [[nodiscard]] double nrmse_range() const;  ///< RMSE over the range of the measured torque.
-  [[nodiscard]] double nrmse_sd() const;     ///< RMSE over its standard deviation.
-  /// 1 - SSE/SST; negative: worse than the trial's own mean; 0 for a constant torque.
+  [[nodiscard]] double nrmse_sd()
+      const;  ///< RMSE over the standard deviation of the measured torque.
+  /// Returns 1 - SSE/SST; negative: worse than the trial's own mean; 0 for a constant torque.
   [[nodiscard]] double r2() const;
   [[nodiscard]] double vaf() const;  ///< 1 - var(error)/var(torque)
 };
 [[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
 
-/// 1 - SSE/SST; 0 if the reference is constant.
+/// Returns 1 - SSE/SST; 0 if the reference is constant.
 [[nodiscard]] double coefficient_of_determination(const Eigen::VectorXd& reference,
                                                   const Eigen::VectorXd& predicted);
 
-/// A torque without the frequencies above `cutoff_hz` (-3 dB, two passes of second order, no
-/// delay), on an even clock; as it is if the clock is too slow or too short for that, or the
-/// cut-off is 0.
+/// Returns a torque without the frequencies above `cutoff_hz` (-3 dB, two passes of second order,
+/// no delay), on an even clock. The torque stays unchanged if the clock is too slow or too short,
+/// or the cut-off is 0.
 [[nodiscard]] Eigen::VectorXd below(const Eigen::VectorXd& time_s,
                                     const Eigen::VectorXd& torque_nm,
                                     double cutoff_hz);

@@ -26,7 +26,7 @@ std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
     for (Eigen::Index b = 0; b < count; ++b) {
       const Eigen::Index begin = piece.count * b / count;
       const Eigen::Index end = piece.count * (b + 1) / count;
-      // Joints of one trial are drawn together.
+      // The joints of one trial are drawn together.
       const std::size_t at = first_of_trial + static_cast<std::size_t>(b);
       if (!same || at >= blocks.size()) blocks.push_back({block_s > 0.0 ? trial : 0, {}});
       blocks[same ? at : blocks.size() - 1].rows.emplace_back(piece.first + begin, end - begin);
@@ -36,7 +36,7 @@ std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
 }
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
-  // Scaled to unit diagonal before inverting; near-zero directions stay near-infinite.
+  // Scales to unit diagonal before inverting; near-zero directions stay near-infinite.
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
   const math::SymmetricEigen eigen = math::symmetric_eigen(scaled);

@@ -11,7 +11,7 @@ namespace myoid::identification {
 
 namespace {
 
-/// The numbers of one muscle by which a single error shows; ratios are to the starting value.
+/// The numbers of one muscle in which a single error shows; ratios are to the starting value.
 struct Pattern {
   std::optional<double> length_ratio, curvature, product, plateau;
   double narrowest = 1.0, widest = 1.0;  ///< Ratios of the force-length width.
@@ -20,7 +20,7 @@ struct Pattern {
 std::map<std::string, Pattern> patterns_of(const std::vector<ParameterEstimate>& estimates) {
   std::map<std::string, Pattern> patterns;
   for (const ParameterEstimate& e : estimates) {
-    // An estimate that is mostly the prior's says nothing about the data.
+    // An estimate that mostly repeats its prior says nothing about the data.
     if (!std::isfinite(e.estimate) || (e.shrinkage && *e.shrinkage < 0.3)) continue;
     Pattern& p = patterns[e.muscle];
     const double ratio = e.initial > 0.0 ? e.estimate / e.initial : 1.0;
@@ -37,27 +37,27 @@ std::map<std::string, Pattern> patterns_of(const std::vector<ParameterEstimate>&
   return patterns;
 }
 
-/// An optimal length far too short with a width far too large: the far flank of such a curve acts
-/// as a gain below 1.
+/// Returns true for an optimal length far too short with a width far too large: the far flank of
+/// this curve acts as a gain below 1.
 bool is_flank(const Pattern& p) {
   return p.widest > 1.5 && p.length_ratio && *p.length_ratio < 0.5;
 }
 
 bool product_is_not_positive(const Pattern& p) { return p.product && *p.product <= 0.0; }
 
-/// A step of force where shortening turns into lengthening.
+/// Returns true for a step of force between shortening and lengthening.
 bool is_step(const Pattern& p) {
   return p.plateau && *p.plateau < 0.6 && p.product && std::abs(*p.product) < 0.15;
 }
 
-/// The force-velocity curve shows no effect of velocity.
+/// Returns true for a force-velocity curve without an effect of velocity.
 bool without_velocity(const Pattern& p) {
   const bool straight = p.curvature && *p.curvature > 2.0;
   const bool plateau_near_one = p.plateau && std::abs(*p.plateau - 1.0) < 0.12;
   return (product_is_not_positive(p) && plateau_near_one) || (straight && !is_flank(p));
 }
 
-/// A narrow force-length curve with a strongly bent force-velocity curve.
+/// Returns true for a narrow force-length curve with a strongly bent force-velocity curve.
 bool narrow_and_bent(const Pattern& p) {
   const bool bent = p.curvature && *p.curvature < 0.12;
   return p.narrowest < 0.5 && !is_step(p) &&

@@ -44,7 +44,7 @@ class Stream {
   std::uint64_t state_;
 };
 
-/// inverse_of(a) * b, by a Cholesky factor where one is at hand.
+/// Returns inverse_of(a) * b, by a Cholesky factor if `a` has one.
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * a * scale.asDiagonal());
@@ -54,8 +54,8 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
   return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
 }
 
-/// True if the smallest eigenvalue of these rows and columns of a matrix surely exceeds `least`:
-/// then A - least I has a Cholesky factor.
+/// Returns true if the smallest eigenvalue of these rows and columns surely exceeds `least`: A -
+/// least I then has a Cholesky factor.
 bool above_in_all_directions(const Eigen::MatrixXd& a,
                              const std::vector<Eigen::Index>& set,
                              double least) {
@@ -85,7 +85,7 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-/// Precision of the prior of every unknown; 0: none.
+/// Returns the precision of the prior of every unknown; 0: no prior.
 Eigen::VectorXd prior_precision(const std::vector<Unknown>& free) {
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
   for (std::size_t j = 0; j < free.size(); ++j)
@@ -104,7 +104,7 @@ Eigen::MatrixXd with_priors(Eigen::MatrixXd of_data, const Eigen::VectorXd& prec
   return of_data;
 }
 
-/// The part of the parameters that the data alone determine: Sandwich's fields of the same names.
+/// The part of the parameters that the data alone determine, in the fields of Sandwich.
 struct Rank {
   int rank = 0;
   double condition = 0.0;
@@ -112,7 +112,7 @@ struct Rank {
   Eigen::MatrixXd undetermined;
 };
 
-/// Rank by the eigenvectors of the information scaled to unit columns.
+/// Computes the rank by the eigenvectors of the information scaled to unit columns.
 Rank rank_of(const Eigen::MatrixXd& information) {
   const Eigen::Index p = information.rows();
   const Eigen::VectorXd norm = information.diagonal().cwiseSqrt();
@@ -127,7 +127,7 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
   std::vector<Eigen::Index> open;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
-    // Squares of singular values: their own round-off is 1e-16 of the largest.
+    // The values are squares of singular values, with round-off of 1e-16 of the largest.
     if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
   }
   result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
@@ -140,7 +140,7 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   return result;
 }
 
-/// The covariance of the scores' sum by the autocorrelation of all residuals together.
+/// Returns the covariance of the scores' sum by the autocorrelation of all residuals together.
 Eigen::MatrixXd by_autocorrelation(const Estimator& estimator,
                                    const Estimator::Scores& by_sample,
                                    double share) {
@@ -154,7 +154,7 @@ Eigen::MatrixXd by_autocorrelation(const Estimator& estimator,
                      model.piece_lengths(), stride);
 }
 
-/// The covariance with the correlations it has and with no variance below `least`.
+/// Returns the covariance with unchanged correlations and no variance below `least`.
 Eigen::MatrixXd at_least(Eigen::MatrixXd covariance, const Eigen::VectorXd& least) {
   for (Eigen::Index j = 0; j < covariance.rows(); ++j) {
     const double factor = std::sqrt(std::max(1.0, least[j] / std::max(covariance(j, j), 1e-300)));
@@ -166,17 +166,17 @@ Eigen::MatrixXd at_least(Eigen::MatrixXd covariance, const Eigen::VectorXd& leas
   return covariance;
 }
 
-/// The trials apart; p x trials.
+/// Sums and shifts by trial; p x trials.
 struct OverTrials {
   std::vector<int> trials;  ///< Sandwich::trials.
   Eigen::MatrixXd shift;    ///< Sandwich::trial_shift.
-  Eigen::MatrixXd sums;     ///< Sums of the scores, each as it would be spread outside the fit.
+  Eigen::MatrixXd sums;  ///< Sums of the scores, each with the spread that it has outside the fit.
   /// Expected share of each trial in the variance over trials, and its square, summed.
   Eigen::VectorXd shares, squared_shares;
 };
 
-/// `scores`: n x p. `whole`: information of the data with nothing taken out, and of the priors.
-/// `prior_shares`: variances that are the priors'.
+/// Computes the sums and shifts. `scores`: n x p. `whole`: information of the data without
+/// subtraction, and of the priors. `prior_shares`: the priors' parts of the variances.
 OverTrials over_trials(const ResidualModel& model,
                        const Eigen::MatrixXd& scores,
                        const Eigen::MatrixXd& rows,
@@ -219,7 +219,7 @@ Eigen::MatrixXd squares_about_mean(const Eigen::MatrixXd& columns) {
   return off * off.transpose();
 }
 
-/// Intervals from the replicates that converged; the others are empty in `found`.
+/// Makes intervals from the converged replicates; the others are empty in `found`.
 BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found,
                                  std::size_t blocks,
                                  Eigen::Index p) {
@@ -236,8 +236,8 @@ BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found,
   for (std::size_t i = 0; i < good.size(); ++i)
     result.replicates.row(static_cast<Eigen::Index>(i)) = found[good[i]].transpose();
   result.intervals.resize(static_cast<std::size_t>(p));
-  // Both ends are quantiles of the replicates, sd sqrt(0.975 0.025 / R) / 0.0585 (density at 1.96)
-  // each; the blocks are a sample themselves.
+  // Each end is a quantile of the replicates with sd sqrt(0.975 0.025 / R) / 0.0585 (density at
+  // 1.96); the blocks are a sample themselves.
   if (!good.empty())
     result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
                                std::sqrt(0.5 / static_cast<double>(blocks)));
@@ -273,13 +273,13 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   const Eigen::MatrixXd b =
       with_priors(math::newey_west(scores, model.piece_lengths(), lag), precision);
   result.newey_west = result.model_based * b * result.model_based;
-  // Var(B) / B^2 = 4/3 L / n of the triangle of lags; the width goes with the root of B.
+  // The triangle of lags gives Var(B) / B^2 = 4/3 L / n; the width varies with the root of B.
   result.sample_spread =
       0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
                       static_cast<double>(model.sample_count()));
   if (estimator.options().weights) {
-    // Few effective samples make B itself unsure, and B counts only the autocovariances up to its
-    // longest lag. The autocorrelation of all samples together bounds it from below.
+    // Few effective samples make B uncertain, and B counts the autocovariances only up to its
+    // longest lag. The autocorrelation of all samples together bounds B from below.
     const Eigen::MatrixXd expected =
         with_priors(by_autocorrelation(estimator, by_sample, solution.weighting.share), precision);
     const Eigen::VectorXd least =
@@ -293,9 +293,9 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   OverTrials over =
       over_trials(model, scores, by_sample.rows, whole, result.model_based, of_priors.diagonal());
   if (!estimator.options().weights) {
-    // Without weights few effective samples make Newey and West's estimate too small by a third.
-    // Blocks that hold many correlation times, each as outside of the fit, with the quantile of
-    // their number, are not too small (Bell & McCaffrey 2002).
+    // Without weights, few effective samples make Newey and West's estimate a third too small.
+    // Blocks of many correlation times, each as if not fitted, with the quantile of their number,
+    // are not too small (Bell & McCaffrey 2002).
     if (const auto over_blocks = block_covariance(model, by_sample, whole, precision))
       result.newey_west = *over_blocks;
   }

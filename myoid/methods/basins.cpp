@@ -62,7 +62,7 @@ BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, i
 
 namespace {
 
-/// The estimate of an unknown, of its first owner; null: none.
+/// Returns the estimate of an unknown for its first owner; null: none.
 ParameterEstimate* estimate_of(const Unknown& p, IdentificationResult& result) {
   for (ParameterEstimate& e : result.estimates) {
     if (e.tied_to.empty() && e.parameter == p.field->name &&

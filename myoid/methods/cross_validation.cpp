@@ -22,7 +22,8 @@ double duration_s(const TrialData& trial) {
   return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
 }
 
-/// Duration from which a trial is cut into blocks: beside a block and its gaps half of it is left.
+/// Returns the duration from which a trial is cut into blocks: half of it remains beside a block
+/// and its gaps.
 double least_for_blocks_s(const CrossValidationOptions& how) {
   return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks);
 }
@@ -100,7 +101,7 @@ std::vector<Split> named_splits(const StudyData& data,
   return {};
 }
 
-/// Regressors of baseline (ii): activation times moment arm, per muscle.
+/// Returns the regressors of baseline (ii): activation times moment arm, per muscle.
 Eigen::MatrixXd regressors(const StudyData& data, const TrialData& trial, double delay_s) {
   return muscle_activation(data, trial, trial.time_s, delay_s).cwiseProduct(trial.moment_arm_m);
 }
@@ -117,7 +118,7 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
   return all;
 }
 
-/// The one joint's part of every trial that has it.
+/// Returns the view of one joint in every trial that has it.
 std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const std::string& joint) {
   std::vector<TrialData> views;
   for (const TrialData& trial : trials) {
@@ -129,21 +130,21 @@ std::vector<TrialData> joint_views(const std::vector<TrialData>& trials, const s
   return views;
 }
 
-/// Parameters by which a fold is predicted.
+/// The parameters that predict a fold.
 struct Predictors {
   const StudyData& data;
   const IdentificationResult& fit;
   const TrialPredictions& predictions;
   std::vector<muscle::HillParameters<double>> literature, shortening, lengthening;
   double literature_delay_s = 0.0;
-  double cutoff_hz = 0.0;  ///< Of the fit.
+  double cutoff_hz = 0.0;  ///< Cut-off of the fit.
   bool paper = false;
 };
 
-/// The fitted trials as the baselines see them.
+/// The constants of the baselines, from the fitted trials.
 struct Baselines {
-  double gain = 0.0;       ///< Of the literature's muscles.
-  Eigen::VectorXd slopes;  ///< Of torque on the regressors.
+  double gain = 0.0;       ///< Gain of the literature's muscles.
+  Eigen::VectorXd slopes;  ///< Slopes of the torque on the regressors.
   double mean_nm = 0.0;
 };
 
@@ -243,7 +244,7 @@ Fold score_joint(const std::string& name,
   return fold;
 }
 
-/// The curves that method `paper` finds from the calibration trials.
+/// Adds the curves of method `paper` from the calibration trials.
 void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
   for (const ParameterEstimate& e :
        identify_paper(data, {.muscles = muscles, .diagnoses = false}).estimates) {
@@ -340,7 +341,7 @@ std::vector<Split> splits(const StudyData& data,
 
 std::string generalises_badly(const std::vector<Fold>& folds) {
   constexpr double kWorse = 2.0;     // times the error of the fitted trials
-  constexpr double kExplains = 0.5;  // of the squares: better is good enough
+  constexpr double kExplains = 0.5;  // share of the squares from which a prediction is good enough
   double seen = 0.0, unseen = 0.0, spread = 0.0, worst = 0.0, count = 0.0;
   std::string where;
   for (const Fold& f : folds) {

@@ -114,8 +114,8 @@ class Designer {
     return sum;
   }
 
-  /// The movement that lowers the criterion most, and to what; the catalogue's size if none may be
-  /// added.
+  /// Returns the movement that lowers the criterion most, and the criterion with it; the
+  /// catalogue's size if no movement may be added.
   [[nodiscard]] std::pair<std::size_t, double> best_addition(const std::vector<std::size_t>& chosen,
                                                              const Gathered& information) const {
     const std::size_t count = problem_.catalogue.size();
@@ -156,7 +156,7 @@ class Designer {
     return exchanges;
   }
 
-  /// The chosen movements, the most telling first.
+  /// Orders the chosen movements, the most informative first.
   [[nodiscard]] std::vector<DesignStep> ordered(std::vector<std::size_t> chosen) const {
     std::vector<DesignStep> steps;
     Gathered information(persons_, problem_.prior_precision);

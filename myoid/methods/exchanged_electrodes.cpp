@@ -37,7 +37,7 @@ LabelFit fit_of_labels(const StudyData& data,
                        double delay_s,
                        const std::string& first,
                        const std::string& second) {
-  StudyData named;  // without the trials: they stay as they are
+  StudyData named;  // the trials are not changed, and not copied
   named.muscles = data.muscles;
   std::vector<muscle::HillParameters<double>> literature;
   for (MuscleSetup& setup : named.muscles) {

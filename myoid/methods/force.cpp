@@ -59,7 +59,7 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
   once.muscles.clear();
   once.measured_is_force = !options.shared_forces;
   once.estimator = EstimatorKind::least_squares;
-  once.choose_lag = false;  // muscles of one person follow their EMG alike
+  once.choose_lag = false;  // muscles of one person follow their EMG by the same law
   once.progress.report = nullptr;
   std::vector<std::string> speed;
   for (const std::string& name : options.speed_may_be_free) {
@@ -71,7 +71,7 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
 
 namespace {
 
-/// Takes the fit of muscle k over into the result of all muscles.
+/// Copies the fit of muscle k into the result of all muscles.
 void take_over(IdentificationResult fit,
                const StudyData& data,
                std::size_t k,

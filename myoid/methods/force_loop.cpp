@@ -39,7 +39,7 @@ Change change_of(const std::vector<MuscleSetup>& setups,
   return change;
 }
 
-/// Shares every trial; the forces go into the data. Returns how much they changed.
+/// The shared forces of every trial, which also go into the data, and their change.
 struct Shared {
   std::vector<InformedForces> trials;
   double force_change = 0.0;
@@ -176,7 +176,7 @@ InformedForces informed_forces(const TrialData& trial,
   Eigen::RowVectorXd rest(m), full(m);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index k = 0; k < m; ++k) {
-      // The sharing is about the activation of the muscle; the law multiplies by its share.
+      // The sharing uses the muscle's activation; the law multiplies by the muscle's share.
       const double share = muscles[static_cast<std::size_t>(k)][kShare];
       result.measured(i, k) = std::clamp(share * result.measured(i, k), 0.0, 1.0);
       rest[k] = force_n(i, k, 0.0);
@@ -212,7 +212,7 @@ InformedForces informed_forces(const TrialData& trial,
 
 namespace {
 
-/// Root mean square of the torques of all trials and joints.
+/// Returns the root mean square of the torques of all trials and joints.
 double torque_size_nm(const StudyData& data) {
   double squares = 0.0, samples = 0.0;
   for (const TrialData& trial : data.trials) {
@@ -223,7 +223,7 @@ double torque_size_nm(const StudyData& data) {
   return std::sqrt(squares / std::max(1.0, samples));
 }
 
-/// The muscles of the posterior of the torque, and the forces that they share.
+/// Takes the muscles from the posterior of the torque, and shares the forces among them.
 ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
   ForceLoop loop;
   EstimatorOptions estimator = options.force.estimator;

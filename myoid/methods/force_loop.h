@@ -48,7 +48,7 @@ struct InformedForces {
 struct ForceLoopOptions {
   ForceOptions force;  ///< Options of the fit in every round.
   InformedSharing sharing;
-  double delay_s = 0.0;  ///< Of the EMG in the first round; then the fitted one.
+  double delay_s = 0.0;  ///< Delay of the EMG in the first round; later rounds take the fitted one.
   int max_rounds = 50;
   double tolerance = 1e-3;  ///< Greatest relative change of a parameter in the last round.
 };
@@ -76,16 +76,18 @@ struct ForceLoop {
   std::vector<InformedForces> forces;  ///< Forces with the fitted muscles, all trials.
 };
 
-/// By least squares: alternates until nothing changes: shares the torque among the muscles
-/// (informed_forces) and fits every muscle to its force (identify_force). The source paper leaves
-/// this loop open. The loop begins with the muscles' start. Its fixed point depends on the EMG for
-/// large W and on the optimizer's criterion for small W; method `torque` needs neither.
+/// Finds forces and parameters that agree.
 ///
-/// By the posterior (EstimatorOptions::estimator): its likelihood is that of a torque and of what
-/// errs between muscles and torque. Shared forces have no such errors, and a fit to them would
-/// count the torque twice. So the muscles are those of the posterior of the torque, the forces are
-/// shared with them, and both agree after one round, whose reserves say how well.
-/// Throws as identify_force and identify_torque; Interrupted.
+/// By least squares: alternates until nothing changes between sharing the torque among the muscles
+/// (informed_forces) and fitting every muscle to its force (identify_force). The source paper
+/// leaves this loop open. The loop begins with the muscles' start. Its fixed point depends on the
+/// EMG for large W and on the optimizer's criterion for small W; method `torque` needs neither.
+///
+/// By the posterior (EstimatorOptions::estimator): its likelihood includes the errors between
+/// muscles and torque. Shared forces have no such errors, and a fit to them would count the torque
+/// twice. So the muscles come from the posterior of the torque and share the forces. Both agree
+/// after one round, whose reserves measure the agreement. Throws as identify_force and
+/// identify_torque; Interrupted.
 [[nodiscard]] ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options = {});
 
 }  // namespace myoid::identification

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStarts = 12;
 constexpr Eigen::Index kFewSamples = 500, kSamplesAnUnknown = 10;
-/// A search that ends above this share of the data's sum of squares has left residuals.
+/// Share of the data's sum of squares above which a search has left residuals.
 constexpr double kNear = 1e-4;
 constexpr double kMet = 1e-12;
 constexpr double kLeast = 10.0;  ///< Samples that even a short trial keeps.
@@ -23,7 +23,7 @@ bool leaves_at_most(double share, const Estimator& estimator, const NormalSearch
   return 2.0 * search.cost <= share * estimator.model().measured().squaredNorm();
 }
 
-/// Start number s: a delay has minima of its own, so that the searches begin at several.
+/// Returns start number s; the delay has several minima, so the searches begin at several delays.
 Eigen::VectorXd start_number(const Estimator& estimator, int s) {
   const Eigen::VectorXd start = estimator.model().parameters().start();
   Eigen::VectorXd x = s == 0 ? start : estimator.moved_start(start, s);
@@ -36,7 +36,7 @@ Eigen::VectorXd start_number(const Estimator& estimator, int s) {
   return x;
 }
 
-/// The first start that leads to a minimum without residuals.
+/// Returns the solution from the first start that leads to a minimum without residuals.
 std::optional<Estimator::Solution> first_without_residuals(const Estimator& estimator) {
   Weighting as_they_are;
   as_they_are.sd_nm = Eigen::VectorXd::Ones(estimator.model().sample_count());
@@ -51,8 +51,8 @@ std::optional<Estimator::Solution> first_without_residuals(const Estimator& esti
   return std::nullopt;
 }
 
-/// Sample i is row floor((i + g i mod 1) apart), g the golden ratio: no period of a movement is a
-/// multiple of the steps.
+/// Takes row floor((i + g i mod 1) apart) as sample i, g the golden ratio, so that no period of a
+/// movement is a multiple of the steps.
 std::vector<Eigen::Index> irregular_rows(Eigen::Index count, double apart) {
   std::vector<Eigen::Index> rows;
   for (double i = 0.0; i * apart < static_cast<double>(count); i += 1.0) {

@@ -27,7 +27,7 @@
 namespace myoid::identification {
 namespace {
 
-/// Residual over force below which the data are free of noise and the model is theirs.
+/// Residual over force below which the data are free of noise and follow the model.
 constexpr double kExact = 1e-6;
 
 /// l0 and l_sh of one case with their covariance, which is 0 for a held number.
@@ -37,15 +37,15 @@ struct CaseShape {
 };
 constexpr std::array<std::string_view, 2> kShared{"optimal_fiber_length", "force_length_width"};
 
-/// Finds a minimum with damped steps where full steps find none. The minimum is no estimate, but it
-/// shows the signature of an error in the data. Empty where damped steps find none either.
+/// Returns the minimum of damped steps where full steps find none. The minimum is no estimate, but
+/// shows the signature of an error in the data. Empty if damped steps find none either.
 std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
   const auto p = static_cast<Eigen::Index>(samples.unknowns.size());
   if (static_cast<Eigen::Index>(samples.samples.size()) < 10 * p) return std::nullopt;
   if (!(samples.largest_force_n() > 0.0)) return std::nullopt;
   try {
     const math::LeastSquaresResult fit = math::minimize(samples.problem(), samples.start_vector());
-    // V_sh or P on their way to infinity never arrive; the cost stays the same.
+    // A V_sh or P that grows without limit never converges; the cost stays the same.
     const std::vector<double>& costs = fit.cost_history;
     constexpr std::size_t kLast = 10;
     const bool settled =
@@ -60,7 +60,7 @@ std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
 /// One muscle in one branch: samples, search and covariance.
 struct CaseFit {
   PaperCase samples;
-  math::LeastSquaresResult search;  ///< With the start as x where no search ran.
+  math::LeastSquaresResult search;  ///< Without a search, x is the start.
   std::string failure;              ///< Empty: converged.
   /// The minimum that plain or damped steps reach; empty: none.
   std::optional<Eigen::VectorXd> minimum;
@@ -69,7 +69,7 @@ struct CaseFit {
   double effective_samples = 0.0;
   double widen = 1.0;  ///< Samples over effective samples.
   double r2 = 1.0;
-  bool exact = false;  ///< The data are free of noise and the model is theirs.
+  bool exact = false;  ///< The data are free of noise and follow the model.
 
   [[nodiscard]] Eigen::Index size() const {
     return static_cast<Eigen::Index>(samples.unknowns.size());
@@ -84,7 +84,7 @@ struct CaseFit {
   [[nodiscard]] double variance(Eigen::Index i, Eigen::Index j) const {
     return covariance.unscaled(i, j) * covariance.residual_variance * widen;
   }
-  /// The search moved the value to where no muscle can be.
+  /// Returns true if the search moved the value outside the range of muscles.
   [[nodiscard]] bool unphysical(Eigen::Index j, const Eigen::VectorXd& start) const {
     const muscle::Range bounds = samples.unknowns[static_cast<std::size_t>(j)]->bounds;
     const double x = search.x[j];
@@ -92,7 +92,7 @@ struct CaseFit {
   }
 };
 
-/// Adds covariance, effective number of samples and R² where the residuals allow.
+/// Adds covariance, effective number of samples and R² if the residuals allow.
 void add_statistics(CaseFit& fit) {
   const math::LeastSquaresResult& search = fit.search;
   const auto n = static_cast<Eigen::Index>(fit.samples.samples.size());
@@ -127,7 +127,7 @@ CaseFit search_case(PaperCase samples, bool for_diagnoses) {
   return fit;
 }
 
-/// The number j of a case, judged.
+/// Returns number j of a case with its verdict.
 ParameterEstimate estimate_of(const CaseFit& fit,
                               Eigen::Index j,
                               const MuscleSetup& setup,
@@ -180,7 +180,7 @@ ParameterEstimate estimate_of(const CaseFit& fit,
   return e;
 }
 
-/// l0 and l_sh of a case; empty where the fit does not determine all its unknowns.
+/// Returns l0 and l_sh of a case; empty if the fit does not determine all its unknowns.
 std::optional<CaseShape> shape_of(const CaseFit& fit) {
   if (!fit.failure.empty() || !fit.computed || fit.covariance.rank < fit.size())
     return std::nullopt;
@@ -198,13 +198,13 @@ std::optional<CaseShape> shape_of(const CaseFit& fit) {
   return shape;
 }
 
-/// Both branches of a muscle or more: the result and the minima that show signatures of errors.
+/// Result of both branches of one or more muscles, and the minima that show signatures of errors.
 struct PaperFit {
   IdentificationResult result;
   std::vector<ParameterEstimate> minima;
 };
 
-/// Fits a muscle in one branch into `all`. Returns its curve, or nothing where it is not
+/// Fits a muscle in one branch into `all`. Returns the muscle's curve; empty if it is not
 /// determined.
 std::optional<CaseShape> fit_case(const StudyData& data,
                                   std::size_t muscle,
@@ -235,8 +235,8 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   return shape_of(fit);
 }
 
-/// Wald test of the numbers that both cases share and neither holds. Where the test rejects, no
-/// number of the muscle stays identified.
+/// Applies a Wald test to the numbers that both cases share and neither holds. If the test rejects,
+/// no number of the muscle stays identified.
 void compare_branches(const std::string& muscle,
                       const CaseShape& shortening,
                       const CaseShape& lengthening,
@@ -248,7 +248,7 @@ void compare_branches(const std::string& muscle,
   for (Eigen::Index j = 0; j < 2; ++j) {
     if (covariance(j, j) > 0.0) free.push_back(j);
   }
-  // Data without noise leave differences that only rounding makes: a thousandth refutes nothing.
+  // Data without noise leave differences from rounding alone: a thousandth rejects nothing.
   constexpr double kRounding = 1e-3;
   Eigen::MatrixXd of_free = covariance(free, free);
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -277,7 +277,7 @@ void compare_branches(const std::string& muscle,
   }
 }
 
-/// Adds the table of minima, and a warning where the given start missed the lowest one.
+/// Adds the table of minima, and a warning if the given start missed the lowest one.
 void add_basins(const StudyData& data,
                 std::size_t muscle,
                 bool shortening,
@@ -294,7 +294,7 @@ void add_basins(const StudyData& data,
   result.basins.push_back(std::move(table));
 }
 
-/// The numbers of a muscle in shortening and in lengthening.
+/// Returns the numbers of a muscle in shortening and in lengthening.
 std::array<muscle::HillParameters<double>, 2> by_branch(
     const IdentificationResult& result,
     const std::string& muscle,

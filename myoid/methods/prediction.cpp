@@ -108,8 +108,8 @@ Prediction predict(const StudyData& data,
 
 namespace {
 
-/// The cut-off at which the law's torque is expected to come closest to the torque without the
-/// noise of the envelopes (smooth_prediction.h); 0: not smoothed.
+/// Returns the cut-off at which the law's torque is expected to come closest to the torque without
+/// the envelopes' noise (smooth_prediction.h); 0: not smoothed.
 double smooth_hz(const TrialData& trial,
                  const Prediction& predicted,
                  const IdentificationResult& fit,
@@ -134,7 +134,7 @@ EstimatorOptions with_lag(EstimatorOptions options, EmgLag lag) {
   return options;
 }
 
-/// diag(J C J'), J n x p.
+/// Returns diag(J C J'), J n x p.
 Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
   return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
 }

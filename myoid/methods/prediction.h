@@ -15,7 +15,7 @@ namespace myoid::identification {
 struct Prediction {
   Eigen::MatrixXd force_n;            ///< n x m
   Eigen::VectorXd torque_nm;          ///< n
-  Eigen::MatrixXd activation;         ///< n x m: of each muscle's EMG channel.
+  Eigen::MatrixXd activation;         ///< n x m: activation of each muscle's EMG channel.
   Eigen::MatrixXd channel_torque_nm;  ///< n x channels: change by a relative error of an envelope.
 };
 [[nodiscard]] Prediction predict(const StudyData& data,
@@ -23,25 +23,26 @@ struct Prediction {
                                  const std::vector<muscle::HillParameters<double>>& muscles,
                                  double delay_s,
                                  EmgLag lag = EmgLag::delay);
-/// With all numbers of the model, of the trial's first joint (others: `of_joint`).
+/// Predicts with all numbers of the model, for the trial's first joint (others: `of_joint`).
 [[nodiscard]] Prediction predict(const StudyData& data,
                                  const TrialData& trial,
                                  const ModelValues& values,
                                  EmgLag lag);
-/// Predicts trials by a fit, those that it used and others: by this one way every number of a
-/// validation is made.
+/// Predicts fitted and other trials by a fit. Every number of a validation comes from these
+/// predictions.
 ///
-/// Least squares: the torque is the law with the identified parameters. Its standard deviation is
-/// that of J C J' + s_T^2 + sum_c v_c D_c^2, with J = dT^/dz, C the covariance of the unknowns, and
-/// D_c the torque's change by a relative error of an envelope of variance v_c.
+/// Least squares: the torque is the law with the identified parameters. Its variance is J C J' +
+/// s_T^2 + sum_c v_c D_c^2, with J = dT^/dz, C the covariance of the unknowns, and D_c the torque's
+/// change by a relative error of an envelope of variance v_c.
 ///
-/// The posterior: the expectation of a torque that is measured, given that of the fitted trials,
+/// The posterior: the torque is the expectation of a measured torque, given the torque of the
+/// fitted trials,
 ///
 ///   T* = T^(z) + S W x,   x the expectation of the unseen quantities (posterior/unseen.h),
 ///
-/// from the drives behind the envelopes; its variance is that of z, of x given z, and of the noise.
+/// from the drives behind the envelopes. Its variance is that of z, of x given z, and of the noise.
 ///
-/// The standard deviation of a force is that of the parameters.
+/// The standard deviation of a force includes that of the parameters only.
 class TrialPredictions {
  public:
   /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
@@ -53,7 +54,7 @@ class TrialPredictions {
   ~TrialPredictions();
   TrialPredictions(TrialPredictions&&) noexcept;
 
-  /// `trial` is one joint's view (`of_joint`). Literature's torque and forces stay empty.
+  /// Predicts one joint's view of a trial (`of_joint`). Literature's torque and forces stay empty.
   [[nodiscard]] TrialFit of(const TrialData& trial) const;
 
  private:
@@ -64,7 +65,8 @@ class TrialPredictions {
   double residual_cutoff_hz_ = 0.0;
 };
 
-/// Share of measured torques within 1.96 standard deviations of the prediction; NaN without these.
+/// Returns the share of measured torques within 1.96 standard deviations of the prediction; NaN
+/// without standard deviations.
 [[nodiscard]] double covered_share(const Eigen::VectorXd& measured_nm,
                                    const Eigen::VectorXd& predicted_nm,
                                    const Eigen::VectorXd& sd_nm);

@@ -12,17 +12,17 @@ namespace {
 
 constexpr int kHighestDegree = 5;
 constexpr double kRangePerDegree_rad = 15.0 * std::numbers::pi / 180.0;
-/// Over a smaller range a sine cannot be told from a line.
+/// Range below which a sine looks like a line.
 constexpr double kWeightRange_rad = 15.0 * std::numbers::pi / 180.0;
-constexpr double kLeftByWeight = 0.1;  ///< Of the variance.
-/// The beliefs about a weight and about the departure from its sine hold in as many
-/// independent samples: over some 40 degrees mean, sine and cosine can hardly be told apart.
+constexpr double kLeftByWeight = 0.1;  ///< share of the variance
+/// Number of independent samples for the beliefs about a weight and about the departure from its
+/// sine: over some 40 degrees mean, sine and cosine hardly differ.
 constexpr double kIndependent = 30.0;
 constexpr Eigen::Index kFewest = 20;
-/// At lower speeds in both directions no viscosity shows.
+/// Speed, in both directions, below which no viscosity shows.
 constexpr double kMoving_radps = 0.05;
 
-/// P_0 to P_(size-1) at x.
+/// Returns P_0 to P_(size-1) at x.
 Eigen::RowVectorXd legendre(double x, Eigen::Index size) {
   Eigen::RowVectorXd p(size);
   p[0] = 1.0;
@@ -34,7 +34,7 @@ Eigen::RowVectorXd legendre(double x, Eigen::Index size) {
   return p;
 }
 
-/// Position of the angle in the range, -1 to 1.
+/// Returns the position of the angle in the range, -1 to 1.
 double position(const RestingTorque& torque, double angle_rad) {
   const double range = torque.highest_rad - torque.lowest_rad;
   if (!(range > 0.0)) return 0.0;
@@ -58,7 +58,7 @@ Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::Vect
   return math::nearest_solution(columns, right);
 }
 
-/// Sets the weight if the torque is that of a weight.
+/// Sets the weight if the torque has the shape of a weight's.
 void find_weight(const Eigen::VectorXd& angle_rad,
                  const Eigen::VectorXd& torque_nm,
                  RestingTorque& result) {

@@ -8,16 +8,16 @@
 
 namespace myoid::identification {
 
-/// The measured torque of a joint while its muscles are at rest: ligaments, skin
-/// and stretched fibers, the weight of limb and instrument (a dynamometer's plate and lever) as far
-/// as nothing else accounts for it, and the offset of the load cell. A muscle fitted without them
-/// would take them for its own.
+/// The measured torque of a joint while its muscles are at rest. It comes from ligaments, skin and
+/// stretched fibers, from the weight of limb and instrument (a dynamometer's plate and lever) if
+/// the model does not include it, and from the load cell's offset. A fit without this torque would
+/// ascribe it to the muscles.
 ///
 ///   T(q, qdot) = sum_k c_k P_k(x) - b qdot,   x = 2 (q - q_lowest) / (q_highest - q_lowest) - 1
 ///
-/// with Legendre polynomials P_k up to the fifth degree, which meet an exponential that rises
-/// twentyfold over the range to a thousandth of its largest value, and a weight's sine over 50
-/// degrees, with the third degree, to 3e-4 of its amplitude. Beyond the range
+/// with Legendre polynomials P_k up to the fifth degree. They fit an exponential that rises
+/// twentyfold over the range to a thousandth of its largest value, and with the third degree a
+/// weight's sine over 50 degrees to 3e-4 of its amplitude. Beyond the range
 ///
 ///   T(q) = T(q_end) + W(q) - W(q_end),   W(q) = w_s sin q + w_c cos q
 struct RestingTorque {

@@ -10,13 +10,13 @@
 namespace myoid::identification {
 namespace {
 
-/// Gain of two passes of second order, -3 dB at the cut-off.
+/// Returns the gain of two passes of second order, -3 dB at the cut-off.
 double two_passes(double frequency_hz, double cutoff_hz) {
   const double corrected = cutoff_hz / std::pow(std::sqrt(2.0) - 1.0, 0.25);
   return 1.0 / (1.0 + std::pow(frequency_hz / corrected, 4));
 }
 
-/// Power density of the noise, relative to the white noise before the filters.
+/// Returns the noise's power density, relative to the white noise before the filters.
 double density(double frequency_hz, const EnvelopeNoise& noise) {
   double power = std::pow(two_passes(frequency_hz, noise.cutoff_hz), 2);
   for (const double tau_s : noise.lag_s)
@@ -24,7 +24,7 @@ double density(double frequency_hz, const EnvelopeNoise& noise) {
   return power;
 }
 
-/// Integral over all frequencies of the density times `gain`.
+/// Returns the integral over all frequencies of the density times `gain`.
 template <typename Gain>
 double power(const EnvelopeNoise& noise, Gain gain) {
   double sum = 0.0;

@@ -15,8 +15,8 @@ struct SmoothPrediction {
 struct EnvelopeNoise {
   double variance_nm2 = 0.0;  ///< Variance before the lags.
   double cutoff_hz = 0.0;     ///< Cut-off of the envelopes' low-pass; before it the noise is white.
-  std::array<double, 2> lag_s{};  ///< Time constants of the lags that it passes, a gain of
-                                  ///< 1 / sqrt(1 + (2 pi f tau)^2) each; 0: none.
+  std::array<double, 2> lag_s{};  ///< Time constants of the lags after the low-pass; each has the
+                                  ///< gain 1 / sqrt(1 + (2 pi f tau)^2); 0: none.
 };
 
 /// Returns the share of the noise's variance that passes the lags.

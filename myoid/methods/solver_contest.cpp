@@ -16,7 +16,7 @@ namespace {
 
 using Search = std::function<math::LocalMinimum(const Eigen::VectorXd& start)>;
 
-/// One cost as each of the contestants takes it.
+/// One cost in the forms that the solvers need.
 struct Contestants {
   Search gauss_newton, levenberg_marquardt;
   math::DirectSearchProblem cost;  ///< With the bounds of the fit.
@@ -28,7 +28,7 @@ math::LocalMinimum end_of(const Found& found) {
   return {found.termination, found.x, found.cost, found.evaluations};
 }
 
-/// An end without a minimum where the cost is not finite at the start.
+/// Searches; returns an end without a minimum if the cost is not finite at the start.
 math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) {
   try {
     return search(start);
@@ -39,7 +39,7 @@ math::LocalMinimum searched(const Search& search, const Eigen::VectorXd& start) 
 
 using Solver = std::pair<const char*, Search>;
 
-/// The four solvers by name; they refer to the arguments.
+/// Returns the four solvers by name; they refer to the arguments.
 std::vector<Solver> solvers_of(const Contestants& who,
                                const StartBox& box,
                                const ContestOptions& options,
@@ -49,7 +49,7 @@ std::vector<Solver> solvers_of(const Contestants& who,
         who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
   };
   const auto annealing = [&, seed = options.seed](const Eigen::VectorXd& x) mutable {
-    // The costs of the starts' box spread over many powers of ten: the temperature follows them.
+    // Costs in the starts' box span many powers of ten, and so does the temperature.
     return end_of(math::simulated_annealing(who.cost, x,
                                             {.seed = seed++,
                                              .max_evaluations = options.direct_evaluations,

@@ -15,7 +15,7 @@ struct ContestedFit {
   std::function<SolverContest(const ContestOptions&)> contest;
 };
 
-/// The progress of part `index` of `count`.
+/// Returns the progress of part `index` of `count`.
 Progress part_of(const Progress& whole, std::size_t index, std::size_t count) {
   Progress part = whole;
   if (!whole.report) return part;

@@ -51,10 +51,10 @@ IdentificationResult finish(const Estimator& estimator,
   return result;
 }
 
-/// The data's preference for lags over a delay: the difference of two sums of squared residuals
-/// over their expected variances, times the share of independent samples. The variance with lags is
-/// the variance with a delay, less the noise of the envelopes that the lags remove. Without that
-/// reduction the smoother prediction would win even where muscles follow by a delay.
+/// Returns the data's preference for lags over a delay: the difference of two sums of squared
+/// residuals over their expected variances, times the share of independent samples. The variance
+/// with lags is that with a delay, less the noise of the envelopes that the lags remove. Without
+/// this reduction the smoother prediction would win even if muscles follow by a delay.
 double preference_for_lags(const Estimator& by_delay,
                            const Estimator::Solution& delayed,
                            const Estimator& by_lags,

@@ -14,16 +14,17 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kInside = 0.003;   // of a range: the nearest to a bound that a search begins
-constexpr double kFarthest = 40.0;  // of x: beyond it a bound is reached to round-off
+constexpr double kInside =
+    0.003;  // of a range: least distance from a bound at which a search begins
+constexpr double kFarthest = 40.0;  // of x: farther out z equals its bound to round-off
 constexpr double kStartingModelError = 0.1, kLeastModelError = 1e-6;
-constexpr double kStartingTorqueError = 0.3;  // of the root mean square
+constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean square
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
 
-/// s of the normal score x, over the spread of its half normal prior, and d ln s / dx.
+/// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
 struct HalfNormal {
   double size = 0.0, slope = 0.0;
 };
@@ -34,12 +35,12 @@ HalfNormal half_normal(double x) {
   return {y, 0.5 * std::exp(0.5 * (y * y - x * x)) / y};
 }
 
-/// The normal score of a size over the prior's spread.
+/// Returns the normal score of `size`, which is s over the prior's spread.
 double score_of(double size) {
   return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * std::erfc(size / std::numbers::sqrt2));
 }
 
-/// Numbers of a muscle whose spread is the literature's.
+/// Returns true for a number of a muscle whose prior spread is the literature's.
 bool is_literature(const Unknown& of) {
   return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
 }
@@ -60,7 +61,7 @@ Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
   }
   const auto n = static_cast<Eigen::Index>(strengths.size());
   if (n == 0) return precision;
-  // Of one muscle nothing is common.
+  // A single muscle has no other to share a part with.
   const double common = n > 1 ? common_share * squared : 0.0;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd spread(n);
@@ -118,7 +119,7 @@ double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
   if (std::none_of(free.begin(), free.end(), is_literature)) return 1.0;
   const Eigen::MatrixXd of_data = likelihood_.information(z_of(x), noise_of(x)).information;
   const Eigen::VectorXd known = (of_data + precision_) * (z_of(x) - prior_mean_);
-  // Numbers without a prior would have ln 0 at every lambda.
+  // A zero diagonal, where there is no prior, would make ln |P| infinite.
   Eigen::MatrixXd flat = Eigen::MatrixXd::Zero(precision_.rows(), precision_.cols());
   for (Eigen::Index j = 0; j < flat.rows(); ++j) flat(j, j) = precision_(j, j) > 0.0 ? 0.0 : 1.0;
   const auto log_density = [&](double log_unlikeness) {
@@ -197,7 +198,8 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   const Eigen::VectorXd off = z - prior_mean_, pull = precision_ * off;
   result -= 0.5 * off.dot(pull);
   for (Eigen::Index j = 0; j < p; ++j) {
-    // ln dz/dx = ln range + ln q + ln (1 - q), q the logistic function; its slope is 1 - 2 q.
+    // ln dz/dx = ln range + ln q + ln (1 - q), where q is the logistic function; its slope is 1 - 2
+    // q.
     const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
     result += below;
     if (gradient == nullptr) continue;
@@ -226,7 +228,7 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   h.topLeftCorner(p, p) = by_x.asDiagonal() * of_z * by_x.asDiagonal();
   for (Eigen::Index j = 0; j < p; ++j) h(j, j) += 2.0 * logistic(x[j]) * logistic(-x[j]);
   h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
-  // A trial's share and the size of all torque errors are one number times another.
+  // The torque's error has the size b sigma_T: ln b and ln sigma_T share a gradient.
   for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {
     const double rows = 0.5 * static_cast<double>(likelihood_.runs()[r].measured_nm.size());
     const Eigen::Index size = p + kTorqueSd, share = p + likelihood_.share_place(r);

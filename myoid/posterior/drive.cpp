@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kRatePerCutoff = 5.0;
 constexpr double kBandHalf_hz = 0.25;      // over which the spectrum is averaged
-constexpr double kHighestPerCutoff = 1.2;  // of the frequencies at which W is found
-constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa two spreads up
-constexpr double kAtOnce_s = 25.0;         // smoothed at once
-constexpr double kMargin_s = 1.0;          // of a neighbor, smoothed with it
-constexpr double kFade = 0.15;             // of the period of the frequencies, a spread
-constexpr double kLeastDrive = 1e-3;       // of the resting level: noise acts on it, too
-constexpr double kJitter = 1e-5;           // of the variance
-constexpr Eigen::Index kFiner = 6;         // samples of the drive for one that is smoothed
-constexpr int kPasses = 3;                 // the noise follows the drive
+constexpr double kHighestPerCutoff = 1.2;  // highest frequency of W over the cut-off
+constexpr double kMostNoise = 3.3;    // times the expected power: ln kappa at two prior spreads
+constexpr double kAtOnce_s = 25.0;    // longest piece that is smoothed at once
+constexpr double kMargin_s = 1.0;     // overlap with each neighboring piece
+constexpr double kFade = 0.15;        // spread of the fade, over the period of the frequency grid
+constexpr double kLeastDrive = 1e-3;  // of the resting level, on which noise acts, too
+constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
+constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
+constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
 
 Eigen::ArrayXd hann_window(Eigen::Index n) {
   return 0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
@@ -32,7 +32,7 @@ Eigen::ArrayXd hann_window(Eigen::Index n) {
                          .cos();
 }
 
-/// One-sided power density of evenly sampled values at each frequency, behind a Hann window.
+/// Returns the one-sided power density of evenly sampled values behind a Hann window.
 Eigen::VectorXd power_density(const Eigen::VectorXd& values,
                               double rate_hz,
                               const Eigen::VectorXd& frequency_hz) {
@@ -60,7 +60,7 @@ Eigen::VectorXd moving_mean(const Eigen::VectorXd& x, Eigen::Index half) {
   return mean;
 }
 
-/// The falling sequence nearest to x by weighted least squares: neighbors that rise are pooled.
+/// Returns the falling sequence nearest to x by weighted least squares; pools rising neighbors.
 Eigen::VectorXd falling(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) {
   struct Pool {
     double weight, mean;
@@ -91,8 +91,8 @@ Eigen::VectorXd evenly(const Envelope& envelope, const Eigen::VectorXd& time_s) 
   return time_s.unaryExpr([&](double t) { return envelope.at(t).value; });
 }
 
-/// What the recording says of drive and noise at the frequencies of an EnvelopeError below the
-/// highest: one-sided power densities.
+/// One-sided power densities of drive and noise in the recording, at the frequencies of an
+/// EnvelopeError below the highest.
 struct Spectra {
   Eigen::VectorXd drive, noise;
   double level = 1.0;  ///< Power of the noise over the expected.
@@ -121,7 +121,7 @@ Spectra spectra_of(const Eigen::VectorXd& values,
   }
   std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
                    ratio.end());
-  // The median of chi-squared over its mean; a Hann window makes 1.5 of neighbors one.
+  // Chi-squared's median over its mean; a Hann window makes 1.5 neighboring frequencies one.
   const double freedom = std::max(
       2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(values.size()) / rate_hz / 1.5);
   const double median = ratio[ratio.size() / 2] / std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
@@ -131,7 +131,7 @@ Spectra spectra_of(const Eigen::VectorXd& values,
   return of;
 }
 
-/// cos(w j) and sin(w j), j = 0 ... n - 1, for an angle w of one sample.
+/// Returns cos(w j) and sin(w j), j = 0 ... n - 1, where w is the angle of one sample.
 Eigen::ArrayX2d turning(double angle, Eigen::Index n) {
   Eigen::ArrayX2d turns(n, 2);
   const std::complex<double> turn = std::polar(1.0, angle);
@@ -140,7 +140,7 @@ Eigen::ArrayX2d turning(double angle, Eigen::Index n) {
   return turns;
 }
 
-/// sum_f power cos(2 pi f j interval), j = 0 ... last, faded before the sum repeats itself.
+/// Returns sum_f power cos(2 pi f j interval), j = 0 ... last; fades before the sum repeats.
 Eigen::VectorXd covariances(const Eigen::VectorXd& power,
                             const EnvelopeError& error,
                             double interval_s,
@@ -165,8 +165,8 @@ Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
   return m;
 }
 
-/// Columns h_j cos(w j) and h_j sin(w j) for each frequency, h a Hann window: with v of one
-/// frequency, v' M v over both columns is the power of an error of covariance M there.
+/// Returns columns h_j cos(w j) and h_j sin(w j) for each frequency, h a Hann window: summed over
+/// the two columns v, v' M v is the power there of an error of covariance M.
 Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz,
                                double interval_s,
                                Eigen::Index n) {
@@ -178,14 +178,14 @@ Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz,
   return waves;
 }
 
-/// Sums of the entries of the products of both columns of each frequency.
+/// Returns for each frequency the sum of the products of a and b over its two columns.
 Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Eigen::VectorXd each = a.cwiseProduct(b).colwise().sum();
   return each.reshaped(2, each.size() / 2).colwise().sum();
 }
 
-/// The drive of evenly sampled values, and the powers of its error and of the noise at the
-/// frequencies of the spectra, behind a Hann window.
+/// The drive of evenly sampled values, and the powers behind a Hann window of the drive's error and
+/// of the noise, at the frequencies of the spectra.
 struct Smoothed {
   Eigen::VectorXd drive, error, noise;
 };
@@ -213,7 +213,7 @@ Smoothed smooth(const Eigen::VectorXd& values,
     const Eigen::VectorXd off = factor.solve((values.array() - mean).matrix());
     result.drive = mean + (prior * off).array();
     if (pass + 1 < kPasses) continue;
-    // The error of the drive has the covariance P - P (P + N)^-1 P.
+    // The drive's error has the covariance P - P (P + N)^-1 P, P the drive's and N the noise's.
     const Eigen::MatrixXd waves =
         windowed_waves(error.frequencies_hz().head(spectra.drive.size()), interval_s, n);
     const Eigen::MatrixXd of_prior = prior * waves, half = factor.matrixL().solve(of_prior);
@@ -251,7 +251,7 @@ Drive drive_behind(const Envelope& recorded,
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
       n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
   const Eigen::VectorXd values = evenly(recorded, time);
-  // What never changes has no spectrum: a dead electrode, a muscle that is held at one level.
+  // A constant envelope (a dead electrode, a muscle at one level) has no spectrum.
   if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff())
     return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
@@ -274,8 +274,8 @@ Drive drive_behind(const Envelope& recorded,
     left[i] =
         spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
   }
-  // The kinks at zero lie where the drive has them, not at the samples: a search for the delay
-  // would see the samples otherwise.
+  // The finer samples put the kinks at zero where the drive has them. With kinks at the samples, a
+  // search for the delay would see the samples.
   const Eigen::VectorXd fine =
       Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
   return {

@@ -11,14 +11,15 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kLeastWeight = 0.02;  // of a mode
-constexpr double kSameMode = 0.3;      // conditional standard deviations, root mean square
+constexpr double kLeastWeight = 0.02;  // least share of a mode's weight
+constexpr double kSameMode =
+    0.3;  // conditional standard deviations between equal modes, root mean square
 constexpr int kMostReferences = 4;
 constexpr Eigen::Index kApproximateDraws = 4000;
 constexpr int kOtherStarts = 1;
 constexpr std::uint64_t kSeed = 20;
 
-/// The start moved by a spread of the prior, up or down by a fixed pattern.
+/// Returns the start moved by the prior's spread, up or down by a fixed pattern.
 Eigen::VectorXd moved_start(const Density& density, int number) {
   Eigen::VectorXd z = density.parameters().start();
   const std::vector<Unknown>& free = density.parameters().free();
@@ -35,7 +36,7 @@ bool same(const Candidate& a, const Mode& b) {
   return squared < kSameMode * kSameMode * static_cast<double>(off.size());
 }
 
-/// Climbs, takes the unseen quantities at the top, and climbs again until the top stays.
+/// Finds a mode, takes the unseen quantities there, and repeats until the mode stays.
 Mode settle(Density& density, const Eigen::VectorXd& start, const Progress& progress) {
   Mode mode = find_mode(density, start, progress);
   for (int pass = 0; pass < kMostReferences; ++pass) {
@@ -47,7 +48,7 @@ Mode settle(Density& density, const Eigen::VectorXd& start, const Progress& prog
   return mode;
 }
 
-/// The modes of a density, the best first; at least one. The unseen quantities are those of the
+/// Returns the modes of a density, the best first; at least one. Takes the unseen quantities at the
 /// first start's mode.
 std::vector<Candidate> modes_of(Density& density,
                                 const std::vector<Eigen::VectorXd>& starts,
@@ -68,7 +69,7 @@ std::vector<Candidate> modes_of(Density& density,
   return found;
 }
 
-/// Leaves the modes that weigh something, with curvatures and weights, the heaviest first.
+/// Computes curvatures and weights, drops light modes, and sorts the heaviest first.
 void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
   const double best = std::max_element(candidates.begin(), candidates.end(),
                                        [](const Candidate& a, const Candidate& b) {
@@ -91,8 +92,8 @@ void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
   for (Candidate& c : candidates) c.weight /= sum;
 }
 
-/// Draws about one mode: of the density itself where the options ask for draws, else by its
-/// marginals, else of the normal approximation.
+/// Draws about one mode: from the density itself where the options ask for draws, else from its
+/// marginals, else from the normal approximation.
 Draws draws_about(const Candidate& c,
                   const EstimatorOptions& options,
                   std::uint64_t seed,

@@ -12,7 +12,7 @@
 
 namespace myoid::identification {
 
-/// A mode of one of the densities, and its weight among all.
+/// A mode of one of the densities, and its share of the weight of all modes.
 struct Candidate {
   const Density* density = nullptr;
   EmgLag lag = EmgLag::delay;
@@ -25,23 +25,24 @@ struct Sample {
   Eigen::MatrixXd z;      ///< unknowns x draws
   Eigen::MatrixXd noise;  ///< NoiseValues x draws
   Eigen::VectorXd weight;
-  double rhat = 1.0, accepted = 1.0;  ///< The worst of the modes (sampler.h).
-  bool approximate = false;           ///< The chains of the sampler cannot be relied on.
+  double rhat = 1.0, accepted = 1.0;  ///< The worst value among the modes (sampler.h).
+  bool approximate = false;           ///< The sampler's chains cannot be relied on.
 };
 
 /// The posterior of a study: its modes, the heaviest first, and draws from it.
 struct Exploration {
-  std::vector<std::unique_ptr<Density>> densities;  ///< With a pure delay, with lags.
+  std::vector<std::unique_ptr<Density>> densities;  ///< One with a pure delay, one with lags.
   std::vector<Candidate> modes;
   Sample sample;
 };
 
-/// Seeks the modes from the starting values, and from others about them where the options ask for
-/// several starts, with a pure delay and with lags where the choice is open. Each weighs by its
-/// evidence; modes of less than 2 % are left out. The quantities that residuals hardly tell are
-/// taken at the mode of the pass before, until it stays. With EstimatorOptions::posterior_draws the
-/// draws are of the density (sampler.h), else of its marginals (marginals.h) or, without
-/// EstimatorOptions::marginals, of the normal approximation.
+/// Finds the modes of the posterior and draws from it. Searches begin at the starting values and,
+/// if the options ask for several starts, at others about them, with a pure delay and with lags
+/// where the choice is open. A mode weighs by its evidence; modes of less than 2 % are left out.
+/// The unseen quantities (unseen.h) are taken at the mode of the previous pass until the mode
+/// stays. The draws are from the density with EstimatorOptions::posterior_draws (sampler.h), else
+/// from its marginals (marginals.h) or, without EstimatorOptions::marginals, from the normal
+/// approximation.
 [[nodiscard]] Exploration explore(const StudyData& data, const EstimatorOptions& options);
 
 }  // namespace myoid::identification

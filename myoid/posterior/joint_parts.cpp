@@ -31,9 +31,9 @@ JointParts::JointParts(const std::vector<TrialRun>& runs) {
     }
   }
   mean.array().colwise() /= samples.array().max(1.0);
-  // Joints x muscles: dq = -turn dl.
+  // joints x muscles: dq = -turn dl.
   const Eigen::MatrixXd turn = math::pseudo_inverse(mean.transpose());
-  // dl less what the angles make of it.
+  // The rest of dl, which the angles do not explain.
   const Eigen::MatrixXd left =
       Eigen::MatrixXd::Identity(muscles, muscles) - turn.transpose() * mean;
   const Eigen::RowVectorXd squared = mean.colwise().squaredNorm().cwiseMax(1e-300);

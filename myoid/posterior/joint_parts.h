@@ -8,33 +8,34 @@
 
 namespace myoid::identification {
 
-/// The joints that each muscle crosses, and the part of its length l [m] that each of them makes.
+/// The joints that each muscle crosses, and each joint's part of the muscle's length l [m].
 ///
-/// Of a muscle of one joint it is the whole length. Otherwise the angles follow from the lengths of
-/// all muscles by the recording's mean moment arms R, joints x muscles:
+/// A muscle of one joint has its whole length as the part. Otherwise the angles follow from the
+/// lengths of all muscles by the recording's mean moment arms R, joints x muscles:
 ///
 ///   dq = -(R')^+ dl,   dl_jk = -R_jk dq_j + R_jk^2 / (sum_i R_ik^2) (dl_k + sum_i R_ik dq_i)
 ///
-/// The parts add to the length. They need no angles, and a trial that shows one of the joints only
+/// The parts add to the length. They need no angles, so a trial that shows only one of the joints
 /// has the same parts. With constant moment arms they are exact.
 class JointParts {
  public:
   JointParts() = default;
   explicit JointParts(const std::vector<TrialRun>& runs);
 
-  /// Joints of the recording, as ParameterMap::joints().
+  /// Number of joints of the recording, in the order of ParameterMap::joints().
   [[nodiscard]] int joint_count() const { return static_cast<int>(weights_.size()); }
-  /// Whether the moment arm reaches 0.1 mm. Of one joint all muscles do.
+  /// Returns true if the moment arm reaches 0.1 mm, or if there is only one joint.
   [[nodiscard]] bool crosses(std::size_t muscle, int joint) const;
-  /// The joint's part, n, of the muscle's length, up to a constant, or of its rate, by the lengths
-  /// or rates of all muscles, n x muscles.
+  /// Returns the joint's part of the muscle's length (up to a constant) or rate, n values.
+  /// `all_muscles` holds the lengths or rates of all muscles, n x muscles.
   [[nodiscard]] Eigen::VectorXd of(const Eigen::MatrixXd& all_muscles,
                                    std::size_t muscle,
                                    int joint) const;
 
  private:
-  Eigen::MatrixXd longest_arm_m_;         ///< joints x muscles
-  std::vector<Eigen::MatrixXd> weights_;  ///< Per joint: column k are those of muscle k's part.
+  Eigen::MatrixXd longest_arm_m_;  ///< joints x muscles
+  std::vector<Eigen::MatrixXd>
+      weights_;  ///< Per joint; column k gives the weights of muscle k's part.
 };
 
 }  // namespace myoid::identification

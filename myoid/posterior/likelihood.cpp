@@ -24,7 +24,8 @@ void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::Ref<Eigen::MatrixX
   }
 }
 
-/// The gradient by the first column of a symmetric Toeplitz matrix, b that by the matrix.
+/// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient
+/// by the matrix.
 Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   const Eigen::Index n = b.rows();
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
@@ -33,7 +34,7 @@ Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   return sums;
 }
 
-/// Two joints i <= j of a run, by their first rows among the n J samples and behind L.
+/// Two joints i <= j of a run, by their first rows among the n J samples and among the rows of L y.
 struct JointPair {
   Eigen::Index i, j, row_i, row_j;
 };
@@ -49,8 +50,8 @@ std::vector<JointPair> joint_pairs(const TrialRun& run) {
   return pairs;
 }
 
-/// Adds the covariance that one noise makes in the rows of all joints; `variance`(pair) is the
-/// product of its factors in both joints at each sample, n.
+/// Adds the covariance that one noise causes in the rows of all joints; `variance`(pair) is the
+/// product of the noise's factors in both joints at each sample, n.
 template <typename Variance>
 void add_noise(const TrialRun& run,
                const EmgNoise& noise,
@@ -69,7 +70,7 @@ void add_noise(const TrialRun& run,
 /// One run at one point.
 struct Likelihood::Block {
   std::unique_ptr<RunEvaluation> evaluation;
-  Eigen::LLT<Eigen::MatrixXd> factor;  ///< Of A.
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
   Eigen::VectorXd solved;              ///< A^-1 r
   Eigen::MatrixXd unseen;              ///< L S W
   Eigen::MatrixXd unseen_solved;       ///< A^-1 L S W
@@ -143,8 +144,8 @@ Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run,
     const auto arms = run.arm_m.col(static_cast<Eigen::Index>(k)).array();
     const auto arm = arms.segment(first_row, n), other = arms.segment(other_row, n);
     for (std::size_t j = 0; j < run.joints.size(); ++j) {
-      // dq of any joint moves the length by -r dq, and each torque by its arm times the force's
-      // change.
+      // An angle error dq of any joint changes the muscle's length by -r dq, and each torque by its
+      // arm times the change of force.
       const auto moved = arms.segment(run.first_row(j), n);
       const Eigen::ArrayXd here = arm * moved, there = other * moved;
       variance.array() += (here * rows.by_length.array() * options_.angle_sd_rad) *
@@ -243,7 +244,7 @@ void Likelihood::pull_back(std::size_t r,
   const TorqueSignals& signals = block.evaluation->signals();
   const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
   const Eigen::Index n = run.time_s.size();
-  // Sigma^-1 r, and of A the gradient 1/2 (w w' - Sigma^-1).
+  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1).
   const Eigen::VectorXd w = block.solved - block.unseen_solved * shared;
   const Eigen::MatrixXd spread = block.unseen_solved * inverse;
   const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() + spread * block.unseen_solved.transpose() -
@@ -270,7 +271,7 @@ void Likelihood::pull_back(std::size_t r,
     const auto d = signals.by_noise.col(c);
     auto by_d = by.by_noise.col(c);
     for (const JointPair& pair : joint_pairs(run)) {
-      // A_ij and its transpose A_ji go with D_i D_j: the halves of A_ii with D_i D_i.
+      // A_ij and its transpose A_ji share the factor D_i D_j; A_ii occurs once.
       const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
       const Eigen::VectorXd by_product = envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(
           pair.i == pair.j ? Eigen::MatrixXd(of_pair)

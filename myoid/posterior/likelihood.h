@@ -12,38 +12,38 @@
 
 namespace myoid::identification {
 
-/// What is taken to be exact: nothing, or the geometry and the scales of the sensors.
+/// Quantities that are taken to be exact: none, or the geometry and the sensors' scales.
 enum class Believed { nothing_exact, geometry_and_sensors_exact };
 
-/// ln p(y | z, phi) of all calibration trials: y = T^(z; u, q) + e_T + e_u + e_q + S W x, all of it
-/// behind the operator L of each run,
+/// ln p(y | z, phi) of all calibration trials. The torque is y = T^(z; u, q) + e_T + e_u + e_q + S
+/// W x, and the operator L of each run acts on all of these terms,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
 /// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque
-/// errors of two joints are independent, sigma_i = sigma_T times the root mean square of the
-/// joint's torque over that of all. A torque errs by 0.2 % of its root mean square y_i at the least
-/// (kLeastTorqueError): a torque that never changes would be infinitely exact otherwise. One noise
-/// of an envelope and one error of an angle act on all joints that the muscle crosses. A is one
-/// block per run; S W^2 S', of the unseen quantities, goes through all runs and is taken in by
-/// Woodbury's identity. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and
-/// Q, the error of angle and rate, independent from sample to sample, belong to reference values of
-/// the unknowns. The constant -n/2 ln(2 pi) is left out.
+/// errors of two joints are independent. sigma_i is sigma_T times the joint's root mean square
+/// torque over that of all joints. A torque errs by 0.2 % of its root mean square y_i at the least
+/// (kLeastTorqueError): a torque that never changes would be infinitely exact otherwise. The noise
+/// of an envelope and the error of an angle act on all joints that the muscle crosses. A is one
+/// block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity
+/// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and Q
+/// belong to reference values of the unknowns; the errors of angle and rate in Q are independent
+/// from sample to sample. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
 
-  /// The reference is the start. `session` is what was recorded where the data are a part of it;
-  /// null: the data are all.
+  /// Takes the start as the reference. `session` is the recording of which the data are a part;
+  /// null: the data are the whole recording.
   Likelihood(const StudyData& data,
              const EstimatorOptions& options,
              const Recorded* session = nullptr);
 
-  /// Takes S and Q at these values of the unknowns.
+  /// Computes S and Q at the reference values z.
   void refer_to(const Eigen::VectorXd& z);
-  /// Leaves out of S what is taken to be exact; at first nothing is.
+  /// Leaves the quantities that are taken to be exact out of S; none is by default.
   void believe(Believed believed) { believed_ = believed; }
 
   [[nodiscard]] const ParameterMap& parameters() const { return map_; }
@@ -51,42 +51,42 @@ class Likelihood {
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
   [[nodiscard]] const Recorded& recorded() const { return recorded_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
-  /// The fitted trials, in whose order ln b stands in NoiseValues.
+  /// Number of fitted trials, in whose order ln b stands in NoiseValues.
   [[nodiscard]] Eigen::Index trial_count() const { return trials_; }
-  /// The place of the run's trial in NoiseValues.
+  /// Returns the index of the run's trial in NoiseValues.
   [[nodiscard]] Eigen::Index share_place(std::size_t run) const {
     return kNoiseFieldCount + trial_of_run_[run];
   }
-  /// ln b of the run's trial; 0 where `noise` does not name it.
+  /// Returns ln b of the run's trial, or 0 where `noise` has no entry for this trial.
   [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
   /// Root mean square of the measured torques of all joints.
   [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 
   struct Gradient {
     Eigen::VectorXd by_z;
-    NoiseValues by_noise;  ///< As long as the NoiseValues that it is taken at.
+    NoiseValues by_noise;  ///< As long as the NoiseValues at which it is taken.
   };
-  /// Runs in parallel, sums in order: the same bits for any number of threads. -infinity where
-  /// Sigma is not positive definite in the computer's numbers.
+  /// Returns ln p. Evaluates runs in parallel and sums them in order, so the bits do not depend on
+  /// the number of threads. Returns -infinity where Sigma is not numerically positive definite.
   [[nodiscard]] double value(const Eigen::VectorXd& z,
                              const NoiseValues& noise,
                              Gradient* gradient = nullptr) const;
 
-  /// Fisher's information of z in the mean, J' Sigma^-1 J, and what each source is of it:
-  /// `by_source`[s] = J' Sigma^-1 Sigma_s Sigma^-1 J, which add to `information`.
+  /// Fisher's information about z in the mean, J' Sigma^-1 J, and each source's part of it,
+  /// `by_source`[s] = J' Sigma^-1 Sigma_s Sigma^-1 J. The parts add to `information`.
   struct Information {
     Eigen::MatrixXd information;
-    std::vector<Eigen::MatrixXd> by_source;  ///< Indexed by Source; that of literature is zero.
+    std::vector<Eigen::MatrixXd> by_source;  ///< Indexed by Source; zero for the literature.
   };
   [[nodiscard]] Information information(const Eigen::VectorXd& z, const NoiseValues& noise) const;
 
-  /// Of each calibration trial, Fisher's information of z and of the unseen quantities x, each over
-  /// its standard deviation: [L J, L S W]' A^-1 [L J, L S W]. Trials add, and x has a precision of
-  /// 1 beforehand; with x integrated over, the sum is `information`.
+  /// Returns for each calibration trial Fisher's information of z and of the unseen quantities x,
+  /// each over its standard deviation: [L J, L S W]' A^-1 [L J, L S W]. Trials add. The prior
+  /// precision of x is 1; integrated over x, the sum is `information`.
   [[nodiscard]] std::vector<Eigen::MatrixXd> information_by_trial(const Eigen::VectorXd& z,
                                                                   const NoiseValues& noise) const;
 
-  /// The unseen quantities given the torque and z, each over its standard deviation.
+  /// The unseen quantities, given the torque and z, each over its standard deviation.
   struct UnseenGiven {
     Eigen::VectorXd mean;
     Eigen::MatrixXd covariance;
@@ -94,15 +94,15 @@ class Likelihood {
   };
   [[nodiscard]] UnseenGiven unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const;
 
-  /// The torque of a run, fitted or not, and its parts that are uncertain.
+  /// The forecast torque of a run, fitted or not, and its uncertain parts.
   struct RunForecast {
     Eigen::VectorXd mean_nm;                  ///< n J: T^ and the unseen quantities' expectation.
     Eigen::MatrixXd by_z;                     ///< d mean / d z, n J x unknowns.
-    Eigen::VectorXd variance_nm2;             ///< n J: of what is measured about it, z apart.
+    Eigen::VectorXd variance_nm2;             ///< n J: of measurements about the mean, at fixed z.
     Eigen::MatrixXd force_n;                  ///< n x muscles
     std::vector<Eigen::MatrixXd> force_by_z;  ///< Per muscle, n x unknowns.
   };
-  /// `unseen` is `unseen_given` at these values, which are also the reference.
+  /// Forecasts a run. `unseen` is `unseen_given` at these values, which are also the reference.
   [[nodiscard]] RunForecast forecast(const TrialRun& run,
                                      const Eigen::VectorXd& z,
                                      const NoiseValues& noise,
@@ -118,14 +118,14 @@ class Likelihood {
  private:
   struct Block;
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
-  /// b^2 sigma_T^2 of the run.
+  /// Returns b^2 sigma_T^2 of the run.
   [[nodiscard]] double torque_variance(std::size_t run, const NoiseValues& noise) const;
-  /// kappa^2 sd_c^2 of each channel.
+  /// Returns kappa^2 sd_c^2 of each channel.
   [[nodiscard]] Eigen::VectorXd envelope_scale(std::size_t run, const NoiseValues& noise) const;
   [[nodiscard]] Eigen::MatrixXd envelope_covariance(std::size_t run,
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;
-  /// Fills the block of a run up to what needs no other run; false: not positive definite.
+  /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run,
                           const Eigen::VectorXd& weights,
                           const NoiseValues& noise,
@@ -136,12 +136,12 @@ class Likelihood {
                  const Eigen::MatrixXd& inverse,
                  const Block& block,
                  Gradient& gradient) const;
-  /// Q_ij by sample, n; of the joints whose first rows these are.
+  /// Returns Q_ij of the joints with these first rows, one entry per sample, n.
   [[nodiscard]] Eigen::VectorXd motion_variance(const TrialRun& run,
                                                 const RunEvaluation& at,
                                                 Eigen::Index first_row,
                                                 Eigen::Index other_row) const;
-  /// Adds the torque's error at this sigma_T^2 to the rows of each joint.
+  /// Adds the torque error's covariance at this sigma_T^2 to the rows of each joint.
   void add_torque_error(const TrialRun& run,
                         double variance,
                         double log_time,
@@ -154,7 +154,7 @@ class Likelihood {
   std::vector<std::vector<EmgNoise>> envelope_noise_;  ///< Per run, per channel.
   /// Per run: L Q L' and the least error of the torque, which no unknown changes.
   std::vector<Eigen::MatrixXd> given_;
-  std::vector<Eigen::Index> trial_of_run_;  ///< Among the fitted trials.
+  std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.
   Eigen::Index trials_ = 0;
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;

@@ -8,20 +8,20 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kGridEnd = 9.0;  // standard deviations: the grid's end
+constexpr double kGridEnd = 9.0;  // standard deviations
 constexpr double kGridStep = 0.05;
-constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; 2 is that of the normal
-constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; 1 is that of the normal
-constexpr double kLeastFall = 0.5, kMostFall = 8.0;    // to a side; 2 is that of the normal
+constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; a normal one has 2
+constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; a normal one has 1
+constexpr double kLeastFall = 0.5, kMostFall = 8.0;  // of ln density to a side; a normal one has 2
 constexpr double kMostPromise = 2.0;  // of ln density: the most that a step of Newton may promise
 
-/// The cubic on [0, 2] with value and slope 0 at 0.
+/// Returns the cubic on [0, 2] with value and slope 0 at 0.
 double hermite(const Marginal::Side& side, double outward_slope, double distance) {
   const double x = distance / Marginal::kSide;
   return x * x * (side.log_density * (3.0 - 2.0 * x) + Marginal::kSide * outward_slope * (x - 1.0));
 }
 
-/// Minus the cubic's second derivative at 2, between limits.
+/// Returns minus the cubic's second derivative at 2, clamped.
 double tail_curvature(const Marginal::Side& side, double outward_slope) {
   const double at_side = (4.0 * Marginal::kSide * outward_slope - 6.0 * side.log_density) /
                          (Marginal::kSide * Marginal::kSide);

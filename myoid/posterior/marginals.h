@@ -17,40 +17,41 @@ namespace myoid::identification {
 /// ln p(t) is the cubic through values and slopes at -2, 0 and 2, and a parabola in the tails.
 class Marginal {
  public:
-  /// Where a search was at t = -2 or 2: ln p less that of the mode, and its slope in t.
+  /// State of the search at t = -2 or 2: ln p less that of the mode, and its slope in t.
   struct Side {
     double log_density = -2.0;
     double slope = 0.0;
   };
   static constexpr double kSide = 2.0;
-  /// The normal distribution's sides are {-2, 2} and {-2, -2}.
+  /// Builds ln p(t) from both sides. A normal distribution has the sides {-2, 2} and {-2, -2}.
   Marginal(const Side& below, const Side& above);
 
   [[nodiscard]] double log_density(double t) const;
-  /// The t below which as much lies as below `normal` in the standard normal distribution.
+  /// Returns the t at which the distribution reaches the share that a standard normal one has at
+  /// `normal`.
   [[nodiscard]] double at(double normal) const;
 
  private:
   std::array<Side, 2> sides_;
-  std::vector<double> share_;  ///< Of the distribution below the points of a grid of t.
+  std::vector<double> share_;  ///< Share of the distribution below each point of a grid of t.
 };
 
 /// Returns ln p(x) and fills the gradient.
 using LogDensity = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
-/// The marginal of every entry of x about a mode with covariance C. The other entries follow to
-/// their expectation given x_j, mode + t C e_j / sd_j, and one step of Newton from there:
+/// Returns the marginal of every entry of x about a mode with covariance C. The other entries move
+/// to their expectation given x_j, mode + t C e_j / sd_j, and from there by one step of Newton:
 ///
 ///   ln p(t) = f + 1/2 g' K g,   K = C - C e_j e_j' C / C_jj
 ///
-/// f and g are the density's value and gradient. The change of the determinant of the other
-/// entries' curvature along t is left out. A side where the density is not finite stays normal.
+/// f and g are the density's value and gradient. The change along t of the determinant of the other
+/// entries' curvature is left out. A side where the density is not finite stays normal.
 [[nodiscard]] std::vector<Marginal> marginals(const LogDensity& density,
                                               const Mode& mode,
                                               const Progress& progress);
 
-/// Draws with these marginals and the dependence of the normal distribution with the mode's
-/// covariance (a Gaussian copula), of equal weights.
+/// Draws points of equal weight with these marginals and, as a Gaussian copula, the dependence of
+/// the normal distribution with the mode's covariance.
 [[nodiscard]] Draws draw_about(const Mode& mode,
                                const std::vector<Marginal>& marginals,
                                Eigen::Index count,

@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostIterations = 300;
 constexpr double kPromise = 1e-4;          // of ln density
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
-constexpr double kLeastCurvature = 0.1;    // of Gauss and Newton's
+constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
   const Eigen::VectorXd scale = positive.diagonal().cwiseSqrt().cwiseInverse();
@@ -52,12 +52,12 @@ Mode find_mode(const Density& density, const Eigen::VectorXd& start, const Progr
         mode.converged = true;
         break;
       }
-      // What quasi-Newton steps have learned may be wrong: the answer is Gauss and Newton's.
+      // The quasi-Newton steps may have learned a wrong curvature; Gauss and Newton's replaces it.
       inverse = inverse_of(density.gauss_newton(mode.x));
       fresh = true;
       continue;
     }
-    // Near a bound the logistic map makes one entry's step very long: it alone is cut.
+    // Near a bound the logistic map makes one entry's step very long; only this entry is cut.
     const Eigen::VectorXd longest = density.longest_step(mode.x);
     step = step.cwiseMax(-longest).cwiseMin(longest);
     promise = 0.5 * gradient.dot(step);

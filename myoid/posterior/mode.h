@@ -9,28 +9,28 @@
 
 namespace myoid::identification {
 
-/// The greatest density that a search found, and Laplace's approximation about it.
+/// The point of greatest density that a search found, and Laplace's approximation about it.
 struct Mode {
   Eigen::VectorXd x;
   double log_density = 0.0;
-  Eigen::MatrixXd covariance;  ///< Of x: inverse of minus the second derivatives.
-  /// ln of the integral of the density by Laplace: what the data and the model's freedom weigh.
+  Eigen::MatrixXd covariance;  ///< Inverse of minus the second derivatives by x.
+  /// Laplace's ln of the density's integral: weighs the fit against the model's freedom.
   double log_evidence = 0.0;
   bool converged = false;
   int iterations = 0;
   std::string message;
 };
 
-/// Climbs from `start` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno, its
-/// first second derivatives those of Gauss and Newton, and stops where a full step promises less
-/// than 1e-4 of ln density. `covariance` and `log_evidence` are left for `add_curvature`.
+/// Climbs from `start` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno with
+/// Gauss and Newton's second derivatives at first. Stops where a full step promises less than 1e-4
+/// of ln density. Leaves `covariance` and `log_evidence` to `add_curvature`.
 [[nodiscard]] Mode find_mode(const Density& density,
                              const Eigen::VectorXd& start,
                              const Progress& progress);
 
-/// Second derivatives by central differences of the exact gradient over a third of a standard
-/// deviation, symmetric; a direction in which the density does not fall gets the curvature of a
-/// tenth of its Gauss-Newton value.
+/// Adds covariance and evidence from second derivatives, central differences of the exact gradient
+/// over a third of a standard deviation, made symmetric. A direction in which the density does not
+/// fall gets a tenth of its Gauss-Newton curvature.
 void add_curvature(const Density& density, Mode& mode, const Progress& progress);
 
 }  // namespace myoid::identification

@@ -8,7 +8,7 @@ namespace myoid::identification {
 namespace {
 
 constexpr Eigen::Index kFrequencies = 800;
-constexpr double kHighest = 8.0;       // of the corner: the spectrum is below 1e-7 there
+constexpr double kHighest = 8.0;       // times the corner: the spectrum is below 1e-7 there
 constexpr double kReachPeriods = 2.5;  // periods of the cut-off: R is below 1e-5 there
 
 }  // namespace
@@ -56,7 +56,7 @@ double EnvelopeError::correlation(double apart_s) const {
 }
 
 Eigen::VectorXd EnvelopeError::from_white(double interval_s) const {
-  // The square root of the spectrum of R, over a circle long enough for R to end in.
+  // The square root of R's spectrum, over a circle that is longer than the reach of R.
   const auto reach = static_cast<Eigen::Index>(std::ceil(reach_s_ / interval_s));
   const Eigen::Index size = 2 * reach + 1;
   Eigen::VectorXd r(reach + 1);
@@ -98,7 +98,7 @@ Eigen::MatrixXd EmgNoise::covariance(const Eigen::VectorXd& variance) const {
     const Eigen::Index first = begin_ + j * stride_;
     for (Eigen::Index w = 0; w < width; ++w)
       weighted[w] = kernel_[w] * variance[std::clamp<Eigen::Index>(first + w, 0, inputs_ - 1)];
-    // Row i > j begins (i - j) strides later.
+    // Row i > j begins (i - j) strides after row j.
     for (Eigen::Index i = j; i < outputs_ && (i - j) * stride_ < width; ++i) {
       const Eigen::Index both = width - (i - j) * stride_;
       a(i, j) = a(j, i) = kernel_.head(both).dot(weighted.tail(both));

@@ -22,10 +22,10 @@
 namespace myoid::identification {
 namespace {
 
-constexpr double kUnlike = 1.6;            // times the literature's spread, that is worth a warning
-constexpr Eigen::Index kKeptDraws = 1000;  // that are written
+constexpr double kUnlike = 1.6;            // lambda from which a warning is given
+constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 
-/// Of every unknown, what each source is of its variance by Laplace with Fisher's information.
+/// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
   const std::vector<Unknown>& free = best.density->parameters().free();
   const Likelihood::Information of = best.density->likelihood().information(
@@ -37,7 +37,7 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   Eigen::MatrixXd part(p, kSourceCount);
   for (int s = 0; s < kSourceCount; ++s)
     part.col(s) = (covariance * of.by_source[static_cast<std::size_t>(s)] * covariance).diagonal();
-  // No prior joins a channel's number with another's: the precision is one block for each source.
+  // No prior joins a channel's number with another number, so each block belongs to one source.
   const Eigen::MatrixXd pulled = best.density->precision() * covariance;
   for (Eigen::Index j = 0; j < p; ++j) {
     const Source source = free[static_cast<std::size_t>(j)].field->scope == Scope::channel
@@ -55,8 +55,7 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   return shares;
 }
 
-/// The interval of z, were geometry and sensors exact: Laplace's, with the curvature of Gauss and
-/// Newton.
+/// The interval of z with geometry and sensors exact: Laplace's, with Gauss and Newton's curvature.
 struct Given {
   Eigen::VectorXd low, high;
 };
@@ -72,14 +71,14 @@ Given given_geometry(Density density, const Candidate& best, const Progress& pro
   return {density.z_of(mode.x - reach), density.z_of(mode.x + reach)};
 }
 
-/// What the reporting of rows has at hand.
+/// The inputs that every reported row needs.
 struct Reporting {
   const StudyData& data;
   const ParameterMap& map;
   const Sample& sample;
   const std::vector<SourceShares>& shares;
   const Given& given;
-  const std::vector<ActiveMotion>& motion;  ///< Of the muscles.
+  const std::vector<ActiveMotion>& motion;  ///< One per muscle.
   const IdentificationResult& result;
   bool converged = true;
 };
@@ -164,7 +163,7 @@ ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t t
   return e;
 }
 
-/// V_sh V_shl of a muscle whose slope ratio is the unknown.
+/// Returns the row of V_sh V_shl of a muscle whose slope ratio is the unknown.
 ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owner) {
   const auto k = static_cast<std::size_t>(owner);
   ParameterEstimate e;
@@ -245,7 +244,7 @@ void fill_fit(const Candidate& best,
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
 
-/// At most kKeptDraws draws, evenly among all, as values.
+/// Keeps at most kKeptDraws draws as values, evenly spaced among all draws.
 void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationResult& result) {
   const Eigen::Index stride = (sample.z.cols() + kKeptDraws - 1) / kKeptDraws;
   const Eigen::Index count = (sample.z.cols() + stride - 1) / stride;

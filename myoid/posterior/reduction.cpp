@@ -8,7 +8,7 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kReach = 3.0;          // kernel widths to either side
-constexpr double kRowsPerPeriod = 3.0;  // of the cut-off
+constexpr double kRowsPerPeriod = 3.0;  // rows per period of the cut-off
 
 double width_s(double cutoff_hz) {
   return std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz);

@@ -7,11 +7,11 @@
 
 namespace myoid::identification {
 
-/// The linear operator L that makes a run of n even samples into m < n rows: a Gaussian low-pass,
-/// amplitude exp(-(2 pi f sigma)^2 / 2) with -3 dB at `cutoff_hz`, read every third of 1 /
-/// cut-off. All rows have the same weights, which add to 1 and reach no farther than the run, so
-/// that L makes a stationary error stationary again. A run shorter than the weights is one row.
-/// Without a cut-off L is the identity.
+/// The linear operator L that turns a run of n even samples into m < n rows: a Gaussian low-pass,
+/// amplitude exp(-(2 pi f sigma)^2 / 2) with -3 dB at `cutoff_hz`, read at every third of 1 /
+/// cut-off. All rows have the same weights, which add to 1 and stay inside the run, so L keeps a
+/// stationary error stationary. A run shorter than the weights gives one row. Without a cut-off L
+/// is the identity.
 class Reduction {
  public:
   Reduction(Eigen::Index samples, double rate_hz, std::optional<double> cutoff_hz);
@@ -20,14 +20,14 @@ class Reduction {
   [[nodiscard]] Eigen::Index outputs() const { return outputs_; }
   /// The weights of a row.
   [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
-  /// The sample that the first weight of row j belongs to.
+  /// Returns the sample to which the first weight of row j belongs.
   [[nodiscard]] Eigen::Index first(Eigen::Index j) const { return begin_ + j * stride_; }
   /// Samples from row to row.
   [[nodiscard]] Eigen::Index stride() const { return stride_; }
 
-  /// L X, column by column. The rows of X may be those of several joints, joint after joint.
+  /// Returns L X, column by column. The rows of X may belong to several joints, joint after joint.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
-  /// L' Y, likewise.
+  /// Returns L' Y, likewise.
   [[nodiscard]] Eigen::MatrixXd transposed(const Eigen::Ref<const Eigen::MatrixXd>& y) const;
 
  private:
@@ -35,7 +35,7 @@ class Reduction {
   Eigen::VectorXd weights_;
 };
 
-/// Samples that one run and the next must share for their rows to follow each other without a gap.
+/// Returns the number of samples that two successive runs share so that their rows leave no gap.
 [[nodiscard]] Eigen::Index shared_samples(double rate_hz, std::optional<double> cutoff_hz);
 
 }  // namespace myoid::identification

@@ -15,19 +15,19 @@ namespace {
 
 constexpr Eigen::Index kChains = 4;
 constexpr int kTuning = 60;         // proposals, twice
-constexpr double kOfLaplace = 0.3;  // of the covariance at last
-constexpr double kTarget = 0.8;     // of proposals taken
+constexpr double kOfLaplace = 0.3;  // Laplace's share of the final covariance
+constexpr double kTarget = 0.8;     // share of proposals taken
 constexpr double kFirstStep = 0.4;  // standard deviations
 constexpr int kMostSteps = 20;      // of a proposal
 
-/// A place in the coordinates of Laplace's approximation.
+/// A point in the coordinates of Laplace's approximation.
 struct Place {
   Eigen::VectorXd u, gradient;
   double log_density = 0.0;
 };
 
-/// The step that a chain takes: longer after proposals that are taken, shorter after others, by
-/// less and less; at last the mean over the later half of the proposals.
+/// The step of a chain. It grows after accepted proposals and shrinks after others, by less and
+/// less; the final step is the mean over the later half of the proposals.
 class Step {
  public:
   [[nodiscard]] double size() const { return std::exp(log_size_); }
@@ -48,7 +48,7 @@ class Chain {
  public:
   Chain(const LogDensity& density, const Mode& mode, math::Random random)
       : density_(density), random_(random), x_(mode.x) {
-    // A draw from the approximation, or nearer to the mode where the density is next to nothing.
+    // Begins at a draw from the approximation, or nearer to the mode where the density is near 0.
     const Eigen::VectorXd off = mode.covariance.llt().matrixL() * normal();
     Eigen::VectorXd gradient;
     for (double share = 1.0; share > 0.05; share *= 0.5) {
@@ -59,14 +59,14 @@ class Chain {
     }
   }
 
-  /// Takes the coordinates x = origin + root u, in which it stands at u = 0.
+  /// Takes the coordinates x = origin + root u, whose origin is the chain's place.
   void begin(const Eigen::MatrixXd& root) {
     root_ = &root;
     origin_ = x_;
     at_ = place(Eigen::VectorXd::Zero(x_.size()));
   }
 
-  /// The share of acceptance of one proposal; the chain is where it ends.
+  /// Makes one proposal, moves the chain to its end, and returns the share of acceptance.
   double move(double step) {
     Eigen::VectorXd momentum = normal();
     const double size = step * (0.9 + 0.2 * random_.uniform());
@@ -111,7 +111,7 @@ class Chain {
   Place at_;
 };
 
-/// Split R-hat of each row, whose values are chain after chain; the greatest.
+/// Returns the greatest split R-hat of the rows, whose values stand chain after chain.
 double greatest_rhat(const Eigen::MatrixXd& x) {
   const Eigen::Index halves = 2 * kChains, n = x.cols() / halves;
   if (n < 2) return 1.0;
@@ -153,7 +153,7 @@ Sampled sample_density(const LogDensity& density,
         run(chains[static_cast<std::size_t>(c)], c);
     });
   };
-  // By Laplace's covariance to the density's own, by which the draws are taken.
+  // First Laplace's covariance, then the density's own, with which the draws are taken.
   Eigen::MatrixXd covariance = mode.covariance;
   for (const bool last : {false, true}) {
     const Eigen::MatrixXd root = covariance.llt().matrixL();

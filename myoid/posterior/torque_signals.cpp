@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kActivationStep = 0.02;
 
-/// The activations when the envelope is larger by kActivationStep: a (1 + h p).
+/// Returns the activations at an envelope larger by kActivationStep: a (1 + h p).
 std::vector<Activation> more_active(std::vector<Activation> activation, double exponent) {
   const double grown = 1.0 + kActivationStep * exponent;
   for (Activation& a : activation) {
@@ -20,7 +20,7 @@ std::vector<Activation> more_active(std::vector<Activation> activation, double e
   return activation;
 }
 
-/// What the own torque of the run's j-th joint changes by with one of its numbers, n.
+/// Returns the derivative of the j-th joint's own torque by one of the joint's numbers, n.
 Eigen::VectorXd by_joint_field(const TrialRun& run, std::size_t j, int field) {
   const Eigen::Index n = run.time_s.size();
   if (field == kOffset) return Eigen::VectorXd::Ones(n);
@@ -122,7 +122,7 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
       add_gradient(m.more_active, more, by_z);
     }
   }
-  // The noise goes with the envelope, which the delay moves.
+  // The noise moves with the envelope when the delay changes.
   for (std::size_t c = 0; c < chains_->of_channel.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
     double by_delay = 0.0;

@@ -10,28 +10,30 @@
 
 namespace myoid::identification {
 
-/// What the model says of one run at all n samples of its J joints, or a function's gradient by it.
+/// The model's torque signals of one run at all n samples of its J joints; also the gradient of a
+/// function by these signals.
 struct TorqueSignals {
   Eigen::VectorXd torque_nm;  ///< n J: T^_j = sum_k r_jk F_k + the joint's own torque.
-  /// n J x channels: D_c, the change by one standard deviation of rectified EMG, relative to the
-  /// envelope (TrialRun::envelope_sd), d T^ / d ln u_c n(u) / (sd u), n that of relative_noise.
+  /// n J x channels: D_c, the change of torque by one standard deviation of rectified EMG, relative
+  /// to the envelope (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u)
+  /// from noise_over_envelope.
   Eigen::MatrixXd by_noise;
 };
 
-/// The derivative of the numbers of the model by the unknowns, by whose they are.
+/// Derivatives of the model's numbers by the unknowns, grouped by the numbers' owners.
 struct ChainsByOwner {
   ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains);
   std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
 };
 
-/// The torque signals of one run at one point, with all that takes a gradient back from them to the
-/// unknowns.
+/// The torque signals of one run at one point, and all quantities that carry a gradient from the
+/// signals back to the unknowns.
 ///
-/// dT^/d ln u is a secant, of the activation from a to a (1 + 0.02 p), p the exponent of the
-/// channel: its gradient needs first derivatives of the muscles' law only, and is exact.
+/// dT^/d ln u is a secant, between the activations a and a (1 + 0.02 p), p the exponent of the
+/// channel. Its gradient needs only first derivatives of the muscles' law, and is exact.
 class RunEvaluation {
  public:
-  /// `chains` null: no gradient will be asked for.
+  /// Evaluates a run. Without `chains` (null) the gradients cannot be asked for.
   RunEvaluation(const TrialRun& run,
                 const ParameterMap& map,
                 EmgLag lag,
@@ -43,11 +45,11 @@ class RunEvaluation {
   [[nodiscard]] const std::vector<std::vector<Activation>>& activations() const {
     return activations_;
   }
-  /// A muscle's tension, with its derivatives by length and rate.
+  /// Returns a muscle's tension, with its derivatives by length and rate.
   [[nodiscard]] const MuscleRows& muscle(std::size_t k) const { return muscles_[k].at; }
   /// Adds to `by_z` the gradient of a function whose gradient by the signals is `by`.
   void pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) const;
-  /// d T^ / d z, n J x unknowns.
+  /// Returns d T^ / d z, n J x unknowns.
   [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index unknowns) const;
 
  private:
@@ -56,7 +58,7 @@ class RunEvaluation {
     MuscleRows at, more_active;
   };
 
-  /// Of the numbers of the run's j-th joint.
+  /// Returns the chains of the numbers of the run's j-th joint.
   [[nodiscard]] const std::vector<ParameterMap::Chain>& own_chains(std::size_t j) const;
 
   const TrialRun& run_;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLongest_s = 8.0;
 constexpr Eigen::Index kFewest = 8;  // samples of a run
 
-/// Every stride-th sample that may be fitted, in stretches without a hole.
+/// Returns every stride-th sample that may be fitted, in stretches without a gap.
 std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial,
                                                  double max_rate_hz,
                                                  double longest_delay_s) {
@@ -41,8 +41,8 @@ std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial,
   return found;
 }
 
-/// The stretch in pieces of equal length, none longer than kLongest_s but for the samples that
-/// neighbors share.
+/// Cuts the stretch into pieces of equal length, none longer than kLongest_s apart from the samples
+/// that neighbors share.
 std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& rows,
                                               const Eigen::VectorXd& time_s,
                                               std::optional<double> cutoff_hz) {
@@ -60,7 +60,7 @@ std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& r
   return found;
 }
 
-/// An EMG channel's resting level over its full level, where that of raw EMG is known; else 0.
+/// Returns an EMG channel's resting level over its full level if raw EMG is known, else 0.
 double floor_of(const std::string& channel, const EstimatorOptions& options) {
   const auto rest = options.emg_rest.find(channel);
   const auto bandwidth = options.emg_bandwidth_hz.find(channel);
@@ -70,7 +70,7 @@ double floor_of(const std::string& channel, const EstimatorOptions& options) {
 
 using Drives = std::vector<std::shared_ptr<const Drive>>;  // by channel
 
-/// The drive behind the envelope of each channel.
+/// Returns the drive behind the envelope of each channel.
 Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const ParameterMap& map) {
   const EnvelopeError plain(options.envelope_cutoff_hz, {});
   const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();

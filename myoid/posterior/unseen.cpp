@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLogRange = 2.3;
 constexpr double kLag_s = 0.15;            // a model's relative error of 10 % is a lag of 15 ms
-constexpr double kLeastActivation = 0.02;  // of the logarithm
-constexpr double kNoneActs = 1e-4;         // force over activation is finite down to it
+constexpr double kLeastActivation = 0.02;  // least activation whose logarithm is taken
+constexpr double kNoneActs = 1e-4;         // least activation that force is divided by
 constexpr double kLeastSpan = 0.5;         // of l0: the range of lengths of a muscle that is held
 constexpr double kLeastSpeed = 0.1;        // of v_max, likewise
 
@@ -107,8 +107,7 @@ class Collector {
     lags_.push_back(quantities_.size() - 1);
   }
 
-  /// A delay that is free takes the lag that its muscles have in common: the model errs by the
-  /// rest.
+  /// A free delay takes the lag that its muscles have in common; only the differences are errors.
   void center_lags() {
     for (const Unknown& delay : map_.free()) {
       if (!delay.is(Scope::channel, kDelay)) continue;
@@ -124,7 +123,7 @@ class Collector {
     }
   }
 
-  /// A constant and a slope of each joint, of the size of its measured torque.
+  /// Adds a constant and a slope of each joint, scaled by the joint's measured torque.
   void add_joint_errors() {
     const int joints = recorded_.parts.joint_count();
     for (int joint = 0; joint < joints; ++joint) {
@@ -157,8 +156,8 @@ class Collector {
   }
 
  private:
-  /// A muscle at one joint of one run: its torque r F, how that changes with length and rate, and
-  /// both.
+  /// A muscle at one joint of one run: its torque r F, the derivatives of this torque by length and
+  /// rate, and length and rate themselves.
   struct OfMuscle {
     const TrialRun& run;
     const RunEvaluation& at;
@@ -173,7 +172,7 @@ class Collector {
     return value;
   }
 
-  /// Change of ln a by an activation that comes earlier [1/s].
+  /// Returns the change of ln a by an activation that comes earlier [1/s].
   static Eigen::ArrayXd earlier(const RunEvaluation& at, std::size_t channel) {
     const std::vector<Activation>& a = at.activations()[channel];
     Eigen::ArrayXd by_time(static_cast<Eigen::Index>(a.size()));
@@ -284,7 +283,7 @@ class Collector {
   const ModelValues& values_;
   const std::vector<RunEvaluation>& at_;
   std::vector<UnseenQuantity> quantities_;
-  std::vector<std::size_t> lags_;                     ///< Per muscle: the quantity of its lag.
+  std::vector<std::size_t> lags_;                     ///< Per muscle: index of its lag's quantity.
   std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
 };
 
@@ -304,7 +303,7 @@ double Recorded::size_share(int joint) const {
 
 namespace {
 
-/// The range of one muscle's lengths and rates, n each of every run.
+/// Returns the range of one muscle's lengths and rates, n of each for every run.
 template <typename Lengths>
 Recorded::Range range_of(const std::vector<TrialRun>& runs,
                          const MuscleValues& muscle,
@@ -324,7 +323,7 @@ Recorded::Range range_of(const std::vector<TrialRun>& runs,
   return range;
 }
 
-/// Fills the root mean squares of L y, of all and of each joint.
+/// Fills the root mean squares of L y, over all joints and for each.
 void add_torque_sizes(const std::vector<TrialRun>& runs, Recorded& found) {
   const auto joints = static_cast<std::size_t>(found.parts.joint_count());
   std::vector<double> sums(joints, 0.0), counts(joints, 0.0);

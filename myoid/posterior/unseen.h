@@ -14,27 +14,27 @@
 
 namespace myoid::identification {
 
-/// A quantity x ~ N(0, weight^2) that the residuals can hardly tell, in which the torque is linear:
-/// it adds x S(t) to the torque, and W S S' W to the covariance, for all trials at once.
+/// A quantity x ~ N(0, weight^2) that the residuals hardly determine and in which the torque is
+/// linear: it adds x S(t) to the torque, and W S S' W to the covariance of all trials together.
 struct UnseenQuantity {
   std::string name;
   Source source = Source::model;
-  double weight = 0.0;        ///< Standard deviation; of a model's error, over its size s.
-  bool of_the_model = false;  ///< Its standard deviation is s weight.
+  double weight = 0.0;        ///< Standard deviation; for a model's error, over its size s.
+  bool of_the_model = false;  ///< The standard deviation is s weight.
 };
 
-/// All such quantities of a study, and what they are in each run, at reference values of the
-/// unknowns. A relative error is one of the torque that was recorded, so S does not follow the
-/// unknowns: a moment arm that is 10 % too large makes F_max 10 % too small, and not the other
-/// muscles' errors smaller.
+/// All unseen quantities of a study, and their columns S in each run, at reference values of the
+/// unknowns. A relative error refers to the recorded torque, so S does not follow the unknowns: a
+/// moment arm that is 10 % too large makes F_max 10 % too small, but does not shrink the other
+/// muscles' errors.
 ///
-/// A moment arm r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the
-/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), as r = -dl/dq. Of a
-/// muscle that crosses several joints each arm errs by itself: l and x are then the joint's part of
-/// the length (JointParts), and the length acts on the force, and so on all joints. A slack
-/// length that is off by d makes fibers shorter by d; a tendon that the study holds rigid stretches
-/// by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; one scale serves all
-/// joints, as of one dynamometer, or of the masses of one person's segments. Gain drift: the
+/// Moment arm: r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the
+/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), because r = -dl/dq. In
+/// a muscle that crosses several joints each arm errs by itself: l and x are then the joint's part
+/// of the length (JointParts), and the length acts on the force, and so on all joints. Slack
+/// length: an error d shortens the fibers by d. Tendon: one that the study holds rigid stretches by
+/// l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
+/// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the
 /// channel's torque times the place in the session. Cross-talk: the channel's torque times the
 /// ratio of another's activation to its own. Rise and fall: activation that rises earlier and falls
 /// later by d than the delay says, a + d |da/dt|. Model error: the muscle's torque times
@@ -45,32 +45,32 @@ struct Unseen {
   std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n J x quantities [N m].
 };
 
-/// Lengths and speeds that were recorded of a muscle, and the torque: by these the shapes of the
-/// errors are scaled, in fitted and in predicted trials.
+/// Recorded lengths and speeds of the muscles, and the torque: they scale the shapes of the errors,
+/// in fitted and in predicted trials.
 struct Recorded {
   struct Range {
     double shortest_m = 1e9, longest_m = -1e9, fastest_mps = 1e-9;
     [[nodiscard]] double span_m() const;
-    /// The place of each length in the range, -1 to 1.
+    /// Returns the place of each length in the range, -1 to 1.
     [[nodiscard]] Eigen::ArrayXd place(const Eigen::ArrayXd& length_m) const;
   };
   std::vector<Range> muscles;
   JointParts parts;
-  std::vector<std::vector<Range>> by_joint;  ///< Of the parts, by joint and muscle.
+  std::vector<std::vector<Range>> by_joint;  ///< Ranges of the parts, by joint and muscle.
   double torque_nm = 0.0;                    ///< Root mean square of L y.
-  std::vector<double> joint_torque_nm;       ///< The same of each joint.
+  std::vector<double> joint_torque_nm;       ///< Root mean square of each joint's L y.
 
-  /// The joint's `joint_torque_nm` over `torque_nm`, at least a hundredth.
+  /// Returns the joint's `joint_torque_nm` over `torque_nm`, at least a hundredth.
   [[nodiscard]] double size_share(int joint) const;
 };
 
-/// A range is at least half an optimal fiber length: over less a muscle's law and its moment arm
-/// cannot err by as much.
+/// Returns the recorded ranges. A range is at least half an optimal fiber length: over a shorter
+/// one neither a muscle's law nor its moment arm can err by as much.
 [[nodiscard]] Recorded recorded(const std::vector<TrialRun>& runs,
                                 const std::vector<MuscleValues>& muscles);
 
-/// `at` are the runs evaluated at the reference values `values`; `recorded` is that of the fitted
-/// runs.
+/// Returns the unseen quantities. `at` holds the runs evaluated at the reference `values`;
+/// `recorded` describes the fitted runs.
 [[nodiscard]] Unseen unseen_quantities(const StudyData& data,
                                        const EstimatorOptions& options,
                                        const ParameterMap& map,

@@ -8,20 +8,20 @@
 
 namespace myoid::identification {
 
-/// What the posterior says of one number.
+/// The posterior's facts about one number, from which its verdict follows.
 struct PosteriorFacts {
   bool converged = true;
-  bool approximate = false;    ///< The interval is that of the normal approximation.
+  bool approximate = false;    ///< The interval comes from the normal approximation.
   bool nuisance_gain = false;  ///< The gain of an EMG channel: a scale that F_max shares.
-  double value = 0.0, low = 0.0, high = 0.0;  ///< Of the person, 95 %.
-  double low_given = 0.0, high_given = 0.0;   ///< The same, geometry and sensors exact.
+  double value = 0.0, low = 0.0, high = 0.0;  ///< The person's value and 95 % interval.
+  double low_given = 0.0, high_given = 0.0;  ///< The 95 % interval with geometry and sensors exact.
   /// 1 - posterior variance / prior variance; empty: no prior.
   std::optional<double> contraction;
-  bool possible = true;  ///< A muscle can have it.
+  bool possible = true;  ///< A muscle can have this value.
   bool is_delay = false;
-  /// Of l0 and l_sh: the lengths of the muscle while it is active, over l0.
+  /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
   std::optional<double> length_span;
-  double r2 = 1.0;  ///< Of the fitted torque.
+  double r2 = 1.0;  ///< R2 of the fitted torque.
   SourceShares shares{};
 };
 
@@ -40,11 +40,11 @@ enum class Finding {
   narrow
 };
 
-/// The first that holds.
+/// Returns the first finding that holds; `wide` is asked ahead of `half_the_prior`.
 [[nodiscard]] Finding finding(const PosteriorFacts& facts);
 [[nodiscard]] Verdict verdict_of(Finding finding);
-/// A sentence: the finding with its numbers, and the sources that make a tenth or more of the
-/// variance.
+/// Returns a sentence with the finding, its numbers, and the sources that contribute a tenth or
+/// more of the variance.
 [[nodiscard]] std::string reason_of(Finding finding, const PosteriorFacts& facts);
 
 }  // namespace myoid::identification

@@ -61,7 +61,7 @@ Run read_run(const std::filesystem::path& folder) {
           e->routes.push_back({.route = route.at("route").get<std::string>(),
                                .low = number(route, "ci_low"),
                                .high = number(route, "ci_high")});
-        // One unknown of several muscles is one number, listed under its first owner.
+        // One unknown of several muscles is one number, in the list of its first owner.
         const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method,
                       e->fit_case};
         if (!e->tied_to.empty()) {
@@ -87,15 +87,15 @@ Run read_run(const std::filesystem::path& folder) {
   return run;
 }
 
-/// True if the session's recording determines the number.
+/// Returns true if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
   return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error &&
          *e.std_error > 0.0;
 }
 
-/// The standard error of a number from session to session of one person. Moment arms, tendons and
-/// the scale of the torque err alike in both sessions: their shares of the variance cancel in the
-/// difference.
+/// Returns a number's standard error between sessions of one person. Moment arms, tendons and the
+/// torque's scale have the same errors in both sessions, so their shares of the variance cancel in
+/// the difference.
 double repeat_error(const ParameterEstimate& e) {
   double own = 1.0;
   if (e.variance_shares) {
@@ -106,12 +106,12 @@ double repeat_error(const ParameterEstimate& e) {
   return *e.std_error * std::sqrt(std::max(own, 0.0));
 }
 
-/// A number as one session tells it, and its standard error from session to session.
+/// A number in one session, and its standard error between sessions.
 struct OfSession {
   double value = 0.0, sd = 0.0;
 };
 
-/// The number were geometry and sensors exact; empty without this route.
+/// Returns the number with exact geometry and sensors; empty without this route.
 std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   for (const identification::RouteInterval& route : e.routes) {
     if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
@@ -124,7 +124,8 @@ std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   return std::nullopt;
 }
 
-/// Both sessions of a number on the same footing: geometry and sensors given, or as the person's.
+/// Returns a number of both sessions by the same route: given geometry and sensors, or the
+/// person's.
 std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first,
                                             const ParameterEstimate& second) {
   const auto one = given_geometry(first), other = given_geometry(second);
@@ -132,7 +133,8 @@ std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first,
   return {{first.estimate, repeat_error(first)}, {second.estimate, repeat_error(second)}};
 }
 
-/// Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
+/// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier
+/// result.
 void adjust_p_values(std::vector<ComparedParameter*> compared) {
   std::sort(compared.begin(), compared.end(),
             [](const auto* a, const auto* b) { return *a->p_value < *b->p_value; });
@@ -183,7 +185,7 @@ std::string sentence(const ComparedParameter& p) {
   return {};
 }
 
-/// Both intervals of one parameter over the muscles.
+/// Draws both intervals of one parameter for all muscles.
 report::Panel panel_of(const RunComparison& comparison,
                        const std::string& method,
                        const std::string& parameter,
@@ -273,7 +275,7 @@ std::string headline(const RunComparison& comparison) {
   return text;
 }
 
-/// Table and figure of one method.
+/// Returns table and figure of one method.
 report::Section method_section(const RunComparison& comparison, const std::string& method) {
   report::Section section{.id = "method_" + method, .heading = "Method " + method};
   report::Table table{

@@ -11,11 +11,11 @@
 
 namespace myoid {
 
-/// The answer to the question whether a number differs between two sessions.
+/// The answer to whether a number differs between two sessions.
 enum class Change {
   differs,      ///< By more than chance explains.
-  no_change,    ///< Both recordings can tell it, and no difference shows.
-  cannot_tell,  ///< One of the recordings does not determine it: equality would mean nothing.
+  no_change,    ///< Both recordings determine the number, and no difference shows.
+  cannot_tell,  ///< A recording does not determine the number, so equality would mean nothing.
 };
 [[nodiscard]] std::string_view name(Change change);
 
@@ -23,7 +23,7 @@ enum class Change {
 struct ComparedParameter {
   std::string muscle;  ///< All owners of the number, separated by commas.
   identification::ParameterEstimate first, second;
-  double difference = 0.0;                    ///< Second minus first, as they are compared.
+  double difference = 0.0;                    ///< Second minus first, on the compared scale.
   std::optional<double> smallest_detectable;  ///< 1.96 standard errors of the difference.
   std::optional<double> p_value;              ///< Two-sided, adjusted (Holm) within the method.
   Change change = Change::cannot_tell;
@@ -39,19 +39,19 @@ struct RunComparison {
   std::filesystem::path first, second;
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
-  std::vector<std::string> unlike;   ///< Model, person, muscles that differ (run_identity.h).
-  std::vector<std::string> remarks;  ///< Numbers that only one of them has.
+  std::vector<std::string> unlike;   ///< Differences of model, person or muscles (run_identity.h).
+  std::vector<std::string> remarks;  ///< Numbers that only one session has.
 };
 
 /// Compares two finished runs number by number, of one person on two days or of one recording by
-/// two studies: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, the
-/// p-values adjusted for their number by Holm's method. Where both runs are by the estimator
-/// `posterior`, numbers and standard errors are those of the route `geometry_and_sensors_exact`:
-/// what errs alike in both sessions (moment arms, tendons, the scale of the torque) changes both
-/// alike. Numbers without that route leave out its shares of the variance. A parameter
-/// that either verdict calls prior_dominated, not_identifiable or non_physical is not compared:
-/// both may agree on the prior alone. The sessions count as independent; a shared prior makes the
-/// test cautious. Throws ReadError if a folder holds no parameters.json of a run.
+/// two studies: z = (second - first) / sqrt(se1^2 + se2^2) against the normal distribution, with
+/// p-values adjusted for their number by Holm's method. If both runs use the estimator `posterior`,
+/// numbers and standard errors are those of the route `geometry_and_sensors_exact`, because errors
+/// of moment arms, tendons and the torque's scale are the same in both sessions. Numbers without
+/// this route omit these shares of the variance. A parameter with a verdict prior_dominated,
+/// not_identifiable or non_physical is not compared: both may agree on the prior alone. The
+/// sessions count as independent; a shared prior makes the test cautious. Throws ReadError if a
+/// folder holds no parameters.json of a run.
 [[nodiscard]] RunComparison compare_runs(const std::filesystem::path& first,
                                          const std::filesystem::path& second);
 

@@ -66,7 +66,7 @@ report::StripCell change_cell(const ComparedParameter& p) {
   return cell;
 }
 
-/// The place of a number among the grids, made where there is none.
+/// Returns a number's place among the grids; adds a new place if there is none.
 report::StripCell& place(std::vector<report::StripGrid>& grids,
                          const std::vector<PersonChange>& changes,
                          std::size_t person,
@@ -102,7 +102,7 @@ report::StripCell& place(std::vector<report::StripGrid>& grids,
   return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];
 }
 
-/// One number over the persons whose two recordings tell it.
+/// Adds one number over the persons whose two recordings determine it.
 void add_row(const report::StripGrid& grid, std::size_t column, report::Table& table) {
   std::vector<double> differences, detectable;
   std::size_t differ = 0;

@@ -15,12 +15,12 @@ struct PersonChange {
   RunComparison comparison;
 };
 
-/// The persons' changes from the first session to the second, of method torque (of the first method
-/// where torque was not asked for): strip plots of each parameter's difference with the smallest
-/// detectable change of that person to either side, and a table over the persons. From three
-/// persons on, the table has the group's own smallest detectable change, 1.96 times the standard
-/// deviation of the differences between persons: of persons who did not change, it holds all errors
-/// of a repetition.
+/// Returns the persons' changes from the first session to the second by method torque (by the first
+/// method if torque was not asked for). Strip plots show each parameter's difference with the
+/// person's smallest detectable change to either side, and a table lists all persons. From three
+/// persons on, the table has the group's smallest detectable change, 1.96 times the standard
+/// deviation of the differences between persons. For persons who did not change, this deviation
+/// contains all errors of a repetition.
 [[nodiscard]] report::Section change_section(const std::vector<PersonChange>& changes);
 
 }  // namespace myoid

@@ -20,17 +20,17 @@ using identification::EstimatorKind;
 using identification::IdentificationResult;
 using identification::Method;
 
-/// A maximal contraction counts as isometric if the joint moves less.
+/// Greatest joint motion of a maximal contraction that counts as isometric.
 constexpr double kIsometricRange_deg = 15.0;
 
-/// Sentences one after the other, with the references that they cite.
+/// Writes sentences one after the other and collects the references that they cite.
 class Writer {
  public:
   void say(const std::string& sentence) {
     if (!text_.paragraph.empty()) text_.paragraph += ' ';
     text_.paragraph += sentence;
   }
-  /// " (Lu and O'Connor 1999)"
+  /// Returns " (Lu and O'Connor 1999)".
   std::string cite(std::string_view key) {
     const std::string text(key);
     if (std::find(text_.keys.begin(), text_.keys.end(), text) == text_.keys.end())
@@ -43,7 +43,7 @@ class Writer {
   MethodsText text_;
 };
 
-/// "a, b and c"
+/// Returns "a, b and c".
 std::string listed(const std::vector<std::string>& words) {
   if (words.size() < 2) return words.empty() ? "" : words.front();
   return fmt::format("{} and {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
@@ -138,7 +138,8 @@ void say_torque(const StudyResult& result, Writer& out) {
                       from.empty() ? "" : fmt::format(" from {}", listed(from))));
 }
 
-/// True if the joint hardly moves in any maximal contraction; false if that is not known.
+/// Returns true if the joint hardly moves in any maximal contraction; false if its motion is
+/// unknown.
 bool isometric_mvc(const StudyResult& result) {
   bool any = false;
   for (const TrialResult& trial : result.trials) {
@@ -155,7 +156,7 @@ bool isometric_mvc(const StudyResult& result) {
   return any;
 }
 
-/// The method of normalization by the names of the CEDE consensus.
+/// Returns the method of normalization in the terms of the CEDE consensus.
 std::string cede_name(const StudyResult& result) {
   const auto& channels = result.emg.normalisation;
   const auto from_mvc = static_cast<std::size_t>(
@@ -236,7 +237,7 @@ void say_muscles(const StudyResult& result, Writer& out) {
   if (torque != nullptr) out.say(lag_text(result, torque->lag));
 }
 
-/// The loss function in words; empty for squares.
+/// Describes the loss function; empty for squares.
 std::string loss_text(identification::Loss loss) {
   switch (loss) {
     case identification::Loss::square:
@@ -350,7 +351,7 @@ Reference program_reference(const MethodsText& text) {
           .doi = ""};
 }
 
-/// "The Myoid contributors. Myoid: ... Version 0.1.0."
+/// Returns "The Myoid contributors. Myoid: ... Version 0.1.0."
 std::string printed_program(const MethodsText& text) {
   const Reference program = program_reference(text);
   return fmt::format("The Myoid contributors. {}. Version {}.", program.title, text.version);

@@ -12,22 +12,22 @@ namespace myoid {
 /// The methods section of a paper about a run, in the past tense of papers.
 struct MethodsText {
   std::string paragraph;          ///< Cites as "(Lu and O'Connor 1999)".
-  std::vector<std::string> keys;  ///< Of the cited references, in the order of the text.
-  std::string version;            ///< Of the program.
+  std::vector<std::string> keys;  ///< Keys of the cited references, in the order of the text.
+  std::string version;            ///< Version of the program.
 };
 
-/// Says what was done with the data of this run: trials, motion with its cut-off, torque, EMG with
-/// its filters and the normalization as the CEDE consensus names it, law of the muscles, estimator,
+/// Describes the processing of this run's data: trials, motion with its cut-off, torque, EMG with
+/// its filters and the normalization in the CEDE consensus's terms, law of the muscles, estimator,
 /// intervals, validation and version.
 [[nodiscard]] MethodsText methods_text(const StudyResult& result, const Provenance& provenance);
 
-/// The paragraph and the references as plain text (methods.txt).
+/// Returns the paragraph and the references as plain text (methods.txt).
 [[nodiscard]] std::string methods_file(const MethodsText& text);
 
-/// The cited references and the program as BibTeX (methods.bib).
+/// Returns the cited references and the program as BibTeX (methods.bib).
 [[nodiscard]] std::string methods_bibtex(const MethodsText& text);
 
-/// The paragraph with the table of references, for the report.
+/// Returns the paragraph with the table of references, for the report.
 [[nodiscard]] report::Section methods_section(const MethodsText& text);
 
 }  // namespace myoid

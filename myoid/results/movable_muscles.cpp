@@ -14,7 +14,7 @@ namespace {
 
 using identification::IdentificationResult;
 
-/// The names of a muscle's numbers in the order of identification::MuscleField.
+/// Returns the names of a muscle's numbers in the order of identification::MuscleField.
 std::vector<std::string> field_names() {
   std::vector<std::string> names(identification::kMuscleFieldCount);
   for (const identification::ParameterField& field : identification::parameter_fields()) {
@@ -25,8 +25,8 @@ std::vector<std::string> field_names() {
   return names;
 }
 
-/// Draws of a muscle's numbers; a number that was held is the same in all. Of an unknown that
-/// several muscles share, the fit has the first one's value; the others keep their ratio to it.
+/// Returns draws of a muscle's numbers; a held number is the same in all draws. For an unknown that
+/// several muscles share, the fit has the first muscle's value; the others keep their ratio to it.
 Eigen::MatrixXd draws_of(const IdentificationResult& fit,
                          const std::vector<identification::MuscleSetup>& muscles,
                          std::size_t m,

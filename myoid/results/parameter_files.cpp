@@ -31,7 +31,7 @@ std::string number_or_empty(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? recording::format_number(*value) : "";
 }
 
-/// A member of an estimate as a cell of parameters.csv.
+/// Formats a member of an estimate as a cell of parameters.csv.
 struct CsvCell {
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(const std::optional<double>& value) const {
@@ -45,7 +45,7 @@ struct CsvCell {
   }
 };
 
-/// A member of an estimate as a value of parameters.json.
+/// Converts a member of an estimate to a value of parameters.json.
 struct JsonValue {
   ordered_json operator()(const std::optional<double>& value) const {
     return report::number_or_null(value);
@@ -81,7 +81,7 @@ ordered_json estimate_json(const ParameterEstimate& e) {
   return object;
 }
 
-/// The routes with columns of their own, and whether the sources of the variance have some.
+/// The routes that have columns, and whether the sources of the variance have columns.
 struct MoreColumns {
   std::vector<std::string> routes{"sandwich", "cluster", "jackknife", "bootstrap", "profile"};
   bool shares = false;
@@ -97,7 +97,7 @@ MoreColumns more_columns(const std::vector<IdentificationResult>& methods) {
   return more;
 }
 
-/// A row of parameters.csv without its end of line.
+/// Returns a row of parameters.csv without its end of line.
 std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   std::vector<std::string> cells;
   for (const EstimateColumn& column : identification::estimate_columns()) {
@@ -150,7 +150,7 @@ ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-/// The list as an array of JSON.
+/// Returns the list as a JSON array.
 template <typename List, typename Format>
 ordered_json array_of(const List& list, Format format) {
   ordered_json array = ordered_json::array();
@@ -173,7 +173,7 @@ ordered_json branch_test_json(const identification::BranchTest& test) {
           {"p_value", report::number_or_null(test.p_value)}};
 }
 
-/// `number` writes a number that method paper does not have.
+/// Converts a trial. `number` writes numbers that method paper does not have.
 template <typename Number>
 ordered_json trial_json(const identification::TrialFit& t, Number number) {
   return {{"trial", t.trial},
@@ -335,7 +335,7 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   std::set<std::string> written;
   for (const identification::Fold& fold : folds) {
     for (const ParameterEstimate& e : fold.parameters) {
-      // The joints of one trial are predicted by one fit.
+      // One fit predicts all joints of a trial.
       const std::string row =
           fmt::format("{},{},{}", report::csv_quoted(fold.trial), e.muscle, e.parameter);
       if (!written.insert(row).second) continue;
@@ -393,7 +393,7 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
     if (there)
       recording::write_file(folder / name, text());
     else
-      std::filesystem::remove(folder / name, ignored);  // of an earlier run
+      std::filesystem::remove(folder / name, ignored);  // from an earlier run
   };
   write_or_remove("fold_parameters.csv", !folds.empty(),
                   [&] { return fold_parameters_csv(folds); });

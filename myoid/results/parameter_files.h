@@ -16,26 +16,26 @@
 namespace myoid {
 
 /// Returns the table of all estimates, one row per muscle x parameter x method x case, with the
-/// columns promised in docs/guide/run.md. Numbers are the shortest text that reads back the same;
-/// an absent number is an empty cell.
+/// columns of docs/guide/run.md. Each number is the shortest text that reads back the same; a
+/// missing number is an empty cell.
 [[nodiscard]] std::string parameters_csv(
     const std::vector<identification::IdentificationResult>& methods);
 
-/// Returns the parameters by which every fold was predicted, one row per fold and parameter: of
-/// fits that did not see the fold. With the held values (muscles.csv or the model) and the lag the
-/// left-out R2 can be computed anew (docs/theory/identification.md).
+/// Returns the parameters that predict each fold, one row per fold and parameter, from fits without
+/// that fold. With the held values (muscles.csv or the model) and the lag they allow a new
+/// computation of the left-out R2 (docs/theory/identification.md).
 [[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
 
 /// Returns the draws from the posterior of a method, one row each: `weight`, and every unknown in
 /// SI.
 [[nodiscard]] std::string posterior_csv(const identification::IdentificationResult& method);
 
-/// The content of parameters.json beside the estimates and the folds.
+/// The content of parameters.json beyond the estimates and the folds.
 struct ParameterContext {
   std::vector<TrialPhases> phases;
   std::vector<identification::RestingJoint> resting;
   std::string left_out = "trial";     ///< Kind of a fold: trial, condition, block, or none.
-  std::optional<double> max_rate_hz;  ///< Samples were thinned to at most this; empty: not told.
+  std::optional<double> max_rate_hz;  ///< Highest rate after thinning; empty: unknown.
   std::string
       starting_values;  ///< Starting values from the literature, as a sentence; empty: none.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: no loop.
@@ -49,15 +49,15 @@ struct ParameterContext {
     const Provenance& provenance,
     const ParameterContext& context = {});
 
-/// Writes parameters.json, parameters.csv, and where there are such results fold_parameters.csv and
-/// posterior.csv; files of these names from an earlier run go.
+/// Writes parameters.json, parameters.csv and, if there are such results, fold_parameters.csv and
+/// posterior.csv. Removes files of these names from an earlier run.
 void write_parameter_files(const std::vector<identification::IdentificationResult>& methods,
                            const std::vector<identification::Fold>& folds,
                            const Provenance& provenance,
                            const ParameterContext& context,
                            const std::filesystem::path& folder);
 
-/// Returns the context of a finished study; `result` has to outlive it.
+/// Returns the context of a finished study; `result` must outlive it.
 [[nodiscard]] ParameterContext parameter_context(const StudyResult& result);
 
 }  // namespace myoid

@@ -71,7 +71,7 @@ Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
 }
 
-/// The resting torques that passive trials measured, as text beneath the table of nuisances.
+/// Describes the resting torques from passive trials, for the table of nuisances.
 std::string measured_at_rest(const StudyResult& result) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::string text;

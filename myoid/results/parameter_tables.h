@@ -9,15 +9,14 @@
 
 namespace myoid {
 
-/// An estimate and the owners that share it: tied numbers are one unknown, and one line.
+/// An estimate and its owners: tied numbers are one unknown and one line.
 struct EstimateLine {
   const identification::ParameterEstimate* estimate = nullptr;
-  std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" where all share it.
+  std::string owners;  ///< "BIC", or "BIC, BRA, BRD, TRI"; "all muscles" if all share it.
 };
 
-/// Returns the estimates in reading order: first of the muscles and the person, then
-/// the nuisances, which were freed only for the others' sake (`is_nuisance`). Tied numbers that
-/// are equal stand once. `muscle_count` counts the study's muscles.
+/// Returns the estimates in reading order: first the muscles' and the person's, then the nuisances
+/// (`is_nuisance`). Equal tied numbers have one line. `muscle_count` counts the study's muscles.
 [[nodiscard]] std::vector<EstimateLine> estimate_lines(
     const identification::IdentificationResult& method, std::size_t muscle_count);
 

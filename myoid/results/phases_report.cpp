@@ -30,7 +30,7 @@ Badge badge(PhaseKind kind) {
   return Badge::none;
 }
 
-/// Draws measured and predicted torque over the phases that were left out.
+/// Draws measured and predicted torque over the excluded phases.
 report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) {
   report::Panel panel{
       .title = trial.trial,

@@ -14,7 +14,7 @@ namespace myoid {
 struct Band {
   Eigen::VectorXd low, high;
 };
-/// Empty where there is no standard deviation.
+/// Returns the band; empty without a standard deviation.
 [[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
 
 /// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`,
@@ -25,21 +25,21 @@ void write_prediction(const identification::TrialFit& prediction,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments);
 
-/// Writes each trial's `write_prediction` into a folder of its name, and predictions.csv.
+/// Writes each trial's `write_prediction` into a folder of the trial's name, and predictions.csv.
 void write_predictions(const std::vector<identification::TrialFit>& predictions,
                        const std::vector<std::string>& muscles,
                        const Provenance& provenance,
                        const std::filesystem::path& folder);
 
-/// The same for the trials of a fit that took no part in it; nothing where there are none.
+/// Writes the same for the trials that took no part in the fit; nothing if there are none.
 void write_held_back(const identification::IdentificationResult& fit,
                      const identification::StudyData& data,
                      const Provenance& provenance,
                      const std::filesystem::path& folder);
 
-/// The table predictions.csv, a row for each trial and joint: trial, joint, fitted (whether the
-/// trial took part in the fit), samples, rmse_nm, nrmse_range, r2, band_rmse_nm and band_r2 (both
-/// torques below the cut-off of the fit), covered (share of the samples within the band).
+/// Returns the table predictions.csv, a row for each trial and joint: trial, joint, fitted (whether
+/// the trial took part in the fit), samples, rmse_nm, nrmse_range, r2, band_rmse_nm and band_r2
+/// (both torques below the cut-off of the fit), covered (share of the samples within the band).
 [[nodiscard]] std::string predictions_csv(const std::vector<identification::TrialFit>& predictions);
 
 }  // namespace myoid

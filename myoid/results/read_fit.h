@@ -8,10 +8,10 @@
 
 namespace myoid {
 
-/// Reads method torque of a run's parameters.json as far as predictions need it
+/// Reads the members of method torque in a run's parameters.json that predictions need
 /// (identification::TrialPredictions): `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
-/// `envelope_variance`, `noise`. `data` and `options` are the study's. Throws ReadError for a file
-/// that is none or of an earlier version, and InvalidInput if the unknowns of the study are others.
+/// `envelope_variance`, `noise`. `data` and `options` are the study's. Throws ReadError for another
+/// file or an earlier version, and InvalidInput if the study has other unknowns.
 [[nodiscard]] identification::IdentificationResult read_fit(
     const std::filesystem::path& folder,
     const identification::StudyData& data,

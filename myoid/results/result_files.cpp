@@ -115,7 +115,7 @@ ordered_json faults_json(const std::vector<Remark>& faults) {
   return list;
 }
 
-/// The record of a run: inputs, results, times and remarks.
+/// Returns the record of a run: inputs, results, times and remarks.
 ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   ordered_json run = report::provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.source.study.file).string();
@@ -172,7 +172,7 @@ void remove_results(const std::filesystem::path& folder) {
                         file.starts_with("StaticOptimization_");
       if (ours) fs::remove(entry.path(), ignored);
     }
-    fs::remove(folder / name, ignored);  // only an empty folder
+    fs::remove(folder / name, ignored);  // removes only an empty folder
   }
   for (const char* place : {"figures", "tables"}) {
     for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {

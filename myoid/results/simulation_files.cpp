@@ -65,7 +65,7 @@ TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
   return {q.time_s(), std::move(channels), std::move(values)};
 }
 
-/// Puts first the torques of inverse dynamics: muscles, joint, external and device together.
+/// Begins with the torques of inverse dynamics: muscles, joint, external and device together.
 TimeSeries torques(const Simulation& s) {
   const auto n = static_cast<Eigen::Index>(coordinate_count(s));
   std::vector<Channel> channels;

@@ -16,9 +16,9 @@ namespace myoid {
 using HeldCoordinates = std::vector<std::pair<std::string, double>>;
 
 /// Writes motion.mot, speeds.sto, accelerations.sto, excitation.sto, activation.sto, forces.sto,
-/// fiber_forces.sto, MuscleAnalysis_*.sto, torques.sto, states.sto, energy.sto where there are
-/// energies, and simulation.json, each whole or not at all; docs/guide/simulate.md says what they
-/// hold.
+/// fiber_forces.sto, MuscleAnalysis_*.sto, torques.sto, states.sto, energy.sto if there are
+/// energies, and simulation.json, each whole or not at all. docs/guide/simulate.md describes their
+/// contents.
 void write_simulation(const simulation::Simulation& simulation,
                       const model::BodyModel& body,
                       const HeldCoordinates& held,

@@ -21,7 +21,7 @@ using report::Panel;
 using report::Role;
 using report::to_vector;
 
-/// Returns the literature's parameters with the true ones in their place; empty without a truth.
+/// Returns the literature's parameters with the true ones substituted; empty without a truth.
 std::optional<muscle::HillParameters<double>> true_muscle(
     const StudyResult& result, const identification::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
@@ -39,12 +39,12 @@ std::optional<muscle::HillParameters<double>> true_muscle(
 using muscle::HillParameters;
 using Curve = std::function<double(double x, const HillParameters<double>& muscle)>;
 
-/// One muscle by every set of parameters: literature, identified and, for a virtual recording,
-/// true.
+/// One muscle by every set of parameters: literature, identified and, in a virtual recording, true.
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;
-  Eigen::MatrixXd log_covariance;  ///< Of the identified ones, in the order of muscle::kHillFields.
+  Eigen::MatrixXd
+      log_covariance;  ///< Of the identified parameters, in the order of muscle::kHillFields.
 };
 
 report::Series sampled(std::string name,
@@ -62,8 +62,8 @@ report::Series sampled(std::string name,
   return series;
 }
 
-/// The curve's 95 % band to first order: f -+ 1.96 sqrt(g' C g), g = df / d ln x, C the covariance
-/// of the logarithms. Never below 0. Only muscles with a standard error have one.
+/// Returns the curve's 95 % band to first order, for muscles with a standard error: f -+ 1.96
+/// sqrt(g' C g), g = df / d ln x, C the covariance of the logarithms. Never below 0.
 report::Series band_of(const MuscleVersions& of, double from, double to, const Curve& curve) {
   constexpr double kStep = 1e-4;  // of the logarithm
   report::Series band = sampled("identified, 95 %", Role::band, from, to, curve, of.identified);
@@ -83,7 +83,7 @@ report::Series band_of(const MuscleVersions& of, double from, double to, const C
   return band;
 }
 
-/// Adds the curve of every version of the muscle between two places.
+/// Adds the curve of every version of the muscle between two abscissas.
 void add_curves(
     Panel& panel, const MuscleVersions& of, double from, double to, const Curve& curve) {
   if (of.log_covariance.diagonal().sum() > 0.0)

@@ -95,7 +95,7 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   return list;
 }
 
-/// Names the numbers that may be used as they are: "max isometric force of BIC, TRI; delay".
+/// Lists the numbers that are identified: "max isometric force of BIC, TRI; delay".
 std::string identified_numbers(const IdentificationResult& fit) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const ParameterEstimate& e : fit.estimates) {
@@ -201,8 +201,8 @@ Section paper_section(const IdentificationResult& paper) {
   return section;
 }
 
-/// Shows the muscle forces of the trial with the most movement; the workbench has those of all
-/// trials, the trials' folders have their numbers.
+/// Shows the muscle forces of the trial with the most movement. The workbench shows all trials, and
+/// the trials' folders hold the numbers.
 Section forces_section(const StudyResult& result, const IdentificationResult& method) {
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
   const auto& trials = result.fit_input.data.trials;
@@ -217,7 +217,7 @@ Section forces_section(const StudyResult& result, const IdentificationResult& me
   return forces;
 }
 
-/// The EMG of the first calibration trial that has it; empty if none has.
+/// Returns the EMG of the first calibration trial that has EMG; empty if none has.
 std::optional<Section> emg_section(const StudyResult& result) {
   const auto task = std::find_if(
       result.trials.begin(), result.trials.end(),

@@ -12,7 +12,7 @@
 namespace myoid {
 namespace {
 
-/// Returns the EMG's activation of every muscle of the model that a [[muscle]] table lumps.
+/// Returns the activation by EMG of every muscle of the model that a [[muscle]] table lumps.
 TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
   const TimeSeries& emg = trial.emg.activation;
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, *trial.motion.model);
@@ -31,12 +31,12 @@ TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
 }
 
 /// Adds the measured forces at the frames of the scene, turned into ground. A force below a newton
-/// has no place: the center of pressure is noise there.
+/// is left out, because its center of pressure is noise.
 void add_loads(const TrialResult& trial, report::Scene& scene) {
   constexpr double kLeast_n = 1.0;
   if (!trial.input.loads) return;
   const auto& loads = *trial.input.loads;
-  const bool of_file = loads.end_s > loads.start_s;  // of another source: no limits known
+  const bool of_file = loads.end_s > loads.start_s;  // another source has no limits
   for (const auto& load : loads.forces) {
     if (!load.force) continue;
     report::SceneLoad shown{load.name};

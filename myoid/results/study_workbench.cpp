@@ -88,14 +88,14 @@ class TrialPlots {
   Eigen::Index most_;
 };
 
-/// Which of `columns` equal stretches a time is in.
+/// Returns the index of the stretch, of `columns` equal ones, that contains a time.
 Eigen::Index column_of(double time_s, const Stretch& when, Eigen::Index columns) {
   const double share = (time_s - when.begin_s) / std::max(1e-9, when.end_s - when.begin_s);
   return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(columns)),
                                   0, columns - 1);
 }
 
-/// The greatest value in each stretch; NaN where a value is missing, or there is none.
+/// Returns the greatest value in each stretch; NaN if values are missing.
 Eigen::VectorXd greatest(const Eigen::VectorXd& time_s,
                          const Eigen::Ref<const Eigen::VectorXd>& values,
                          const Stretch& when,
@@ -106,7 +106,7 @@ Eigen::VectorXd greatest(const Eigen::VectorXd& time_s,
     double& at = result[column_of(time_s[i], when, columns)];
     at = std::isfinite(values[i]) && !std::isnan(at) ? std::max(at, values[i]) : kNone;
   }
-  // A stretch shorter than the sampling interval takes over the value before it.
+  // A stretch shorter than the sampling interval takes the preceding value.
   for (Eigen::Index i = 0; i < columns; ++i) {
     if (result[i] == kUnseen) result[i] = i > 0 ? result[i - 1] : kNone;
   }
@@ -128,7 +128,7 @@ void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots&
   }
 }
 
-/// The measured forces on the person, in the frame that the file gives them in.
+/// Adds the measured forces on the person, in the frame of their file.
 void add_loads(const TrialResult& trial, TrialPlots& plots) {
   if (!trial.has_motion() || !trial.input.loads) return;
   const Eigen::VectorXd& t = trial.motion.joints.q.time_s();
@@ -197,7 +197,7 @@ void add_torques(const StudyResult& result,
   }
 }
 
-/// Raw EMG as the least and the greatest value in equal stretches, with the envelope.
+/// Adds raw EMG as the least and the greatest value in equal stretches, with the envelope.
 void add_emg(const TrialResult& trial, TrialPlots& plots) {
   if (trial.emg.stages) {
     const TimeSeries& raw = trial.emg.stages->raw;
@@ -232,7 +232,7 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
   plots.add(std::move(plot));
 }
 
-/// Forces of the study's muscles by the fit.
+/// Adds forces of the study's muscles by the fit.
 void add_fitted_forces(const StudyResult& result,
                        const identification::TrialData& data,
                        const identification::TrialFit& fit,
@@ -256,7 +256,7 @@ void add_fitted_forces(const StudyResult& result,
   }
 }
 
-/// Shared forces of the model's muscles, the strongest first.
+/// Adds shared forces of the model's muscles, the strongest first.
 void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
   const TimeSeries& force = trial.forces.shared.force;
   if (force.empty()) return;
@@ -352,7 +352,7 @@ void add_remarks(const StudyResult& result,
   }
 }
 
-/// The inputs of the muscles' law, with the activation that the fit uses.
+/// Adds the inputs of the muscles' law, with the activation that the fit uses.
 void add_drives(const StudyResult& result,
                 const IdentificationResult& fit,
                 const identification::TrialData& data,
@@ -407,7 +407,8 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   return shown;
 }
 
-/// A browser takes the parts of a path as they are written, without looking for links.
+/// Returns the path from `folder`. A browser takes the parts of a path literally and follows no
+/// links.
 std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
   const auto whole = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal();

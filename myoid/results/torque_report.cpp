@@ -45,7 +45,7 @@ std::string title_of(const StudyResult& result,
                                                             : fmt::format("{}, {}", trial, joint);
 }
 
-/// Measured, literature's and identified torque, and the band about the last.
+/// Draws measured, literature's and identified torque, and the band about the last.
 Panel torque_panel(std::string title,
                    const Eigen::VectorXd& time_s,
                    const Eigen::VectorXd& measured_nm,
@@ -96,18 +96,18 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
   return figure;
 }
 
-/// "1.77 (R2 0.35)"
+/// Returns error and R2: "1.77 (0.35)".
 std::string error_and_r2(const identification::Score& score) {
   return fmt::format("{:.2f} ({:.2f})", score.rmse_nm(), score.r2());
 }
 
-/// "0.912 (below 2.3 Hz)"
+/// Returns "0.912 (below 2.3 Hz)".
 std::string smoothed_text(const identification::Score& score, double cutoff_hz) {
   return cutoff_hz > 0.0 ? fmt::format("{:.3f} (below {:.2g} Hz)", score.r2(), cutoff_hz)
                          : fmt::format("{:.3f}", score.r2());
 }
 
-/// "94 %"; "-" where it is not known.
+/// Returns "94 %"; "-" if unknown.
 std::string share_text(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("-");
 }
@@ -159,7 +159,7 @@ Table folds_table(const StudyResult& result) {
   return table;
 }
 
-/// Returns the table of trials that were held back for validation.
+/// Returns the table of held-back validation trials.
 Table held_back_table(const StudyResult& result,
                       const identification::IdentificationResult& method) {
   Table table{"validation_trials",

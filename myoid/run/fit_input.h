@@ -14,7 +14,7 @@ namespace myoid {
 struct FitInput {
   identification::StudyData data;  ///< Without the phases that the study excludes.
   identification::EstimatorOptions options;
-  std::vector<TrialPhases> phases;  ///< Of the trials of `data`; empty: not searched.
+  std::vector<TrialPhases> phases;  ///< Phases of the trials of `data`; empty: not searched.
 };
 
 /// Makes the data of the estimators, their options and the phases of the trials.

@@ -18,8 +18,8 @@ struct FitSource {
   const model::BodyModel& model;
   const std::vector<TrialResult>& trials;
   const std::vector<identification::RestingJoint>& resting;
-  std::vector<const TimeSeries*> activation;  ///< Of each trial; empty series: no EMG.
-  const EmgScale& scale;                      ///< Of these activations.
+  std::vector<const TimeSeries*> activation;  ///< One per trial; empty series: no EMG.
+  const EmgScale& scale;                      ///< Scale of `activation`.
 };
 
 /// Returns a run's own trials as a source.

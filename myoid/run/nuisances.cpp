@@ -28,7 +28,7 @@ ParameterRule rule(const identification::Belief& belief, double unit = 1.0) {
   return r;
 }
 
-/// A joint's largest moment arm of every muscle, and whether every fitted trial has its motion.
+/// A joint's largest moment arm of every muscle, and a flag: all fitted trials have its motion.
 struct JointReach {
   Eigen::VectorXd arm_m;
   bool motion = true;

@@ -20,7 +20,7 @@ using identification::IdentificationResult;
 using report::Gate;
 using report::GateStatus;
 
-/// The scores of several trials together, joint by joint.
+/// Sums the scores of several trials, joint by joint.
 class Pool {
  public:
   void add(const std::string& joint, const identification::Score& s) {

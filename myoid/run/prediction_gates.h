@@ -10,8 +10,8 @@
 
 namespace myoid {
 
-/// The share of the torque that a prediction explains, over several trials and joints, both below
-/// the fit's own cut-off:
+/// The share of the torque that a prediction explains, over several trials and joints. Prediction
+/// and torque are low-passed at the fit's cut-off:
 ///
 ///   R2 = 1 - (rms / spread)^2
 ///
@@ -20,44 +20,46 @@ struct Explained {
   Eigen::Index samples = 0;
   double rms_nm = 0.0;
   double spread_nm = 0.0;
-  double torque_rms_nm = 0.0;  ///< RMS error of predicting no torque.
+  double torque_rms_nm = 0.0;  ///< RMS error of a prediction of 0.
 
   [[nodiscard]] double r2() const;
-  /// True if no torque would be nearer, or if R2 is below -1 and the error at least half of the
-  /// torque. R2 below -1 means a larger error than that of an unrelated torque of the same size;
-  /// the second condition is there because a nearly constant torque easily has a negative R2.
+  /// Returns true if a prediction of 0 has a smaller error, or if R2 is below -1 and the error at
+  /// least half of the torque. R2 below -1 means a larger error than that of an unrelated torque of
+  /// the same size. The second condition spares nearly constant torques, whose R2 is easily
+  /// negative.
   [[nodiscard]] bool is_wrong() const;
-  /// "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque varies by 2.80".
+  /// Returns "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque varies by 2.80".
   [[nodiscard]] std::string text() const;
 };
 
-/// The score of a trial's prediction below its `smooth_hz`.
+/// Returns the score of a trial's prediction below its `smooth_hz`.
 [[nodiscard]] identification::Score smoothed_score(const identification::TrialFit& fit);
 
-/// Returns this for the trials that were fitted, or for the trials held back.
+/// Returns the explained share of the fitted trials (`calibration`), or of the held-back trials.
 [[nodiscard]] Explained explained(const identification::IdentificationResult& fit,
                                   bool calibration);
-/// Returns this for the trials left out in turn.
+/// Returns the explained share of the trials that are left out in turn.
 [[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds);
 
-/// A left-out trial that is predicted worse than the others by more than chance.
+/// A left-out trial with a prediction error that chance does not explain.
 struct OutlyingFold {
   std::string trial, joint;
   double rms_nm = 0.0, r2 = 0.0;
   double usual_rms_nm = 0.0;  ///< Median of the joint's folds.
 };
-/// The logarithm of its error lies more than three robust standard deviations (1.4826 times the
-/// median absolute deviation) above the median and at 1.5 times it at least, and its R2 below the
-/// median, too: heavier trials err by more. Of five folds or more, by joint.
+/// Returns the outliers among at least five folds, by joint. The logarithm of an outlier's error
+/// exceeds the median by three robust standard deviations (1.4826 times the median absolute
+/// deviation), its error is at least 1.5 times the median, and its R2 is below the median, too,
+/// because heavier trials have larger errors.
 [[nodiscard]] std::vector<OutlyingFold> outlying_folds(
     const std::vector<identification::Fold>& folds);
 
-/// Tests whether the fit makes the torque of the fitted trials and of those held back, and whether
-/// the muscles have left the literature.
+/// Tests whether the fit explains the torque of the fitted and of the held-back trials, and whether
+/// the muscles agree with the literature.
 [[nodiscard]] std::vector<report::Gate> fit_gates(const identification::IdentificationResult& fit);
 
 /// Tests whether the fit predicts left-out trials, better than the literature, and all of them
-/// alike.
+/// equally well.
 [[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds);
 
 }  // namespace myoid

@@ -19,15 +19,15 @@ using identification::TrialData;
 
 bool is_fitted(Use use) { return use == Use::calibration || use == Use::isometric; }
 
-/// The use that a trial had in the run; empty: it was not there. A trial that pauses was there in
-/// parts, whose names begin with its own.
+/// Returns the use of a trial in the run; empty: the run has no such trial. A trial that pauses is
+/// in the run as parts, whose names begin with the trial's name.
 std::optional<Use> use_in(const RunRecord& run, const std::string& trial) {
   const auto found = run.uses.lower_bound(trial);
   if (found == run.uses.end() || !found->first.starts_with(trial)) return std::nullopt;
   return choice_named<Use>(found->second);
 }
 
-/// The study of the run: its trials have the uses that they had, further ones are held back.
+/// Returns the study of the run: its trials keep their uses, further trials are held back.
 Study study_of_run(const RunRecord& run) {
   Study study = read_study(run.study);
   if (run.estimator) study.identify.estimator = *run.estimator;
@@ -47,7 +47,7 @@ Study study_of_run(const RunRecord& run) {
   return study;
 }
 
-/// "BIC by biceps"
+/// Returns muscles with their channels: "BIC by biceps".
 std::vector<std::string> muscles_of(const FitInput& input) {
   std::vector<std::string> list;
   for (const identification::MuscleSetup& muscle : input.data.muscles)
@@ -55,7 +55,7 @@ std::vector<std::string> muscles_of(const FitInput& input) {
   return list;
 }
 
-/// The trials of another study of the same muscles, all of them held back.
+/// Returns the trials of another study of the same muscles, all held back.
 std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionInput& input) {
   Study study = read_study(choice.study);
   study.identify.methods = {identification::Method::torque};
@@ -78,7 +78,7 @@ std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionIn
   return std::move(other.fit_input.data.trials);
 }
 
-/// The trials of these names; without names those that took no part in the fit.
+/// Returns the trials of these names; without names all trials that took no part in the fit.
 std::vector<TrialData> chosen(const std::vector<TrialData>& trials,
                               const std::vector<std::string>& names) {
   std::vector<TrialData> found;

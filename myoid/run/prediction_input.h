@@ -14,25 +14,25 @@ namespace myoid {
 
 /// The choice of trials to predict by the fit of a finished run.
 struct PredictionChoice {
-  std::string study;                     ///< With the trials; empty: the study of the run.
-  std::vector<std::string> trials;       ///< Names; none: all that took no part in the fit.
-  std::optional<double> start_s, end_s;  ///< Of the trials of another study.
+  std::string study;                     ///< Study with the trials; empty: the study of the run.
+  std::vector<std::string> trials;       ///< Names; empty: all trials that took no part in the fit.
+  std::optional<double> start_s, end_s;  ///< Times in the trials of another study.
   Progress progress;
 };
 
 /// The data of the run's fit and of the trials to predict.
 struct PredictionInput {
-  Study study;                                    ///< Of the run.
-  FitInput fit;                                   ///< Of the run: its calibration trials.
-  std::vector<identification::TrialData> trials;  ///< To predict.
+  Study study;   ///< Study of the run.
+  FitInput fit;  ///< Data of the run's fit: its calibration trials.
+  std::vector<identification::TrialData> trials;  ///< Trials to predict.
   std::vector<InputFile> files;
   std::vector<std::string> warnings;
 };
 
 /// Computes motion, torque and activation as the run in `folder` did. The trials of the run keep
-/// their use; trials that the study got later, and those of another study, are held back. Throws
-/// ReadError for a folder without a run and for recordings that changed since, InvalidInput for
-/// names of trials that are not there and for another study of other muscles.
+/// their use. Trials that the study got later, and trials of another study, are held back. Throws
+/// ReadError for a folder without a run and for recordings that differ from the run's. Throws
+/// InvalidInput for unknown trials and for another study with other muscles.
 [[nodiscard]] PredictionInput prediction_input(const std::filesystem::path& folder,
                                                const PredictionChoice& choice);
 

@@ -43,7 +43,7 @@ std::optional<double> largest_range_deg(const Study& study,
   return largest;
 }
 
-/// Muscles of the model that act on the study's joints but belong to no [[muscle]] table, and their
+/// Muscles of the model that act on the study's joints but are in no [[muscle]] table, and their
 /// largest share of a joint's summed strength F_max |r|.
 struct MissingMuscles {
   std::vector<std::string> names;
@@ -108,7 +108,7 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
 }
 
 /// Returns a gate for a trial in which, at some times or always, no force carries a body whose
-/// weight the study's joint bears; empty if there is none.
+/// weight the study's joint supports; empty if there is none.
 std::optional<Gate> support_gate(const StudyResult& result) {
   for (const TrialResult& t : result.trials) {
     if (t.forces.uncarried)
@@ -228,7 +228,7 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   return list;
 }
 
-/// The gates of the motion: no parameter is better than the motion it rests on.
+/// Returns the gates of the motion, from which all parameters are computed.
 std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult>& trials) {
   std::vector<Gate> list = marker_gates(trials);
   if (const auto range = largest_range_deg(study, trials);
@@ -256,7 +256,7 @@ std::vector<Gate> model_gates(const StudyResult& result) {
   return list;
 }
 
-/// Tests whether the shared forces make the torque.
+/// Tests whether the shared forces produce the torque.
 std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
   int sharing_frames = 0;
   int unsolved = 0;
@@ -298,7 +298,7 @@ std::vector<Gate> reference_gates(const EmgScale& emg) {
                  "muscle's maximum; forces and torques do not depend on it."}};
 }
 
-/// Tests whether the fit of method torque is an answer, and how many parameters it determines.
+/// Tests whether the search of method torque converged, and how many parameters it determines.
 std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
   std::vector<Gate> list{
       {"Fit converged",
@@ -332,7 +332,7 @@ Gate loop_gate(const identification::ForceLoop& loop) {
 }
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
-  // The strengths of synergists, too, may differ by more than usual.
+  // A larger difference of the synergists' strengths than usual could explain this, too.
   return {"Electrodes on the muscles that they are named for",
           exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
           exchanged.sentence(),

@@ -10,24 +10,24 @@
 
 namespace myoid {
 
-/// Returns the gates that tell whether the numbers of this run can be believed: input, inverse
+/// Returns the gates that decide whether the run's numbers can be trusted: input, inverse
 /// kinematics, force sharing, EMG, fit and prediction, each with the result, the expectation and
-/// the reason. The same list heads the report, goes to the terminal, and decides exit code 4.
+/// the reason. The list heads the report, is printed in the terminal, and decides exit code 4.
 [[nodiscard]] std::vector<report::Gate> quality_gates(const StudyResult& result);
 
-/// The faults of all recordings as a table with their times and remedies, warnings first; the
-/// report begins with it.
+/// Returns all faults of the recordings as a table with times and remedies, warnings first; the
+/// report begins with this section.
 [[nodiscard]] report::Section recordings_section(const StudyResult& result);
 
 /// Returns all faults of the recordings; faults of the whole study come last.
 [[nodiscard]] std::vector<Remark> all_faults(const StudyResult& result);
 
-/// True if a gate failed on which the motion rests (inverse kinematics, markers, angles): no
-/// parameter can then be better than the motion it was computed from.
+/// Returns true if a gate of the motion failed (inverse kinematics, markers, angles): a parameter
+/// is at most as good as the motion it is computed from.
 [[nodiscard]] bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials);
 
-/// The methods with the warnings of the validation. Where the motion is unreliable, or electrodes
-/// are exchanged, every `identified` parameter becomes `weak`, with that reason.
+/// Returns the methods with the warnings of the validation. If the motion is unreliable, or
+/// electrodes are exchanged, every `identified` parameter becomes `weak` for this reason.
 [[nodiscard]] std::vector<identification::IdentificationResult> judged(
     std::vector<identification::IdentificationResult> methods,
     const StudyValidation& validation,

@@ -15,12 +15,13 @@ namespace myoid {
 
 /// A passive trial of a study; the struct owns nothing.
 struct RelaxedTrial {
-  std::size_t index = 0;  ///< In the study.
+  std::size_t index = 0;  ///< Index in the study.
   const TrialSpec* spec = nullptr;
   const TimeSeries* activation = nullptr;  ///< Empty: no EMG.
   const TimeSeries* q = nullptr;
   const TimeSeries* qdot = nullptr;
-  const TimeSeries* muscle_torque = nullptr;  ///< Of the study's coordinates, in their order [N m].
+  const TimeSeries* muscle_torque =
+      nullptr;  ///< For the study's coordinates, in their order [N m].
   const kinematics::MuscleKinematics* muscles = nullptr;
 };
 
@@ -29,20 +30,20 @@ struct RestingJoints {
   std::vector<Remark> remarks;  ///< `where` is the trial.
 };
 
-/// Finds the resting torques of the study's joints from the passive trials that a dynamometer
-/// measured, all trials together, joint by joint. The muscles must have been at rest: a trial is
-/// left out, with a warning of its own, if an EMG channel is on average above 2 % of its maximal
-/// contraction (5 % of its greatest EMG where none was recorded), or if the torque beside a
-/// weight's (`identification::beside_weight`) exceeds a quarter of what the joint's muscles could
-/// exert (sum of the largest |r| times F_max), or the whole torque exceeds that quarter and 25 N m
-/// of weight: no relaxed joint resists that much within its range. A trial without EMG counts as
+/// Returns the resting torques of the study's joints from the passive trials with a dynamometer,
+/// all trials together, joint by joint. The muscles must be at rest. A trial is left out, with a
+/// warning of its own, if an EMG channel is on average above 2 % of its maximal contraction (5 % of
+/// its greatest EMG if there is none), if the torque beside a weight's
+/// (`identification::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum
+/// of the largest |r| times F_max), or if the whole torque exceeds this quarter plus 25 N m of
+/// weight: no relaxed joint resists that much within its range. A trial without EMG counts as
 /// relaxed, with a note. A trial without measured torque is not used.
 [[nodiscard]] RestingJoints resting_joints(const Study& study,
                                            const model::BodyModel& model,
                                            const std::vector<RelaxedTrial>& trials);
 
-/// Returns the resting torque of a coordinate at these angles, one per sample; empty where nobody
-/// measured it.
+/// Returns the resting torque of a coordinate at these angles, one per sample; empty if it was not
+/// measured.
 [[nodiscard]] Eigen::VectorXd resting_torque_nm(
     const std::vector<identification::RestingJoint>& joints,
     const std::string& coordinate,

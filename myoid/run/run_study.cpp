@@ -52,7 +52,7 @@ class Stages {
   std::vector<StageTime> times_;
 };
 
-/// Throws InvalidInput where the sign of every dynamometer is reversed.
+/// Returns the findings. Throws InvalidInput if the sign of every dynamometer is reversed.
 RecordingFindings findings_of(const StudyInputs& inputs, const StudyActivation& activation) {
   RecordingFindings found =
       recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
@@ -79,7 +79,7 @@ void require_one(const std::vector<TrialResult>& trials) {
     throw InvalidInput(trials.front().failure());
 }
 
-/// The findings of all stages about each trial, side by side.
+/// Joins the findings of all stages about each trial.
 std::vector<TrialResult> joined(const Study& study,
                                 std::vector<TrialInput> inputs,
                                 std::vector<TrialActivation> emg,
@@ -109,7 +109,7 @@ std::vector<TrialResult> joined(const Study& study,
 }
 
 /// Returns movements that would determine more than this recording; without a dynamometer the
-/// movements use the laboratory's masses. Empty if the fit gives no basis for that.
+/// movements use the laboratory's masses. Empty if the fit is no basis for a design.
 std::optional<DesignStudyResult> next_recording(const StudySource& source,
                                                 const StudyFit& fit,
                                                 const Progress& progress) {
@@ -138,7 +138,7 @@ StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& st
   return stages.run("reading", 0.0, 0.15, [&](const Progress&) { return read_inputs(study); });
 }
 
-/// The stages from the activation to the data.
+/// Runs the stages from the activation to the data.
 StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
   StudySource& source = inputs.source;
   const Study& study = source.study;
@@ -173,7 +173,7 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
           .times = {}};
 }
 
-/// The stages from the fit on.
+/// Runs the stages from the fit on.
 void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
   const Study& study = result.source.study;
   const FitInput& input = result.fit_input;

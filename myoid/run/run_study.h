@@ -11,11 +11,11 @@
 namespace myoid {
 
 struct RunOptions {
-  std::optional<double> start_s, end_s;  ///< Of every trial [s]; empty: as the study says.
+  std::optional<double> start_s, end_s;  ///< Times in every trial [s]; empty: as the study states.
   Progress progress;
-  /// Compute forces by static optimization, which methods `paper` and `force` need.
+  /// Computes forces by static optimization, which methods `paper` and `force` need.
   bool share_forces = true;
-  bool inform_forces = true;  ///< Forces with the identified muscles, informed by the EMG.
+  bool inform_forces = true;  ///< Computes forces with the identified muscles, informed by the EMG.
   /// Folder that keeps inverse kinematics between runs; empty: none.
   std::optional<std::filesystem::path> store;
 };
@@ -24,13 +24,13 @@ struct RunOptions {
 /// as `run_study`.
 [[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
-/// Runs the stages up to the data of the fit: everything that a prediction by an earlier fit needs.
-/// `fit`, `folds` and `next` stay empty. Throws as `run_study`.
+/// Runs the stages up to the data of the fit, which a prediction by an earlier fit needs. `fit`,
+/// `folds` and `next` stay empty. Throws as `run_study`.
 [[nodiscard]] StudyResult study_data(const Study& study, const RunOptions& options = {});
 
-/// Runs all stages in order: reading, activation, motion, forces, data, fit, validation, findings;
-/// trials in parallel, the same numbers for every number of threads. Throws ReadError or
-/// InvalidInput for input that cannot be used (nothing is computed then: all files are read first),
+/// Runs all stages in order: reading, activation, motion, forces, data, fit, validation, findings.
+/// Trials run in parallel, with the same numbers for every number of threads. Throws ReadError or
+/// InvalidInput for unusable input, before any computation because all files are read first, and
 /// Interrupted when stopped. A trial whose computation fails is marked and left out.
 [[nodiscard]] StudyResult run_study(const Study& study, const RunOptions& options = {});
 

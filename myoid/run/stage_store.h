@@ -22,10 +22,10 @@ class StageStore {
  public:
   explicit StageStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The stored result, to the last bit; empty if there is none that can be read.
+  /// Returns the stored result, to the last bit; empty if there is no readable entry.
   [[nodiscard]] std::optional<kinematics::IkResult> find(const std::string& key);
 
-  /// Keeps a result. A folder that cannot be written is no error: the next run computes again.
+  /// Keeps a result. Ignores a folder that cannot be written: the next run computes again.
   void keep(const std::string& key, const kinematics::IkResult& result);
 
   /// Removes the entries that were neither found nor kept by this object.
@@ -40,7 +40,7 @@ class StageStore {
   std::set<std::string> used_;
 };
 
-/// The fingerprint of all inputs of a trial's inverse kinematics, as 64 hexadecimal digits.
+/// Returns the fingerprint of all inputs of a trial's inverse kinematics, 64 hexadecimal digits.
 [[nodiscard]] std::string ik_key(const Study& study,
                                  std::string_view model_text,
                                  const recording::MarkerSeries& markers);

@@ -5,6 +5,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "myoid/beliefs/beliefs.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/force.h"
 #include "myoid/methods/paper.h"
@@ -76,8 +77,8 @@ identification::ForceLoop force_loop(const FitInput& input) {
   estimator.intervals = {};
   estimator.multistart = 0;
   return identification::iterate_forces(
-      input.data,
-      {.force = {.estimator = std::move(estimator), .shared_forces = true}, .delay_s = 0.06});
+      input.data, {.force = {.estimator = std::move(estimator), .shared_forces = true},
+                   .delay_s = identification::beliefs::kEmgDelay.value});
 }
 
 }  // namespace myoid

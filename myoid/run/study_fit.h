@@ -11,10 +11,10 @@
 
 namespace myoid {
 
-/// The parameters of a study and the forces that follow from them.
+/// The parameters of a study and the forces that follow from the parameters.
 struct StudyFit {
   std::vector<identification::IdentificationResult> methods;
-  /// Labels that fit better the other way round.
+  /// Two channels that fit better with exchanged names.
   std::optional<identification::ExchangedElectrodes> exchanged;
   /// Forces and activations with the identified muscles, informed by the EMG, of the trials of the
   /// data. Empty without method torque.
@@ -22,22 +22,22 @@ struct StudyFit {
   std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
 };
 
-/// The result of method torque; nullptr without.
+/// Returns the result of method torque; nullptr if there is none.
 [[nodiscard]] const identification::IdentificationResult* torque_of(const StudyFit& fit);
 
-/// True if the study asks for method torque.
+/// Returns true if the study asks for method torque.
 [[nodiscard]] bool wants_torque(const Study& study);
 
-/// The parameters by every method that the study names.
+/// Computes the parameters by every method that the study names.
 [[nodiscard]] StudyFit study_fit(const Study& study,
                                  const FitInput& input,
                                  const Progress& progress);
 
-/// Forces informed by the EMG, for `StudyFit::informed`.
+/// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(
     const FitInput& input, const std::vector<identification::IdentificationResult>& methods);
 
-/// Forces and parameters in turn until they agree, for `StudyFit::force_loop`.
+/// Iterates forces and parameters until they agree, for `StudyFit::force_loop`.
 [[nodiscard]] identification::ForceLoop force_loop(const FitInput& input);
 
 }  // namespace myoid

@@ -96,7 +96,7 @@ TrialForces trial_torques(const StudySource& source,
         {dynamics::generalized_force_name(model.coordinates[index]), Unit::newton_meter});
     torque.col(column) = found.generalized.column(columns.back().name);
   }
-  // The muscles need not make torque that acts from outside.
+  // The muscles do not produce the torque that acts from outside.
   if (input.external_torque)
     torque -= signals::resample(*input.external_torque, motion.joints.q.time_s()).values();
   found.muscle_torque = TimeSeries(motion.joints.q.time_s(), std::move(columns), std::move(torque));
@@ -155,7 +155,7 @@ StudyForces study_forces(const StudyInputs& inputs,
   if (!share) return found;
   for_each_trial(motion, found.trials, progress, [&](std::size_t i) {
     TrialForces& trial = found.trials[i];
-    // The passive trials give the resting torques: there the muscles share all torque.
+    // The passive trials give the resting torques, so in them the muscles share the whole torque.
     const bool passive = study.trials[i].use == Use::passive;
     trial.shared = shared_forces(
         study, inputs.trials[i], motion[i], trial.muscles,

@@ -19,10 +19,11 @@ namespace myoid {
 /// The torques, muscle paths and shared forces of one trial; all empty without motion.
 struct TrialForces {
   TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
-  kinematics::MuscleKinematics muscles;  ///< Of the model's muscles.
+  kinematics::MuscleKinematics muscles;  ///< Paths of the model's muscles.
   TimeSeries muscle_torque;     ///< Torque of the muscles, for the study's coordinates [N m].
-  forces::MuscleForces shared;  ///< Of the model's muscles.
-  std::optional<dynamics::UncarriedTime> uncarried;  ///< Where torques lack a ground reaction.
+  forces::MuscleForces shared;  ///< Forces of the model's muscles.
+  std::optional<dynamics::UncarriedTime>
+      uncarried;  ///< Times in which torques lack a ground reaction.
   std::vector<Remark> remarks;
   std::string failure;  ///< Reason why the forces could not be computed; empty otherwise.
 };
@@ -33,16 +34,16 @@ struct StudyForces {
   std::vector<identification::RestingJoint> resting;  ///< Joints whose passive torque was measured.
 };
 
-/// Inverse dynamics and muscle paths of one trial, without sharing. Throws InvalidInput.
+/// Computes inverse dynamics and muscle paths of one trial, without sharing. Throws InvalidInput.
 [[nodiscard]] TrialForces trial_torques(const StudySource& source,
                                         const TrialSpec& spec,
                                         const TrialInput& input,
                                         const TrialMotion& motion);
 
-/// The torques of the study's joints shared among the model's muscles, as `myoid so` does
-/// (forces::sharing_input): the curves of each muscle's own class, the model's passive forces
-/// counted. The torque of a dynamometer and the joints' resting torques (`resting`) are no
-/// muscle's. Notes on the sharing go to `remarks`.
+/// Shares the torques of the study's joints among the model's muscles, as `myoid so` does
+/// (forces::sharing_input): with the curves of each muscle's own class and the model's passive
+/// forces. The torque of a dynamometer and the joints' resting torques (`resting`) are not shared.
+/// Notes on the sharing go to `remarks`.
 [[nodiscard]] forces::MuscleForces shared_forces(
     const Study& study,
     const TrialInput& input,
@@ -51,8 +52,8 @@ struct StudyForces {
     const std::vector<identification::RestingJoint>& resting,
     std::vector<Remark>& remarks);
 
-/// Torques of all trials, then the resting joints from the passive ones, then, if `share`, shared
-/// forces; trials in parallel. A trial that cannot be computed holds the failure.
+/// Computes the torques of all trials, then the resting joints from the passive ones, then, if
+/// `share`, shared forces; trials in parallel. A trial that cannot be computed holds the failure.
 [[nodiscard]] StudyForces study_forces(const StudyInputs& inputs,
                                        const StudyActivation& activation,
                                        const std::vector<TrialMotion>& motion,

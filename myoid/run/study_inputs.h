@@ -35,11 +35,11 @@ struct StudyInputs {
   std::vector<TrialInput> trials;  ///< In the study's order.
 };
 
-/// Reads every file of a study, its model once. Throws as `run_study`.
+/// Reads every file of a study; its model once. Throws as `run_study`.
 [[nodiscard]] StudyInputs read_inputs(const Study& study);
 
-/// The inputs of a study whose trials were never files. Throws InvalidInput unless there is one for
-/// each trial, and as `load_model`.
+/// Returns the inputs of a study whose trials are not files. Throws InvalidInput unless there is
+/// one input per trial, and as `load_model`.
 [[nodiscard]] StudyInputs in_memory(const Study& study, std::vector<TrialInput> trials);
 
 }  // namespace myoid

@@ -17,7 +17,7 @@
 namespace myoid {
 namespace {
 
-/// Shorter trials hold fewer than the 8 blocks that find_phases needs.
+/// Shortest trial with the 8 blocks that find_phases needs.
 constexpr double kShortest_s = 16.0;
 
 double duration_s(const identification::TrialData& trial) {

@@ -23,18 +23,18 @@ struct StageTime {
   double seconds = 0.0;
 };
 
-/// All that a run found, stage by stage: the writers of files and reports take it whole.
+/// All results of a run, stage by stage. The writers of files and reports receive this struct.
 struct StudyResult {
-  std::optional<double> start_s, end_s;  ///< As RunOptions had them.
+  std::optional<double> start_s, end_s;  ///< As in RunOptions.
   StudySource source;                    ///< read
   std::vector<TrialResult> trials;   ///< read, activation, motion, forces; in the study's order.
   EmgScale emg;                      ///< activation
-  std::vector<Remark> level_faults;  ///< findings: of EMG channels, over all trials.
+  std::vector<Remark> level_faults;  ///< findings: about EMG channels, over all trials.
   std::vector<identification::RestingJoint> resting;  ///< forces
   FitInput fit_input;                                 ///< data
   StudyFit fit;                                       ///< fit
   std::vector<identification::Fold> folds;            ///< validation
-  /// Movements that would tell more; empty without method torque, or if none is asked for.
+  /// Movements that would determine more; empty without method torque, or if none is asked for.
   std::optional<DesignStudyResult> next;
   std::vector<StageTime> times;
 };

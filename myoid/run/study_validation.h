@@ -9,14 +9,14 @@
 
 namespace myoid {
 
-/// The predictions of trials that were left out of the fit.
+/// The predictions of trials outside the fit.
 struct StudyValidation {
   std::vector<identification::Fold> folds;
   std::vector<std::string> warnings;  ///< About method torque.
 };
 
 /// Leaves trials, conditions or blocks out (`[identify] folds`) and predicts them by the reported
-/// kind of fit to the others. From the EMG on no step uses a trial that is left out.
+/// kind of fit to the others. From the EMG on no step uses a left-out trial.
 [[nodiscard]] StudyValidation study_validation(const FitSource& source,
                                                const FitInput& input,
                                                const Progress& progress);

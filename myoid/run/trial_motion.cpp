@@ -17,7 +17,7 @@
 namespace myoid {
 namespace {
 
-/// Finds coordinates that are constant in a trial where the posture is known, and then holds them.
+/// Finds coordinates that are constant in a trial while the posture is known, and then holds them.
 void calibrate(const CalibrationSpec& spec,
                const recording::MarkerSeries& markers,
                model::BodyModel& model) {

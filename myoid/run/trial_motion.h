@@ -15,20 +15,21 @@ namespace myoid {
 
 /// The motion of one trial.
 struct TrialMotion {
-  /// The study's model, or one of the trial's own: with its held mass, its calibrated coordinates,
-  /// or the arm that its markers measure. Never null.
+  /// The study's model, or a model of the trial: with its held mass, its calibrated coordinates, or
+  /// the arm that its markers measure. Never null.
   std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
-  std::optional<kinematics::IkResult> ik;  ///< Of a trial with markers.
-  bool ik_reused = false;                  ///< Taken from an earlier run with the same input.
+  std::optional<kinematics::IkResult> ik;  ///< For a trial with markers.
+  bool ik_reused = false;                  ///< Read from an earlier run with the same input.
   kinematics::JointMotion joints;  ///< On the clock of the analysis; empty for an MVC trial without
                                    ///< motion.
   std::vector<std::string> notes;
-  std::string failure;  ///< Reason why there is no motion; empty: none.
+  std::string failure;  ///< Reason why the motion is missing; empty: none.
 };
 
-/// Computes the motion of one trial from its markers or coordinates. Inverse kinematics of the same
-/// input is taken from `store` and kept there, unless it is nullptr. Throws InvalidInput where the
-/// motion cannot be computed, as when a held mass has no place to act.
+/// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of
+/// the same input from `store` and keeps new results there, unless `store` is nullptr. Throws
+/// InvalidInput if the motion cannot be computed, for example if a held mass has no point of
+/// action.
 [[nodiscard]] TrialMotion trial_motion(const StudySource& source,
                                        const TrialSpec& spec,
                                        const TrialInput& input,

@@ -13,15 +13,15 @@
 
 namespace myoid {
 
-/// All that was found about one trial, stage by stage.
+/// All results about one trial, stage by stage.
 struct TrialResult {
   TrialSpec spec;
   TrialInput input;             ///< read
   TrialActivation emg;          ///< activation
   TrialMotion motion;           ///< motion
   TrialForces forces;           ///< forces
-  std::vector<Remark> faults;   ///< findings: of its recordings as they came.
-  std::vector<Remark> remarks;  ///< Of all stages: repairs and doubts, with file and line.
+  std::vector<Remark> faults;   ///< findings: about its recordings, unprocessed.
+  std::vector<Remark> remarks;  ///< All stages: repairs and doubts, with file and line.
 
   /// Returns the reason why the trial could not be computed; empty otherwise.
   [[nodiscard]] const std::string& failure() const {
@@ -32,7 +32,7 @@ struct TrialResult {
   }
 };
 
-/// The number of trials that could not be computed.
+/// Returns the number of trials that could not be computed.
 [[nodiscard]] inline int failed_trials(const std::vector<TrialResult>& trials) {
   return static_cast<int>(std::count_if(trials.begin(), trials.end(), [](const TrialResult& trial) {
     return !trial.failure().empty();

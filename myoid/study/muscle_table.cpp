@@ -20,7 +20,7 @@ constexpr auto kHillNames = [] {
   return names;
 }();
 
-/// Names of all parameters that can be identified.
+/// Returns the names of all parameters that can be identified.
 ChoiceNames parameter_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
@@ -31,7 +31,7 @@ ChoiceNames parameter_names() {
   return names;
 }
 
-/// Starting values by the name of the muscle's parameter.
+/// Visits the starting values by the name of the muscle's parameter.
 void visit_start(std::map<std::string, double>& start, SettingVisitor& v) {
   for (const muscle::HillField& field : muscle::kHillFields) {
     const std::string name(field.name);

@@ -6,10 +6,10 @@
 
 namespace myoid {
 
-/// The settings of one [[muscle]].
+/// Visits the settings of one [[muscle]].
 void visit(MuscleSpec& muscle, SettingVisitor& v);
 
-/// The settings of one [[parameter]].
+/// Visits the settings of one [[parameter]].
 void visit(identification::ParameterRule& rule, SettingVisitor& v);
 
 }  // namespace myoid

@@ -24,7 +24,7 @@ using Names = std::set<std::string>;
   throw ReadError(study.file, 0, message);
 }
 
-/// The names of the [[muscle]] tables, each given once.
+/// Returns the names of the [[muscle]] tables; refuses repeated names.
 Names muscle_names(const Study& study) {
   if (study.muscles.empty())
     refuse(study, "no [[muscle]]; add one table per muscle to identify, with name, osim and emg");
@@ -102,7 +102,7 @@ void check_norms(const Study& study) {
   }
 }
 
-/// Refuses tables that name each other wrongly.
+/// Refuses tables with wrong references to each other.
 void check_references(const Study& study) {
   const Names muscles = muscle_names(study);
   check_muscles(study, muscles);

@@ -74,7 +74,7 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       if (!identity.model.empty() && text(input, "path") == identity.model)
         identity.model_sha256 = text(input, "sha256");
     }
-    // A result of `identify` names its muscles only in its rows.
+    // A result of `identify` has its muscles' names only in its rows.
     if (!identity.known) {
       for (const json& method : content.value("methods", json::array())) {
         for (const json& e : method.value("estimates", json::array())) {

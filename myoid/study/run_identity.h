@@ -9,15 +9,15 @@
 
 namespace myoid {
 
-/// Person and model of a result. The numbers of two results can be compared where both have the
-/// same person and model.
+/// Person and model of a result. The numbers of two results are comparable if person and model are
+/// the same.
 struct RunIdentity {
   bool known = false;  ///< False: a result of `myoid identify`, which has neither person nor model.
   std::string subject;
   std::optional<double> mass_kg;
   std::string sex;
   std::string model;         ///< File, or name of the built-in one.
-  std::string model_sha256;  ///< Of the file; empty where there is none.
+  std::string model_sha256;  ///< Hash of the file; empty without a file.
   std::vector<std::string> coordinates, muscles;
 };
 
@@ -30,9 +30,10 @@ struct RunIdentity {
 struct IdentityDifferences {
   /// Model or coordinates differ, or no muscle is common: the numbers mean different things.
   std::vector<std::string> grave;
-  std::vector<std::string> other;  ///< Subject, mass, sex, muscles that only one has.
+  std::vector<std::string> other;  ///< Subject, mass, sex, and muscles that only one result has.
 };
-/// Compares the facts that both state, in sentences: "the model is arm4 here, wu.osim there".
+/// Compares the facts that both results state, in sentences: "the model is arm4 here, wu.osim
+/// there".
 [[nodiscard]] IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there);
 
 }  // namespace myoid

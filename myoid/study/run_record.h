@@ -11,22 +11,23 @@
 
 namespace myoid {
 
-/// The facts of run.json by which a finished run is computed again.
+/// The facts of run.json from which a finished run can be computed again.
 struct RunRecord {
   std::filesystem::path folder;
   std::filesystem::path study;
-  std::string command;  ///< Empty: not told.
+  std::string command;  ///< Empty: unknown.
   std::optional<double> start_s, end_s;
-  std::optional<identification::EstimatorKind> estimator;  ///< Of the run.
+  std::optional<identification::EstimatorKind> estimator;  ///< Estimator of the run.
   std::map<std::string, std::string> uses;                 ///< The use of each trial, by its name.
   std::vector<InputFile> inputs;
 };
 
-/// Reads run.json of a run's folder. Throws ReadError if it is none or does not name its study.
+/// Reads run.json of a run's folder. Throws ReadError for another file or one that does not name
+/// its study.
 [[nodiscard]] RunRecord read_run_record(const std::filesystem::path& folder);
 
-/// Throws ReadError for a recording that has changed since the run. `but` may differ: files of this
-/// name.
+/// Throws ReadError for a recording that differs from the run's. Files of the name `but` may
+/// differ.
 void refuse_changed(const std::vector<InputFile>& inputs,
                     const RunRecord& run,
                     const std::filesystem::path& but = {});

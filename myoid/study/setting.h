@@ -16,7 +16,7 @@
 
 namespace myoid {
 
-/// The numbers that a setting may take.
+/// The allowed numbers of a setting.
 struct SettingLimits {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -38,16 +38,16 @@ struct SettingLimits {
   return {.lower = lower, .upper = upper, .unit = unit};
 }
 
-/// The facts of a setting that its C++ type does not tell.
+/// The facts of a setting beyond its C++ type.
 struct About {
   std::string_view says;            ///< One sentence of the reference; Markdown.
-  SettingLimits limits = {};        ///< Of a number.
-  std::string_view otherwise = {};  ///< Default in words, where the value itself does not say it.
-  std::string_view required = {};   ///< The setting must be given; these words say how.
-  std::string_view word = {};       ///< May stand instead of a number or a list: "estimate".
-  std::string_view table = {};      ///< Key of a table that may stand instead of a text: "same_as".
-  ChoiceNames words = {};           ///< The only texts that are allowed; empty: any.
-  std::size_t count = 0;            ///< A list has as many entries; 0: any number.
+  SettingLimits limits = {};        ///< Limits of a number.
+  std::string_view otherwise = {};  ///< Default in words, if the value itself does not state it.
+  std::string_view required = {};   ///< Makes the setting mandatory; the words describe how.
+  std::string_view word = {};       ///< Allowed word instead of a number or a list: "estimate".
+  std::string_view table = {};      ///< Key of a table allowed instead of a text: "same_as".
+  ChoiceNames words = {};           ///< The only allowed texts; empty: any.
+  std::size_t count = 0;            ///< Number of entries of a list; 0: any.
   bool silent =
       false;  ///< Not written: another setting is in force, and both together are refused.
 };
@@ -71,12 +71,12 @@ struct Setting {
   About about;
 };
 
-/// Says why a number or a word is refused ("found 3 Hz, expected 5 to 2000 Hz"); empty: it is
+/// Returns the reason to refuse a number or a word ("found 3 Hz, expected 5 to 2000 Hz"); empty:
 /// allowed.
 [[nodiscard]] std::string refusal(const Setting& setting, double value);
 [[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
 
-/// The value of a setting as a file holds it; monostate: not given.
+/// The value of a setting as a file holds it; monostate: absent.
 using SettingValue = std::variant<std::monostate,
                                   bool,
                                   double,
@@ -86,7 +86,7 @@ using SettingValue = std::variant<std::monostate,
                                   std::map<std::string, std::string>,
                                   std::map<std::string, double>>;
 
-/// Meets settings one by one, in the order of the reference. `visit(spec, visitor)` names every
+/// Visits settings one by one, in the order of the reference. `visit(spec, visitor)` names every
 /// setting of a struct once; visitors read settings from a file or a command line, write, check or
 /// describe them. Each of the functions below returns whether the user gave the setting.
 class SettingVisitor {
@@ -100,7 +100,7 @@ class SettingVisitor {
 
   bool flag(std::string_view key, bool& value, const About& about);
   bool flag(std::string_view key, std::optional<bool>& value, const About& about);
-  /// A truth that the file writes as one of two words, `words[false]` and `words[true]`.
+  /// A boolean that the file writes as one of two words, `words[false]` and `words[true]`.
   bool either(std::string_view key, bool& value, const About& about);
   bool number(std::string_view key, double& value, const About& about);
   bool number(std::string_view key, std::optional<double>& value, const About& about);
@@ -126,7 +126,7 @@ class SettingVisitor {
                        std::map<std::string, double>& value,
                        const About& about);
 
-  /// One of an enumeration's values, of which `about.words` are allowed (empty: all).
+  /// Visits a value of an enumeration; `about.words` are the allowed names (empty: all).
   template <typename Enumeration>
   bool choice(std::string_view key, Enumeration& value, About about) {
     if (about.words.empty()) about.words = choice_names(value);
@@ -136,7 +136,7 @@ class SettingVisitor {
                    value = *choice_named<Enumeration>(*name);
                });
   }
-  /// Several of them.
+  /// Visits a list of such values.
   template <typename Enumeration>
   bool choices(std::string_view key, std::vector<Enumeration>& value, About about) {
     if (about.words.empty()) about.words = choice_names(Enumeration{});
@@ -149,8 +149,8 @@ class SettingVisitor {
     });
   }
 
-  /// A table whose settings `inside` visits, [key] of a study or { ... } within a table. `present`:
-  /// it is written.
+  /// Visits a table whose settings `inside` visits: [key] of a study or { ... } within a table.
+  /// `present`: the table is written.
   bool table(std::string_view key, bool present, const About& about, const Inside& inside) {
     return entered(key, present, about, inside);
   }
@@ -165,7 +165,7 @@ class SettingVisitor {
       visit(*spec, v);
     });
   }
-  /// One table [[key]] for each of `specs`.
+  /// Visits one table [[key]] for each of `specs`.
   template <typename Spec>
   void tables(std::string_view key, std::vector<Spec>& specs, const About& about) {
     repeated(key, specs.size(), about, [&specs](std::size_t i, SettingVisitor& v) {
@@ -174,13 +174,14 @@ class SettingVisitor {
     });
   }
 
-  /// Refuses a file in which settings do not go together: ReadError at the line of `key`.
+  /// Refuses a file with contradictory settings: ReadError at the line of `key`.
   virtual void must(bool holds, std::string_view key, const std::string& message);
 
  protected:
   using Set = std::function<void(SettingValue)>;
   using InsideEach = std::function<void(std::size_t, SettingVisitor&)>;
-  /// One setting, its present value, and the way to set it. Returns whether a file gave it.
+  /// Visits one setting with its present value and its setter. Returns whether a file gave the
+  /// setting.
   virtual bool met(const Setting& setting, const SettingValue& now, const Set& set) = 0;
   virtual bool entered(std::string_view key,
                        bool present,
@@ -192,7 +193,7 @@ class SettingVisitor {
                         const InsideEach& inside) = 0;
 };
 
-/// A visitor of settings that stand in no tables.
+/// A visitor of settings outside tables.
 class FlatSettingVisitor : public SettingVisitor {
  protected:
   bool entered(std::string_view /*key*/,

@@ -9,8 +9,8 @@ namespace myoid {
 
 /// Reads settings from a table of a TOML file. A setting that the file does not give keeps its
 /// value; paths are resolved against `folder`. Throws ReadError with the line for a wrong type, a
-/// number or word that is not allowed, and settings that exclude each other. The caller asks the
-/// table for unknown keys at the end (TomlTable::finish).
+/// refused number or word, and settings that exclude each other. The caller checks the table for
+/// unknown keys at the end (TomlTable::finish).
 class SettingReader : public SettingVisitor {
  public:
   SettingReader(recording::TomlTable& table, std::filesystem::path folder)
@@ -35,15 +35,15 @@ class SettingReader : public SettingVisitor {
   [[nodiscard]] SettingValue texts(const Setting& setting);
   [[nodiscard]] SettingValue numbers(const Setting& setting);
   [[nodiscard]] SettingValue by_name(const Setting& setting);
-  /// Throws ReadError at the setting's line where there is a reason to refuse it.
+  /// Throws ReadError at the setting's line if there is a reason to refuse the setting.
   void refuse(const Setting& setting, const std::string& reason) const;
 
   recording::TomlTable* table_;
   std::filesystem::path folder_;
 };
 
-/// One table of a study as its struct: `read_spec<TrialSpec>(table, folder)`. Throws ReadError as
-/// SettingReader does, and for an unknown key with the nearest known one.
+/// Reads one table of a study as its struct: `read_spec<TrialSpec>(table, folder)`. Throws
+/// ReadError as SettingReader does, and for an unknown key with the nearest known one.
 template <typename Spec>
 [[nodiscard]] Spec read_spec(recording::TomlTable table, const std::filesystem::path& folder) {
   Spec spec;

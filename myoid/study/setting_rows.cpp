@@ -160,7 +160,7 @@ class TableVisitor : public SettingVisitor {
   }
 };
 
-/// The words in lines of at most 100 characters, indented.
+/// Wraps the words into lines of at most 100 characters, indented.
 std::string paragraph(const std::string& text) {
   constexpr std::size_t kWidth = 100;
   const std::string indent(6, ' ');

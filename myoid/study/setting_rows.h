@@ -15,13 +15,13 @@ struct SettingRow {
   std::string says;     ///< One sentence or two; Markdown.
 };
 
-/// The way in which settings are written, and so described.
+/// The notation in which settings are written and described.
 enum class SettingNotation {
   file,         ///< A line of study.toml: `loss = "huber"`.
   command_line  ///< An option: `--loss huber`.
 };
 
-/// The row of a setting; `usual` is the value without a word of the user's.
+/// Returns the row of a setting; `usual` is the value without any input of the user.
 [[nodiscard]] SettingRow setting_row(const Setting& setting,
                                      const SettingValue& usual,
                                      SettingNotation notation);
@@ -33,21 +33,21 @@ struct SettingTable {
   std::vector<SettingRow> rows;
 };
 
-/// The reference of study.toml: every table and setting in the order of the visits.
+/// Returns the reference of study.toml: every table and setting in the order of the visits.
 [[nodiscard]] std::vector<SettingTable> setting_tables();
 
-/// The rows as Markdown under the words of `heading`, as pages of docs/guide hold them.
+/// Returns the rows as Markdown with the heading `heading`, for pages of docs/guide.
 [[nodiscard]] std::string markdown(const std::vector<SettingRow>& rows,
                                    std::string_view heading = "key");
 
-/// The text without the marks of Markdown: `code` and [text](address).
+/// Returns the text without Markdown's marks: `code` and [text](address).
 [[nodiscard]] std::string without_markdown(const std::string& markdown);
 
-/// The reference for a terminal, and for machines as a list of tables.
+/// Returns the reference for a terminal, and for machines as a list of tables.
 [[nodiscard]] std::string reference_text(const std::vector<SettingTable>& tables);
 [[nodiscard]] std::string reference_json(const std::vector<SettingTable>& tables);
 
-/// Collects the rows of settings that stand in no tables.
+/// Collects the rows of settings outside tables.
 class OptionRows : public FlatSettingVisitor {
  public:
   std::vector<SettingRow> rows;
@@ -59,7 +59,7 @@ class OptionRows : public FlatSettingVisitor {
   }
 };
 
-/// The rows of a command's options: `option_rows(IdentifyOptions{})`.
+/// Returns the rows of a command's options: `option_rows(IdentifyOptions{})`.
 template <typename Options>
 [[nodiscard]] std::vector<SettingRow> option_rows(Options options) {
   OptionRows visitor;

@@ -30,7 +30,7 @@ struct SubjectSpec {
   std::string name = "subject";
   std::optional<double> mass_kg;
   Sex sex = Sex::unstated;
-  std::vector<std::string> notes;  ///< Assumptions of the user's own, printed in the report.
+  std::vector<std::string> notes;  ///< Assumptions of the user, printed in the report.
   bool operator==(const SubjectSpec&) const = default;
 };
 
@@ -43,12 +43,12 @@ struct HeldMassSpec {
 
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
-  std::string text;     ///< Text of the model instead of a file, for a study that is not on disk.
-  std::string builtin;  ///< "arm4" when there is no file.
-  std::optional<double> upper_arm_length_m;  ///< Of the built-in arm.
-  std::optional<double> forearm_length_m;    ///< Of the built-in arm: elbow to wrist.
+  std::string text;     ///< Text of the model instead of a file, for a study in memory.
+  std::string builtin;  ///< "arm4" if there is no file.
+  std::optional<double> upper_arm_length_m;  ///< For the built-in arm.
+  std::optional<double> forearm_length_m;    ///< For the built-in arm: elbow to wrist.
   bool horizontal = false;                   ///< Plane of movement of the built-in arm.
-  bool forearm_rotations = false;  ///< Of the built-in arm: free base and forearm rotations.
+  bool forearm_rotations = false;  ///< For the built-in arm: free base and forearm rotations.
   std::string coordinate = "elbow_flexion";   ///< The joint whose torque the muscles share.
   std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
   std::optional<HeldMassSpec> held_mass;
@@ -63,9 +63,9 @@ struct LoadCellSpec {
   std::vector<double> zero_s{0.0, 1.0};  ///< Time without load on the cell.
   std::optional<std::filesystem::path>
       instrument;     ///< Model of the object, posed by its markers; empty: the study's model.
-  std::string frame;  ///< Body of that model: the cell's axes and origin.
+  std::string frame;  ///< Body of the instrument: the cell's axes and origin.
   std::string body;   ///< Body of the person that feels the load.
-  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+  std::optional<double> lowpass_hz;  ///< Empty: as for the motion.
   bool operator==(const LoadCellSpec&) const = default;
 };
 
@@ -75,31 +75,32 @@ constexpr ChoiceNames choice_names(Smoothing) { return kSmoothingNames; }
 
 struct MotionSpec {
   Smoothing smoothing = Smoothing::automatic;
-  double cutoff_hz = 6.0;  ///< -3 dB of the two passes together, when `smoothing` is cutoff.
-  double rate_hz = 100.0;  ///< Rate of the samples that are analysed.
+  double cutoff_hz = 6.0;  ///< -3 dB of both passes together, if `smoothing` is cutoff.
+  double rate_hz = 100.0;  ///< Rate of the analysed samples.
   bool operator==(const MotionSpec&) const = default;
 };
 
 struct MarkerSpec {
   std::map<std::string, std::string> rename;  ///< From the file's labels to the model's.
   std::map<std::string, double> weight;  ///< Weights by the model's names; 1 for other markers.
-  char up = 'a';                         ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file says.
-  bool undo_swaps = true;                ///< Undoes exchanged labels.
-  bool fill_gaps = true;  ///< Fills gaps by splines and from the segment's other markers.
+  char up = 'a';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file states.
+  bool undo_swaps = true;  ///< Undoes exchanged labels.
+  bool fill_gaps = true;   ///< Fills gaps by splines and from the segment's other markers.
   bool operator==(const MarkerSpec&) const = default;
 };
 
 /// Coordinates that are measured once in a known posture and then held.
 struct CalibrationSpec {
-  std::vector<double> window_s;   ///< Start and end in the trial.
-  std::vector<std::string> free;  ///< Found in the window, with all others at their default.
+  std::vector<double> window_s;  ///< Start and end in the trial.
+  std::vector<std::string>
+      free;  ///< Coordinates found in the window, with all others at their default.
   std::vector<std::string> hold;  ///< Coordinates of `free` that are then locked at their median.
   bool operator==(const CalibrationSpec&) const = default;
 };
 
 struct IkSpec {
   std::vector<std::string> unlock;  ///< Coordinates that the model locks and this study frees.
-  std::vector<std::string> lock;    ///< Held at their default value.
+  std::vector<std::string> lock;    ///< Coordinates held at their default value.
   std::optional<CalibrationSpec> calibrate;
   bool operator==(const IkSpec&) const = default;
 };
@@ -110,9 +111,9 @@ constexpr ChoiceNames choice_names(EmgKind) { return kEmgKindNames; }
 
 struct EmgSpec {
   EmgKind kind = EmgKind::raw;
-  std::string unit;  ///< "uV", ...; empty: as the file says.
+  std::string unit;  ///< "uV", ...; empty: as the file states.
   bool rectify = true;
-  bool notch = true;      ///< Removes mains hum where it is found.
+  bool notch = true;      ///< Removes mains hum if the EMG has any.
   bool whitening = true;  ///< Whitens raw EMG if the recording allows.
   double highpass_hz = 20.0;
   double lowpass_hz = 6.0;
@@ -137,7 +138,7 @@ struct MuscleSpec {
   bool operator==(const MuscleSpec&) const = default;
 };
 
-/// The common signal by which the clocks of EMG and motion are joined.
+/// The common signal that relates the clocks of EMG and motion.
 enum class SyncMatch {
   rising,   ///< Rising edges of a channel.
   falling,  ///< Falling edges.
@@ -147,11 +148,12 @@ inline constexpr std::string_view kSyncMatchNames[] = {"rising", "falling", "sha
 constexpr ChoiceNames choice_names(SyncMatch) { return kSyncMatchNames; }
 
 /// Relation of the clocks of a trial's EMG and loads to the clock of the motion. Applies if the EMG
-/// has a file of its own. The electromechanical delay is a parameter of the muscles instead.
+/// has a file of its own. The electromechanical delay is the
+/// parameter `emg_delay` of an EMG channel instead.
 struct SyncSpec {
   std::optional<double> offset_s;  ///< Added to the times of the EMG.
   std::optional<double> offset_sd_s;
-  double drift_ppm = 0.0;      ///< Of the file's clock, from its time 0 on.
+  double drift_ppm = 0.0;      ///< Drift of the file's clock, from its time 0 on.
   bool estimate = false;       ///< The offset is estimated from EMG and motion.
   std::string emg_trigger;     ///< Channel or event of the EMG's file.
   std::string motion_trigger;  ///< Channel or event of the motion's file, or "start".
@@ -169,7 +171,7 @@ struct PlateSpec {
   std::filesystem::path file;        ///< .c3d
   std::vector<std::string> bodies;   ///< Body on each plate; empty: found from the markers.
   double least_force_n = 10.0;       ///< Smaller forces count as no load.
-  std::optional<double> lowpass_hz;  ///< Empty: as the motion.
+  std::optional<double> lowpass_hz;  ///< Empty: as for the motion.
   bool operator==(const PlateSpec&) const = default;
 };
 
@@ -193,9 +195,9 @@ struct TrialSpec {
   bool operator==(const TrialSpec&) const = default;
 };
 
-/// Curves of a group of people, drawn behind the person's.
+/// Curves of a group of people, drawn behind the person's curves.
 struct NormSpec {
-  std::string name;                 ///< Of the group: "adults, N = 24".
+  std::string name;                 ///< Name of the group: "adults, N = 24".
   std::filesystem::path file;       ///< Table over percent of the movement.
   std::vector<std::string> trials;  ///< Empty: every movement.
   bool operator==(const NormSpec&) const = default;
@@ -204,7 +206,7 @@ struct NormSpec {
 /// Films that a command line adds to the trials of a study.
 struct VideoChoice {
   std::vector<std::string> files;  ///< "TRIAL=FILE", or "FILE" for a study of one movement.
-  std::optional<double> offset_s;  ///< Of each of `files`: when it begins, on the motion's clock.
+  std::optional<double> offset_s;  ///< Begin of each of `files`, on the motion's clock.
 };
 
 struct SharingSpec {
@@ -217,7 +219,8 @@ struct SharingSpec {
 /// The search for warm-up and fatigue.
 struct PhasesSpec {
   bool search = true;
-  std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};  ///< Not fitted.
+  std::vector<PhaseKind> exclude{PhaseKind::warm_up,
+                                 PhaseKind::fatigued};  ///< Phases that are not fitted.
   bool operator==(const PhasesSpec&) const = default;
 };
 
@@ -228,23 +231,23 @@ struct IdentifySpec {
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;
   identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
-  int posterior_draws = 0;  ///< Of estimator `posterior`; 0: by its approximation.
+  int posterior_draws = 0;  ///< For estimator `posterior`; 0: draws from its approximation.
   bool gain = true;         ///< EMG gain per channel as a nuisance with a tight prior.
   bool cross_validate = true;
-  int next_movements = 4;  ///< To suggest for the next recording; 0: none.
+  int next_movements = 4;  ///< Movements to suggest for the next recording; 0: none.
   identification::FoldKind folds = identification::FoldKind::trial;
-  int bootstrap = 100;  ///< Replicates for the second route to intervals; 0: none.
-  bool profile = true;  ///< Profile likelihood, the third.
-  int starts = 1;       ///< Above 1: Sobol points too, and the table of basins.
+  int bootstrap = 100;  ///< Bootstrap replicates for the second route to intervals; 0: none.
+  bool profile = true;  ///< Profile likelihood, the third route.
+  int starts = 1;       ///< Above 1: adds Sobol points, and the table of basins.
   identification::Loss loss = identification::Loss::square;
   identification::Eccentric eccentric = identification::Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
   identification::LagChoice lag = identification::LagChoice::automatic;
-  bool dynamics = false;        ///< Envelope to activation by the lags of equation (1).
-  bool model_muscles = false;   ///< Pennation and passive force as the model has them; else none.
+  bool dynamics = false;        ///< Turns envelope into activation by the lags of equation (1).
+  bool model_muscles = false;   ///< Pennation and passive force of the model; else none.
   bool elastic_tendon = false;  ///< The model's tendon strain, quasi-static; else rigid.
   bool delay_per_channel = false;
-  double angle_sd_deg = 0.0;  ///< Error of the joint angle and of its rate, propagated.
+  double angle_sd_deg = 0.0;  ///< Errors of the joint angle and of its rate, propagated.
   double angle_rate_sd_degps = 0.0;
   double max_rate_hz = identification::EstimatorOptions{}.max_rate_hz;
   bool operator==(const IdentifySpec&) const = default;
@@ -265,7 +268,7 @@ struct Study {
   IdentifySpec identify;
   identification::UnseenSpreads beliefs;
   std::optional<LoadCellSpec> load_cell;
-  std::optional<SyncSpec> sync;  ///< Of the trials that have none of their own.
+  std::optional<SyncSpec> sync;  ///< For trials without their own.
   std::vector<MuscleSpec> muscles;
   std::vector<TrialSpec> trials;
   std::vector<identification::ParameterRule> parameters;  ///< [[parameter]]
@@ -274,15 +277,15 @@ struct Study {
   bool operator==(const Study&) const = default;
 };
 
-/// Every coordinate whose torque the muscles share, the main one first.
+/// Returns every coordinate whose torque the muscles share, the main one first.
 [[nodiscard]] std::vector<std::string> study_coordinates(const ModelSpec& model);
 
-/// Cut-off of the motion's smoothing, -3 dB [Hz]; empty: not smoothed. `automatic` is the EMG's
-/// low-pass, so that torque and prediction hold the same band.
+/// Returns the cut-off of the motion's smoothing, -3 dB [Hz]; empty: not smoothed. `automatic`
+/// takes the EMG's low-pass, so that torque and prediction have the same band.
 [[nodiscard]] std::optional<double> motion_cutoff_hz(const Study& study);
 
 /// Restricts every trial to the time between `start_s` and `end_s` on its own clock. Throws
-/// InvalidInput where a trial has no such time, naming the trial.
+/// InvalidInput, with the trial's name, if a trial has no such time.
 void restrict_trials(Study& study, std::optional<double> start_s, std::optional<double> end_s);
 
 }  // namespace myoid

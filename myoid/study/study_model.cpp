@@ -64,7 +64,7 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
   return options;
 }
 
-/// Pennation, passive force and tendon of a model's muscle.
+/// Returns pennation, passive force and tendon of a model's muscle.
 identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   const model::MuscleProperties& p = muscle.properties;
   if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
@@ -83,7 +83,7 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
           .tendon_strain = unit.tendon_strain};
 }
 
-/// Applies the study's settings to the model, after a check that the study's names are in it.
+/// Applies the study's settings to the model, after a check that it has the study's names.
 model::BodyModel prepared(const Study& study, model::BodyModel model) {
   const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
     try {

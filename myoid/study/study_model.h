@@ -15,15 +15,14 @@ namespace myoid {
 /// Returns the study's model as text: its file, or the built-in arm made for the subject.
 [[nodiscard]] std::string model_text(const Study& study);
 
-/// Reads the model of that text, once for all trials of a study. Throws ReadError, or ModelError,
-/// listing the names of the model, if the study's coordinate, muscles or held-mass body are not in
-/// it.
+/// Reads the model of that text, once for all trials of a study. Throws ReadError, or ModelError
+/// with the names in the model, if it lacks the study's coordinate, muscles or held-mass body.
 [[nodiscard]] model::BodyModel load_model(const Study& study, const std::string& text);
 [[nodiscard]] model::BodyModel load_model(const Study& study);
 
 /// Returns the built-in arm with the forearm length (elbow to middle of the styloids) that these
-/// markers measure; the upper arm follows in de Leva's proportion. Empty if the study's model
-/// holds: the study has a model file or states the length, or the markers do not show it.
+/// markers measure; the upper arm follows in de Leva's proportion. Empty if the study has a model
+/// file or states the length, or if the markers do not show it.
 [[nodiscard]] std::optional<model::BodyModel> arm_of_markers(
     const Study& study, const recording::MarkerSeries& markers);
 
@@ -41,8 +40,9 @@ namespace myoid {
                                                                  const model::BodyModel& model);
 
 /// The identified numbers of a [[muscle]] for the model's text. F_max and optimal fiber length of
-/// its heads change in the group's proportion; Thelen's muscles also get KshapeActive = (l_sh /
-/// l0)^2 if both are identified, Af = V_sh and Flen = V_ml. All else stays byte for byte.
+/// its heads change in the group's proportion. Thelen's muscles also get KshapeActive = (l_sh /
+/// l0)^2 if both are identified, Af = V_sh and Flen = V_ml. The rest of the text stays byte for
+/// byte.
 struct IdentifiedMuscle {
   std::string group;
   muscle::HillParameters<double> start, identified;

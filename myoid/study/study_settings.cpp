@@ -255,12 +255,12 @@ void visit(PhasesSpec& phases, SettingVisitor& v) {
   v.flag("search", phases.search, {.says = "Warm-up and fatigue are looked for."});
   v.choices("exclude", phases.exclude,
             {.says = "The phases that are not fitted. Fatigue that no raw EMG confirms stays in.",
-             .words = choice_names(PhaseKind{}).first<5>()});  // all but the regular one
+             .words = choice_names(PhaseKind{}).first<5>()});  // all but `regular`
 }
 
 namespace {
 
-/// [identify]: the fit itself.
+/// Visits [identify]: the fit itself.
 void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   static constexpr std::string_view kMuscleLaws[] = {"paper", "model"};
   static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
@@ -308,7 +308,7 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
             .words = kTendons});
 }
 
-/// [identify]: how a muscle follows its EMG.
+/// Visits [identify]: the law by which a muscle follows its EMG.
 void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("dynamics", identify.dynamics,
          {.says = "A third way, not beside `lag`: the envelope becomes activation by the two lags "
@@ -331,7 +331,7 @@ void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
          {.says = "Each EMG channel has a delay of its own."});
 }
 
-/// [identify]: validation, intervals and the samples that are fitted.
+/// Visits [identify]: validation, intervals and the fitted samples.
 void visit_data(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("cross_validate", identify.cross_validate,
          {.says = "A part of the data is left out of the fit and predicted, each part in turn."});

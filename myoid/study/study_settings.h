@@ -5,8 +5,8 @@
 
 namespace myoid {
 
-/// Name every setting of a table once: key, allowed values, default (the struct's), one sentence of
-/// the reference, and the rules that join it to other settings.
+/// Visit every setting of a table once: key, allowed values, default (the struct's), one sentence
+/// of the reference, and the rules that relate it to other settings.
 void visit(SubjectSpec& subject, SettingVisitor& v);
 void visit(HeldMassSpec& held, SettingVisitor& v);
 void visit(ModelSpec& model, SettingVisitor& v);
@@ -22,7 +22,7 @@ void visit(IdentifySpec& identify, SettingVisitor& v);
 void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v);
 void visit(NormSpec& norm, SettingVisitor& v);
 
-/// Every table of a study.
+/// Visits every table of a study.
 void visit(Study& study, SettingVisitor& v);
 
 }  // namespace myoid

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Collects the settings that it meets as a JSON object.
+/// Collects the visited settings as a JSON object.
 class SettingWriter : public SettingVisitor {
  public:
   /// Paths are written relative to `folder`; without a folder they stay unchanged.
@@ -60,7 +60,7 @@ class SettingWriter : public SettingVisitor {
   }
 
  private:
-  /// The path as a file in the folder names it.
+  /// Returns the path relative to the folder.
   [[nodiscard]] std::filesystem::path from_folder(const std::filesystem::path& path) const {
     const auto [rest, own] =
         std::mismatch(folder_->begin(), folder_->end(), path.begin(), path.end());

@@ -95,7 +95,7 @@ void visit_name(TrialSpec& trial, SettingVisitor& v) {
                      name));
 }
 
-/// The recordings of a trial.
+/// Visits the recordings of a trial.
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
@@ -138,7 +138,8 @@ void visit_use(TrialSpec& trial, SettingVisitor& v) {
                "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: the joint's "
                "resting torque with the weight of limb and instrument, subtracted "
                "everywhere else (EMG, where given, must stay below 2 % of the maximal "
-               "contraction); `static` is computed up to the torque."});
+               "contraction); `static` is computed up to the torque and the shared forces, and is "
+               "not fitted."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
          fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
                      trial.name));

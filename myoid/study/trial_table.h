@@ -5,15 +5,15 @@
 
 namespace myoid {
 
-/// The settings of one [[trial]]: its name is a folder's, files that exclude each other are
-/// refused, and the use says which ones are needed.
+/// Visits the settings of one [[trial]]. Its name must suit a folder, files that exclude each other
+/// are refused, and the use determines which ones are needed.
 void visit(TrialSpec& trial, SettingVisitor& v);
 
-/// [sync] of a study or of one of its trials: one way alone (a number, "estimate", a pair of
-/// triggers) says how the clocks stand.
+/// Visits [sync] of a study or of one of its trials: exactly one of a number, "estimate" and a pair
+/// of triggers relates the clocks.
 void visit(SyncSpec& sync, SettingVisitor& v);
 
-/// Force plates under the person in one trial.
+/// Visits the force plates under the person in one trial.
 void visit(PlateSpec& plates, SettingVisitor& v);
 
 }  // namespace myoid

@@ -11,7 +11,7 @@
 namespace myoid {
 namespace {
 
-/// Returns the trials that hold a movement.
+/// Returns the trials with a movement.
 std::vector<TrialSpec*> movements(Study& study) {
   std::vector<TrialSpec*> found;
   for (TrialSpec& trial : study.trials)
@@ -26,7 +26,7 @@ std::string names_of(const std::vector<TrialSpec*>& trials) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Returns the trial that --video names, and its file. Text before '=' is a trial's name where the
+/// Returns the trial that --video names, and its file. Text before '=' is a trial's name if the
 /// study has such a trial.
 TrialSpec& trial_of(Study& study, const std::string& asked, std::string& file) {
   const std::size_t equals = asked.find('=');

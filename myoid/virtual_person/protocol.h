@@ -66,7 +66,7 @@ struct TruthSpec {
   double emg_delay_min_s = 0.030;  ///< The electromechanical delay is drawn between these.
   double emg_delay_max_s = 0.080;  ///< (L2: it follows from the activation dynamics instead.)
   /// Levels L0 and L1: the person also has of what a fit finds beside the muscles' parameters
-  /// (pipeline/nuisances.h): `draw_beside_muscles`.
+  /// (run/nuisances.h): `draw_beside_muscles`.
   bool beside_muscles = false;
   double offset = 0.0;  ///< Shifts the mean of what is drawn, in standard deviations of the prior.
   // The values of level L2. Levels L0 and L1: `default_protocol`.
