@@ -23,7 +23,7 @@ struct HingePath {
   T pulley_m{};
 };
 
-/// One muscle of the arm: where it runs, what it is, how it is excited.
+/// One muscle of the arm: its path, properties and excitation.
 template <typename T = double>
 struct ArmMuscle {
   std::string name;
@@ -57,11 +57,11 @@ struct ArmSetup {
   muscle::JointPassive<double> joint = muscle::elbow_passive();
 };
 
-/// The built-in arm: paths, inertia and Hill parameters of `model::planar_elbow` and
+/// Returns the built-in arm: paths, inertia and Hill parameters of `model::planar_elbow` and
 /// `model::arm4_muscles`, the rest from `muscle::published_defaults`.
 [[nodiscard]] Arm<double> make_arm(const ArmSetup& setup = {});
 
-/// Every muscle in another tendon mode.
+/// Returns the arm with every muscle in another tendon mode.
 [[nodiscard]] Arm<double> with_tendon_mode(Arm<double> arm, muscle::TendonMode mode);
 
 /// Throws InvalidInput, naming muscle or field, unless the arm can move.

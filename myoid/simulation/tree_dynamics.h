@@ -53,7 +53,7 @@ class TreeDynamics {
  private:
   /// Mass, moment and inertia of each body about the ground's origin, and the potential energy.
   void take_bodies();
-  /// The mass matrix and gravity's torques, from the bodies inwards.
+  /// Computes the mass matrix and gravity's torques, from the bodies inwards.
   void take_mass_matrix();
 
   const model::BodyModel* model_;
