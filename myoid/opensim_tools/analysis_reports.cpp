@@ -184,7 +184,7 @@ std::string text_of(const OutputTable& table, const Eigen::VectorXd& times) {
   return text;
 }
 
-/// The outputs that an analysis asks for: numbers, then points. Others are noted.
+/// Returns the outputs that an analysis asks for: numbers, then points. Others are noted.
 std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node) {
   std::array<OutputTable, 2> tables{OutputTable{.components = 1}, OutputTable{.components = 3}};
   std::string missing;
