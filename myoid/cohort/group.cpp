@@ -40,7 +40,7 @@ bool has_results(const PersonOutcome& each) {
   return each.outcome && each.outcome->kind != OutcomeKind::failed;
 }
 
-/// Name and further columns.
+/// Returns the name and further columns.
 std::vector<std::string> own_cells(const Person& person) {
   std::vector<std::string> texts{person.name};
   for (const auto& [name, text] : person.facts) texts.push_back(text);

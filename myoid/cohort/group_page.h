@@ -34,7 +34,7 @@ struct GroupPage {
 };
 [[nodiscard]] GroupPage group_page(const std::vector<GroupPerson>& persons);
 
-/// A sentence that names the outliers; empty without any.
+/// Returns a sentence that names the outliers; empty without any.
 [[nodiscard]] std::string outlier_sentence(const std::vector<Outlier>& outliers);
 
 }  // namespace myoid::cohort

@@ -122,7 +122,7 @@ void find_runs(const fs::path& folder, int depth, std::vector<fs::path>& runs) {
   for (const fs::path& each : inside) find_runs(each, depth + 1, runs);
 }
 
-/// Each person of a twin-study by the seed.
+/// Adds each person of a twin-study by the seed.
 bool add_virtual_persons(const fs::path& folder, std::vector<GroupPerson>& persons) {
   const fs::path file = folder / "persons.csv";
   if (!fs::exists(file)) return false;
