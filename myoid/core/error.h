@@ -7,8 +7,8 @@
 
 namespace myoid {
 
-/// The caller gave an unusable value, shape, unit or name. The message says what was found, what
-/// was expected and how to mend it.
+/// The caller gave an unusable value, shape, unit or name. The message has the value found, the
+/// expectation and the remedy.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
