@@ -33,8 +33,8 @@ struct ArmMuscle {
   muscle::ActivationDynamics<T> activation;
 };
 
-/// An upper arm at rest, a forearm with hand and what it holds on a hinge, and any number of
-/// muscles: equation (8) of the source paper, as corrected,
+/// An upper arm at rest, a forearm with hand and held object on a hinge, and any number of muscles:
+/// equation (8) of the source paper, as corrected,
 ///
 ///   (J + m d^2) qddot = sum_i r_i(q) F_t,i - (S + m d) g sin q + T_joint(q, qdot) + T_ext
 template <typename T = double>

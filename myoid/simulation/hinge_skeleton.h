@@ -8,8 +8,8 @@
 
 namespace myoid::simulation {
 
-/// The arm as `SimulationRun` moves it. A skeleton holds what one posture makes of it: `set` first,
-/// then ask. Not to be shared by threads; its arm is not copied.
+/// The arm in the form that `SimulationRun` moves. A skeleton holds all values of one posture:
+/// `set` first, then ask. Not to be shared by threads; its arm is not copied.
 class HingeSkeleton {
  public:
   explicit HingeSkeleton(const ArmDynamics<double>& arm) : arm_(arm), paths_(arm.muscle_count()) {}
