@@ -30,8 +30,8 @@ struct EmgResult {
   signals::Whitening whitening;
   std::vector<signals::ChannelNormalisation> normalisation;
   signals::EmgChain chain;  ///< From the raw EMG to the activation.
-  std::vector<std::string> activation_header,
-      envelope_header;  ///< The chain, for the files' headers.
+  /// The chain, for the files' headers.
+  std::vector<std::string> activation_header, envelope_header;
   std::vector<Remark> remarks;
 };
 

@@ -13,8 +13,8 @@ namespace myoid::commands {
 struct InitOptions {
   Call call;
   std::string folder;  ///< Folder of study.toml: paths are relative to it.
-  std::vector<std::string>
-      from;                ///< Recordings, or folders of recordings; empty: the folder itself.
+  /// Recordings, or folders of recordings; empty: the folder itself.
+  std::vector<std::string> from;
   std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
   std::string coordinate;  ///< The joint; empty: guessed.
 };

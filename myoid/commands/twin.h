@@ -42,8 +42,8 @@ struct TwinPersonsOptions {
 
 struct TwinPersonsResult {
   std::filesystem::path table;  ///< persons.csv: a person's truth in each row.
-  std::vector<std::filesystem::path>
-      studies;  ///< study.toml of each person; empty with truth_only.
+  /// study.toml of each person; empty with truth_only.
+  std::vector<std::filesystem::path> studies;
 };
 
 /// Makes the persons, writes each into a folder of its own and all into the table. At most one

@@ -46,8 +46,8 @@ struct EstimatorSettings {
 /// The facts about one EMG channel that determine its noise and its gain.
 struct ChannelSource {
   std::string channel;
-  std::optional<double>
-      gain_sd;  ///< Relative error of the level that counts as 1; empty: the gain is no unknown.
+  /// Relative error of the level that counts as 1; empty: the gain is no unknown.
+  std::optional<double> gain_sd;
   double gain_mean = 1.0;     ///< Activation 1 as a share of the maximum.
   double bandwidth_hz = 0.0;  ///< EstimatorOptions::emg_bandwidth_hz
   double rest = 0.0;          ///< EstimatorOptions::emg_rest

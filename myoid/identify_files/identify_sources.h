@@ -17,9 +17,9 @@ struct IdentifySources {
   std::optional<double>
       motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
   std::vector<std::string> coordinates;  ///< Columns of the torque files; empty: the only column.
-  std::vector<std::string>
-      held_back;       ///< Trials that are not fitted, by the names of `trial_named`.
-  bool torque = true;  ///< Fits torques; false: forces.
+  /// Trials that are not fitted, by the names of `trial_named`.
+  std::vector<std::string> held_back;
+  bool torque = true;                    ///< Fits torques; false: forces.
   std::optional<double> start_s, end_s;  ///< [s]
 };
 

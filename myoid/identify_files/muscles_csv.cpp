@@ -144,8 +144,8 @@ class Row {
 /// A muscle with its starting values, and the parameters whose start is the literature's.
 struct StartingMuscle {
   MuscleSetup setup;
-  std::optional<double>
-      slope_ratio;  ///< Stated without the product, which then follows from this ratio.
+  /// Stated without the product, which then follows from this ratio.
+  std::optional<double> slope_ratio;
   std::vector<std::string> assumed;
 };
 

@@ -13,8 +13,8 @@ struct MuscleTable {
   std::vector<identification::MuscleSetup> muscles;
   std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
   std::vector<std::string> notes;                    ///< Notes of the reader, with the file's name.
-  std::string
-      assumed;  ///< Describes the starting values from the literature; empty: none. Also a note.
+  /// Describes the starting values from the literature; empty: none. Also a note.
+  std::string assumed;
   std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor free.
 };
 

@@ -86,9 +86,9 @@ struct MovableMuscle {
   std::string name;
   std::vector<double> literature{}, identified{};  ///< In the order of Workbench::fields.
   std::vector<MovableNumber> numbers{};
-  Eigen::MatrixXd
-      correlation{};        ///< Correlation of the logarithms of `numbers`, after the recording.
-  Eigen::MatrixXd draws{};  ///< From a posterior: a row for each of `numbers`; else empty.
+  /// Correlation of the logarithms of `numbers`, after the recording.
+  Eigen::MatrixXd correlation{};
+  Eigen::MatrixXd draws{};         ///< From a posterior: a row for each of `numbers`; else empty.
   Eigen::VectorXd draw_weights{};  ///< Weights of the columns of `draws`; they add to 1.
 };
 

@@ -16,8 +16,8 @@
 
 namespace myoid::twin {
 
-inline constexpr double kGreatestActivation =
-    0.95;  ///< Greatest activation that a trial may require.
+/// Greatest activation that a trial may require.
+inline constexpr double kGreatestActivation = 0.95;
 
 /// The state of the person at one instant of a trial.
 struct Instant {

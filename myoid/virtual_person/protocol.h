@@ -64,12 +64,12 @@ struct TruthSpec {
   /// Values that are set, not drawn, by muscle and parameter name; SI.
   std::map<std::string, std::map<std::string, double>> values;
   double emg_delay_min_s = 0.030;  ///< Range of the electromechanical delay.
-  double emg_delay_max_s =
-      0.080;  ///< (L2: the delay follows from the activation dynamics instead.)
+  /// (L2: the delay follows from the activation dynamics instead.).
+  double emg_delay_max_s = 0.080;
   /// Levels L0 and L1: draws the person's nuisances, too (run/nuisances.h, `draw_beside_muscles`).
   bool beside_muscles = false;
-  double offset =
-      0.0;  ///< Shifts the mean of the drawn values, in standard deviations of the prior.
+  /// Shifts the mean of the drawn values, in standard deviations of the prior.
+  double offset = 0.0;
   // The values of level L2. Levels L0 and L1: `default_protocol`.
   /// "paper" (L0, L1), "de_groote", "millard", or "any": one of the last two by chance.
   std::string curves = "any";
@@ -83,8 +83,8 @@ struct TruthSpec {
 
 /// The rule by which the virtual person shares the effort.
 struct ControlSpec {
-  double co_contraction_min =
-      0.02;  ///< Activation of the antagonist, a share of the greatest activation.
+  /// Activation of the antagonist, a share of the greatest activation.
+  double co_contraction_min = 0.02;
   double co_contraction_max = 0.15;
   /// Standard deviation of ln(BRD / BIC activation), over trials and slowly within each. At 0 the
   /// two flexors' EMG would be one signal.
@@ -151,8 +151,8 @@ struct EmgNoise {
   double spectrum_max = 1.0;
   /// Number of motor units at the electrode: few units make single spikes. 0: Gaussian noise; 250.
   double motor_units = 0.0;
-  double bandwidth_hz =
-      0.0;  ///< Bandwidth of the amplifier, fourth order; 0: beyond half the rate; 450.
+  /// Bandwidth of the amplifier, fourth order; 0: beyond half the rate; 450.
+  double bandwidth_hz = 0.0;
 };
 
 struct TorqueNoise {

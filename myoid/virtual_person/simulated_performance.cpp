@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kStep_s = 0.001;
 constexpr int kStepsPerSample = 5;
-constexpr double kSample_s =
-    kStep_s * kStepsPerSample;  ///< interval of the commands and of the stored samples
+/// Interval of the commands and of the stored samples.
+constexpr double kSample_s = kStep_s * kStepsPerSample;
 constexpr int kSamplesPerFatigue = 10;
 constexpr double kBefore_s = 1.0;  ///< time at rest, held, before the trial begins
 constexpr double kAfter_s = 0.2;
 constexpr double kMotorNoiseCutoff_hz = 3.0;
-constexpr double kLost_rad =
-    0.6;  ///< distance from the intended angle at which a movement has failed
+/// Distance from the intended angle at which a movement has failed.
+constexpr double kLost_rad = 0.6;
 constexpr double kFeedback_radps = 6.0;  ///< natural frequency of the correction
 constexpr double kDamping = 0.8;         ///< damping ratio of the correction
 constexpr double kIntegral = 0.1;        ///< integral part of the correction

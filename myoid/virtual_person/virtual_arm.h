@@ -35,8 +35,8 @@ struct MuscleGeometry {
 /// The distance of one marker of a person from the model's marker.
 struct MarkerError {
   Vec3 misplaced_m = Vec3::Zero();  ///< In the frame of its body.
-  Vec3 soft_tissue_m =
-      Vec3::Zero();  ///< Amplitude of the marker's motion on the skin, times sin(q + phase).
+  /// Amplitude of the marker's motion on the skin, times sin(q + phase).
+  Vec3 soft_tissue_m = Vec3::Zero();
   double phase_rad = 0.0;
 };
 
