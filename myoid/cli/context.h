@@ -53,11 +53,11 @@ struct Context {
   bool overwrite = false;
   bool strict = false;
   std::optional<double> start_s, end_s;
-  std::string compat = "exact";  ///< Muscle paths: exact, or those of OpenSim 4.5.2.
+  std::string compat = "exact";  ///< Muscle paths: exact, or as in OpenSim 4.5.2.
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;     ///< That prepare_file will make.
+  mutable std::vector<std::filesystem::path> new_folders;  ///< Folders that prepare_file will make.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// Writes one line on stderr, unless --quiet.

@@ -65,7 +65,7 @@ report::Table persons_table(const Manifest& manifest, const std::vector<PersonOu
   return table;
 }
 
-/// The rows of parameters.csv behind the person's own columns.
+/// Adds the rows of parameters.csv behind the person's own columns.
 void add_parameters(report::Table& table, const Person& person, const CsvTable& parameters) {
   if (table.columns.empty()) {
     table.columns.emplace_back("person");

@@ -18,7 +18,7 @@ struct GroupNumber {
   std::string verdict;
   double estimate = 0.0;
   std::optional<double> low, high;  ///< 95 % interval.
-  std::optional<double> truth;      ///< Of a virtual recording.
+  std::optional<double> truth;      ///< In a virtual recording.
 };
 
 /// A number that says how good a recording and its fit are.

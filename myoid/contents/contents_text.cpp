@@ -45,7 +45,7 @@ std::string member_text(const ordered_json& item) {
   return line;
 }
 
-/// The ending of a key that says what another key's value comes from: "up" and "up_from".
+/// Ending of the key that states the origin of another key's value: "up" and "up_from".
 constexpr const char* kFrom = "_from";
 
 bool says_where_from(const ordered_json& contents, const std::string& key) {

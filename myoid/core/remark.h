@@ -18,7 +18,8 @@ enum class Severity {
 };
 [[nodiscard]] std::string_view name(Severity severity);
 
-/// The question that a remark answers. Programs tell remarks apart by it, never by their words.
+/// The question that a remark answers. Programs distinguish remarks by this code, never by their
+/// words.
 enum class RemarkCode {
   // Channels of a recording; the documentation of `myoid check` has one row for each.
   marker_unit,
@@ -45,7 +46,7 @@ enum class RemarkCode {
   plate_pressure_outside,
   // Files.
   general,  ///< Any other matter, described in words.
-  reading,  ///< A reader took a file in one of several ways, or put something right.
+  reading,  ///< A reader chose among several readings of a file, or repaired it.
   refused,  ///< A file or setting cannot be used.
   unit_doubtful,
   clock_pause,

@@ -18,7 +18,7 @@ struct FoundRecording {
   recording::MarkerSeries markers;    ///< Empty: none.
   std::vector<std::string> angles;    ///< Coordinates of the model.
   std::vector<std::string> channels;  ///< EMG.
-  bool has_unit = true;               ///< Of the EMG.
+  bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;
   int plates = 0;
   bool motion_taken = false;

@@ -60,8 +60,8 @@ struct SharingSolution {
 struct ForceAtActivation {
   double force_n = 0.0, slope_n = 0.0;
 };
-/// F(x) of a muscle in a frame, if it is not F_opt x: passive force, elastic tendon. Called from
-/// any thread.
+/// The law F(x) of a muscle in a frame, if it is not F_opt x: passive force, elastic tendon. Called
+/// from any thread.
 using MuscleForceLaw =
     std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
 

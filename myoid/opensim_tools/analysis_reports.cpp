@@ -128,7 +128,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
 /// One output of the model that a report asks for.
 struct Output {
   enum class Kind { length, speed, marker, body } kind = Kind::length;
-  int index = 0;  ///< Of the marker, of the body, or in paths_of.
+  int index = 0;  ///< index of the marker, of the body, or in paths_of
   std::string path;
 };
 

@@ -143,7 +143,7 @@ void update_constraint(pugi::xml_node object) {
   }
 }
 
-/// Before 10900 muscles held their points themselves.
+/// Updates muscles of documents before 10900, which hold their points themselves.
 void update_path_holder(pugi::xml_node force) {
   if (!force.child("GeometryPath") && force.child("PathPointSet")) {
     auto path = force.append_child("GeometryPath");

@@ -20,7 +20,8 @@ namespace myoid {
 class BandSpace {
  public:
   BandSpace() = default;
-  /// `variables`: the unknowns of each block of slopes, of the muscles first, then of the joints.
+  /// Builds the space. `variables`: the unknowns of each block of slopes, first the muscles', then
+  /// the joints'.
   BandSpace(const Eigen::MatrixXd& covariance,
             const std::vector<std::vector<Eigen::Index>>& variables,
             std::size_t joints);

@@ -55,7 +55,7 @@ void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
     w.bands.arms(row, column) = arm_m;
   }
   const double angle = w.q[joint.coordinate], speed = w.qdot[joint.coordinate];
-  // T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset; nobody accelerates here.
+  // T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset, without the acceleration
   const JointValues by{-speed, 0.0, -angle, 1.0};
   for (std::size_t f = 0; f < by.size(); ++f) torque += by[f] * joint.values[f];
   w.torque_nm[column] = torque;

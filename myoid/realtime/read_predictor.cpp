@@ -87,7 +87,7 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
 
 using Chains = std::vector<Predictor::Chain>;
 
-/// The product of a muscle whose slope ratio S is the unknown:
+/// Adds the chains of the product of a muscle whose slope ratio S is the unknown:
 ///   P = (V_ml - 1) V_sh / (S (1 + V_sh)).
 void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
   const double product = m[kProduct];
@@ -101,7 +101,7 @@ void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
   std::erase_if(chains, [](const Predictor::Chain& c) { return c.field == kSlopeRatio; });
 }
 
-/// "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
+/// Adds the chains of a label "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
 void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
   const std::size_t point = label.rfind('.');
   if (point == std::string::npos)

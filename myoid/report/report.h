@@ -61,7 +61,7 @@ struct Figure {
   int most_on_page = 0;  ///< The page draws the first panels only; 0: all. The files have all.
   std::string bad{};     ///< How the figure looks if something is wrong; one or two sentences.
   std::string act{};     ///< Advice to the reader.
-  /// True if the workbench shows the same: the page then shows the drawing in print and without
+  /// True if the workbench shows this figure: the page then shows the drawing in print and without
   /// script only.
   bool in_workbench = false;
 };

@@ -8,8 +8,8 @@
 
 namespace myoid::simulation {
 
-/// A seeded stream of random numbers: the same on every machine with IEEE doubles, because both the
-/// engine (std::mt19937_64, fixed by the standard) and the transformations (ours) are.
+/// A seeded stream of random numbers, equal on every machine with IEEE doubles, because the
+/// standard fixes the engine (std::mt19937_64), and this class the transformations.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

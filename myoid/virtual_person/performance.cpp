@@ -13,7 +13,7 @@ constexpr double kFatigueStep_s = 0.05;
 template <std::size_t N>
 void Tiredness<N>::rest(double interval_s) {
   if (!rates) return;
-  constexpr double kRelaxing_s = 2.0;  // e^-20 is left of what was active
+  constexpr double kRelaxing_s = 2.0;  // leaves e^-20 of the active share
   const double relaxing_s = std::min(interval_s, kRelaxing_s);
   work({}, relaxing_s);
   const double decay =

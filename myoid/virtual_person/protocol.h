@@ -164,7 +164,7 @@ struct TrialProtocol {
   std::string name;
   TrialKind kind = TrialKind::flexion;
   std::string use =
-      "calibration";  ///< Of the study: calibration, validation, mvc, isometric, passive.
+      "calibration";  ///< Use in the study: calibration, validation, mvc, isometric, passive.
   Plane plane = Plane::vertical;
   double held_mass_kg = 0.0;
   std::vector<double> co_contraction;  ///< Empty: ControlSpec's range.
