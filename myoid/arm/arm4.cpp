@@ -35,7 +35,7 @@ struct CoordinateText {
   bool locked;
 };
 
-/// A joint of up to three rotations, then translations along x, y, z if `translations`.
+/// Returns a joint of up to three rotations, then translations along x, y, z if `translations`.
 std::string joint(std::string_view name,
                   std::string_view parent,
                   std::string_view child,
@@ -98,7 +98,7 @@ std::string point(std::string_view name, std::string_view on, const Vec3& at_m) 
       name, on, triple(at_m));
 }
 
-/// A point on the upper arm that slides along it by `slope` per radian of elbow flexion.
+/// Returns a point on the upper arm that slides along it by `slope` per radian of elbow flexion.
 std::string sliding_point(std::string_view name, const Vec3& at_m, double slope_mprad) {
   const auto axis = [](char letter, std::string_view function) {
     return fmt::format(

@@ -9,7 +9,7 @@ namespace myoid::model {
 
 /// Whose arm it is.
 struct ArmOptions {
-  double mass_kg = 73.0;  ///< Of the whole body.
+  double mass_kg = 73.0;  ///< Mass of the whole body.
   bool female = false;    ///< Which fractions of body mass and segment length apply.
   double upper_arm_length_m = 0.30;
   double forearm_length_m = 0.2689;  ///< Elbow to wrist.
@@ -23,12 +23,12 @@ struct SegmentInertia {
       Vec3::Zero();  ///< About x (sagittal), y (long) and z (transverse) axes through it.
 };
 
-/// Upper arm, and forearm with hand as one body, after de Leva (1996). Throws InvalidInput unless
-/// mass and lengths are positive and finite.
+/// Returns the upper arm, or forearm with hand as one body, after de Leva (1996). Throws
+/// InvalidInput unless mass and lengths are positive and finite.
 [[nodiscard]] SegmentInertia upper_arm(const ArmOptions& options);
 [[nodiscard]] SegmentInertia forearm_with_hand(const ArmOptions& options);
 
-/// Distance from the elbow to what the hand holds: the center of the hand [m].
+/// Returns the distance from the elbow to the held object: the center of the hand [m].
 [[nodiscard]] double held_at_m(const ArmOptions& options);
 
 /// A muscle across a hinge in its plane. Flexors follow the law of cosines between their
@@ -58,19 +58,19 @@ struct MuscleTravel {
 /// The closed-form arm: an upper arm at rest, a forearm with hand on a hinge, four muscles.
 struct PlanarElbow {
   std::array<PlanarMuscle, 4> muscles;  ///< BIC, BRA, BRD, TRI.
-  double inertia_kgm2 = 0.0;            ///< Of forearm and hand about the elbow.
+  double inertia_kgm2 = 0.0;            ///< Moment of inertia of forearm and hand about the elbow.
   double static_moment_kgm = 0.0;       ///< Mass times distance of its center.
   double held_at_m = 0.0;
 };
 
-/// The built-in arm. Attachments of the flexors are least-squares fits of the law above to the
-/// moment arms of Pigeon, Yahia & Feldman (1996) between 10 and 130 degrees (rms 2-3 mm); the
-/// triceps' pulley, 21 mm, likewise. They do not scale with the segments.
+/// Returns the built-in arm. Attachments of the flexors are least-squares fits of the law above to
+/// the moment arms of Pigeon, Yahia & Feldman (1996) between 10 and 130 degrees (rms 2-3 mm), and
+/// so is the triceps' pulley of 21 mm. They do not scale with the segments.
 [[nodiscard]] PlanarElbow planar_elbow(const ArmOptions& options = {});
 
-/// Torque about the elbow that a movement requires [N m], flexion positive, with the upper arm at
-/// rest and `gravity_mps2` the part of gravity in the plane of movement, along the upper arm
-/// towards the elbow (9.81 when it hangs, 0 when the axis of the elbow is vertical):
+/// Returns the torque about the elbow that a movement requires [N m], flexion positive, with the
+/// upper arm at rest and `gravity_mps2` the part of gravity in the plane of movement, along the
+/// upper arm towards the elbow (9.81 when it hangs, 0 when the axis of the elbow is vertical):
 ///
 ///   T = (J + m d^2) qddot + (S + m d) g sin q
 [[nodiscard]] double required_torque_nm(const PlanarElbow& elbow,

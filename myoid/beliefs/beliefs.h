@@ -358,9 +358,9 @@ inline constexpr Belief kUnknownEmgNoise{
 /// instruments (`[beliefs]`). At 0 the quantity is exact.
 struct UnseenSpreads {
   double moment_arm = beliefs::kMomentArm.sd;  ///< Spread of the logarithm.
-  double moment_arm_slope =
-      beliefs::kMomentArmSlope.sd;  ///< Spread over half the range of lengths.
-  double tendon_strain = 0.053;     ///< Root mean square of kTendonStretch about no strain.
+  /// Spread over half the range of lengths.
+  double moment_arm_slope = beliefs::kMomentArmSlope.sd;
+  double tendon_strain = 0.053;  ///< Root mean square of kTendonStretch about no strain.
   double torque_scale = beliefs::kTorqueScale.sd;
   double crosstalk = beliefs::kCrossTalk.sd;
   double gain_drift = beliefs::kGainDrift.sd;

@@ -9,7 +9,7 @@
 namespace myoid::recording {
 namespace {
 
-/// True for names of groups and parameters that mean the same.
+/// Returns true for names of groups and parameters that mean the same.
 bool same_name(std::string_view stored, std::string_view wanted) {
   if (equal_ignoring_case(trim(stored), wanted)) return true;
   if (wanted == "FORCE_PLATFORM") {

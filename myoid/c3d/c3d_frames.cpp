@@ -32,7 +32,7 @@ template <C3dProcessor kProcessor>
 void scaled_points(const std::byte* p, std::size_t points, double scale, float* out) {
   constexpr C3dBytes kNumber{kProcessor};
   for (std::size_t i = 0; i < points; ++i, p += 8, out += 4) {
-    // The product is formed in double and then rounded, as a file of reals of the same data has it.
+    // The product is formed in double and then rounded, as in a file of reals.
     out[0] = static_cast<float>(static_cast<double>(kNumber.i16(p)) * scale);
     out[1] = static_cast<float>(static_cast<double>(kNumber.i16(p + 2)) * scale);
     out[2] = static_cast<float>(static_cast<double>(kNumber.i16(p + 4)) * scale);

@@ -23,7 +23,7 @@ struct C3dHeader {
 
 [[nodiscard]] C3dHeader read_c3d_header(std::span<const std::byte> head, const C3dBytes& number);
 
-/// True for a rate in Hz that a recording can have.
+/// Returns true for a rate in Hz that a recording can have.
 [[nodiscard]] bool is_c3d_rate(double rate_hz);
 
 /// Returns the processor under which the header makes sense, for a file without a parameter

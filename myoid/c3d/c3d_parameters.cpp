@@ -184,8 +184,8 @@ class ParameterReader {
     return taken == 0 ? 0 : head.body + taken;
   }
 
-  /// True for a record beyond doubt: its name has letters and digits, and its distance is the
-  /// length of its values.
+  /// Returns true for a record beyond doubt: its name has letters and digits, and its distance is
+  /// the length of its values.
   bool surely_begins(std::size_t at) const {
     if (at + 4 > limit_) return false;
     const auto size = static_cast<std::size_t>(std::abs(static_cast<std::int8_t>(bytes_[at])));
@@ -200,7 +200,7 @@ class ParameterReader {
     return head && head->next != 0 && head->next <= limit_ && own_end(*head) == head->next;
   }
 
-  /// True for the end of the list and for every readable head.
+  /// Returns true for the end of the list and for every readable head.
   bool may_begin(std::size_t at) const {
     std::string reason;
     return at + 2 > limit_ || bytes_[at] == std::byte{0} || head_at(at, reason).has_value();
@@ -291,7 +291,7 @@ class ParameterReader {
     }
   }
 
-  /// The groups in the order of the file.
+  /// Returns the groups in the order of the file.
   std::vector<C3dGroup> named_groups() {
     std::vector<C3dGroup> list;
     for (const int id : order_) {

@@ -109,7 +109,7 @@ void put_header(const C3dFile& file,
   word(150, 12345);
 }
 
-/// True if integer samples are written without sign.
+/// Returns true if integer samples are written without sign.
 bool writes_unsigned(const C3dFile& file) {
   const C3dParameter* said = file.find("ANALOG", "FORMAT");
   if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))

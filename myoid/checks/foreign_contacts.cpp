@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kLeast_n = 20.0;
 constexpr double kMergedContact_s = 0.025;  ///< longest pause within a contact
-constexpr double kLevel_m =
-    0.04;  ///< greatest height difference of two feet that both stand on the ground
+/// Greatest height difference of two feet that both stand on the ground.
+constexpr double kLevel_m = 0.04;
 constexpr double kStill_m_per_s = 0.25;
 constexpr double kFloorPush = 0.5;   ///< cosine of 60 degrees, as `recording::is_floor`
 constexpr double kTwoSteps_m = 0.5;  ///< the other foot may be two steps of stairs lower

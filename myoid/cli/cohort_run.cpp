@@ -39,7 +39,7 @@ void print_json(const std::vector<PersonOutcome>& outcomes) {
   fmt::print("{}\n", json_text(list));
 }
 
-/// One person has the code of `run`; of several, failures count before gates.
+/// Returns the code of `run` for one person; for several, failures count before gates.
 int code_of(const std::vector<PersonOutcome>& outcomes) {
   const auto any = [&](OutcomeKind kind) {
     return std::any_of(outcomes.begin(), outcomes.end(), [&](const PersonOutcome& each) {

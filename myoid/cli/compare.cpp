@@ -40,7 +40,7 @@ void print(const RunComparison& comparison) {
              "first", "second", "difference", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
     if (p.first.method == "paper")
-      continue;  // In the report; shared forces tell nothing of a person.
+      continue;  // in the report; shared forces do not describe a person
     fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
                fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)),
                report::format_value(p.first.estimate), report::format_value(p.second.estimate),

@@ -34,7 +34,7 @@ enum ExitCode : int {
 [[nodiscard]] const CLI::Validator& above_zero();
 [[nodiscard]] const CLI::Validator& zero_or_more();
 
-/// An option that takes the name of an enumerator (`choice_names`).
+/// Returns the check of an option that takes the name of an enumerator (`choice_names`).
 template <typename Enumeration>
 [[nodiscard]] CLI::CheckedTransformer one_of() {
   std::vector<std::pair<std::string, Enumeration>> names;
@@ -53,29 +53,30 @@ struct Context {
   bool overwrite = false;
   bool strict = false;
   std::optional<double> start_s, end_s;
-  std::string compat = "exact";  ///< Muscle paths: exact, or those of OpenSim 4.5.2.
+  std::string compat = "exact";  ///< Muscle paths: exact, or as in OpenSim 4.5.2.
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;     ///< That prepare_file will make.
+  mutable std::vector<std::filesystem::path> new_folders;  ///< Folders that prepare_file will make.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
-  /// One line on stderr, unless --quiet.
+  /// Writes one line on stderr, unless --quiet.
   void log(std::string_view line) const;
-  /// A warning on stderr, unless --quiet.
+  /// Writes a warning on stderr, unless --quiet.
   void warn(std::string_view line) const;
-  /// A remark of a command on stderr; details with --verbose only.
+  /// Writes a remark of a command on stderr; details with --verbose only.
   void tell(const Remark& remark) const;
-  /// The common options for the functions of `commands`, with a listener that tells remarks.
+  /// Returns the common options for the functions of `commands`, with a listener that writes
+  /// remarks.
   [[nodiscard]] commands::Call call() const;
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
   /// Ends the line of the progress bar.
   void end_progress() const;
-  /// `check_output` with --overwrite. Remembers a folder that is not there yet.
+  /// Checks the output with --overwrite. Remembers a folder that does not exist yet.
   void prepare_file(const std::filesystem::path& path,
                     const std::vector<std::string>& inputs) const;
-  /// A folder that will be made for a single file, for `tell_new_folders`.
+  /// Remembers a folder that will be made for a single file, for `tell_new_folders`.
   void remember_new_folder(const std::filesystem::path& folder) const;
   /// Names on stderr the folders that were made for single files, so that a slip in --out is seen.
   void tell_new_folders() const;

@@ -11,7 +11,7 @@
 namespace myoid::cli {
 namespace {
 
-/// The axes of the laboratory and its force plates.
+/// Adds the axes of the laboratory and its force plates.
 void add_laboratory_options(CLI::App& command, commands::ConvertOptions& o) {
   command
       .add_option(

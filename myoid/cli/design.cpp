@@ -69,7 +69,7 @@ void print_json(const DesignStudyResult& result) {
   fmt::print("{}\n", json_text(json));
 }
 
-/// The movements to choose from, and how many.
+/// Adds the movements to choose from, and their number.
 void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
   DesignStudyOptions& design = options.design;
   command
@@ -95,7 +95,7 @@ void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
       ->capture_default_str();
 }
 
-/// The persons and the noise of the recording that is expected.
+/// Adds the persons and the noise of the expected recording.
 void add_recording_options(CLI::App& command, DesignStudyOptions& design) {
   command.add_option("--persons", design.persons, "Persons drawn from the priors, to average over")
       ->check(CLI::Range(1, 1000))

@@ -14,8 +14,8 @@ void hold_folder(std::unique_ptr<recording::ResultFolder> folder);
 /// belongs to the unfinished command, which takes the folder over when the user repeats it.
 void finish_folders();
 
-/// A clause on the held folders: "every file in out is whole, and ..." where a folder has results,
-/// else "nothing was written into out"; empty where no folder is held.
+/// Returns a clause on the held folders: "every file in out is whole, and ..." for a folder with
+/// results, else "nothing was written into out"; empty if no folder is held.
 [[nodiscard]] std::string contents_of_folders();
 
 /// Gives all folders back. Bad input leaves no empty folder that the program made.

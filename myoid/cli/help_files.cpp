@@ -32,7 +32,7 @@ struct HelpCommand {
   std::string example;  ///< Lines behind "Example:", with a line end each.
   std::vector<HelpOption> options, positionals;
 
-  /// The first sentence without its point.
+  /// Returns the first sentence without its point.
   [[nodiscard]] std::string title() const {
     const std::string first = says.substr(0, says.find('\n'));
     const std::size_t end = first.find(". ");
@@ -49,7 +49,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-/// "value in {a->0,b->1} OR {0,1}" and "{a,b}" are the words a and b.
+/// Returns the words a and b of "value in {a->0,b->1} OR {0,1}" and "{a,b}".
 std::vector<std::string> words_of(const std::string& type) {
   const std::size_t begin = type.find('{');
   const std::size_t end = type.find('}', begin);
@@ -242,13 +242,13 @@ complete -o default -F _myoid myoid
       fmt::join(all, " "), values, options);
 }
 
-/// The first sentence of an option's help.
+/// Returns the first sentence of an option's help.
 std::string brief(const std::string& says) {
   const std::string line = says.substr(0, says.find('\n'));
   return line.substr(0, line.find(". "));
 }
 
-/// A text inside single quotes of a shell, for zsh with its own marks escaped.
+/// Returns a text inside single quotes of a shell, for zsh with its own marks escaped.
 std::string quoted(std::string text, bool zsh) {
   if (zsh) {
     for (const char* mark : {"\\", "[", "]", ":"})

@@ -165,7 +165,7 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
   for (const identification::NamedContest& contest : result.contests) print_contest(contest);
 }
 
-/// True if the fit did not converge or, with --strict, a parameter is not identifiable.
+/// Returns true if the fit did not converge or, with --strict, a parameter is not identifiable.
 bool failed(const identification::IdentificationResult& fit,
             const std::string& method,
             bool strict) {

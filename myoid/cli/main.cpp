@@ -150,7 +150,7 @@ class CapitalPositionals : public CLI::Formatter {
   }
 };
 
-/// A sentence on an option that takes one value and has several; empty: there is none.
+/// Returns a sentence on an option that takes one value and has several; empty: there is none.
 std::string repeated_option(CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {

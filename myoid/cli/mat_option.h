@@ -9,7 +9,8 @@
 
 namespace myoid::cli {
 
-/// The option --mat of commands that fill a folder with results: the same as one MATLAB file.
+/// The option --mat of commands that fill a folder with results: writes them as one MATLAB file,
+/// too.
 class MatOption {
  public:
   explicit MatOption(CLI::App& command);

@@ -19,7 +19,7 @@ bool is_number(const Setting& setting) {
 
 std::string option_name(const Setting& setting) { return fmt::format("--{}", setting.key); }
 
-/// The sentences of the guide with range and default, for a terminal.
+/// Returns the sentences of the guide with range and default, for a terminal.
 std::string help_of(const Setting& setting, const SettingRow& row) {
   std::vector<std::string> facts;
   if (is_number(setting)) facts.push_back(without_markdown(row.allowed));
@@ -29,7 +29,7 @@ std::string help_of(const Setting& setting, const SettingRow& row) {
   return facts.empty() ? text : fmt::format("{} ({})", text, fmt::join(facts, "; "));
 }
 
-/// "{delay,shared}", NUMBER, FILE or TEXT.
+/// Returns "{delay,shared}", NUMBER, FILE or TEXT.
 std::string type_of(const Setting& setting) {
   if (!setting.about.words.empty())
     return fmt::format("{{{}}}", fmt::join(setting.about.words, ","));
@@ -37,7 +37,7 @@ std::string type_of(const Setting& setting) {
   return setting.kind == SettingKind::path ? "FILE" : "TEXT";
 }
 
-/// The check of a number or a word, with the sentence that study.toml gets too.
+/// Returns the check of a number or a word, with the sentence that study.toml gets too.
 CLI::Validator check_of(const Setting& setting) {
   return CLI::Validator(
       [setting](const std::string& text) -> std::string {

@@ -42,7 +42,7 @@ void add_options(CLI::App& command) {
   visit(defaults, declarer);
 }
 
-/// The options as the user gave them; the others have their defaults.
+/// Returns the options that the user gave; the others have their defaults.
 template <typename Options>
 [[nodiscard]] Options read_options(const CLI::App& command) {
   Options options;

@@ -17,7 +17,7 @@ void draw_paper_figures(const std::string& out, const Context& context) {
   }
 }
 
-/// The laws of the muscles and their excitations.
+/// Adds the laws of the muscles and their excitations.
 void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--excitations", o.excitations,
                      "Excitation per muscle over time (.sto), 0 to 1, linear between its samples");
@@ -40,7 +40,7 @@ void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
       ->check(CLI::IsMember(commands::activation_names()));
 }
 
-/// The start of the movement, its constraints and loads.
+/// Adds the start of the movement, its constraints and loads.
 void add_movement_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--initial", o.initial,
                      "COORDINATE=VALUE at the start [deg, m]; may be repeated (default: the "
@@ -54,7 +54,7 @@ void add_movement_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--held-at", o.held_at_m, "Where on that body, x y z [m]")->expected(3);
 }
 
-/// The samples and the further results.
+/// Adds the samples and the further results.
 void add_output_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--rate", o.rate_hz, "Samples of the results [Hz] (default 200)");
   command.add_option("--tolerance", o.tolerance,

@@ -40,7 +40,7 @@ bool has_results(const PersonOutcome& each) {
   return each.outcome && each.outcome->kind != OutcomeKind::failed;
 }
 
-/// Name and further columns.
+/// Returns the name and further columns.
 std::vector<std::string> own_cells(const Person& person) {
   std::vector<std::string> texts{person.name};
   for (const auto& [name, text] : person.facts) texts.push_back(text);
@@ -65,7 +65,7 @@ report::Table persons_table(const Manifest& manifest, const std::vector<PersonOu
   return table;
 }
 
-/// The rows of parameters.csv behind the person's own columns.
+/// Adds the rows of parameters.csv behind the person's own columns.
 void add_parameters(report::Table& table, const Person& person, const CsvTable& parameters) {
   if (table.columns.empty()) {
     table.columns.emplace_back("person");

@@ -105,7 +105,7 @@ std::string id_of(std::string_view name) {
   return id;
 }
 
-/// A grid whose cells are still empty.
+/// Returns a grid whose cells are still empty.
 StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, std::string title) {
   StripGrid grid{
       .id = std::move(id), .title = std::move(title), .caption = {}, .columns = {}, .rows = {}};
@@ -114,7 +114,7 @@ StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, st
   return grid;
 }
 
-/// The column of this name, made where there is none.
+/// Returns the column of this name; adds a new one if there is none.
 std::size_t column_of(StripGrid& grid, const std::string& name, const std::string& unit) {
   const auto found = std::find_if(grid.columns.begin(), grid.columns.end(),
                                   [&](const StripColumn& c) { return c.name == name; });
@@ -145,7 +145,7 @@ StripGrid quality_grid(const std::vector<GroupPerson>& persons, std::vector<Outl
   return grid;
 }
 
-/// One grid a parameter, in the order in which the parameters appear.
+/// Returns one grid per parameter, in the order in which the parameters appear.
 std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons,
                                     std::vector<Outlier>& outliers) {
   std::vector<StripGrid> grids;
@@ -173,7 +173,7 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons,
   return grids;
 }
 
-/// A number of a grid over the persons; empty if no recording tells it.
+/// Returns a number of a grid over the persons; empty if no recording determines it.
 std::optional<std::vector<Cell>> summary_row(const StripGrid& grid, std::size_t column) {
   std::vector<double> estimates, widths;
   for (const report::StripRow& row : grid.rows) {

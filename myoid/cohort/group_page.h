@@ -25,16 +25,16 @@ inline constexpr double kOutlierDistance = 3.5;
 inline constexpr std::size_t kFewestForOutliers = 5;
 [[nodiscard]] std::vector<double> robust_distances(const std::vector<double>& values);
 
-/// The persons side by side: quality first, then each parameter with a column a muscle, then the
-/// outliers, then mean and spread. Numbers that a recording does not tell (verdict other than
-/// identified or weak) are drawn pale and counted nowhere.
+/// The persons side by side: quality first, then each parameter with a column per muscle, then the
+/// outliers, then mean and spread. Numbers that a recording does not determine (verdict other than
+/// identified or weak) are drawn pale and not counted.
 struct GroupPage {
   report::Section persons;  ///< Strip plots and summary, with ids.
   std::vector<Outlier> outliers;
 };
 [[nodiscard]] GroupPage group_page(const std::vector<GroupPerson>& persons);
 
-/// A sentence that names the outliers; empty without any.
+/// Returns a sentence that names the outliers; empty without any.
 [[nodiscard]] std::string outlier_sentence(const std::vector<Outlier>& outliers);
 
 }  // namespace myoid::cohort

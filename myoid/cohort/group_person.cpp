@@ -108,7 +108,7 @@ void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
     quality.push_back({"marker error", "mm", math::median(std::move(errors_mm)), ""});
 }
 
-/// The folders of runs in this one, in the order of their names.
+/// Finds the folders of runs in this one, in the order of their names.
 void find_runs(const fs::path& folder, int depth, std::vector<fs::path>& runs) {
   if (fs::exists(folder / "parameters.csv")) {
     runs.push_back(folder);
@@ -122,7 +122,7 @@ void find_runs(const fs::path& folder, int depth, std::vector<fs::path>& runs) {
   for (const fs::path& each : inside) find_runs(each, depth + 1, runs);
 }
 
-/// Each person of a twin-study by the seed.
+/// Adds each person of a twin-study by the seed.
 bool add_virtual_persons(const fs::path& folder, std::vector<GroupPerson>& persons) {
   const fs::path file = folder / "persons.csv";
   if (!fs::exists(file)) return false;
@@ -144,7 +144,7 @@ bool add_virtual_persons(const fs::path& folder, std::vector<GroupPerson>& perso
   return true;
 }
 
-/// Names without what all of them begin and end with.
+/// Returns the names without their common beginning and end.
 std::vector<std::string> names_of(const std::vector<fs::path>& runs) {
   std::vector<std::vector<std::string>> parts;
   for (const fs::path& run : runs) {

@@ -18,7 +18,7 @@ struct GroupNumber {
   std::string verdict;
   double estimate = 0.0;
   std::optional<double> low, high;  ///< 95 % interval.
-  std::optional<double> truth;      ///< Of a virtual recording.
+  std::optional<double> truth;      ///< In a virtual recording.
 };
 
 /// A number that says how good a recording and its fit are.
@@ -56,7 +56,7 @@ struct GroupRun {
 /// depth down to three. Throws ReadError for a folder without a run.
 [[nodiscard]] std::vector<GroupRun> group_runs(const std::vector<std::filesystem::path>& folders);
 
-/// The report of a run, relative to this folder; empty if the run has none.
+/// Returns the report of a run, relative to this folder; empty if the run has none.
 [[nodiscard]] std::string page_of(const GroupRun& run, const std::filesystem::path& page_folder);
 
 /// Reads the persons of a group: of every run, and of the folders of twin-studies (persons.csv with

@@ -38,13 +38,13 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   return changes;
 }
 
-/// "is stronger", "optimal fiber length is smaller".
+/// Returns "is stronger", "optimal fiber length is smaller".
 std::string changed(const std::string& parameter, double difference) {
   if (parameter == "max_isometric_force") return difference > 0.0 ? "is stronger" : "is weaker";
   return report::spelled(parameter) + (difference > 0.0 ? " is larger" : " is smaller");
 }
 
-/// The answer to the question who changed: "P7: BIC is stronger by 150 N (25 %)."
+/// Returns a person's changes: "P7: BIC is stronger by 150 N (25 %)."
 std::string change_sentence(const std::vector<PersonChange>& changes) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::string> found;

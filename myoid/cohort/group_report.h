@@ -12,7 +12,7 @@ struct GroupReportOptions {
   std::vector<std::filesystem::path> persons;  ///< Folders as `read_group_persons` takes them.
   /// The second sessions of the same persons in the same order; empty: one session.
   std::vector<std::filesystem::path> after;
-  std::filesystem::path folder;  ///< Of the page: its links are relative to it.
+  std::filesystem::path folder;  ///< Folder of the page, to which its links are relative.
 };
 
 /// Returns the page of the persons: their changes first, where there is a second session, then the

@@ -71,7 +71,7 @@ std::size_t column(const CsvTable& table, const fs::path& file, std::string_view
   return static_cast<std::size_t>(found - table.names.begin());
 }
 
-/// The cells of a row but those of the columns `without`.
+/// Returns the cells of a row outside the columns `without`.
 std::vector<std::pair<std::string, std::string>> facts_of(const CsvTable& table,
                                                           const std::vector<std::string>& row,
                                                           const std::vector<std::size_t>& without) {

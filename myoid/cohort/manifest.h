@@ -44,7 +44,7 @@ struct Manifest {
 [[nodiscard]] std::vector<const Person*> chosen_persons(const Manifest& manifest,
                                                         const std::vector<std::string>& names);
 
-/// The folder of a person's results in the folder of the cohort.
+/// Returns the folder of a person's results in the folder of the cohort.
 [[nodiscard]] std::filesystem::path person_folder(const std::filesystem::path& cohort,
                                                   const Person& person);
 

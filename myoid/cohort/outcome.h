@@ -31,13 +31,14 @@ struct Outcome {
   std::vector<InputFile> inputs;
 };
 
-/// outcome.json in a person's folder. Returns nothing if the file is absent or damaged.
+/// Returns the content of outcome.json in a person's folder; empty if the file is absent or
+/// damaged.
 [[nodiscard]] std::optional<Outcome> read_outcome(const std::filesystem::path& folder);
 void write_outcome(const Outcome& outcome, const std::filesystem::path& folder);
 void remove_outcome(const std::filesystem::path& folder);
 
-/// True if the person need not be computed again: the same program with the same settings read
-/// the same bytes, the study among them, and computed results.
+/// Returns true if the person need not be computed again: the same program with the same settings
+/// read the same bytes, the study among them, and computed results.
 [[nodiscard]] bool is_current(const Outcome& outcome,
                               const std::filesystem::path& study,
                               std::string_view settings);
@@ -49,7 +50,7 @@ struct PersonOutcome {
   bool reused = false;
 };
 
-/// A sentence on each person that failed or is not computed.
+/// Returns a sentence on each person that failed or is not computed.
 [[nodiscard]] std::vector<std::string> failures(const std::vector<PersonOutcome>& outcomes);
 
 }  // namespace myoid::cohort

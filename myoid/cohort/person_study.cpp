@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The length of "word}" at the begin of the text, 0 where none stands: TOML's own braces hold "=".
+/// Returns the length of "word}" at the begin of the text, 0 without one: TOML's own braces hold
+/// "=".
 std::size_t word_in_braces(std::string_view text) {
   std::size_t length = 0;
   while (length < text.size() &&

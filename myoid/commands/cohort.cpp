@@ -129,7 +129,7 @@ cohort::PersonOutcome job_in(const CohortOptions& o, const Person& person, const
   return {.person = person.name, .outcome = std::move(outcome)};
 }
 
-/// One person's job in a folder that no other process may hold.
+/// Runs one person's job in a folder that no other process may hold.
 cohort::PersonOutcome job(const CohortOptions& o, const Person& person, const fs::path& out) {
   const fs::path folder = cohort::person_folder(out, person);
   try {

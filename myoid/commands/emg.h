@@ -30,8 +30,7 @@ struct EmgResult {
   signals::Whitening whitening;
   std::vector<signals::ChannelNormalisation> normalisation;
   signals::EmgChain chain;  ///< From the raw EMG to the activation.
-  std::vector<std::string> activation_header,
-      envelope_header;  ///< The chain, for the files' headers.
+  std::vector<std::string> activation_header, envelope_header;  ///< The chain, for files.
   std::vector<Remark> remarks;
 };
 

@@ -28,8 +28,7 @@ struct IdResult {
   std::vector<Remark> remarks;
 };
 
-/// Computes the forces. Throws InvalidInput for a held mass without a body, and for smoothing
-/// together with given derivatives.
+/// Throws InvalidInput for a held mass without a body, or for smoothing with given derivatives.
 [[nodiscard]] IdResult id(const IdOptions& options);
 
 /// Writes the forces as a storage file (.sto, .mot) or table (.csv).

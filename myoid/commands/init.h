@@ -12,11 +12,10 @@ namespace myoid::commands {
 /// Options of the draft of a study.toml.
 struct InitOptions {
   Call call;
-  std::string folder;  ///< Folder of study.toml: paths are relative to it.
-  std::vector<std::string>
-      from;                ///< Recordings, or folders of recordings; empty: the folder itself.
-  std::string model;       ///< .osim; empty: the only one in the folders, else arm4.
-  std::string coordinate;  ///< The joint; empty: guessed.
+  std::string folder;             ///< Folder of study.toml: paths are relative to it.
+  std::vector<std::string> from;  ///< Recordings, or their folders; empty: the folder itself.
+  std::string model;              ///< .osim; empty: the only one in the folders, else arm4.
+  std::string coordinate;         ///< The joint; empty: guessed.
 };
 
 struct InitResult {

@@ -19,13 +19,11 @@ struct RecordingErrors {
 /// The parameters from all recordings.
 struct MuscleFit {
   muscle::IsolatedFit all;  ///< Standard errors include the spread over the recordings (jackknife).
-  std::vector<muscle::IsolatedFit>
-      without_one;  ///< Without recording 0, 1, ...; empty for a single recording.
+  std::vector<muscle::IsolatedFit> without_one;  ///< Without recording 0, 1, ...; empty for one.
   std::vector<RecordingErrors> errors;
   double relative_to_n = 0.0;  ///< Reference force of the relative errors.
   bool converged = false;      ///< All of these fits converged.
-  bool misses =
-      false;  ///< A recording's fitted force has a larger error than a guess (kErrorOfAGuess).
+  bool misses = false;         ///< A recording's fitted error exceeds a guess's (kErrorOfAGuess).
 };
 
 /// Fits the parameters to all recordings and to all but each one, and compares the results. Throws

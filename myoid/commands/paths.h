@@ -21,9 +21,8 @@ struct PathsOptions {
   /// File of fitted polynomials (.json) that replace paths; made if it is missing or belongs to
   /// another model. Empty: paths are computed.
   std::string surrogates;
-  double tolerance_mm =
-      0.2;  ///< Tolerance of their lengths; of moment arms five times as much per radian.
-  bool check_jumps = false;  ///< Warns of jumps of a length or moment arm.
+  double tolerance_mm = 0.2;  ///< Error of lengths; of moment arms 5 times this per radian.
+  bool check_jumps = false;   ///< Warns of jumps of a length or moment arm.
 };
 
 struct PathsResult {

@@ -23,11 +23,10 @@ struct SoOptions {
   std::string emg;          ///< Activations by muscle that the solution approaches (.sto).
   double emg_weight = 1.0;  ///< Weight of the distance from `emg`.
   double reserve_nm = 1.0;  ///< Optimal torque of each coordinate's reserve.
-  std::vector<std::string>
-      coordinates;               ///< Coordinates that the muscles balance; empty: all free ones.
-  std::string loads;             ///< <ExternalLoads> (.xml); empty: none.
-  std::string tendon = "rigid";  ///< rigid or elastic.
-  bool passive = false;          ///< Includes the fibers' springs and dampers.
+  std::vector<std::string> coordinates;  ///< Balanced by the muscles; empty: all free ones.
+  std::string loads;                     ///< <ExternalLoads> (.xml); empty: none.
+  std::string tendon = "rigid";          ///< rigid or elastic.
+  bool passive = false;                  ///< Includes the fibers' springs and dampers.
 };
 
 struct SoResult {

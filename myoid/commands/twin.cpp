@@ -36,7 +36,7 @@ twin::WriteOptions write_options(const std::string& format) {
           .format = format == "c3d" ? twin::RecordingFormat::c3d : twin::RecordingFormat::text};
 }
 
-/// The folder of one person, named by the seed.
+/// Returns the folder of one person, named by the seed.
 fs::path folder_of(const fs::path& out, std::uint64_t seed) {
   return out / fmt::format("person_{:06}", seed);
 }

@@ -41,9 +41,8 @@ struct TwinPersonsOptions {
 };
 
 struct TwinPersonsResult {
-  std::filesystem::path table;  ///< persons.csv: a person's truth in each row.
-  std::vector<std::filesystem::path>
-      studies;  ///< study.toml of each person; empty with truth_only.
+  std::filesystem::path table;                 ///< persons.csv: a person's truth in each row.
+  std::vector<std::filesystem::path> studies;  ///< study.toml of each; empty with truth_only.
 };
 
 /// Makes the persons, writes each into a folder of its own and all into the table. At most one
@@ -54,8 +53,7 @@ TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options,
 /// Returns the keys of a protocol's [truth], for a terminal.
 [[nodiscard]] std::string truth_help();
 
-/// Returns the level of this name, L0, L1 or L2; empty for an empty name. Throws InvalidInput for
-/// others.
+/// Returns the level L0, L1 or L2; empty for an empty name. Throws InvalidInput for other names.
 [[nodiscard]] std::optional<twin::Level> level_named(const std::string& name);
 
 }  // namespace myoid::commands

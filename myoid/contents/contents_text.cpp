@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// JSON in one line.
+/// Returns JSON in one line.
 std::string compact(const ordered_json& value) { return json_text(value, -1); }
 
 std::string number_or_text(const ordered_json& value, int digits) {
@@ -27,8 +27,8 @@ bool is_list_of_members(const ordered_json& value) {
   return value.is_array() && !value.empty() && value[0].is_object();
 }
 
-/// "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other members
-/// as they are.
+/// Returns "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other
+/// members as they are.
 std::string member_text(const ordered_json& item) {
   if (!item.is_object()) return number_or_text(item, 6);
   std::string line;
@@ -45,7 +45,7 @@ std::string member_text(const ordered_json& item) {
   return line;
 }
 
-/// The ending of a key that says what another key's value comes from: "up" and "up_from".
+/// Ending of the key that states the origin of another key's value: "up" and "up_from".
 constexpr const char* kFrom = "_from";
 
 bool says_where_from(const ordered_json& contents, const std::string& key) {
@@ -53,7 +53,7 @@ bool says_where_from(const ordered_json& contents, const std::string& key) {
   return key.ends_with(kFrom) && contents.contains(key.substr(0, base));
 }
 
-/// A member of a list, and below it the members of its own lists.
+/// Returns a member of a list, and below it the members of its own lists.
 std::string lines_of(const ordered_json& item) {
   std::string text = fmt::format("  {}\n", member_text(item));
   if (!item.is_object()) return text;

@@ -75,7 +75,7 @@ ordered_json channels_json(const TimeSeries& series) {
   return list;
 }
 
-/// A series whose clock is the file's own.
+/// Returns a series whose clock is the file's own.
 ordered_json series_json(const TimeSeries& series) {
   const ClockFacts facts = clock_facts(series.time_s());
   ordered_json j{{"samples", facts.samples}};
@@ -189,8 +189,8 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   return j;
 }
 
-/// Markers, channels in SI, or both: each with its own clock. `series` names a file of channels
-/// alone.
+/// Returns markers, channels in SI, or both, each with its own clock. `series` names a file of
+/// channels alone.
 ordered_json recording_json(const std::filesystem::path& path, const char* series) {
   const recording::Recording file = recording::read_recording(path);
   const bool has_markers = file.markers.marker_count() > 0;

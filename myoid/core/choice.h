@@ -14,13 +14,13 @@ namespace myoid {
 /// and the table there is the only place where these words stand.
 using ChoiceNames = std::span<const std::string_view>;
 
-/// The name of an enumerator.
+/// Returns the name of an enumerator.
 template <typename Enumeration>
 [[nodiscard]] constexpr std::string_view choice_name(Enumeration value) {
   return choice_names(value)[static_cast<std::size_t>(value)];
 }
 
-/// The enumerator of this name; empty if none has it.
+/// Returns the enumerator of this name; empty if none has it.
 template <typename Enumeration>
 [[nodiscard]] constexpr std::optional<Enumeration> choice_named(std::string_view word) {
   const ChoiceNames names = choice_names(Enumeration{});

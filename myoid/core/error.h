@@ -7,15 +7,15 @@
 
 namespace myoid {
 
-/// The caller gave an unusable value, shape, unit or name. The message says what was found, what
-/// was expected and how to mend it.
+/// The caller gave an unusable value, shape, unit or name. The message has the value found, the
+/// expectation and the remedy.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A file cannot be read as what it claims to be. `what()` begins with the path and, where
-/// there is one, the line: "dir/file.trc:17: expected ..., found ...; remedy".
+/// A file cannot be read as its kind. `what()` begins with the path and, if there is one, the line:
+/// "dir/file.trc:17: expected ..., found ...; remedy".
 class ReadError : public InvalidInput {
  public:
   /// `line` counts from 1; 0 means the file as a whole.
@@ -35,7 +35,7 @@ class ModelError : public InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// The user asked to stop (Ctrl-C); what was finished stays usable.
+/// The user asked to stop (Ctrl-C); finished results stay usable.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}

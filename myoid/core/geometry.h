@@ -19,7 +19,8 @@ struct Pose {
   [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-/// Rotation by body-fixed X-Y-Z Euler angles [rad]: Rx(a) Ry(b) Rz(c), OpenSim's `orientation`.
+/// Returns the rotation by body-fixed X-Y-Z Euler angles [rad]: Rx(a) Ry(b) Rz(c), OpenSim's
+/// `orientation`.
 [[nodiscard]] inline Mat3 rotation_body_xyz(const Vec3& angles_rad) {
   return (Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()) *
           Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
@@ -27,7 +28,7 @@ struct Pose {
       .toRotationMatrix();
 }
 
-/// The matrix S(a) with S(a) b = a x b.
+/// Returns the matrix S(a) with S(a) b = a x b.
 [[nodiscard]] inline Mat3 skew(const Vec3& a) {
   Mat3 s;
   s << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;

@@ -9,7 +9,7 @@ namespace myoid {
 /// This program's version, "0.1.0".
 [[nodiscard]] std::string_view version();
 
-/// SHA-256 of a byte string, as 64 lower-case hexadecimal digits (FIPS 180-4).
+/// Returns the SHA-256 of a byte string, as 64 lower-case hexadecimal digits (FIPS 180-4).
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 struct InputFile {

@@ -18,7 +18,8 @@ enum class Severity {
 };
 [[nodiscard]] std::string_view name(Severity severity);
 
-/// The question that a remark answers. Programs tell remarks apart by it, never by their words.
+/// The question that a remark answers. Programs distinguish remarks by this code, never by their
+/// words.
 enum class RemarkCode {
   // Channels of a recording; the documentation of `myoid check` has one row for each.
   marker_unit,
@@ -45,7 +46,7 @@ enum class RemarkCode {
   plate_pressure_outside,
   // Files.
   general,  ///< Any other matter, described in words.
-  reading,  ///< A reader took a file in one of several ways, or put something right.
+  reading,  ///< A reader chose among several readings of a file, or repaired it.
   refused,  ///< A file or setting cannot be used.
   unit_doubtful,
   clock_pause,
@@ -79,7 +80,7 @@ enum class RemarkCode {
   body_unsupported,
   resting_torque,
 };
-/// "marker_gap", as the documentation and --json have it.
+/// Returns "marker_gap", as in the documentation and --json.
 [[nodiscard]] std::string_view name(RemarkCode code);
 
 /// One thing that a person should know about an input or a result.
@@ -97,7 +98,7 @@ struct Remark {
   std::vector<std::string> likewise = {};  ///< Other places with a similar remark (`grouped`).
 };
 
-/// "marker 'C7' ...; fill it (likewise in slow, fast)": the remark in one line.
+/// Returns "marker 'C7' ...; fill it (likewise in slow, fast)": the remark in one line.
 [[nodiscard]] std::string sentence(const Remark& remark);
 
 /// Returns the sentences of all remarks, or of the remarks of one severity.
@@ -107,12 +108,12 @@ struct Remark {
 /// Remarks with a time are alike as well, or each keeps its own time.
 enum class Times { kept, merged };
 
-/// Alike remarks (code, severity, about) become the first of them, which names the places of the
-/// others. The order stays.
+/// Joins remarks of equal code, severity and `about`: the first one names the places of the others.
+/// The order stays.
 [[nodiscard]] std::vector<Remark> grouped(const std::vector<Remark>& remarks,
                                           Times times = Times::kept);
 
-/// Worst first; the order stays otherwise.
+/// Sorts the worst first; the order stays otherwise.
 void sort_by_severity(std::vector<Remark>& remarks);
 
 }  // namespace myoid

@@ -37,28 +37,29 @@ class TimeSeries {
   [[nodiscard]] Eigen::Index channel_count() const { return values_.cols(); }
   [[nodiscard]] bool empty() const { return time_s_.size() == 0; }
 
-  /// Column of the channel of this name; empty if there is none.
+  /// Returns the column of the channel of this name; empty if there is none.
   [[nodiscard]] std::optional<Eigen::Index> find(std::string_view name) const;
 
-  /// Column of the channel of this name. Throws InvalidInput listing the names there are.
+  /// Returns the column of the channel of this name. Throws InvalidInput listing the names there
+  /// are.
   [[nodiscard]] Eigen::Index index(std::string_view name) const;
 
   /// Samples of one channel. Throws like `index`.
   [[nodiscard]] Eigen::VectorXd column(std::string_view name) const;
 
-  /// Mean sampling interval [s]; 0 with fewer than two samples.
+  /// Returns the mean sampling interval [s]; 0 with fewer than two samples.
   [[nodiscard]] double mean_interval_s() const;
 
-  /// 1 / mean_interval_s; 0 with fewer than two samples.
+  /// Returns 1 / mean_interval_s; 0 with fewer than two samples.
   [[nodiscard]] double mean_rate_hz() const;
 
-  /// True if no interval departs from the mean by more than `tolerance` of it.
+  /// Returns true if no interval departs from the mean by more than `tolerance` of it.
   [[nodiscard]] bool is_uniform(double tolerance = 1e-3) const;
 
   /// Rows with start_s <= time <= end_s.
   [[nodiscard]] TimeSeries slice(double start_s, double end_s) const;
 
-  /// The named channels, in the order asked for. Throws like `index`.
+  /// Returns the named channels, in the order asked for. Throws like `index`.
   [[nodiscard]] TimeSeries select(const std::vector<std::string>& names) const;
 
  private:
@@ -67,7 +68,7 @@ class TimeSeries {
   Eigen::MatrixXd values_;
 };
 
-/// "a, b, c" of the channel names, for messages; cut with "..." after `most`.
+/// Returns "a, b, c" of the channel names, for messages; cut with "..." after `most`.
 [[nodiscard]] std::string channel_names(const TimeSeries& series, std::size_t most = 30);
 
 /// Throws InvalidInput unless every channel carries `unit`; `what` names the series in the message.

@@ -27,7 +27,7 @@ enum class Unit {
   volt,
 };
 
-/// Printed symbol: "m", "m/s", "N m", "1" for a dimensionless quantity.
+/// Returns the printed symbol: "m", "m/s", "N m", "1" for a dimensionless quantity.
 [[nodiscard]] std::string_view symbol(Unit unit);
 
 /// A unit as written in a file, and the factor that brings its numbers to SI.

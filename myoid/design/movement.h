@@ -33,7 +33,7 @@ struct Movement {
   std::string direction;      ///< Name of that direction: "flexion".
   double duration_s = 10.0;
 
-  /// "swing 0.6 Hz, 15-122 deg, 2 kg, vertical"
+  /// Returns "swing 0.6 Hz, 15-122 deg, 2 kg, vertical".
   [[nodiscard]] std::string description() const;
 };
 

@@ -16,8 +16,8 @@ namespace myoid {
 /// The errors of a planned recording.
 struct PlannedErrors {
   double torque_sd_nm = 0.3;
-  double emg_factor =
-      1.0;  ///< Noise of the envelopes over the noise that their bandwidth predicts.
+  /// Noise of the envelopes over the noise that their bandwidth predicts.
+  double emg_factor = 1.0;
   double model_error = 0.0;  ///< Relative size s.
 };
 

@@ -14,7 +14,7 @@ namespace {
 struct Family {
   const char* name;
   std::vector<std::string_view> in_channels, in_models;
-  bool several = false;  ///< Of several muscles that have families of their own.
+  bool several = false;  ///< Several muscles that have families of their own.
 };
 
 // Longer and more specific names come before names that they contain.

@@ -8,7 +8,7 @@ namespace myoid {
 /// An EMG channel and the muscles that its electrode is taken to lie on.
 struct ChannelMuscles {
   std::string channel;
-  std::vector<std::string> muscles;  ///< Of the model; empty: the name fits none.
+  std::vector<std::string> muscles;  ///< Muscles of the model; empty: the name fits none.
   std::string family;                ///< "biceps brachii", ...; empty likewise.
 };
 

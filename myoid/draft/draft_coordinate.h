@@ -12,7 +12,7 @@ namespace myoid {
 [[nodiscard]] std::vector<std::string> movers(const model::BodyModel& model,
                                               const std::string& coordinate);
 
-/// True for the usual names of the flexion of elbow, knee and ankle.
+/// Returns true for the usual names of the flexion of elbow, knee and ankle.
 [[nodiscard]] bool is_usual(const std::string& coordinate);
 
 /// Puts elbow, knee and ankle first and keeps the order of the other coordinates.

@@ -27,7 +27,7 @@ std::string small(std::string text) {
   return text;
 }
 
-/// True for the tables that describe a BIDS recording and hold no samples.
+/// Returns true for the tables that describe a BIDS recording and hold no samples.
 bool is_bids_description(const fs::path& path) {
   const std::string name = path.filename().string();
   const auto ends = [&](const char* ending) { return name.ends_with(ending); };

@@ -18,7 +18,7 @@ struct FoundRecording {
   recording::MarkerSeries markers;    ///< Empty: none.
   std::vector<std::string> angles;    ///< Coordinates of the model.
   std::vector<std::string> channels;  ///< EMG.
-  bool has_unit = true;               ///< Of the EMG.
+  bool has_unit = true;               ///< The EMG has a unit.
   bool raw = true;
   int plates = 0;
   bool motion_taken = false;
@@ -36,14 +36,14 @@ struct FoundBeside {
 [[nodiscard]] std::vector<std::filesystem::path> recordings_in(
     const std::vector<std::filesystem::path>& from, FoundBeside& beside);
 
-/// The data file that an ExternalLoads file names; empty if it names none.
+/// Returns the data file that an ExternalLoads file names; empty if it names none.
 [[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
 
-/// The name of the trial that a file belongs to: small letters, without words for the kind of file
-/// at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
+/// Returns the name of the trial that a file belongs to: small letters, without words for the kind
+/// of file at its begin and end ("flex_2kg" of "Flex_2kg_emg_raw.sto", "walk" of "grf_walk.xml").
 [[nodiscard]] std::string trial_stem(const std::filesystem::path& path);
 
-/// The use that the trial's name suggests: "mvc", "static", "passive", else "calibration".
+/// Returns the use that the trial's name suggests: "mvc", "static", "passive", else "calibration".
 [[nodiscard]] std::string guessed_use(const std::string& stem);
 
 /// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all channels of a

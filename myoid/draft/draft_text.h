@@ -17,7 +17,7 @@ struct DraftText {
   }
 };
 
-/// A text of TOML: quotes and backslashes escaped, control characters left out.
+/// Returns a text of TOML: quotes and backslashes escaped, control characters left out.
 [[nodiscard]] std::string in_quotes(const std::string& text);
 [[nodiscard]] std::string list_of(const std::vector<std::string>& names);
 

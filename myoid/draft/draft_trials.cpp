@@ -11,7 +11,8 @@
 namespace myoid {
 namespace {
 
-/// The EMG file of the same trial: itself, the same stem, or one stem that begins with the other.
+/// Returns the EMG file of a trial: the file itself, an equal stem, or one stem that begins with
+/// the other.
 FoundRecording* emg_of(FoundRecording& motion, std::vector<FoundRecording>& found) {
   if (!motion.channels.empty()) return &motion;
   for (FoundRecording& f : found) {
@@ -85,7 +86,7 @@ class TrialWriter {
     return name;
   }
 
-  /// A trial with the EMG of the same name; `key` names the kind of its file.
+  /// Adds a trial with the EMG of equal name; `key` names the kind of its file.
   void motion_trial(FoundRecording& f, const std::string& key) {
     f.motion_taken = true;
     FoundRecording* emg = emg_of(f, found_);

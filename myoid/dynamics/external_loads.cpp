@@ -107,7 +107,7 @@ Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_lo
   return mended;
 }
 
-/// The clock of the data file; empty if the file has one row.
+/// Clock of the data file; empty if the file has one row.
 using Clock = std::optional<math::SplineKnots>;
 
 LoadColumns fit(const Clock& clock, const Eigen::MatrixX3d& values) {

@@ -40,7 +40,7 @@ struct ExternalLoads {
   double offset_s = 0.0, drift_ppm = 0.0;
   std::vector<std::string> notes;  ///< Repairs and omissions, a sentence each.
 
-  /// Time of the data at a time of the motion.
+  /// Returns the time of the data at a time of the motion.
   [[nodiscard]] double data_time_s(double motion_time_s) const;
   /// Puts the data on another clock.
   void set_clock(double offset_s, double drift_ppm);

@@ -9,7 +9,7 @@
 namespace myoid::dynamics {
 namespace {
 
-/// The coordinate that moves most in the motion with the least mass.
+/// Returns the coordinate that moves most in the motion with the least mass.
 const std::string& massless_coordinate(const model::BodyModel& model,
                                        const Eigen::MatrixXd& allowed,
                                        const Eigen::MatrixXd& reduced) {

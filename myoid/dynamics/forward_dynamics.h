@@ -31,7 +31,8 @@ class ForwardDynamics {
     Eigen::VectorXd qddot;
     Eigen::VectorXd multipliers;  ///< lambda, in the rows' order.
   };
-  /// `tau`: forces along coordinates [N m, N]; `wrenches`: forces on bodies besides gravity.
+  /// Solves. `tau`: forces along coordinates [N m, N]; `wrenches`: forces on bodies other than
+  /// gravity.
   [[nodiscard]] Solution solve(const Eigen::VectorXd& tau,
                                const std::vector<model::BodyWrench>& wrenches);
 

@@ -15,18 +15,19 @@ struct UnsupportedWeight {
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< Its mean generalized force.
   double weight_n = 0.0;   ///< Weight of all bodies.
-  /// `given_by` names the input for a ground reaction: a study's keys, a command's option.
+  /// Describes the finding. `given_by` names the input for a ground reaction: a study's keys, a
+  /// command's option.
   [[nodiscard]] std::string sentence(
       const std::string& given_by = "external_loads or force_plates") const;
 };
 
-/// The model's free translation along gravity with its mean generalized force, if that force is
-/// half of the weight or more: no measured force carries the body. Empty for a model that is fixed
-/// to the ground or carried by the loads.
+/// Returns the model's free translation along gravity with its mean generalized force, if this
+/// force is half of the weight or more: no measured force carries the body. Empty for a model that
+/// is fixed to the ground or carried by the loads.
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(
     const model::BodyModel& model, const TimeSeries& generalized_forces);
 
-/// As above for a motion without any load: the translation has the whole weight.
+/// Returns the translation for a motion without any load; it then carries the whole weight.
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model);
 
 /// Parts of a trial in which no measured force carries the body while measured forces carry it in
@@ -40,22 +41,25 @@ struct UncarriedTime {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Stretches in which the model's free translation along gravity bears half of the weight for 50 ms
-/// or more; each reaches as far as the translation bears a quarter. A body in flight bears nothing.
-/// Empty without such a stretch, and with more than nine tenths of the time in stretches, as for
+/// Returns the stretches in which the model's free translation along gravity bears half of the
+/// weight for 50 ms or more; each extends while the translation bears a quarter. In flight the
+/// translation bears no weight. Empty without such a stretch, and with more than nine tenths of the
+/// time in stretches, as for people who sit, lie or hang.
 /// people who sit, lie or hang.
 [[nodiscard]] std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
                                                           const TimeSeries& generalized_forces);
 
-/// True if a ground reaction would act on the coordinate, which then stands between the ground and
-/// the rest of the body: the model is most of a person (three quarters of `body_mass_kg`, or of 75
-/// kg), and the part that the coordinate moves reaches lower than all other parts in this posture.
+/// Returns true if a ground reaction would act on the coordinate, which then lies between the
+/// ground and the rest of the body: the model is most of a person (three quarters of
+/// `body_mass_kg`, or of 75 kg), and the part that the coordinate moves reaches lower than all
+/// other parts in this posture.
 [[nodiscard]] bool bears_the_body(const model::BodyModel& model,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& q,
                                   double body_mass_kg);
 
-/// True if bears_the_body holds for a joint beyond the joint to the ground: the model stands.
+/// Returns true if bears_the_body holds for a joint beyond the joint to the ground: the model
+/// stands.
 [[nodiscard]] bool stands(const model::BodyModel& model, const Eigen::VectorXd& q);
 
 }  // namespace myoid::dynamics

@@ -10,20 +10,20 @@ namespace myoid::dynamics {
 
 struct InverseDynamicsOptions {
   const ExternalLoads* loads = nullptr;  ///< Measured forces on bodies; not owned.
-  bool passive_forces = false;           ///< Count the model's limit forces, springs and ligaments.
+  bool passive_forces = false;  ///< Includes the model's limit forces, springs and ligaments.
 };
 
-/// Generalized forces that a motion requires: tau = M qddot + C(q, qdot) - gravity - external -
-/// passive, one channel per coordinate, in the model's order, [N m] for rotations, [N] for
-/// translations. Positive in the coordinate's positive direction. Muscles and devices together must
-/// provide these forces. Constraints are not projected: coupled and locked coordinates have a force
-/// each. Parallel over frames; the same for every number of threads.
+/// Returns the generalized forces that a motion requires: tau = M qddot + C(q, qdot) - gravity -
+/// external - passive, one channel per coordinate, in the model's order, [N m] for rotations, [N]
+/// for translations. Positive in the coordinate's positive direction. Muscles and devices together
+/// must provide these forces. Constraints are not projected: coupled and locked coordinates have a
+/// force each. Parallel over frames, with equal results for every number of threads.
 [[nodiscard]] TimeSeries inverse_dynamics(const model::BodyModel& model,
                                           const kinematics::JointMotion& motion,
                                           const InverseDynamicsOptions& options = {});
 
-/// Column name of a coordinate's generalized force in files: "<coordinate>_moment" for rotations,
-/// "<coordinate>_force" otherwise.
+/// Returns the column name of a coordinate's generalized force in files: "<coordinate>_moment" for
+/// rotations, "<coordinate>_force" otherwise.
 [[nodiscard]] std::string generalized_force_name(const model::Coordinate& coordinate);
 
 }  // namespace myoid::dynamics

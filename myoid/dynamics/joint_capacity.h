@@ -10,14 +10,14 @@ namespace myoid::dynamics {
 struct JointCapacity {
   /// Torque of all muscles of the positive direction at F_max, at the angle of its maximum.
   double positive_nm = 0.0;
-  double negative_nm = 0.0;  ///< Same for the negative direction, as a magnitude.
+  double negative_nm = 0.0;  ///< Torque in the negative direction, as a magnitude.
   /// Distance from the joint to the farthest body or marker that the joint moves, at most
   /// kLongestLever_m.
   double lever_m = 0.0;
   double body_mass_kg = 0.0;  ///< Given mass or mass of the model's bodies, at least kLightBody_kg.
 
   [[nodiscard]] double isometric_nm() const;
-  /// A torque above the muscles and the weight of any person at this joint [N m]:
+  /// Returns a torque above the muscles and the weight of any person at this joint [N m]:
   ///
   ///   2.5 x 1.5 x isometric + body weight x lever
   ///
@@ -38,7 +38,7 @@ inline constexpr double kLongestLever_m = 1.2;
                                            const std::string& coordinate,
                                            double body_mass_kg = 0.0);
 
-/// Bodies that a joint moves: its child and all bodies that the child carries.
+/// Returns the bodies that a joint moves: its child and all bodies that the child carries.
 [[nodiscard]] std::vector<bool> moved_bodies(const model::BodyModel& model, int joint);
 
 }  // namespace myoid::dynamics

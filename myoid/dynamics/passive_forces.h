@@ -17,7 +17,7 @@ void append_passive_forces(const model::BodyModel& model,
                            std::vector<model::BodyWrench>& wrenches,
                            double time_s = 0.0);
 
-/// Generalized force of OpenSim's CoordinateLimitForce at q and its rate:
+/// Returns the generalized force of OpenSim's CoordinateLimitForce at q and its rate:
 ///   -K_up (q - q_up) + K_low (q_low - q) - c (K_up/k_up + K_low/k_low) qdot,
 /// K rising from 0 at the limit to its stiffness k over `transition`, as 10 s^3 - 15 s^4 + 6 s^5.
 [[nodiscard]] double limit_force(const model::CoordinateLimitForce& force, double q, double qdot);

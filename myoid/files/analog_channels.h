@@ -72,7 +72,7 @@ class AnalogChannels {
                                      const std::vector<Eigen::Index>& columns) const;
   /// Returns the columns of the named channels. Throws like `select`.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(const std::vector<std::string>& names) const;
-  /// True if no sample is NaN or infinite.
+  /// Returns true if no sample is NaN or infinite.
   [[nodiscard]] bool all_finite() const;
   /// Returns columns in the unit as written; channels given as doubles are in SI.
   [[nodiscard]] Eigen::MatrixXd as_written(const std::vector<Eigen::Index>& columns) const;

@@ -39,17 +39,17 @@ struct FormatEntry {
   bool channels = false;                  ///< A file may hold channels over time.
 };
 
-/// All formats, one row each.
+/// Returns all formats, one row each.
 [[nodiscard]] const std::vector<FormatEntry>& file_formats();
 
-/// The row of one format.
+/// Returns the row of one format.
 [[nodiscard]] const FormatEntry& format_entry(FileFormat format);
 
 /// Returns the format of a file by the ending of its name, ignoring case. The longest matching
 /// ending decides ("_motion.tsv" before ".tsv"). Empty for an unknown ending.
 [[nodiscard]] std::optional<FileFormat> format_of(const std::filesystem::path& path);
 
-/// True if files of this format hold markers or channels over time.
+/// Returns true if files of this format hold markers or channels over time.
 [[nodiscard]] bool is_recording(FileFormat format);
 
 /// Returns the ending of a name in small letters with its point: ".c3d".
@@ -62,7 +62,7 @@ struct FormatEntry {
 /// Returns the endings of recordings that Myoid writes: ".c3d, .trc, .sto, .mot and .csv".
 [[nodiscard]] std::string written_endings_text();
 
-/// True if Myoid writes recordings under this ending (in small letters).
+/// Returns true if Myoid writes recordings under this ending (in small letters).
 [[nodiscard]] bool is_written_ending(std::string_view ending);
 
 /// Returns an empty text if the name's ending belongs to one of the formats `wanted` or to no

@@ -81,14 +81,14 @@ std::optional<FolderOwner> await_owner(int descriptor) {
       folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
 }
 
-/// For file systems without locks: true if the process is on another host or still runs.
+/// Returns true if the owner is on another host or still runs; for file systems without locks.
 bool may_live(const std::optional<FolderOwner>& owner) {
   if (!owner) return false;
   if (owner->host != this_host()) return true;
   return kill(static_cast<pid_t>(owner->process), 0) == 0 || errno == EPERM;
 }
 
-/// True if the name still belongs to the open file: an owner that ends removes the file.
+/// Returns true if the name still belongs to the open file: an owner that ends removes the file.
 bool is_still(const fs::path& path, int descriptor) {
   struct stat opened {};
   struct stat named {};

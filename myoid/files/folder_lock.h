@@ -15,14 +15,15 @@ struct FolderOwner {
   std::string command;      ///< The command line.
   bool from_empty = false;  ///< The folder was empty when the command began.
 
-  /// "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out results".
+  /// Returns "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out
+  /// results".
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Reserves a folder for one process: a second process that asks for the folder is refused. The
-/// lock is the kernel's (flock on a file in the folder), so that it ends with the process in every
-/// case; the file names the owner. Where the file system has no such locks, the owner's process
-/// number and host decide.
+/// Reserves a folder for one process; a second process that asks for the folder is refused. The
+/// lock is the kernel's (flock on a file in the folder), so it ends with the process in every case;
+/// the file names the owner. If the file system has no such locks, the owner's process number and
+/// host decide.
 ///
 /// A folder that was empty belongs to the command that began to fill it until that command calls
 /// `finish`. If the command is killed, or stopped by an error such as a full disk, the file stays,
@@ -57,8 +58,8 @@ class FolderLock {
   bool finished_ = false;
 };
 
-/// True if the folder holds anything but locks, half-written files of killed processes, and an
-/// entry named `unless_only`.
+/// Returns true if the folder holds anything but locks, half-written files of killed processes, and
+/// an entry named `unless_only`.
 [[nodiscard]] bool holds_content(const std::filesystem::path& folder,
                                  std::string_view unless_only = "");
 

@@ -27,7 +27,8 @@ struct NamedFile {
 /// Returns the last part of a name with / or \ between folders.
 [[nodiscard]] std::string last_part(std::string_view name);
 
-/// True for "C:\trial" or "\\server\trial", which are absolute on Windows; tested on every system.
+/// Returns true for "C:\trial" or "\\server\trial", which are absolute on Windows; tested on every
+/// system.
 [[nodiscard]] bool is_windows_path(std::string_view name);
 
 }  // namespace myoid::recording

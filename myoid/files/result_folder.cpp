@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "run" of "myoid run study.toml --out results".
+/// Returns "run" of "myoid run study.toml --out results".
 std::string_view command_word(std::string_view command_line) {
   const std::size_t first = command_line.find(' ');
   if (first == std::string_view::npos) return {};

@@ -29,7 +29,7 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// A sentence where an unfinished command is taken over, else empty.
+  /// Returns a sentence if the folder comes from an unfinished command, else an empty text.
   [[nodiscard]] const std::string& note() const { return note_; }
   /// States that the results are complete.
   void finish();

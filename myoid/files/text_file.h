@@ -23,11 +23,11 @@ struct Repair {
 /// views refer to `text`.
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text);
 
-/// False if the text ends in the middle of a line: its last number may be cut off.
+/// Returns false if the text ends in the middle of a line: its last number may be cut off.
 [[nodiscard]] bool ends_with_line(std::string_view text);
 
-/// True if the last line of a text, which has no line end, seems cut: its last number has fewer
-/// decimals than that of the line before.
+/// Returns true if the last line of a text, which has no line end, seems cut: its last number has
+/// fewer decimals than that of the line before.
 [[nodiscard]] bool looks_cut(std::string_view last, std::string_view before);
 
 /// Notes of readers that leave out or keep a last row without a line end.

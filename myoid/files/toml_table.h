@@ -35,7 +35,7 @@ class TomlTable {
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);  ///< [[key]]
   [[nodiscard]] std::vector<std::string> keys() const;
 
-  /// Like `text`, but throws if the key is missing; `what` says what to write.
+  /// Returns the text; throws if the key is missing. `what` says what to write.
   [[nodiscard]] std::string require_text(std::string_view key, std::string_view what);
 
   /// Returns one of `allowed`; throws listing them.
@@ -51,7 +51,7 @@ class TomlTable {
   /// Returns a number, or `otherwise` without the key; throws unless it is positive.
   [[nodiscard]] double positive_number(std::string_view key, double otherwise);
 
-  /// True if the key holds a string.
+  /// Returns true if the key holds a string.
   [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;
 

@@ -8,8 +8,8 @@
 namespace myoid::forces {
 
 struct ActuationOptions {
-  /// As OpenSim 4.5.2 has it, a point actuator's speed is the length of its point's velocity, and
-  /// the axis of a torque actuator is taken to stand in ground; else both are the rate at which the
+  /// True, as OpenSim 4.5.2: a point actuator's speed is the length of its point's velocity, and
+  /// the axis of a torque actuator is fixed in ground. False: both speeds are the rate at which the
   /// actuator works.
   bool speeds_of_opensim = false;
   Progress progress{};
@@ -20,8 +20,8 @@ struct Actuation {
   TimeSeries power_w;  ///< Work done on the model: -force * speed of paths, force * speed else.
 };
 
-/// Speeds and powers of all actuators of `actuators_of` along a motion while they exert `forces`,
-/// by name [N, N m]. Postures are first made to obey the constraints. Throws as force_rows.
+/// Computes speeds and powers of all actuators of `actuators_of` along a motion while they exert
+/// `forces`, by name [N, N m]. Postures first meet the constraints. Throws as force_rows.
 [[nodiscard]] Actuation actuation(const model::BodyModel& model,
                                   const kinematics::JointMotion& motion,
                                   const TimeSeries& forces,

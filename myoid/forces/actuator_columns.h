@@ -11,15 +11,16 @@ namespace myoid::forces {
 /// A muscle or an actuator of a model that applies its force.
 struct Actuator {
   enum class Kind { muscle, coordinate, point, torque, path } kind = Kind::muscle;
-  std::size_t index = 0;  ///< In the model's list of its kind.
+  std::size_t index = 0;  ///< Index in the model's list of its kind.
   std::string name;
-  double lower = 0.0, upper = 1.0;  ///< Of its control.
+  double lower = 0.0, upper = 1.0;  ///< Limits of the control.
 };
 
-/// All actuators of a model, in the order of the file's force set.
+/// Returns all actuators of a model, in the order of the file's force set.
 [[nodiscard]] std::vector<Actuator> actuators_of(const model::BodyModel& model);
 
-/// Force at control 1: a muscle's greatest isometric force, an actuator's optimal force.
+/// Returns the force at control 1: a muscle's greatest isometric force, an actuator's optimal
+/// force.
 [[nodiscard]] double actuator_strength(const model::BodyModel& model, const Actuator& actuator);
 
 /// The forces of actuators at a posture; one per thread. `compute_poses` (for path().speed_mps also
@@ -28,11 +29,11 @@ class ActuatorColumns {
  public:
   explicit ActuatorColumns(const model::BodyModel& model) : model_(&model) {}
 
-  /// Generalized forces at a force of 1 N (1 N m), by every coordinate on its own. Good until the
-  /// next call.
+  /// Returns the generalized forces at a force of 1 N (1 N m), by every coordinate alone. Valid
+  /// until the next call.
   [[nodiscard]] const Eigen::VectorXd& of_unit_force(const Actuator& actuator,
                                                      const model::BodyState& state);
-  /// The path of the last muscle or path actuator.
+  /// Returns the path of the last muscle or path actuator.
   [[nodiscard]] const model::PathResult& path() const { return path_; }
   /// Adds its wrenches on bodies at this force; a force along a coordinate acts on none. Paths
   /// pull along their straight pieces, at their points and where they leave wrap objects.

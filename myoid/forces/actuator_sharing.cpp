@@ -170,15 +170,15 @@ double certificate(const ActuatorProblem& problem, const ActuatorSolution& s) {
   return worst;
 }
 
-/// The multipliers of the least-squares controls without bounds.
+/// Returns the multipliers of the least-squares controls without bounds.
 Eigen::VectorXd unbounded(const Dual& dual) {
   Eigen::MatrixXd h = dual.curvature(true);
   h.diagonal().array() += 1e-12;
   return h.selfadjointView<Eigen::Lower>().ldlt().solve(dual.b());
 }
 
-/// The nearest controls where the actuators cannot make the required torques: costly extra
-/// actuators take the rest.
+/// Finds the nearest controls if the actuators cannot produce the required torques: costly extra
+/// actuators produce the rest.
 void take_nearest(const ActuatorProblem& problem,
                   const Dual& dual,
                   const Eigen::VectorXd& scale,

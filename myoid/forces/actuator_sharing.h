@@ -4,7 +4,7 @@
 
 namespace myoid::forces {
 
-/// The controls x of given actuators that make given generalized forces.
+/// The controls x of given actuators that produce given generalized forces.
 ///
 ///   minimize  sum_i |x_i|^p   subject to  A x = b,   lower <= x <= upper
 ///
@@ -29,10 +29,10 @@ struct ActuatorSolution {
   bool feasible = true;  ///< Otherwise: the controls that come nearest, with `shortfall`.
 };
 
-/// Newton's method on the concave dual: given lambda, every control follows in closed form,
-/// x_i = clip((A' lambda)_i / p)^(1/(p-1)). Exact to round-off where the actuators can make b;
-/// where they cannot, a penalty of 1e6 times the cost of the greatest control shares out the rest,
-/// and `feasible` is false. Throws InvalidInput if sizes disagree, p <= 1 or a bound lies above the
+/// Solves by Newton's method on the concave dual: given lambda, every control follows in closed
+/// form, x_i = clip((A' lambda)_i / p)^(1/(p-1)). Exact to round-off if the actuators can produce
+/// b. Otherwise a penalty of 1e6 times the cost of the greatest control distributes the rest, and
+/// `feasible` is false. Throws InvalidInput if sizes disagree, p <= 1 or a bound lies above the
 /// other.
 [[nodiscard]] ActuatorSolution solve_actuators(const ActuatorProblem& problem,
                                                const Eigen::VectorXd* start = nullptr);

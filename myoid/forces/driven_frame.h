@@ -12,10 +12,10 @@ namespace myoid::forces {
 
 /// The wrenches on a model and its accelerations, at one instant.
 struct DrivenState {
-  Eigen::VectorXd q;      ///< Meets the constraints.
-  Eigen::VectorXd qddot;  ///< By forward dynamics, the constraints kept.
-  /// All wrenches on bodies besides gravity and the loads of joints: external loads, passive
-  /// forces, actuators, and constraints that close loops.
+  Eigen::VectorXd q;      ///< The motion's posture; meets the constraints.
+  Eigen::VectorXd qddot;  ///< By forward dynamics with the constraints.
+  /// All wrenches on bodies except gravity and the loads of joints: external loads, passive forces,
+  /// actuators, and constraints that close loops.
   std::vector<model::BodyWrench> wrenches;
 };
 
@@ -28,7 +28,8 @@ class DrivenFrame {
               const dynamics::ExternalLoads* loads)
       : model_(model), actuators_(actuators), loads_(loads), dynamics_(model), columns_(model) {}
 
-  /// `force`: of each actuator [N, N m]. Throws ModelError as dynamics::ForwardDynamics.
+  /// Computes the state. `force`: one per actuator [N, N m]. Throws ModelError as
+  /// dynamics::ForwardDynamics.
   [[nodiscard]] DrivenState at_state(const Eigen::VectorXd& q,
                                      const Eigen::VectorXd& qdot,
                                      const Eigen::VectorXd& force,
@@ -47,8 +48,9 @@ struct DrivenOptions {
   Progress progress{};
 };
 
-/// Forces of all actuators of `actuators_of` at the motion's frames, by name: frames x actuators,
-/// 0 for one without a column. Throws InvalidInput if the number of frames differs.
+/// Returns the forces of all actuators of `actuators_of` at the motion's frames, by name: frames x
+/// actuators, 0 for an actuator without a column. Throws InvalidInput if the number of frames
+/// differs.
 [[nodiscard]] Eigen::MatrixXd force_rows(const std::vector<Actuator>& actuators,
                                          const kinematics::JointMotion& motion,
                                          const TimeSeries& forces);

@@ -23,7 +23,7 @@ struct SharingProblem {
   Eigen::MatrixXd moment_arm;     ///< Coordinates x muscles: r [m].
   Eigen::VectorXd optimal_force;  ///< F^opt [N]: force at full activation at this instant.
   Eigen::VectorXd torque;         ///< tau [N m]
-  Eigen::VectorXd lower, upper;   ///< Of the activations.
+  Eigen::VectorXd lower, upper;   ///< Bounds of the activations.
   Eigen::VectorXd weight;         ///< w; empty: 1 for all.
   Eigen::VectorXd reserve;        ///< T [N m]; > 0.
   Eigen::VectorXd emg;            ///< e; empty: no EMG term.
@@ -60,16 +60,16 @@ struct SharingSolution {
 struct ForceAtActivation {
   double force_n = 0.0, slope_n = 0.0;
 };
-/// F(x) of a muscle in a frame, where it is not F_opt x: passive force, elastic tendon. Called from
-/// any thread.
+/// The law F(x) of a muscle in a frame, if it is not F_opt x: passive force, elastic tendon. Called
+/// from any thread.
 using MuscleForceLaw =
     std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
 
-/// Solves the same problem with forces F_i(x_i) instead of F_i^opt x_i, as a sequence of problems
-/// with the laws' tangents, until activations change by less than 1e-11. `problem.torque` is the
-/// whole torque. For nonlinear laws the optimum is a local one: the search begins at `start`. The
+/// Solves the problem with forces F_i(x_i) instead of F_i^opt x_i, as a sequence of problems with
+/// the laws' tangents, until activations change by less than 1e-11. `problem.torque` is the whole
+/// torque. For nonlinear laws the optimum is a local one: the search begins at `start`. The
 /// certificate belongs to the tangent problem at the solution, whose optimality conditions equal
-/// those of the problem itself.
+/// the problem's own.
 [[nodiscard]] SharingSolution solve_sharing(
     const SharingProblem& problem,
     const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
@@ -83,7 +83,7 @@ struct SharingOptions {
   double max_activation = 1.0;
   TimeSeries emg;  ///< Optional: activations by muscle name, on the same clock.
   double emg_weight = 0.0;
-  MuscleForceLaw law{};  ///< Optional; else F_opt x. Weights are by F_opt all the same.
+  MuscleForceLaw law{};  ///< Optional; else F_opt x. The weights use F_opt in both cases.
 };
 
 /// Shared forces over time; channels of `force` and `activation` are the muscles.

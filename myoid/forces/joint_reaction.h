@@ -9,7 +9,7 @@ namespace myoid::forces {
 
 /// The loads of all joints at one instant.
 struct JointLoads {
-  std::vector<Pose> X_GB;                   ///< Of every body.
+  std::vector<Pose> X_GB;                   ///< Pose of every body.
   std::vector<model::BodyWrench> on_child;  ///< Per joint, about the origin of the child's frame.
 };
 

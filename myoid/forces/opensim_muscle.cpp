@@ -52,8 +52,8 @@ OpensimMuscle::Curve OpensimMuscle::active_length(double l) const {
   return {point.value, point.slope / width_};
 }
 
-/// Thelen's muscle pulls with at least zero force: it does not push where it shortens faster than
-/// v_max.
+/// Returns the velocity multiplier. Thelen's muscle pulls with at least zero force, also if it
+/// shortens faster than v_max.
 double OpensimMuscle::velocity(double activation, double v) const {
   const double f = curves_.velocity(activation, v).value;
   return is_thelen() ? std::max(0.0, f) : f;
@@ -85,7 +85,7 @@ class OpensimMuscle::Balance {
   /// Stiffness of the fiber along the tendon and of the tendon [N/m].
   struct Stiffness {
     double fiber_by_length = 0.0, fiber_along = 0.0, tendon = 0.0, tendon_by_fiber = 0.0;
-    /// Derivative of the mismatch by the fiber's length.
+    /// Returns the derivative of the mismatch by the fiber's length.
     [[nodiscard]] double slope() const { return fiber_by_length - tendon_by_fiber; }
   };
 

@@ -9,12 +9,12 @@ namespace myoid::forces {
 /// of OpenSim's tools. Lengths and velocities of the path [m, m/s], lengthening positive.
 class OpensimMuscle {
  public:
-  /// `compat` decides on Millard's pennation (Compat::normalized_pennation).
+  /// Prepares the curves. `compat` decides on Millard's pennation (Compat::normalized_pennation).
   OpensimMuscle(const model::Muscle& muscle, const model::Compat& compat);
 
-  /// Force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v cos(alpha),
-  /// by which static optimization multiplies the activation. Zero where the fiber is at its
-  /// shortest.
+  /// Returns the force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v
+  /// cos(alpha), by which static optimization multiplies the activation. Zero at the fiber's
+  /// shortest length.
   [[nodiscard]] double optimal_force(double length_m, double velocity_mps) const;
 
   /// Fiber and tendon in balance at an activation.
@@ -27,13 +27,13 @@ class OpensimMuscle {
     double fiber_force_n = 0.0, tendon_force_n = 0.0;
     bool converged = true;
   };
-  /// OpenSim's equilibrium to 1e-8 F_max: tendon and fiber pull alike, while their stiffnesses
-  /// share the velocity of the path or, with Millard's class, the fiber is at rest. At the shortest
-  /// fiber length the force is the tendon's.
+  /// Returns OpenSim's equilibrium to 1e-8 F_max: tendon and fiber pull equally, while their
+  /// stiffnesses divide the velocity of the path or, with Millard's class, the fiber is at rest. At
+  /// the shortest fiber length the force is the tendon's.
   [[nodiscard]] State equilibrium(double activation, double length_m, double velocity_mps) const;
-  /// The muscle whose fiber has this length, at the velocity at which fiber and tendon pull alike.
-  /// A fiber at its shortest length that would shorten rests without force. With a rigid tendon the
-  /// fiber's length follows from the path's.
+  /// Returns the state for this fiber length, at the velocity at which fiber and tendon pull
+  /// equally. A fiber at its shortest length that would shorten rests without force. With a rigid
+  /// tendon the fiber's length follows from the path's.
   [[nodiscard]] State at_fiber_length(double activation,
                                       double fiber_length_m,
                                       double length_m,
@@ -64,10 +64,10 @@ class OpensimMuscle {
   bool normalized_pennation_;
   bool rigid_tendon_;
   double damping_ = 0.0;
-  double width_ = 1.0;  ///< Of De Groote's active curve, over the published one.
+  double width_ = 1.0;  ///< Width of De Groote's active curve, over the published one.
   double height_m_ = 0.0;
-  double least_cosine_ = 0.0;  ///< At the greatest pennation.
-  double shortest_m_ = 0.0;    ///< By pennation and, for Millard's, by the active curve.
+  double least_cosine_ = 0.0;  ///< Cosine at the greatest pennation.
+  double shortest_m_ = 0.0;    ///< Limit by pennation and, for Millard's, by the active curve.
 };
 
 }  // namespace myoid::forces

@@ -25,17 +25,17 @@ struct SharingInput {
   std::vector<std::string> notes;  ///< Remarks to the user, a sentence each.
 };
 
-/// Torques of inverse dynamics (passive forces of the model and `loads`, if any, counted), moment
-/// arms, and the forces at full activation with a rigid tendon under the curves of each muscle's
-/// own class. `coordinates`: whose torque the muscles balance; empty: all that take a value of
-/// their own. Coordinates that follow another by a coupler add to that one's torque and moment arms
-/// by their rate, so that the couplers' own forces do no work. Throws ModelError if a coordinate is
-/// not in the model or takes no value of its own, or the model has no muscles.
+/// Computes torques of inverse dynamics (with passive forces of the model and `loads`, if any),
+/// moment arms, and the forces at full activation with a rigid tendon under the curves of each
+/// muscle's own class. `coordinates`: the coordinates whose torque the muscles balance; empty: all
+/// independent ones. Coordinates that follow another by a coupler add to the other's torque and
+/// moment arms by their rate, so that the couplers' own forces do no work. Throws ModelError if a
+/// coordinate is not in the model or not independent, or the model has no muscles.
 [[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
                                          const kinematics::JointMotion& motion,
                                          const std::vector<std::string>& coordinates,
                                          const dynamics::ExternalLoads* loads = nullptr);
-/// The same with the muscles' paths along the motion, where they are known already.
+/// Computes the input from known paths of the muscles along the motion.
 [[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
                                          const kinematics::JointMotion& motion,
                                          kinematics::MuscleKinematics muscles,

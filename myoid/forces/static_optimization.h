@@ -38,15 +38,16 @@ struct StaticOptimizationResult {
   std::vector<std::string> notes;
 };
 
-/// OpenSim's static optimization, frame by frame: the controls of least sum |x|^p of all muscles
-/// and actuators of the model that give the accelerations `motion.qddot` of every coordinate that
-/// takes a value of its own, under gravity, external loads and passive forces; active muscle force
-/// only. Dependent coordinates move as their constraints say, and constraint forces do no work:
+/// Computes OpenSim's static optimization, frame by frame: the controls of least sum |x|^p of all
+/// muscles and actuators of the model that give the accelerations `motion.qddot` of every
+/// independent coordinate, under gravity, external loads and passive forces; active muscle force
+/// only. Dependent coordinates follow their constraints, and constraint forces do no work:
 ///
 ///   T' (M qddot + C - gravity - external - passive - sum_i x_i g_i) = 0,   qdot = T u,
 ///
-/// g_i the generalized force of actuator i at x_i = 1. Channels are those that apply force, in the
-/// order of the model's force set. Parallel over frames; the same for every number of threads.
+/// g_i the generalized force of actuator i at x_i = 1. Channels are the muscles and actuators that
+/// apply force, in the order of the model's force set. Parallel over frames, with equal results for
+/// every number of threads.
 [[nodiscard]] StaticOptimizationResult static_optimization(
     const model::BodyModel& model,
     const kinematics::JointMotion& motion,

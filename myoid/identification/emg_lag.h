@@ -16,7 +16,7 @@ enum class EmgLag {
   equation_1,
 };
 
-/// "delay", "shared", "equation_1"
+/// Returns the name: "delay", "shared", "equation_1".
 [[nodiscard]] constexpr std::string_view name(EmgLag lag) {
   return lag == EmgLag::delay ? "delay" : lag == EmgLag::shared ? "shared" : "equation_1";
 }

@@ -173,8 +173,8 @@ void power(double u, double p, bool with_exponent, double& value, double& by_u, 
 /// each (exact for polynomials of degree 8), an uneven clock and the ends from the quintic spline.
 Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, bool even) {
   const Eigen::Index n = time_s.size();
-  constexpr Eigen::Index kEnd = 12;   // samples taken from a spline of ...
-  constexpr Eigen::Index kLong = 40;  // ... this many
+  constexpr Eigen::Index kEnd = 12;   // samples at each end that a spline gives
+  constexpr Eigen::Index kLong = 40;  // samples of the spline at each end
   Eigen::MatrixXd result(n, 2);
   const auto by_spline = [&](Eigen::Index first, Eigen::Index count, Eigen::Index from,
                              Eigen::Index to) {

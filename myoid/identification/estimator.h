@@ -21,8 +21,8 @@ struct Weighting {
   /// the torques and the term would outgrow the cost; the correction is then left out.
   bool corrected = true;
   Eigen::VectorXd noise_gain;  ///< Mean square of the model's noise gain, by EMG channel.
-  Eigen::VectorXd
-      exponent;  ///< p of a = g u^p by EMG channel at the point where the noise was estimated.
+  /// p of a = g u^p by EMG channel at the point where the noise was estimated.
+  Eigen::VectorXd exponent;
   std::vector<NoiseLevel> noise;  ///< Per joint.
 };
 

@@ -33,8 +33,8 @@ struct EstimatorSettings {
   bool delay_per_channel = false;
   double max_rate_hz = EstimatorOptions{}.max_rate_hz;
   std::optional<double> residual_cutoff_hz = EstimatorOptions{}.residual_cutoff_hz;
-  double angle_sd_rad = 0.0;         ///< Error of the joint angle ...
-  double angle_rate_sd_radps = 0.0;  ///< ... and of its rate.
+  double angle_sd_rad = 0.0;         ///< Error of the joint angle.
+  double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
   Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;  ///< l_sh and v_max keep their ratio to l0.
@@ -46,8 +46,8 @@ struct EstimatorSettings {
 /// The facts about one EMG channel that determine its noise and its gain.
 struct ChannelSource {
   std::string channel;
-  std::optional<double>
-      gain_sd;  ///< Relative error of the level that counts as 1; empty: the gain is no unknown.
+  /// Relative error of the level that counts as 1; empty: the gain is no unknown.
+  std::optional<double> gain_sd;
   double gain_mean = 1.0;     ///< Activation 1 as a share of the maximum.
   double bandwidth_hz = 0.0;  ///< EstimatorOptions::emg_bandwidth_hz
   double rest = 0.0;          ///< EstimatorOptions::emg_rest

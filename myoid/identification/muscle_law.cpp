@@ -37,8 +37,8 @@ ForceVelocity velocity_factor(double v, const MuscleValues& p) {
   return f;
 }
 
-constexpr double kTendonScale = 0.2;               // De Groote's exponential tendon ...
-constexpr double kTendonRise = 1.791759469228055;  // ... ln(1 / 0.2 + 1): tension 1 at strain e0
+constexpr double kTendonScale = 0.2;               // scale of De Groote's exponential tendon
+constexpr double kTendonRise = 1.791759469228055;  // ln(1 / 0.2 + 1): tension 1 at strain e0
 
 using Fields = std::array<double, kMuscleFieldCount>;
 

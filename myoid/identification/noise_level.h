@@ -10,8 +10,8 @@ namespace myoid::identification {
 /// forces.
 struct NoiseLevel {
   double torque_sd_nm = 1.0;
-  double emg_cv =
-      0.0;  ///< A channel's coefficient of variation, root mean square over the channels.
+  /// A channel's coefficient of variation, root mean square over the channels.
+  double emg_cv = 0.0;
   double emg_factor = 0.0;  ///< Factor on every channel's expected relative sd; equals `emg_cv`
                             ///< where no sd is expected.
   /// The part of emg_factor^2 that is noise of the EMG. Where the EMG's bandwidth gives an expected

@@ -67,8 +67,8 @@ constexpr ChoiceNames choice_names(EstimatorKind) { return kEstimatorNames; }
 /// Intervals in addition to those of the sandwich estimator.
 struct IntervalOptions {
   int bootstrap = 0;  ///< Replicates; 0: none.
-  double bootstrap_block_s =
-      0.0;               ///< Block length [s]; 0: whole trials if there are at least 8, else 2 s.
+  /// Block length [s]; 0: whole trials if there are at least 8, else 2 s.
+  double bootstrap_block_s = 0.0;
   bool profile = false;  ///< Profile likelihood of every parameter.
   std::uint64_t seed = 1;
 };
@@ -77,8 +77,8 @@ class DriveMemory;  // posterior/drive.h
 
 /// Options of methods `torque` and `force`.
 struct EstimatorOptions {
-  std::vector<std::string>
-      muscles;  ///< Muscles to identify; the others keep their start. Empty: all.
+  /// Muscles to identify; the others keep their start. Empty: all.
+  std::vector<std::string> muscles;
   bool priors = true;
   std::optional<double> delay_s;  ///< Fixed delay; empty: estimated, with a prior.
   double delay_prior_mean_s = beliefs::kEmgDelay.value;
@@ -111,16 +111,16 @@ struct EstimatorOptions {
                         ///< least squares.
   bool model_error = true;  ///< Widens the intervals by the systematic error in the residuals
                             ///< (discrepancy.h); needs `weights`.
-  bool correct_attenuation =
-      true;  ///< Treats the EMG's errors as errors of a regressor (estimator.h); needs `weights`.
+  /// Treats the EMG's errors as errors of a regressor (estimator.h); needs `weights`.
+  bool correct_attenuation = true;
   double angle_sd_rad = 0.0;         ///< Error of the joint angle, propagated into every sample.
   double angle_rate_sd_radps = 0.0;  ///< Error of the joint angle's rate.
   Loss loss = Loss::square;
   Eccentric eccentric = Eccentric::automatic;
   bool normalised = false;     ///< l_sh and v_max keep their ratio to l0.
   EmgLag lag = EmgLag::delay;  ///< The law by which a muscle follows its EMG.
-  bool choose_lag =
-      false;  ///< Method `torque`: takes `delay` or `shared`, whichever fits the data better.
+  /// Method `torque`: takes `delay` or `shared`, whichever fits the data better.
+  bool choose_lag = false;
   bool measured_is_force = false;  ///< The fit is to the force of one muscle, not to a torque.
   bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
   int passes = 4;                  ///< Rounds of estimating the noise and weighting by it.

@@ -17,8 +17,8 @@ struct ParameterSlot {
   int owner = 0;
   bool free = false;
   double value = 0.0;
-  bool start_is_given =
-      false;  ///< A rule gives the start; otherwise an unknown starts at its prior's mean.
+  /// A rule gives the start; otherwise an unknown starts at its prior's mean.
+  bool start_is_given = false;
   muscle::Range usual;  ///< Bounds unless the study gives others.
   muscle::Range bounds;
   bool bounds_are_given = false;  ///< The study gives the bounds.

@@ -39,8 +39,8 @@ struct Evaluation {
 /// Slopes of a cost by the model's prediction; rows as in the pieces.
 struct PullBack {
   Eigen::VectorXd predicted;  ///< As Evaluation::predicted.
-  Eigen::MatrixXd
-      channel_torque;            ///< As Evaluation::channel_torque; `weigh` replaces it by weights.
+  /// As Evaluation::channel_torque; `weigh` replaces it by weights.
+  Eigen::MatrixXd channel_torque;
   Eigen::VectorXd by_predicted;  ///< d cost / d predicted.
 };
 

@@ -19,9 +19,9 @@ namespace myoid::identification {
 struct MuscleSetup {
   std::string name;
   std::string emg_channel;  ///< Channel of TrialData::activation.
-  muscle::HillParameters<double>
-      start;                       ///< From literature or model; also the means of the priors.
-  std::vector<std::string> fixed;  ///< Parameters held at their start.
+  /// From literature or model; also the means of the priors.
+  muscle::HillParameters<double> start;
+  std::vector<std::string> fixed;               ///< Parameters held at their start.
   std::map<std::string, muscle::Range> bounds;  ///< Replace the physical bounds.
   /// Priors by parameter; absent: no prior. A prior for `eccentric_slope_ratio` makes that ratio
   /// the unknown, from which V_sh V_shl follows.
@@ -66,8 +66,8 @@ struct TrialData {
   Eigen::MatrixXd force_n;  ///< n x m: from force sharing, for `paper` and `force`; may be empty.
   TimeSeries activation;    ///< Envelope of each EMG channel, 0..1, on its own clock.
   std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
-  Eigen::VectorXd angle_rad, velocity_radps,
-      acceleration_radps2;  ///< Motion of `joint`: empty, or n.
+  /// Motion of `joint`: empty, or n.
+  Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;
   /// Measured passive part of `torque_nm` (RestingTorque): empty for none, or n. The muscles'
   /// activity makes the rest.
   Eigen::VectorXd resting_nm;

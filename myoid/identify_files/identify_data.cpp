@@ -19,7 +19,7 @@ using identification::MuscleSetup;
 using identification::StudyData;
 using identification::TrialData;
 
-/// Remarks on a recording that stands in two trials. Computed data may be alike for good reason.
+/// Remarks on a recording that is in two trials. Computed data may be equal for good reason.
 void compare_trials(const StudyData& data,
                     const IdentifySources& sources,
                     const std::function<void(const std::string&)>& remark) {

@@ -25,20 +25,20 @@ using identification::TrialData;
 
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
-constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< In optimal lengths.
+constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< in optimal lengths
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
 constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
-constexpr double kSpike_s = 0.1;  ///< A shorter time above kCertainlyHigh is an artefact.
+constexpr double kSpike_s = 0.1;  ///< a shorter time above kCertainlyHigh is an artefact
 constexpr double kWindow_s = 0.1;
-constexpr double kMoves_m = 5e-4;  ///< A smaller change of length within a window is noise.
+constexpr double kMoves_m = 5e-4;  ///< a smaller change of length within a window is noise
 constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
                  kLargestFactor = 3.0;
 
 /// Optimal fiber lengths beyond which fibers make hardly any active force.
 constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
 
-/// True if the name of a file is that of musculotendon lengths in OpenSim or CEINMS.
+/// Returns true if a file's name is that of musculotendon lengths in OpenSim or CEINMS.
 bool names_whole_muscles(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -152,7 +152,8 @@ class TrialCheck {
                       against));
   }
 
-  /// Largest mean over the half second by which EMG is normalised: shorter peaks rise above 1.
+  /// Returns the largest mean over the half second of the EMG's normalization; shorter peaks exceed
+  /// 1.
   [[nodiscard]] double largest_mean(const Eigen::VectorXd& a) const {
     return math::greatest_mean(a, trial_.activation.mean_rate_hz(), 0.5);
   }
@@ -197,7 +198,7 @@ class TrialCheck {
                          largest));
   }
 
-  /// Change of every column within windows, and the integral of its rate.
+  /// Changes of every column within windows, and the integrals of its rate.
   struct Changes {
     Eigen::MatrixXd of_length, by_velocity;
     std::vector<Eigen::Index> middle;  ///< Row in the middle of each window.
@@ -277,8 +278,8 @@ class TrialCheck {
     }
   }
 
-  /// Share of the changes of length that dl = -r dq explains with the best dq of each window, for
-  /// all muscles but one.
+  /// Returns the share of the changes of length that dl = -r dq explains with the best dq of each
+  /// window, for all muscles but one.
   [[nodiscard]] double explained(const Changes& c, Eigen::Index without) const {
     double total = 0.0, left = 0.0;
     std::vector<Eigen::Index> muscles;

@@ -17,8 +17,9 @@ struct IdentifySources {
   std::optional<double>
       motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
   std::vector<std::string> coordinates;  ///< Columns of the torque files; empty: the only column.
-  std::vector<std::string> held_back;  ///< Trials that are not fitted, as `trial_named` takes them.
-  bool torque = true;                  ///< Fitted to torques; else to forces.
+  /// Trials that are not fitted, by the names of `trial_named`.
+  std::vector<std::string> held_back;
+  bool torque = true;                    ///< Fits torques; false: forces.
   std::optional<double> start_s, end_s;  ///< [s]
 };
 
@@ -30,7 +31,7 @@ struct IdentifyFiles {
   std::string torques;                   ///< Empty: not given.
 };
 
-/// Throws InvalidInput where a kind of files does not match the number of trials.
+/// Throws InvalidInput if a kind of files does not match the number of trials.
 void require_counts(const IdentifySources& sources);
 
 /// Returns the names of one trial's files.
@@ -40,8 +41,8 @@ void require_counts(const IdentifySources& sources);
 /// get as many folders as distinguish them: "2 (fast/walk)".
 [[nodiscard]] std::string trial_label(const std::vector<std::string>& lengths, std::size_t number);
 
-/// Returns the trial of a number from 1, of a file of lengths, or of that file's name without
-/// ending. Throws InvalidInput where that is none or several.
+/// Returns the trial of a number from 1, of a file of lengths, or of this file's name without
+/// ending. Throws InvalidInput for no or several such trials.
 [[nodiscard]] std::size_t trial_named(const std::string& name,
                                       const std::vector<std::string>& lengths);
 

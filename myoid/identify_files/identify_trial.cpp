@@ -34,7 +34,7 @@ Eigen::MatrixXd on_clock_of(const TimeSeries& series,
   return signals::resample(series, clock).values();
 }
 
-/// Rates of the columns on another clock, by the quintic spline through them.
+/// Returns the rates of the columns on another clock, by the quintic spline through the columns.
 Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock) {
   const math::SplineKnots knots(series.time_s());
   Eigen::MatrixXd rates(clock.size(), series.channel_count());
@@ -43,7 +43,8 @@ Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock)
   return rates;
 }
 
-/// The columns of the torque file, one for each coordinate; without coordinates its only column.
+/// Returns the columns of the torque file, one for each coordinate; without coordinates its only
+/// column.
 std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
                                     const std::string& path,
                                     const TimeSeries& torques) {
@@ -69,7 +70,7 @@ std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
   return columns;
 }
 
-/// Intervals between samples that exceed 0.1 s and five times the median interval.
+/// Returns the intervals between samples that exceed 0.1 s and five times the median interval.
 std::vector<Stretch> gaps_of(const Eigen::VectorXd& time_s) {
   constexpr double kShortest_s = 0.1, kUsual = 5.0;
   std::vector<Stretch> gaps;
@@ -141,7 +142,7 @@ class TrialReader {
       remark_(fmt::format("{}: {}", path, jump.sentence()));
   }
 
-  /// The columns of the muscles, by name.
+  /// Returns the columns of the muscles, by name.
   TimeSeries muscle_series(const std::string& path) {
     const TimeSeries& all = series(path);
     std::vector<std::string> names;
@@ -158,8 +159,8 @@ class TrialReader {
     return on_clock_of(muscle_series(path), path, clock_s);
   }
 
-  /// The times of the lengths within the time asked for and the time that all files cover: there is
-  /// no extrapolation.
+  /// Returns the times of the lengths within the requested time and the time that all files cover,
+  /// because nothing is extrapolated.
   Eigen::VectorXd clock(const IdentifyFiles& files, const std::vector<std::string>& more) {
     TimeSeries lengths = series(files.lengths);
     if (sources_.start_s || sources_.end_s)
@@ -191,7 +192,7 @@ class TrialReader {
     return lengths.time_s();
   }
 
-  /// Files that a trial is made of, each once.
+  /// Returns the files of a trial, each once.
   static std::vector<std::string> all_of(const IdentifyFiles& files,
                                          const std::vector<std::string>& more) {
     std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
@@ -203,12 +204,12 @@ class TrialReader {
     return all;
   }
 
-  /// Excludes stretches without samples: interpolation between neighbors makes up their values.
+  /// Excludes stretches without samples, whose values would be interpolated between neighbors.
   void leave_out_gaps(const IdentifyFiles& files,
                       const std::vector<std::string>& more,
                       TrialData& trial) {
     constexpr double kSplines_s = 0.1;  // reach of a spline's ends
-    constexpr double kBehind_s = 0.3;   // and by how much torque may follow the EMG
+    constexpr double kBehind_s = 0.3;   // longest lag of torque behind EMG
     const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
     for (const std::string& file : all_of(files, more)) {
       for (const Stretch& gap : gaps_of(series(file).time_s())) {
@@ -246,7 +247,7 @@ class TrialReader {
     }
   }
 
-  /// Angle, speed and acceleration of every joint, of the whole file's quintic spline.
+  /// Adds angle, speed and acceleration of every joint, by the whole file's quintic spline.
   void add_motion(const std::string& path, TrialData& trial) {
     const TimeSeries& angles = series(path);
     say_jumps(path, angles, Unit::radian);
@@ -278,7 +279,7 @@ class TrialReader {
     for (identification::JointData& joint : trial.more_joints) set(joint, joint.name);
   }
 
-  /// The angles of a file in radians.
+  /// Returns the angles of a file in radians.
   TimeSeries motion_series(const std::string& path) {
     const recording::Storage file = recording::read_storage(path);
     for (const recording::Repair& repair : file.repairs)

@@ -11,9 +11,9 @@
 namespace myoid {
 
 /// Reads the files of one trial, each once, onto the clock of its lengths and the time that all of
-/// its files cover. Stretches where a file has no samples are excluded. `remark` is told of
-/// repairs, of jumps and of those stretches. Throws ReadError for missing columns and for files
-/// that do not overlap.
+/// its files cover. Excludes stretches in which a file has no samples. `remark` receives repairs,
+/// jumps and these stretches. Throws ReadError for missing columns and for files that do not
+/// overlap.
 [[nodiscard]] identification::TrialData read_identify_trial(
     const IdentifySources& sources,
     std::size_t number,

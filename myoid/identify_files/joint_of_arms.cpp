@@ -18,7 +18,7 @@ using identification::TrialData;
 
 constexpr double kNoArm_m = 1e-4;
 constexpr double kAngleWindow_s = 0.1;
-constexpr double kMovesByAngle_m = 5e-4;  ///< Root mean square of a length's changes over a window.
+constexpr double kMovesByAngle_m = 5e-4;  ///< root mean square of a length's changes over a window
 constexpr double kExplains = 0.5;
 
 std::string in_small_letters(std::string_view text) {
@@ -71,7 +71,7 @@ void add_muscles_without_arm(const StudyData& data,
         files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
-/// The change of every muscle's length over each window, measured and by moment arms and angles.
+/// The changes of every muscle's length over each window, measured and by moment arms and angles.
 struct ArmChanges {
   Eigen::MatrixXd of_length, by_angles;
 };
@@ -96,8 +96,8 @@ ArmChanges changes_by_arms(const TrialData& trial, const std::vector<JointArms>&
   return c;
 }
 
-/// 1 - (sum of squared errors) / (sum of squared changes of a length); below 0 where the prediction
-/// is worse than no change.
+/// Returns 1 - (sum of squared errors) / (sum of squared changes of a length); below 0 if the
+/// prediction is worse than no change.
 double share_explained(const Eigen::VectorXd& change, const Eigen::VectorXd& by) {
   return 1.0 - (change - by).squaredNorm() / change.squaredNorm();
 }

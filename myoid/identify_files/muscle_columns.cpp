@@ -79,7 +79,7 @@ std::string plain(std::string_view text) {
   return result;
 }
 
-/// The program's own names of columns: the parameters, alone and with suffixes.
+/// Returns the program's own names of columns: the parameters, alone and with suffixes.
 std::vector<std::string> own_names() {
   std::vector<std::string> names{"muscle", "emg", std::string(kSpeedInLengths)};
   for (const identification::ParameterField& field : identification::parameter_fields()) {
@@ -115,7 +115,7 @@ std::optional<std::string> quantity_of(const std::string& word,
   return std::nullopt;
 }
 
-/// Throws ReadError for a unit of another quantity.
+/// Returns the factor to SI. Throws ReadError for a unit of another quantity.
 double scale_of(const std::string& name,
                 const Header& header,
                 const recording::CsvTable& table,

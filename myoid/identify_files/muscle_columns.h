@@ -9,20 +9,19 @@
 
 namespace myoid {
 
-/// The column of a quantity in muscles.csv, and the unit of its numbers.
+/// The column of a quantity in muscles.csv, with the unit of its numbers.
 struct MuscleColumn {
   std::size_t index = 0;
-  double to_si = 1.0;             ///< By the unit in the header, "F_max [kN]"; else 1.
+  double to_si = 1.0;             ///< From the unit in the header, "F_max [kN]"; else 1.
   bool in_fiber_lengths = false;  ///< Optimal fiber lengths per second instead of m/s.
 };
 
-/// The columns of a muscles.csv by this program's own names: `muscle`, `emg`, the parameters and
-/// `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`. Names that OpenSim, CEINMS, the NMSM
-/// pipeline and MATLAB scripts use are understood ("maxIsometricForce", "F_max", "lMo", "lTs",
-/// "name"), in any case and with any signs between the words, and a unit in brackets. Throws
-/// ReadError at the header's line for a name that is none, with the nearest one, a unit of another
-/// quantity, two columns of one quantity, and where the muscle's name, max_isometric_force or
-/// optimal_fiber_length is missing.
+/// Finds the columns of a muscles.csv by this program's own names: `muscle`, `emg`, the parameters
+/// and `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`. Accepts names of OpenSim, CEINMS, the
+/// NMSM pipeline and MATLAB scripts ("maxIsometricForce", "F_max", "lMo", "lTs", "name"), in any
+/// case and with any signs between the words, and a unit in brackets. Throws ReadError at the
+/// header's line for an unknown name, with the nearest known one, a unit of another quantity, two
+/// columns of one quantity, and a missing name, max_isometric_force or optimal_fiber_length.
 [[nodiscard]] std::map<std::string, MuscleColumn> muscle_columns(const recording::CsvTable& table,
                                                                  const std::filesystem::path& path);
 

@@ -30,7 +30,7 @@ bool given_for_hill(std::string_view name) {
                      [&](const muscle::HillField& field) { return field.name == name; });
 }
 
-/// The field of MuscleExtras that a column beyond the eight of the paper's law sets.
+/// Returns the field of MuscleExtras for a column beyond the eight of the paper's law.
 double* extra_field(identification::MuscleExtras& extras, std::string_view name) {
   if (name == "pennation_angle") return &extras.pennation_angle_rad;
   if (name == "passive_force") return &extras.passive_force;
@@ -46,7 +46,7 @@ constexpr const char* kProduct = "eccentric_curvature_product";
 constexpr const char* kRatio = "eccentric_slope_ratio";
 constexpr const char* kSpeed = "max_shortening_speed";
 
-/// Sets every number that is 0 to the literature's, which follows from the other numbers.
+/// Replaces every number that is 0 by the literature's, which follows from the other numbers.
 void fill_in(double slope_ratio, MuscleSetup& setup) {
   muscle::HillParameters<double>& start = setup.start;
   const auto absent = [](double& value, double literature) {
@@ -63,7 +63,7 @@ void fill_in(double slope_ratio, MuscleSetup& setup) {
                       slope_ratio, start.concentric_curvature, start.eccentric_plateau)));
 }
 
-/// The literature's values that replace empty cells, as a sentence.
+/// Lists the literature's values that replace empty cells, in a sentence.
 std::string assumption(const std::filesystem::path& path,
                        const std::map<std::string, std::vector<std::string>>& assumed,
                        std::size_t muscles) {
@@ -94,18 +94,18 @@ class Row {
     throw ReadError(*path_, table_->lines[index_], message);
   }
 
-  /// Empty where there is no such column.
+  /// Returns the cell's text; empty if there is no such column.
   [[nodiscard]] std::string cell(const std::string& name) const {
     const auto column = columns_->find(name);
     return column == columns_->end() ? "" : table_->rows[index_][column->second.index];
   }
 
-  /// In SI; nothing for an empty cell.
+  /// Returns the cell's number in SI; empty for an empty cell.
   [[nodiscard]] std::optional<double> number(const std::string& name) const {
     const std::string text = cell(name);
     if (text.empty()) return std::nullopt;
     auto value = recording::parse_number(text);
-    // A cell holds a comma only where another sign stands between the columns.
+    // A comma in a cell is a decimal comma: the columns have another separator.
     if (!value) value = recording::parse_comma_number(text);
     if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, text));
     return *value * columns_->at(name).to_si;
@@ -144,7 +144,8 @@ class Row {
 /// A muscle with its starting values, and the parameters whose start is the literature's.
 struct StartingMuscle {
   MuscleSetup setup;
-  std::optional<double> slope_ratio;  ///< Stated without the product, which follows from the ratio.
+  /// Stated without the product, which then follows from this ratio.
+  std::optional<double> slope_ratio;
   std::vector<std::string> assumed;
 };
 
@@ -186,7 +187,7 @@ StartingMuscle read_start(const Row& row) {
   return result;
 }
 
-/// The cells that tell how a parameter is identified.
+/// The cells that determine how a parameter is identified.
 struct Wishes {
   std::optional<bool> held;
   std::optional<double> lower, upper, prior_sd;
@@ -202,8 +203,7 @@ Wishes read_wishes(const Row& row, const std::string& parameter) {
           .prior_sd = row.positive(parameter + "_prior_sd")};
 }
 
-/// Sets the parameter's bounds, and refuses a start outside of them where the method keeps to
-/// bounds.
+/// Sets the parameter's bounds, and refuses a start outside if the method keeps to bounds.
 void set_bounds(const Row& row,
                 const identification::ParameterField& field,
                 const Wishes& wishes,
@@ -231,7 +231,7 @@ void set_bounds(const Row& row,
                     setup.name, name, start, least, most, name, name));
 }
 
-/// The rule for a parameter whose cells differ from what is held or free by default.
+/// Returns the rule for a parameter whose cells differ from the default.
 std::optional<identification::ParameterRule> rule_of(const Row& row,
                                                      const identification::ParameterField& field,
                                                      const Wishes& wishes,
@@ -280,7 +280,7 @@ void read_parameter(const Row& row,
   // Parameters beyond the paper's law are held by default.
   if (wishes.is_held() && (hill || field.field <= identification::kPlateau))
     setup.fixed.push_back(name);
-  // A wish for the product makes the product the unknown, in place of the ratio of slopes.
+  // A request for the product makes the product the unknown, in place of the ratio of slopes.
   if (name == kProduct && (wishes.is_held() || wishes.any_bound() || wishes.prior_sd))
     setup.priors.erase(kRatio);
   if (const auto rule = rule_of(row, field, wishes, muscle)) table.rules.push_back(*rule);

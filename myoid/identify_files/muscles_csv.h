@@ -12,18 +12,19 @@ namespace myoid {
 struct MuscleTable {
   std::vector<identification::MuscleSetup> muscles;
   std::vector<identification::ParameterRule> rules;  ///< Parameters that are not held by default.
-  std::vector<std::string> notes;                    ///< Of its reader, with the file's name.
-  std::string assumed;  ///< The starting values from the literature; empty: none. Also a note.
-  std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor freed.
+  std::vector<std::string> notes;                    ///< Notes of the reader, with the file's name.
+  /// Describes the starting values from the literature; empty: none. Also a note.
+  std::string assumed;
+  std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor free.
 };
 
-/// muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and as many columns of
-/// further parameters as are known (`muscle_columns`; starting values, SI). Numbers of the source
-/// paper's law that are absent are the literature's (`muscle::literature_parameters`). For each
-/// `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`; `emg`, the channel, if it has another name
-/// than the muscle. `within_bounds`: the method keeps to bounds, so a start must lie in them.
-/// Throws ReadError with the line for an unknown column, a missing or impossible number and two
-/// muscles of one name.
+/// Reads muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and any number of
+/// known columns of further parameters (`muscle_columns`; starting values, SI). Missing numbers of
+/// the source paper's law are the literature's (`muscle::literature_parameters`). Further columns
+/// are `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`; `emg`, the channel, if its name
+/// differs from the muscle's. `within_bounds`: the method keeps to bounds, so a start must lie
+/// within them. Throws ReadError with the line for an unknown column, a missing or impossible
+/// number and two muscles of one name.
 [[nodiscard]] MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds);
 
 }  // namespace myoid

@@ -14,10 +14,10 @@
 
 namespace myoid {
 
-/// A longer pause in a clock cannot be bridged: a spline across it would invent data.
+/// Longest bridged pause of a clock: a spline across a longer one would invent data.
 inline constexpr double kLongestGap_s = kLimits.pause_s;
 
-/// A clock with a pause of more than kLongestGap_s.
+/// Reports a clock with a pause of more than kLongestGap_s.
 class ClockPause : public ReadError {
  public:
   ClockPause(const std::filesystem::path& path,

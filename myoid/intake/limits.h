@@ -5,8 +5,8 @@
 
 namespace myoid {
 
-/// The thresholds by which `check` and `run` call an input or a result doubtful or wrong, beside
-/// those of single channels (signals/quality_limits.h). docs/guide/check.md prints them.
+/// The thresholds of `check` and `run` for doubtful and wrong inputs and results.
+/// signals/quality_limits.h has the thresholds of single channels. docs/guide/check.md prints both.
 struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
@@ -84,7 +84,7 @@ struct PlausibilityRow {
 [[nodiscard]] std::vector<PlausibilityRow> plausibility_rows();
 [[nodiscard]] std::vector<PlausibilityRow> gate_rows();
 
-/// The rows as Markdown.
+/// Returns the rows as Markdown.
 [[nodiscard]] std::string markdown(const std::vector<PlausibilityRow>& rows);
 
 }  // namespace myoid

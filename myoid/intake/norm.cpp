@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kTorque = "_moment";
 
-/// The columns of a norm's table by name, with their units apart.
+/// Finds the columns of a norm's table by name, and separates their units.
 class NormTable {
  public:
   explicit NormTable(const std::filesystem::path& file)
@@ -90,7 +90,7 @@ Eigen::VectorXd read_percent(const NormTable& table) {
   return percent;
 }
 
-/// Factor from the unit of a column to deg or N m.
+/// Returns the factor from the unit of a column to deg or N m.
 double factor_of(const NormTable& table, const std::string& name, bool torque, const Study& study) {
   const std::string& unit = table.unit(name);
   if (torque) {

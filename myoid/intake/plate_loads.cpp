@@ -16,8 +16,8 @@
 namespace myoid {
 namespace {
 
-constexpr double kBriefest_s = 0.05;  ///< A shorter contact is a knock on the plate.
-constexpr double kMerged_s = 0.02;    ///< A shorter pause does not end a contact.
+constexpr double kBriefest_s = 0.05;  ///< a shorter contact is a knock on the plate
+constexpr double kMerged_s = 0.02;    ///< longest pause within a contact
 
 /// Samples of a plate in the model's ground.
 struct Wrench {

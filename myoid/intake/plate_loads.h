@@ -14,7 +14,7 @@
 
 namespace myoid {
 
-/// A marker farther than this from the center of pressure does not stand on the plate.
+/// Distance from the center of pressure beyond which a marker does not stand on the plate.
 inline constexpr double kFarFromPlate_m = kLimits.plate_far_m;
 
 /// Returns the forces of plates on the bodies that stand on them, in the model's ground (R_YG from

@@ -8,14 +8,14 @@
 
 namespace myoid {
 
-/// Shorter parts of a trial between pauses are left out.
+/// Shortest part of a trial between pauses that is kept.
 inline constexpr double kShortestPart_s = 1.0;
 
 /// Reads one trial and puts its EMG and loads on the clock of its motion first (`trial_clock`).
-/// Throws ReadError (file, line, found, expected, remedy) or InvalidInput: a missing EMG channel,
-/// degrees where the file says radians, EMG and motion at different times, a pause of more than
-/// kLongestGap_s in a clock (ClockPause), a clock that is not in seconds, a cut-off above half the
-/// rate.
+/// Throws ReadError (file, line, found, expected, remedy) or InvalidInput for a missing EMG
+/// channel, degrees in a file that states radians, EMG and motion at different times, a pause of
+/// more than kLongestGap_s in a clock (ClockPause), a clock not in seconds, and a cut-off above
+/// half the rate.
 [[nodiscard]] TrialInput read_trial_input(const Study& study,
                                           const TrialSpec& trial,
                                           const model::BodyModel& model);

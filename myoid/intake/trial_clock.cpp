@@ -20,7 +20,7 @@ using recording::Recording;
 using signals::ClockMap;
 using signals::Instants;
 
-/// A channel of the recording, or one coordinate of a marker, "WRIST.y".
+/// Returns a channel of the recording, or one coordinate of a marker, "WRIST.y".
 std::optional<TimeSeries> signal_of(const Recording& file, const std::string& name) {
   if (file.analog.find(name)) return file.analog.select({name});
   const recording::MarkerSeries& markers = file.markers;

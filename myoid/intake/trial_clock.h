@@ -16,7 +16,7 @@ namespace myoid {
 inline constexpr double kUsualLead_s = 0.06;
 inline constexpr double kUsualLeadSd_s = 0.054;
 
-/// Relation of a trial's EMG clock to the clock of its motion.
+/// The relation of a trial's EMG clock to the clock of its motion.
 struct TrialClock {
   signals::ClockMap clock;
   std::string source;  ///< "as the study says", "5 edges of 'Sync' and 'Trig'", ...

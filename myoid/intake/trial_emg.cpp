@@ -133,7 +133,7 @@ void require_channels(const Study& study,
   }
 }
 
-/// Refuses raw EMG that is an envelope, of which a high-pass leaves little but noise, or that is no
+/// Refuses raw EMG that is an envelope, which a high-pass would reduce to noise, or that is not an
 /// electrode's signal.
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   int envelopes = 0;
@@ -156,8 +156,8 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
                     "envelopes; set [emg] kind = \"envelope\"");
 }
 
-/// Refuses envelopes and activations that are none: raw EMG, which swings about zero, and signals
-/// in other units would silently give muscle forces a hundred times too large.
+/// Refuses signals that are no envelopes or activations. Raw EMG, which swings about zero, and
+/// signals in other units would give muscle forces a hundred times too large without a message.
 void require_kind(const Study& study,
                   const std::filesystem::path& path,
                   const TimeSeries& emg,

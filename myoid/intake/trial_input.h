@@ -33,10 +33,10 @@ struct TrialInput {
   std::vector<InputFile> files;
 };
 
-/// Adds a remark that a number may be wrong.
+/// Adds a warning that a number may be wrong.
 void warn(TrialInput& input, RemarkCode code, std::string text);
 
-/// Adds notes on how files were read.
+/// Adds notes on the reading of files.
 void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remarks);
 
 /// Adds the repairs of a reader: "file:line: message".

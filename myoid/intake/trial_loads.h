@@ -14,11 +14,11 @@
 
 namespace myoid {
 
-/// The measured forces on bodies of one trial: of an OpenSim ExternalLoads file, or of a load cell
-/// whose instrument (a model of its own) follows its markers in `markers`, in the laboratory of the
-/// model. Empty if the trial names neither. `remember` is told every file that was read; `remarks`
-/// get notes on the reading. Throws ReadError or InvalidInput: a body, channel or marker that is
-/// not there, a matrix that is not 6 x 6, loads that do not cover the trial.
+/// Reads the measured forces on bodies in one trial, in the laboratory of the model: from an
+/// OpenSim ExternalLoads file, or from a load cell whose instrument (a model of its own) follows
+/// its markers in `markers`. Empty if the trial names neither. `remember` receives every file that
+/// was read; `remarks` get notes on the reading. Throws ReadError or InvalidInput for an unknown
+/// body, channel or marker, a matrix that is not 6 x 6, and loads that do not cover the trial.
 [[nodiscard]] std::optional<dynamics::ExternalLoads> read_trial_loads(
     const Study& study,
     const TrialSpec& trial,

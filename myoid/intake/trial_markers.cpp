@@ -19,7 +19,7 @@
 namespace myoid {
 namespace {
 
-/// Renames labels that differ from the model's only in their writing; asks about other labels that
+/// Renames labels whose spelling alone differs from the model's; asks about other labels that
 /// resemble one.
 void match_labels(const model::BodyModel& model,
                   const std::filesystem::path& path,

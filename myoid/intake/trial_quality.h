@@ -9,11 +9,11 @@
 
 namespace myoid {
 
-/// Returns the motion of a trial: its coordinates, or the paths of the markers that never are lost.
+/// Returns the motion of a trial: its coordinates, or the paths of the markers that are never lost.
 [[nodiscard]] TimeSeries movement_of(const TrialInput& input);
 
-/// Faults of a trial's EMG, of its clocks, and of what was found of its markers before they were
-/// mended. `envelope` is empty or the trial's EMG envelope.
+/// Returns the faults of a trial's EMG and clocks, and of its markers before mending. `envelope` is
+/// empty or the trial's EMG envelope.
 [[nodiscard]] std::vector<Remark> trial_faults(const Study& study,
                                                const TrialInput& input,
                                                const TimeSeries& envelope);

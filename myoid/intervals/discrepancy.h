@@ -10,8 +10,8 @@ namespace myoid::identification {
 
 /// The systematic error of the model, estimated from the residuals.
 struct Discrepancy {
-  double relative_size =
-      0.0;  ///< Standard deviation of muscle errors, relative to the muscles' torques.
+  /// Standard deviation of muscle errors, relative to the muscles' torques.
+  double relative_size = 0.0;
   double joint_size = 0.0;  ///< Standard deviation of passive errors, relative to the torque's rms.
   Eigen::MatrixXd covariance;  ///< Addition to the estimates' covariance, in the solver's scale.
   /// A pair of sizes and its posterior probability; pairs below 1e-4 are left out.

@@ -31,8 +31,8 @@ enum class Verdict {
 struct RouteInterval {
   std::string route;                ///< sandwich | cluster | jackknife | bootstrap | profile
   std::optional<double> low, high;  ///< Empty: open on that side.
-  double spread =
-      0.0;  ///< Chance spread of the width's logarithm, from the route's own sample; 0: none.
+  /// Chance spread of the width's logarithm, from the route's own sample; 0: none.
+  double spread = 0.0;
 };
 
 /// One row of parameters.csv.
@@ -73,8 +73,8 @@ struct TrialFit {
   /// Standard deviation of a measured torque about the prediction, from parameters and noise.
   /// Empty: unknown.
   Eigen::VectorXd torque_sd_nm;
-  double smooth_hz =
-      0.0;  ///< Cut-off at which the prediction's noise does least harm (smooth_prediction.h).
+  /// Cut-off at which the prediction's noise does least harm (smooth_prediction.h).
+  double smooth_hz = 0.0;
   Eigen::MatrixXd literature_force_n;  ///< n x m
   Eigen::MatrixXd force_fit_n;         ///< n x m
   Eigen::MatrixXd force_sd_n;          ///< n x m: from the parameters. Empty: unknown.
@@ -112,8 +112,8 @@ struct BranchTest {
   std::string muscle;
   double length_difference_m = 0.0;  ///< l0 in lengthening minus in shortening.
   double width_difference_m = 0.0;
-  double wald =
-      0.0;  ///< Chi-square with two degrees of freedom if both branches have equal numbers.
+  /// Chi-square with two degrees of freedom if both branches have equal numbers.
+  double wald = 0.0;
   double p_value = 1.0;
 };
 
@@ -143,8 +143,8 @@ struct IdentificationResult {
   math::Termination termination = math::Termination::no_descent;
   std::string message;
   std::vector<ParameterEstimate> estimates;
-  std::vector<muscle::HillParameters<double>>
-      muscles;         ///< With the estimates (methods force, torque).
+  /// With the estimates (methods force, torque).
+  std::vector<muscle::HillParameters<double>> muscles;
   ModelValues values;  ///< All numbers of the model with the estimates (methods force, torque).
   EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
   /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it. A
@@ -163,8 +163,8 @@ struct IdentificationResult {
   Eigen::VectorXd draw_weights;
   /// Hyperparameters of the errors (posterior/noise_model.h) of the posterior; else empty.
   Eigen::VectorXd noise;
-  std::vector<std::string>
-      collinear;  ///< Sets of numbers that the data hardly separate, as sentences.
+  /// Sets of numbers that the data hardly separate, as sentences.
+  std::vector<std::string> collinear;
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
   std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
   std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.

@@ -16,8 +16,8 @@ struct Score {
 
   [[nodiscard]] double rmse_nm() const;      ///< sqrt(SSE / n); 0 without samples.
   [[nodiscard]] double nrmse_range() const;  ///< RMSE over the range of the measured torque.
-  [[nodiscard]] double nrmse_sd()
-      const;  ///< RMSE over the standard deviation of the measured torque.
+  /// RMSE over the standard deviation of the measured torque.
+  [[nodiscard]] double nrmse_sd() const;
   /// Returns 1 - SSE/SST; negative: worse than the trial's own mean; 0 for a constant torque.
   [[nodiscard]] double r2() const;
   [[nodiscard]] double vaf() const;  ///< 1 - var(error)/var(torque)

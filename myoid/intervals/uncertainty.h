@@ -12,26 +12,25 @@ namespace myoid::identification {
 
 /// Covariances from the curvature and the scores at the minimum, in the solver's scale.
 struct Sandwich {
-  Eigen::MatrixXd
-      newey_west;  ///< A^-1 B A^-1, B from autocovariances within trials up to 0.4 s. With weights
-                   ///< its variances are at least those by the autocorrelation of all residuals.
-                   ///< Without weights B is from blocks of 2 s as `cluster` is from trials, with
-                   ///< Student's quantile.
-  std::optional<Eigen::MatrixXd>
-      cluster;  ///< B from the sums of scores over trials, each with the spread that it has outside
-                ///< the fit (Bell & McCaffrey 2002); needs at least 8 trials.
+  /// A^-1 B A^-1, B from autocovariances within trials up to 0.4 s. With weights its variances are
+  /// at least those by the autocorrelation of all residuals. Without weights B is from blocks of 2
+  /// s as `cluster` is from trials, with Student's quantile.
+  Eigen::MatrixXd newey_west;
+  /// B from the sums of scores over trials, each with the spread that it has outside the fit (Bell
+  /// & McCaffrey 2002); needs at least 8 trials.
+  std::optional<Eigen::MatrixXd> cluster;
   std::vector<int> trials;      ///< Calibration trials, as indices in StudyData::trials.
   Eigen::MatrixXd trial_shift;  ///< p x trials: shift of the estimates without this trial, in one
                                 ///< Newton step, (A - A_trial)^-1 times its scores.
-  std::optional<Eigen::MatrixXd>
-      jackknife;  ///< (K - 1)/K times the sum of the squared shifts, plus the prior's share as in
-                  ///< the other two; needs at least 5 trials.
+  /// (K - 1)/K times the sum of the squared shifts, plus the prior's share as in the other two;
+  /// needs at least 5 trials.
+  std::optional<Eigen::MatrixXd> jackknife;
   /// Standard deviations by chance of the logarithm of an interval's width, from the sums over
   /// trials and from the jackknife, by parameter. They grow as fewer trials inform the parameter
   /// (Satterthwaite 1946).
   Eigen::VectorXd trial_spread;
-  double sample_spread =
-      0.0;  ///< The same of Newey and West's interval, with its triangle of lags.
+  /// The same of Newey and West's interval, with its triangle of lags.
+  double sample_spread = 0.0;
   Eigen::MatrixXd model_based;  ///< A^-1
   Eigen::MatrixXd information;  ///< Information of the data alone, nu J'WJ.
   /// Change of the estimates if the variance of the EMG's noise grows by its own spread

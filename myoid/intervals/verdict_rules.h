@@ -18,10 +18,10 @@ struct VerdictRules {
   double delay_weak_s = 0.05;
   double model_error =
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
-  double prior_conflict =
-      3.0;  ///< Distance from the prior's mean, in its spreads, above which at most `weak`.
-  double prior_stays =
-      1.0;  ///< Within this distance a value that is not narrowed is the literature's.
+  /// Distance from the prior's mean, in its spreads, above which at most `weak`.
+  double prior_conflict = 3.0;
+  /// Within this distance a value that is not narrowed is the literature's.
+  double prior_stays = 1.0;
   /// Share of the optimal fiber length. If a muscle's active lengths span less, F_max f_l(l) is one
   /// number, and the data do not determine l0 and l_sh.
   double least_length_span = 0.05;
@@ -33,8 +33,8 @@ struct VerdictRules {
   double least_r2 = 0.50;        ///< A fit that explains less of the torque identifies nothing.
   double no_delay_s = 1e-6;      ///< Limit up to which a delay on its bound counts as 0.
   double any_shrinkage = 0.005;  ///< Below, the recording does not narrow the prior at all.
-  double mostly_tendon =
-      0.5;  ///< Share of the variance above which the tendon slack length dominates.
+  /// Share of the variance above which the tendon slack length dominates.
+  double mostly_tendon = 0.5;
   // A muscle is active above activation `active`, moves above the share `moving_share` of v_max,
   // and has done so only after `least_s`.
   double active = 0.02, moving_share = 0.01, least_s = 0.1;

@@ -10,7 +10,7 @@
 namespace myoid::kinematics {
 namespace {
 
-/// Three rotations about x, y and z, each by its own coordinate.
+/// Returns true for three rotations about x, y and z, each by its own coordinate.
 bool turns_about_axes(const model::Joint& joint) {
   for (std::size_t k = 0; k < 3; ++k) {
     const model::TransformAxis& axis = joint.rotation[k];

@@ -10,16 +10,16 @@
 
 namespace myoid::kinematics {
 
+/// Returns the joints of the classes below that are not reversed.
+///
 /// OpenSim moves Ball-, Free-, Ellipsoid- and ScapulothoracicJoints by speeds u, the angular
 /// velocity of M in F, expressed in F, and its tools set u to the rates of the coordinates. So the
-/// bodies move by qdot = N(q) u, where N^-1 has the axes of the three rotations as its columns, and
-/// generalized forces and moment arms belong to u: N^T times those that belong to the rates.
-///
-/// Returns the joints of these classes that are not reversed.
+/// bodies move by qdot = N(q) u, where N^-1 has the axes of the three rotations as its columns.
+/// Generalized forces and moment arms belong to u: N^T times the ones that belong to the rates.
 [[nodiscard]] std::vector<int> angular_speed_joints(const model::BodyModel& model);
 
-/// N(q) over all coordinates; the unit matrix for coordinates of other joints. Not finite if the
-/// second rotation is a right angle.
+/// Returns N(q) over all coordinates, with the unit matrix for coordinates of other joints. Not
+/// finite if the second rotation is a right angle.
 [[nodiscard]] Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model,
                                               const Eigen::Ref<const Eigen::VectorXd>& q);
 
@@ -29,11 +29,11 @@ namespace myoid::kinematics {
                                        const Eigen::Ref<const Eigen::VectorXd>& q,
                                        Eigen::VectorXd on_speeds);
 
-/// True if the model has such joints and behaves as OpenSim's (Compat).
+/// Returns true if the model has such joints and behaves as OpenSim's (Compat).
 [[nodiscard]] bool takes_rates_for_speeds(const model::BodyModel& model);
 
-/// The motion of OpenSim's model when its speeds and their derivatives are set to the rates of
-/// `motion`: the same q, qdot = N u, qddot = N du/dt + dN/dt u. Returns `motion` unchanged unless
+/// Returns the motion of OpenSim's model when its speeds and their derivatives are set to the rates
+/// of `motion`: q, qdot = N u, qddot = N du/dt + dN/dt u. Returns `motion` unchanged unless
 /// takes_rates_for_speeds.
 [[nodiscard]] JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion);
 

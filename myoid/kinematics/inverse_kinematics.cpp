@@ -105,7 +105,7 @@ bool better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
          a.cost < b.cost * (1.0 - 1e-9);
 }
 
-/// True if a pose replaces the minimum nearest to the start: at half of its cost or less.
+/// Returns true if a pose replaces the minimum nearest to the start: at half of its cost or less.
 bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
   return a.converged && a.cost < 0.5 * b.cost;
 }
@@ -133,7 +133,7 @@ class FrameSequence {
         posture_(model.default_q()),
         fresh_(fresh_starts(model)) {}
 
-  /// The posture of the latest frame.
+  /// Returns the posture of the latest frame.
   [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
 
   /// Returns the pose for the targets of `fit`. Tries other starts in the first frame, after a jump
@@ -168,7 +168,7 @@ class FrameSequence {
   double cost_before_ = std::numeric_limits<double>::infinity();
 };
 
-/// Squared error, its root mean square, the largest error, then the error of each pair.
+/// Returns squared error, its root mean square, the largest error, then the error of each pair.
 Eigen::RowVectorXd error_row(const PoseFit& fit) {
   const auto pairs = static_cast<Eigen::Index>(fit.pairs().size());
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(3 + pairs);

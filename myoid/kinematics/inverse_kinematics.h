@@ -13,7 +13,7 @@
 
 namespace myoid::kinematics {
 
-/// A wish for a coordinate's value. The task adds W (q - q*)^2 / 2 to the objective.
+/// A desired value of a coordinate. The task adds W (q - q*)^2 / 2 to the objective.
 struct CoordinateTask {
   std::string coordinate;
   double value = 0.0;        ///< q* [rad or m]

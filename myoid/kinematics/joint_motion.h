@@ -33,14 +33,14 @@ struct MotionResult {
   std::vector<std::string> notes;
 };
 
-/// Values and two derivatives of every coordinate by a quintic spline. `q` has radians and meters;
-/// coordinates that it lacks rest at their default value. Throws InvalidInput if no column is a
+/// Computes values and two derivatives of every coordinate by a quintic spline. `q` has radians and
+/// meters; missing coordinates rest at their default value. Throws InvalidInput if no column is a
 /// coordinate of the model, a value is not finite, or fewer than four samples are given.
 [[nodiscard]] MotionResult joint_motion(const model::BodyModel& model,
                                         const TimeSeries& q,
                                         const MotionOptions& options = {});
 
-/// Unit of a coordinate, its rate or acceleration (order 0, 1, 2).
+/// Returns the unit of a coordinate, its rate or acceleration (order 0, 1, 2).
 [[nodiscard]] Unit coordinate_unit(const model::Coordinate& coordinate, int order);
 
 }  // namespace myoid::kinematics

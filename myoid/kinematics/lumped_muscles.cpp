@@ -3,7 +3,7 @@
 namespace myoid::kinematics {
 namespace {
 
-/// Weighted means over the heads of each group: n x groups from n x muscles.
+/// Returns the weighted means over the heads of each group: n x groups from n x muscles.
 Eigen::MatrixXd lumped(const Eigen::MatrixXd& of_heads, const std::vector<MuscleGroup>& groups) {
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(of_heads.rows(), static_cast<Eigen::Index>(groups.size()));

@@ -19,15 +19,15 @@ struct MuscleGroup {
 struct LumpedMuscles {
   Eigen::MatrixXd length_m;      ///< Musculotendon length.
   Eigen::MatrixXd velocity_mps;  ///< dl/dt, lengthening positive.
-  Eigen::MatrixXd moment_arm_m;  ///< By one coordinate, r = -dl/dq.
+  Eigen::MatrixXd moment_arm_m;  ///< Moment arms by one coordinate, r = -dl/dq.
 };
 
-/// Moment arms r = -dl/dq by one coordinate, n x m [m].
+/// Returns moment arms r = -dl/dq by one coordinate, n x m [m].
 [[nodiscard]] Eigen::MatrixXd lumped_moment_arm_m(const kinematics::MuscleKinematics& muscles,
                                                   const std::vector<MuscleGroup>& groups,
                                                   const std::string& coordinate);
 
-/// Weighted means over the heads of each group.
+/// Returns the weighted means over the heads of each group.
 [[nodiscard]] LumpedMuscles lumped_muscles(const kinematics::MuscleKinematics& muscles,
                                            const std::vector<MuscleGroup>& groups,
                                            const std::string& coordinate);

@@ -15,7 +15,7 @@ struct MarkerMisfit {
   std::string warning;
 };
 
-/// Distances of the measured markers from the model's markers after inverse kinematics.
+/// Measures the distances of the measured markers from the model's after inverse kinematics.
 [[nodiscard]] MarkerMisfit marker_misfit(const model::BodyModel& model,
                                          const recording::MarkerSeries& markers,
                                          const kinematics::IkResult& solved);

@@ -8,8 +8,8 @@
 
 namespace myoid::kinematics {
 
-/// The model's segments that carry two or more of these markers, with the places of the markers.
-/// Welded bodies form one segment.
+/// Returns the model's segments that carry two or more of these markers, with the places of the
+/// markers. Welded bodies form one segment.
 [[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(
     const model::BodyModel& model, const recording::MarkerSeries& markers);
 

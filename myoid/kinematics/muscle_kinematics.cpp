@@ -53,7 +53,7 @@ class MuscleFrames {
     }
   }
 
-  /// Number of paths computed by polynomials.
+  /// Returns the number of paths computed by polynomials.
   [[nodiscard]] long from_surrogates() const { return from_surrogates_; }
 
  private:

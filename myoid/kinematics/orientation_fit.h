@@ -24,16 +24,16 @@ struct OrientationFit {
   std::vector<std::string> undetermined;  ///< Free coordinates that the sensors leave open.
 };
 
-/// Pose of the model that fits the measured orientations best, frame by frame:
+/// Finds the pose of the model that fits the measured orientations best, frame by frame:
 ///
 ///   minimize  sum_i w_i theta_i^2 / 2,
 ///
-/// theta_i the angle between a sensor's frame in the model and its measured orientation, over the
-/// sensors seen in the frame, as OpenSim's. Inverse kinematics of three points on the axes of each
-/// sensor, in a model whose bodies only turn, gives the least sum_i w_i (1 - cos theta_i); steps of
-/// Gauss and Newton go on from there. Translational coordinates keep their default values. Throws
-/// InvalidInput for no sensor or a weight below 0, ModelError for a model with closed loops, in
-/// which places matter.
+/// where theta_i is the angle between a sensor's frame in the model and its measured orientation,
+/// over the sensors seen in the frame, as in OpenSim. Inverse kinematics of three points on the
+/// axes of each sensor, in a model whose bodies only turn, gives the least sum_i w_i (1 - cos
+/// theta_i); Gauss-Newton steps refine it. Translational coordinates keep their default values.
+/// Throws InvalidInput for no sensor or a weight below 0, ModelError for a model with closed loops,
+/// in which places matter.
 [[nodiscard]] OrientationFit fit_orientations(const model::BodyModel& model,
                                               const recording::OrientationSeries& series,
                                               const std::vector<SensorOnBody>& sensors,

@@ -50,7 +50,7 @@ void prepare(int dimensions, int degree, SurrogateWorkspace& w) {
   w.dimensions = dimensions;
 }
 
-/// T_0 .. T_degree of every coordinate and their derivatives by q.
+/// Computes T_0 .. T_degree of every coordinate and their derivatives by q.
 void fill_tables(const PathSurrogate& s,
                  const Eigen::Ref<const Eigen::VectorXd>& q,
                  SurrogateWorkspace& w) {
@@ -70,14 +70,14 @@ void fill_tables(const PathSurrogate& s,
   }
 }
 
-/// A part of the polynomial in the coordinates from `level` on: the terms from `term` on, whose
-/// exponents of these coordinates sum to `left` at most.
+/// Sums a part of the polynomial in the coordinates from `level` on: the terms from `term` on,
+/// whose exponents of these coordinates sum to `left` at most.
 ///
 ///   S_level = sum_e T_e(x_level) S_level+1(left - e)
 ///
-/// One product a term instead of one for each term and coordinate. `sum` gets the value and the
-/// derivatives by x_level, x_level+1, ... `kBelow`: the number of coordinates after `level`; the
-/// compiler then unrolls the usual muscles of up to four coordinates.
+/// This takes one product per term instead of one per term and coordinate. `sum` gets the value and
+/// the derivatives by x_level, x_level+1, ... `kBelow` is the number of coordinates after `level`;
+/// the compiler then unrolls the usual muscles of up to four coordinates.
 template <int kBelow>
 void add_up(const PathSurrogate& s,
             const SurrogateWorkspace& w,
@@ -104,7 +104,7 @@ void add_up(const PathSurrogate& s,
   std::copy(total.begin(), total.end(), sum);
 }
 
-/// The same for any number of coordinates.
+/// Calls add_up for any number of coordinates.
 void add_up_many(const PathSurrogate& s,
                  SurrogateWorkspace& w,
                  Eigen::Index level,
@@ -124,7 +124,7 @@ void add_up_many(const PathSurrogate& s,
   }
 }
 
-/// Value of the polynomial and its derivatives by all coordinates, in the first column of `sums`.
+/// Computes value and derivatives by all coordinates, in the first column of `sums`.
 void add_up_all(const PathSurrogate& s, SurrogateWorkspace& w) {
   const Eigen::Index* term = w.nested.data();
   double* const sum = w.sums.data();
@@ -140,7 +140,7 @@ void add_up_all(const PathSurrogate& s, SurrogateWorkspace& w) {
   }
 }
 
-/// Row 0: every term; row 1 + i: its derivative by coordinate i.
+/// Fills row 0 with every term, row 1 + i with its derivative by coordinate i.
 void term_rows(const SurrogateWorkspace& w, Eigen::Ref<Eigen::MatrixXd> rows) {
   const Eigen::Index d = w.value.cols();
   for (Eigen::Index k = 0; k < w.exponents.rows(); ++k) {
@@ -157,7 +157,7 @@ void term_rows(const SurrogateWorkspace& w, Eigen::Ref<Eigen::MatrixXd> rows) {
   }
 }
 
-/// The true path, its moment arms by the independent coordinates.
+/// The true path, with its moment arms by the independent coordinates.
 class TruePath {
  public:
   TruePath(const model::BodyModel& model, const model::MusclePath& path)
@@ -179,7 +179,7 @@ class TruePath {
   [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
 
  private:
-  /// Rates of all coordinates by every independent one, through the couplers.
+  /// Returns the rates of all coordinates by every independent one, through the couplers.
   static Eigen::MatrixXd coupling(const model::BodyModel& model, const model::BodyState& state) {
     const auto n = static_cast<Eigen::Index>(model.coordinates.size());
     Eigen::MatrixXd C = Eigen::MatrixXd::Identity(n, n);
@@ -201,8 +201,8 @@ class TruePath {
   model::PathResult result_;
 };
 
-/// Postures of the box: rows of numbers in 0..1 scaled to the ranges; each fifth has one coordinate
-/// at an end of its range, where polynomials are worst.
+/// Returns postures of the box: rows of numbers in 0..1 scaled to the ranges. Each fifth has one
+/// coordinate at an end of its range, where polynomials are worst.
 Eigen::MatrixXd scaled(Eigen::MatrixXd unit, const PathSurrogate& s) {
   for (Eigen::Index row = 0; row < unit.rows(); ++row) {
     if (row % 5 == 4) {
@@ -228,7 +228,7 @@ Eigen::MatrixXd unseen_postures(const PathSurrogate& s, Eigen::Index count, std:
   return scaled(std::move(unit), s);
 }
 
-/// Length and arms of the true path at every posture: postures x (1 + coordinates).
+/// Returns length and arms of the true path at every posture: postures x (1 + coordinates).
 Eigen::MatrixXd truth_at(TruePath& path, const PathSurrogate& s, const Eigen::MatrixXd& postures) {
   Eigen::MatrixXd truth(postures.rows(), 1 + postures.cols());
   for (Eigen::Index row = 0; row < postures.rows(); ++row) {
@@ -339,7 +339,7 @@ PathSurrogate fit(const model::BodyModel& model,
   PathSurrogate best = s;
   best.coefficient_m = Eigen::VectorXd::Zero(1);
   best.length_error_m = best.arm_error_m = std::numeric_limits<double>::infinity();
-  // A path that is somewhere not a number has no polynomial.
+  // A path with lengths that are not finite has no polynomial.
   if (!unseen_truth.allFinite()) return best;
   const auto badness = [&](const PathSurrogate& x) {
     return std::max(x.length_error_m / options.length_tolerance_m,

@@ -38,29 +38,29 @@ struct SurrogateOptions {
   double length_tolerance_m = 2e-4;
   double arm_tolerance_m = 1e-3;
   int max_degree = 9;
-  int max_terms = 500;  ///< Of one muscle; keeps the degree low where many coordinates act.
+  int max_terms = 500;  ///< Limit for one muscle; keeps the degree low if many coordinates act.
   std::uint64_t seed = 1;
   Progress progress;
 };
 
-/// Number of terms up to a degree: (coordinates + degree) choose degree.
+/// Returns the number of terms up to a degree: (coordinates + degree) choose degree.
 [[nodiscard]] double term_count(int coordinates, int degree);
 
-/// Exponents of the terms, one row each, in order of their sum: terms x coordinates.
+/// Returns the exponents of the terms, one row each, in order of their sum: terms x coordinates.
 [[nodiscard]] Eigen::MatrixXi exponents(int coordinates, int degree);
 
-/// Coordinates that may change the path: the coordinates of the joints between its bodies and of
-/// its moving and conditional points, dependent ones replaced by the coordinates that drive them.
+/// Returns the coordinates that may change the path: those of the joints between its bodies and of
+/// its moving and conditional points, with dependent ones replaced by the coordinates that drive
+/// them.
 [[nodiscard]] std::vector<int> acting_coordinates(const model::BodyModel& model,
                                                   const model::MusclePath& path);
 
 /// Fits one surrogate per muscle, in the model's order and the mode of `model.compat`: length and
-/// moment arms together by least squares at Sobol points of the coordinates' ranges (at most +-3
-/// rad,
-/// +-1 m about the default), with locked coordinates at their default. The degree rises from 1
-/// until both greatest errors are within tolerance; otherwise the best degree stays and is marked.
-/// No polynomial follows a path that jumps. Parallel over muscles; the same for every number of
-/// threads.
+/// moment arms together by least squares at Sobol points of the coordinates' ranges (at most 3 rad
+/// or 1 m to either side of the default), with locked coordinates at their default. The degree
+/// rises from 1 until both greatest errors are within tolerance; otherwise the best degree stays
+/// and is marked. No polynomial follows a path that jumps. Parallel over muscles, with equal
+/// results for every number of threads.
 [[nodiscard]] std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
                                                         const SurrogateOptions& options = {});
 
@@ -70,17 +70,17 @@ struct SurrogateWorkspace {
   Eigen::MatrixXd value, slope;  ///< Chebyshev polynomials and derivatives: degree x coordinate.
   Eigen::MatrixXi exponents;
   std::vector<Eigen::Index> nested;  ///< The terms in the order of their exponents, last fastest.
-  Eigen::MatrixXd sums;              ///< Of each coordinate: a sum and its derivatives.
+  Eigen::MatrixXd sums;              ///< Per coordinate: a sum and its derivatives.
   int degree = -1, dimensions = -1;
 };
 
-/// True if q lies in the range of the fit, held coordinates have their values (1e-12), and
+/// Returns true if q lies in the range of the fit, held coordinates have their values (1e-12), and
 /// dependent coordinates obey their couplers (1e-6).
 [[nodiscard]] bool covers(const model::BodyModel& model,
                           const PathSurrogate& surrogate,
                           const Eigen::Ref<const Eigen::VectorXd>& q);
 
-/// Length, moment arms (zero for coordinates that do not act) and speed of the polynomial.
+/// Computes length, moment arms (zero for coordinates that do not act) and speed of the polynomial.
 void evaluate(const PathSurrogate& surrogate,
               const Eigen::Ref<const Eigen::VectorXd>& q,
               const Eigen::Ref<const Eigen::VectorXd>& qdot,

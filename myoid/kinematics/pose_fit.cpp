@@ -180,7 +180,8 @@ void PoseFit::gather_pulls() {
   }
 }
 
-/// Adds the derivatives by the coordinate at place b of a chain, also mixed with those before it.
+/// Adds the derivatives by the coordinate at place b of a chain, also mixed with earlier
+/// coordinates.
 void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull) {
   const int cb = chain.coordinates[b];
   const int kb = reduced_[at(cb)];
@@ -211,7 +212,7 @@ void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull
   }
 }
 
-/// Derivatives of J at the posture of the last cost_at(q).
+/// Computes the derivatives of J at the posture of the last cost_at(q).
 void PoseFit::linearize(const Eigen::VectorXd& q) {
   const auto n = static_cast<Eigen::Index>(free_.size());
   update_gains(q);
@@ -258,7 +259,7 @@ double PoseFit::farthest_turn(const Eigen::VectorXd& step) const {
   return farthest;
 }
 
-/// Orthonormal basis of the steps that keep the constraints other than couplers.
+/// Returns an orthonormal basis of the steps that keep the constraints other than couplers.
 Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   const auto n = static_cast<Eigen::Index>(free_.size());
   const Eigen::MatrixXd all = model::constraint_jacobian(model_, state_);

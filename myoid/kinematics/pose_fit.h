@@ -29,7 +29,7 @@ class PoseFit {
     bool converged = false;
   };
 
-  /// Model and options must outlive the object.
+  /// Prepares the problem. Model and options must outlive the object.
   PoseFit(const model::BodyModel& model, const IkOptions& options, std::vector<Pair> pairs);
 
   void set_targets(const recording::MarkerSeries& markers, Eigen::Index frame);
@@ -37,10 +37,10 @@ class PoseFit {
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Eigen::Index>& free() const { return free_; }
 
-  /// The nearest minimum of J. The start is first moved to obey locks, ranges and constraints.
+  /// Returns the nearest minimum of J. The start first meets locks, ranges and constraints.
   [[nodiscard]] Pose solve(Eigen::VectorXd start);
-  /// The minimum of J plus a barrier at the ends of the ranges (range_barrier.h), reached through
-  /// the minima with stronger barriers, whose path keeps to the middle of the ranges.
+  /// Returns the minimum of J plus a barrier at the ends of the ranges (range_barrier.h), found
+  /// through the minima with stronger barriers, whose path stays near the middle of the ranges.
   [[nodiscard]] Pose solve_inside(Eigen::VectorXd start, double barrier);
 
   /// Brings coordinates outside their range back into it, or nearer, by whole turns that leave pose
@@ -51,7 +51,7 @@ class PoseFit {
   double place(const Eigen::VectorXd& q);
   /// Marks the free coordinates with a part in directions that markers and tasks leave open.
   void collect_undetermined(std::vector<bool>& undetermined);
-  /// Distance of a marker from its target; NaN for a marker that was not seen.
+  /// Returns the distance of a marker from its target; NaN for a marker that was not seen.
   [[nodiscard]] double error(std::size_t pair) const;
   /// Writes the places of the model's markers into a row of a table, x y z of each.
   void locate(Eigen::MatrixXd& table, Eigen::Index row) const;
@@ -109,7 +109,7 @@ class PoseFit {
   double time_s_ = 0.0;
   double scale_ = 0.0;
   int seen_count_ = 0;
-  Eigen::VectorXd gradient_;  ///< Of J, by the free coordinates.
+  Eigen::VectorXd gradient_;  ///< Gradient of J by the free coordinates.
   Eigen::MatrixXd gauss_;     ///< First-order part of the second derivatives of J.
   Eigen::MatrixXd bend_;      ///< Remaining second derivatives, from the turning of the chains.
   std::vector<Pull> pulls_;   ///< Per body.

@@ -17,14 +17,14 @@ namespace myoid::kinematics {
 class RangeBarrier {
  public:
   RangeBarrier() = default;
-  /// The barrier acts on the coordinates of `free` that are clamped to a range.
+  /// Builds a barrier for the coordinates of `free` that are clamped to a range.
   RangeBarrier(const model::BodyModel& model, const std::vector<Eigen::Index>& free);
 
-  /// A weight of 0 switches the barrier off.
+  /// Sets the weight; 0 switches the barrier off.
   void set_weight(double weight) { weight_ = weight; }
   [[nodiscard]] bool acts() const { return weight_ > 0.0 && !ranges_.empty(); }
 
-  /// B at the coordinates of the whole model; infinite on and beyond an end.
+  /// Returns B at the coordinates of the whole model; infinite on and beyond an end.
   [[nodiscard]] double value(const Eigen::VectorXd& q) const;
   /// Adds the derivatives of B by the free coordinates; q inside the ranges.
   void add_derivatives(const Eigen::VectorXd& q,
@@ -32,7 +32,8 @@ class RangeBarrier {
                        Eigen::MatrixXd& hessian) const;
   /// Moves coordinates nearer to an end than `share` of the range, or beyond, to that distance.
   void move_inside(Eigen::VectorXd& q, double share) const;
-  /// Share of a step of the free coordinates that goes at most 0.99 of the way to any end; <= 1.
+  /// Returns the share of a step of the free coordinates that covers at most 0.99 of the way to any
+  /// end; <= 1.
   [[nodiscard]] double longest_share(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace myoid::kinematics {
 
-/// SHA-256 of the model's text, of the way in which paths are computed and of the options of the
-/// fit. Any other text has another key, even with the same numbers.
+/// Returns the SHA-256 of the model's text, of the way in which paths are computed and of the
+/// options of the fit. Any other text has another key, even with equal numbers.
 [[nodiscard]] std::string surrogate_key(std::string_view model_text,
                                         const model::Compat& compat,
                                         const kinematics::SurrogateOptions& options);
@@ -22,8 +22,8 @@ void write_surrogates(const std::filesystem::path& path,
                       const std::string& key,
                       const std::vector<kinematics::PathSurrogate>& surrogates);
 
-/// The surrogates of a file; empty for a missing file or another key. Throws ReadError if the file
-/// holds no surrogates or contradicts the model whose key it has.
+/// Reads the surrogates of a file; empty for a missing file or another key. Throws ReadError if the
+/// file holds no surrogates or contradicts the model whose key it has.
 [[nodiscard]] std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
     const std::filesystem::path& path, const model::BodyModel& model, const std::string& key);
 

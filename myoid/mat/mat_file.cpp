@@ -66,7 +66,7 @@ const Matio& matio() {
   return loaded;
 }
 
-/// Text as MATLAB keeps it. `to_utf8` lets no invalid byte through.
+/// Returns text in MATLAB's form. `to_utf8` removes invalid bytes.
 std::u16string to_utf16(const std::string& text) {
   const std::string bytes = recording::to_utf8(text);
   std::u16string units;

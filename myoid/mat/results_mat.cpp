@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using recording::CsvTable;
 
-/// A name of MATLAB for a field: other characters become '_', and it has 63 characters at most.
+/// Returns a name of MATLAB for a field: other characters become '_', and it has 63 characters at
+/// most.
 std::string field_name(const std::string& text, std::set<std::string>& taken) {
   constexpr std::size_t kMost = 63, kRoomForNumber = 4;
   std::string name = text;
@@ -43,7 +44,7 @@ std::size_t column_of(const CsvTable& table, const std::string& name, const fs::
   return static_cast<std::size_t>(it - table.names.begin());
 }
 
-/// A column of texts, of `true` and `false`, or of numbers with NaN for an empty cell.
+/// Returns a column of texts, of `true` and `false`, or of numbers with NaN for an empty cell.
 MatValue column(const CsvTable& table, std::size_t c) {
   static const std::set<std::string> texts{"muscle", "parameter", "unit",  "method",
                                            "case",   "verdict",   "reason"};
@@ -114,7 +115,7 @@ MatStruct series_of(const fs::path& path) {
            {"title", file.title}}};
 }
 
-/// All series in the folder of a trial, in the order of their names.
+/// Returns all series in the folder of a trial, in the order of their names.
 MatStruct all_series(const fs::path& folder) {
   std::vector<fs::path> files;
   if (fs::is_directory(folder)) {
@@ -142,7 +143,7 @@ MatStruct trial(const fs::path& folder,
            {"series", std::vector<MatStruct>{all_series(folder / name)}}}};
 }
 
-/// The trials of a folder that has no run.json: the folders with series.
+/// Returns the trials of a folder without run.json: the folders with series.
 std::vector<MatStruct> trials_by_folder(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -34,7 +34,7 @@ double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
   return norm > 0.0 ? norm : 1.0;
 }
 
-/// max |cos(J column, r)| over the variables that may move.
+/// Returns max |cos(J column, r)| over the variables that may move.
 double largest_cosine(const Eigen::MatrixXd& jacobian,
                       const Eigen::VectorXd& r,
                       const std::vector<bool>& held) {
@@ -66,7 +66,7 @@ void finish(Search& search, Termination termination, std::string message) {
   }
 }
 
-/// d = argmin |J d + r|, by QR of the column-scaled J.
+/// Steps by d = argmin |J d + r|, by QR of the column-scaled J.
 void gauss_newton(Search& search) {
   LeastSquaresResult& result = search.result;
   const std::vector<bool> none(static_cast<std::size_t>(result.x.size()), false);
@@ -129,7 +129,7 @@ class TrustRegion {
     rank_floor_ = 1e-15 * (rows > 0 ? svd_.singularValues()[0] : 0.0);
   }
 
-  /// The step, and whether the radius bounds it.
+  /// Returns the step, and whether the radius bounds it.
   [[nodiscard]] Eigen::VectorXd step(double radius) const {
     if (length(0.0) <= radius) return step_of(0.0);
     // Newton on 1/|d(mu)| - 1/radius, which is concave and nearly linear in mu; kept in a bracket.
@@ -156,7 +156,7 @@ class TrustRegion {
     for (Eigen::Index i = 0; i < projected_.size(); ++i) sum += std::pow(coefficient(i, mu), 2);
     return std::sqrt(sum);
   }
-  /// -d(|d|^2)/dmu / 2.
+  /// Returns -d(|d|^2)/dmu / 2.
   [[nodiscard]] double half_slope(double mu) const {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < projected_.size(); ++i) {
@@ -177,8 +177,9 @@ class TrustRegion {
   double rank_floor_ = 0.0;
 };
 
-/// More's trust region (1978): |D d| <= radius, D the greatest column norms so far, so that the
-/// search does not depend on the units of the parameters. The radius follows the gain ratio.
+/// Searches by More's trust region (1978): |D d| <= radius, D the greatest column norms so far, so
+/// that the search does not depend on the units of the parameters. The radius follows the gain
+/// ratio.
 void levenberg_marquardt(Search& search) {
   LeastSquaresResult& result = search.result;
   const Eigen::Index p = result.x.size();

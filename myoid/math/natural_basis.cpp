@@ -9,7 +9,7 @@ namespace {
 
 using Polynomial = std::array<double, 3>;  ///< Coefficients of increasing powers.
 
-/// (a + b u) p
+/// Returns (a + b u) p.
 Polynomial times_line(const Polynomial& p, double a, double b) {
   return {a * p[0], a * p[1] + b * p[0], a * p[2] + b * p[1]};
 }

@@ -23,7 +23,7 @@ class EventSigns {
     std::fill(sign_.begin(), sign_.end(), 0);
     learn(g);
   }
-  /// True if a quantity is on the other side of zero.
+  /// Returns true if a quantity is on the other side of zero.
   [[nodiscard]] bool crossed(std::span<const double> g) const {
     for (std::size_t i = 0; i < sign_.size(); ++i) {
       if (g[i] * sign_[i] < -kEventDeadband) return true;

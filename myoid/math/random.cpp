@@ -10,7 +10,7 @@
 namespace myoid::math {
 namespace {
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): advances `x`, returns mixed bits.
+/// Advances `x` and returns mixed bits: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t split_mix(std::uint64_t& x) {
   x += 0x9E3779B97F4A7C15ULL;
   std::uint64_t z = x;

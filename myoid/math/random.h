@@ -14,13 +14,13 @@ class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-  /// 64 random bits.
+  /// Returns 64 random bits.
   std::uint64_t bits();
-  /// Uniform in [0, 1), a multiple of 2^-53.
+  /// Returns a uniform number in [0, 1), a multiple of 2^-53.
   double uniform();
-  /// Uniform in 0 .. count-1, without bias. Throws InvalidInput if count < 1.
+  /// Returns a uniform integer in 0 .. count-1, without bias. Throws InvalidInput if count < 1.
   Eigen::Index below(Eigen::Index count);
-  /// Standard normal, by the polar method.
+  /// Returns a standard normal number, by the polar method.
   double normal();
 
  private:

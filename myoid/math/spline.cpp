@@ -19,7 +19,7 @@ struct Fit {
   Eigen::VectorXd c;  ///< s^(m) = sum c_j M_j.
 };
 
-/// G/m! + lambda m! Q'Q
+/// Factors G/m! + lambda m! Q'Q.
 BandFactor penalized(const NaturalBasis& basis, double lambda) {
   Eigen::MatrixXd a = basis.gram;
   if (lambda == 0.0) return BandFactor(std::move(a));
@@ -36,7 +36,7 @@ BandFactor penalized(const NaturalBasis& basis, double lambda) {
   return BandFactor(std::move(a));
 }
 
-/// (G/m! + lambda m! Q'Q) c = Q'y,  g = y - lambda m! Q c.
+/// Solves (G/m! + lambda m! Q'Q) c = Q'y,  g = y - lambda m! Q c.
 Fit fit(const NaturalBasis& basis,
         const BandFactor& system,
         double lambda,

@@ -120,7 +120,7 @@ void check_sizes(const TrialData& trial,
   }
 }
 
-/// Moment arms of all joints at sample i; joints x muscles.
+/// Returns the moment arms of all joints at sample i; joints x muscles.
 Eigen::MatrixXd moment_arms_at(const TrialData& trial, Eigen::Index i) {
   Eigen::MatrixXd arms(static_cast<Eigen::Index>(joint_count(trial)), trial.moment_arm_m.cols());
   arms.row(0) = trial.moment_arm_m.row(i);
@@ -129,7 +129,7 @@ Eigen::MatrixXd moment_arms_at(const TrialData& trial, Eigen::Index i) {
   return arms;
 }
 
-/// The torques of the joints without their resting torques; n x joints.
+/// Returns the torques of the joints without their resting torques; n x joints.
 Eigen::MatrixXd torques_of_muscles(const TrialData& trial) {
   Eigen::MatrixXd active_nm(trial.time_s.size(), static_cast<Eigen::Index>(joint_count(trial)));
   for (std::size_t j = 0; j < joint_count(trial); ++j) {

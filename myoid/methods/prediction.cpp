@@ -164,7 +164,7 @@ struct TrialPredictions::ByLaw {
     if (map->size() != fit.solution.size()) map.reset();
   }
 
-  /// Standard deviations by the covariance of the unknowns.
+  /// Adds the standard deviations by the covariance of the unknowns.
   void add_deviations(const TrialData& trial, const Prediction& predicted, TrialFit& found) const {
     std::vector<ParameterMap::Chain> chains;
     const ModelValues values = map->values(fit.solution, &chains);

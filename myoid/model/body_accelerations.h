@@ -12,9 +12,9 @@ namespace myoid::model {
 /// Accelerations of every body, expressed in ground; [0] is ground.
 struct BodyAccelerations {
   std::vector<Vec3> alpha_GB;  ///< Angular [rad/s^2].
-  std::vector<Vec3> a_GB;      ///< Of the body's origin [m/s^2].
+  std::vector<Vec3> a_GB;      ///< Acceleration of the body's origin [m/s^2].
 
-  /// Acceleration of a point fixed in a body [m/s^2].
+  /// Returns the acceleration of a point fixed in a body [m/s^2].
   [[nodiscard]] Vec3 of_station(const BodyState& state, BodyIndex body, const Vec3& p_BP) const;
 };
 

@@ -33,7 +33,7 @@ struct Coordinate {
   int joint = -1;  ///< Index in BodyModel::joints.
   MotionType motion = MotionType::rotational;
   double default_value = 0.0;  ///< [rad] or [m]
-  double lower = -10.0;        ///< Of `range`, [rad] or [m].
+  double lower = -10.0;        ///< Limits of `range`, [rad] or [m].
   double upper = 10.0;
   bool clamped = false;
   bool locked = false;
@@ -156,13 +156,12 @@ struct BodyModel {
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
   [[nodiscard]] std::optional<int> find_marker(std::string_view name) const;
   [[nodiscard]] std::optional<int> find_muscle(std::string_view name) const;
-  /// Like find_..., but throws ModelError listing the names there are.
+  /// Returns the index, as find_...; throws ModelError with the list of names if there is none.
   [[nodiscard]] int coordinate_index(std::string_view name) const;
   [[nodiscard]] int muscle_index(std::string_view name) const;
-  /// True for a coordinate that takes no value of its own: locked, prescribed or dependent in a
-  /// coupler.
+  /// Returns true for a dependent coordinate: locked, prescribed or driven by a coupler.
   [[nodiscard]] bool is_constrained(int coordinate) const;
-  /// Coordinate values of the default pose; couplers give the dependent coordinates.
+  /// Returns the coordinate values of the default pose; couplers give the dependent coordinates.
   [[nodiscard]] Eigen::VectorXd default_q() const;
 };
 

@@ -11,19 +11,20 @@ namespace myoid::model {
 /// of the independent coordinates. Throws ModelError if couplers depend on each other in a circle.
 void apply_couplers(const BodyModel& model, Eigen::VectorXd& q);
 
-/// Errors of the constraints other than couplers, [m] and (sine of) [rad], one row each; empty
-/// without such constraints. `compute_poses` must have been called.
+/// Returns the errors of the constraints other than couplers, [m] and (sine of) [rad], one row
+/// each; empty without such constraints. `compute_poses` must have been called.
 [[nodiscard]] Eigen::VectorXd constraint_errors(const BodyModel& model, const BodyState& state);
 
-/// Rows: every coupler, then every other constraint; columns: coordinates. Rates qdot obey the
-/// constraints if A qdot = 0. `compute_poses` must have been called.
+/// Returns one row for every coupler, then for every other constraint; columns: coordinates. Rates
+/// qdot obey the constraints if A qdot = 0. `compute_poses` must have been called.
 [[nodiscard]] Eigen::MatrixXd constraint_jacobian(const BodyModel& model, const BodyState& state);
 
-/// Column c holds the rates of all coordinates when coordinate c moves at rate 1, the constraints
-/// hold and the other coordinates move as little as possible. Other locked coordinates stay; c
-/// counts as unlocked. A coordinate that the constraints hold still has a column of zeros. Without
-/// constraints C is the unit matrix. The moment arms that OpenSim reports are C^T r, with the arms
-/// r by every coordinate alone (muscle_path.h). `compute_poses` must have been called.
+/// Returns C, whose column c holds the rates of all coordinates when coordinate c moves at rate 1,
+/// the constraints hold and the other coordinates move as little as possible. Other locked
+/// coordinates stay; c counts as unlocked. A coordinate that the constraints fix has a column of
+/// zeros. Without constraints C is the unit matrix. The moment arms that OpenSim reports are C^T r,
+/// with the arms r by every coordinate alone (muscle_path.h). `compute_poses` must have been
+/// called.
 [[nodiscard]] Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state);
 
 struct AssemblyResult {
@@ -32,9 +33,9 @@ struct AssemblyResult {
   bool converged = false;
 };
 
-/// The posture nearest to q (over the coordinates that are not dependent) that meets every
-/// constraint within `accuracy`; locked and prescribed coordinates keep their values in q. Couplers
-/// alone are met exactly.
+/// Returns the posture nearest to q (over the independent coordinates) that meets every constraint
+/// within `accuracy`; locked and prescribed coordinates keep their values in q. Couplers alone are
+/// met exactly.
 [[nodiscard]] AssemblyResult assemble(const BodyModel& model,
                                       const Eigen::Ref<const Eigen::VectorXd>& q,
                                       double accuracy = 1e-9);

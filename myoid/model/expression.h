@@ -15,12 +15,12 @@ namespace myoid::model {
 /// k=50".
 class Expression {
  public:
-  /// Zero.
+  /// Builds the formula 0.
   Expression() = default;
-  /// Throws InvalidInput that names the place of an error (counted from 1) and what is wrong there.
+  /// Parses the text. Throws InvalidInput with the place (counted from 1) and the kind of an error.
   Expression(std::string_view text, const std::vector<std::string>& variables);
 
-  /// The value; `variables` in the order of the names. NaN outside the domain of a function.
+  /// Returns the value; `variables` in the order of the names. NaN outside a function's domain.
   [[nodiscard]] double operator()(std::span<const double> variables) const;
 
   enum class Operation {

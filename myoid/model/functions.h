@@ -43,7 +43,7 @@ struct PiecewisePolynomial {
   std::vector<double> x;
   Eigen::MatrixXd coefficients;
 };
-/// From `start_value` to `end_value` between two places, as 10 s^3 - 15 s^4 + 6 s^5.
+/// A step from `start_value` to `end_value` between two places, as 10 s^3 - 15 s^4 + 6 s^5.
 struct SmoothStep {
   double start = 0.0, end = 1.0, start_value = 0.0, end_value = 1.0;
 };
@@ -72,16 +72,16 @@ struct Function {
 [[nodiscard]] PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y);
 [[nodiscard]] PiecewiseConstant make_piecewise_constant(std::vector<double> x,
                                                         std::vector<double> y);
-/// The natural spline of degree 5 (OpenSim's GCVSpline of half order 3), a parabola beyond its
-/// ends.
+/// Returns the natural spline of degree 5 (OpenSim's GCVSpline of half order 3), a parabola beyond
+/// its ends.
 [[nodiscard]] math::Spline make_quintic_spline(const std::vector<double>& x,
                                                const std::vector<double>& y);
-/// The natural cubic spline (second derivative 0 at the ends), linear beyond them: OpenSim's
-/// GCVSpline of half order 2. Throws as make_simm_spline.
+/// Returns the natural cubic spline (second derivative 0 at the ends), linear beyond them:
+/// OpenSim's GCVSpline of half order 2. Throws as make_simm_spline.
 [[nodiscard]] SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y);
 
-/// The natural spline of degree 7 (fourth to sixth derivative 0 at the ends, a cubic beyond them):
-/// OpenSim's GCVSpline of half order 4. Four knots or more; throws as make_simm_spline.
+/// Returns the natural spline of degree 7 (fourth to sixth derivative 0 at the ends, a cubic beyond
+/// them): OpenSim's GCVSpline of half order 4. Four knots or more; throws as make_simm_spline.
 [[nodiscard]] PiecewisePolynomial make_septic_spline(const std::vector<double>& x,
                                                      const std::vector<double>& y);
 
@@ -91,7 +91,7 @@ struct FunctionValue {
   double second = 0.0;
 };
 
-/// Value and first two derivatives at x. Each form defines its values beyond the data.
+/// Returns value and first two derivatives at x. Each form defines its values beyond the data.
 [[nodiscard]] FunctionValue evaluate(const Function& function, double x);
 
 }  // namespace myoid::model

@@ -20,7 +20,7 @@ struct BodyState {
   /// the child frame's origin that unit speed gives the child body of its joint, expressed in
   /// ground.
   std::vector<Vec3> H_w_G;
-  std::vector<Vec3> H_v_G;  ///< Of the *child body's origin*.
+  std::vector<Vec3> H_v_G;  ///< Velocity of the *child body's origin*.
 };
 
 [[nodiscard]] BodyState make_state(const BodyModel& model);
@@ -35,7 +35,8 @@ void compute_velocities(const BodyModel& model,
                         const Eigen::Ref<const Eigen::VectorXd>& qdot,
                         BodyState& state);
 
-/// Jacobian of the ground position of point p_BP fixed in `body` by all coordinates: 3 x nq.
+/// Returns the Jacobian of the ground position of point p_BP fixed in `body` by all coordinates: 3
+/// x nq.
 [[nodiscard]] Eigen::Matrix3Xd station_jacobian(const BodyModel& model,
                                                 const BodyState& state,
                                                 BodyIndex body,
@@ -48,10 +49,10 @@ struct BodyWrench {
   Vec3 m_G = Vec3::Zero();  ///< [N m], about the body's origin.
 };
 
-/// Generalized forces tau that produce qddot at (q, qdot) under gravity and `external`, by
-/// recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order, [N
-/// m] or [N]. `carried`, if given, receives for every body the wrench that its joint transmits from
-/// the parent, with the forces along the joint's coordinates.
+/// Returns the generalized forces tau that produce qddot at (q, qdot) under gravity and `external`,
+/// by recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order,
+/// [N m] or [N]. `carried`, if given, receives for every body the wrench that its joint transmits
+/// from the parent, with the forces along the joint's coordinates.
 [[nodiscard]] Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                                const Eigen::Ref<const Eigen::VectorXd>& q,
                                                const Eigen::Ref<const Eigen::VectorXd>& qdot,
@@ -60,7 +61,7 @@ struct BodyWrench {
                                                BodyState& state,
                                                std::vector<BodyWrench>* carried = nullptr);
 
-/// Joint-space mass matrix, nq x nq.
+/// Returns the joint-space mass matrix, nq x nq.
 [[nodiscard]] Eigen::MatrixXd mass_matrix(const BodyModel& model,
                                           const Eigen::Ref<const Eigen::VectorXd>& q,
                                           BodyState& state);

@@ -9,8 +9,8 @@
 
 namespace myoid::model {
 
-/// Two unit vectors at right angles to u and to each other: a LineConstraint stops motion along
-/// them.
+/// Returns two unit vectors at right angles to u and to each other: a LineConstraint stops motion
+/// along them.
 [[nodiscard]] std::array<Vec3, 2> directions_across(const Vec3& u);
 
 /// Conditions on the accelerations at one state: A qddot = b. The rows are those of
@@ -30,7 +30,7 @@ struct AccelerationConstraints {
 
 /// Adds the wrenches on bodies that the constraints exert when `multipliers` belong to the rows of
 /// `acceleration_constraints`. Couplers, polynomials of coordinates, locks and prescribed
-/// coordinates exert none: their forces act along coordinates.
+/// coordinates exert none, because their forces act along coordinates.
 void append_constraint_wrenches(const BodyModel& model,
                                 const BodyState& state,
                                 const Eigen::VectorXd& multipliers,

@@ -17,7 +17,7 @@ struct MultiPolynomial {
   double scale = 1.0;  ///< Factor of an enclosing MultiplierFunction.
 };
 
-/// Number of terms: (dimension + degree)! / (dimension! degree!).
+/// Returns the number of terms: (dimension + degree)! / (dimension! degree!).
 [[nodiscard]] double term_count(int dimension, int degree);
 
 struct MultiPolynomialValue {
@@ -25,8 +25,8 @@ struct MultiPolynomialValue {
   Eigen::VectorXd gradient;
 };
 
-/// Value and gradient at x, one number for each variable. `coefficients` must have one for each
-/// term.
+/// Returns value and gradient at x, one number for each variable. `coefficients` must have one for
+/// each term.
 [[nodiscard]] MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
                                             const Eigen::Ref<const Eigen::VectorXd>& x);
 

@@ -4,8 +4,9 @@
 
 namespace myoid::model {
 
-/// Length of a path from its first point to its last through the points that are active at this
-/// posture and around its wrap objects, with the derivatives by every coordinate alone.
+/// Computes the length of a path from its first point to its last through the points that are
+/// active at this posture and around its wrap objects, with the derivatives by every coordinate
+/// alone.
 ///
 /// `exact` (BodyModel::compat without switches): r = -dl/dq of this length. Over cylinders and
 /// spheres the path is the shortest, and r is the moment of the unit tension along the straight

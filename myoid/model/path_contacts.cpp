@@ -81,7 +81,8 @@ std::vector<Sensitivity> contacts_of(const BodyModel& model,
   return contacts;
 }
 
-/// True if contact k + 1 follows k without a point in between, so that each is the other's end.
+/// Returns true if contact k + 1 follows k without a point between them, so that each is the
+/// other's end.
 bool are_neighbors(const std::vector<Sensitivity>& contacts, Eigen::Index k) {
   return contacts[at(k)].station + 2 == contacts[at(k + 1)].station;
 }

@@ -7,15 +7,15 @@
 
 namespace myoid::model {
 
-/// The contact of a straight piece from p to q with a wrap object, in the object's frame; empty
-/// without contact.
+/// Returns the contact of a straight piece from p to q with a wrap object, in the object's frame;
+/// empty without contact.
 [[nodiscard]] std::optional<WrapContact> contact_over(const WrapObject& object,
                                                       WrapMethod method,
                                                       const Vec3& p_W,
                                                       const Vec3& q_W);
 
-/// One Newton step towards tangent points that each fit their neighbors. `workspace.stations` hold
-/// the path; they stay unchanged if a contact is lost or the step is not finite.
+/// Takes one Newton step towards tangent points that each fit their neighbors. `workspace.stations`
+/// hold the path; they stay unchanged if a contact is lost or the step is not finite.
 void refine_contacts(const BodyModel& model,
                      const MusclePath& path,
                      const BodyState& state,
@@ -30,7 +30,7 @@ void add_contact_motion(const BodyModel& model,
                         const std::vector<PathStation>& stations,
                         Eigen::VectorXd& arm);
 
-/// The unit vector from one station to the next; zero where they coincide.
+/// Returns the unit vector from one station to the next; zero if they coincide.
 [[nodiscard]] Vec3 straight_direction(const PathStation& a, const PathStation& b);
 
 }  // namespace myoid::model

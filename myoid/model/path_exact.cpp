@@ -11,8 +11,8 @@
 namespace myoid::model {
 namespace {
 
-/// True if the path over the object is the shortest: then motion of the tangent points does not
-/// change the length to first order.
+/// Returns true if the path over the object is the shortest: motion of the tangent points then does
+/// not change the length to first order.
 bool is_shortest(const WrapObject& object) {
   return std::holds_alternative<CylinderShape>(object.shape) ||
          std::holds_alternative<SphereShape>(object.shape);

@@ -4,7 +4,7 @@
 
 namespace myoid::model {
 
-/// A path by the geometry of the model: continuous length, r = -dl/dq.
+/// Computes a path by the geometry of the model: continuous length, r = -dl/dq.
 void compute_exact_path(const BodyModel& model,
                         const MusclePath& path,
                         const BodyState& state,

@@ -41,7 +41,7 @@ struct PathResult {
   bool settled = true;
 };
 
-/// The stations of a path without wrap objects; the first step of every way to compute a path.
+/// Fills the stations of a path without wrap objects, the first step of all computations of a path.
 void place_points(const BodyModel& model,
                   const MusclePath& path,
                   const BodyState& state,
@@ -57,7 +57,7 @@ struct StationRange {
                                          const PathWrap& wrap,
                                          const std::vector<PathStation>& stations);
 
-/// Sum of the straight pieces and of the arcs.
+/// Returns the sum of the straight pieces and of the arcs.
 [[nodiscard]] double length_of(const std::vector<PathStation>& stations);
 
 /// Adds to `arm` minus the derivative of u . (p_b - p_a) by each coordinate. The points are fixed
@@ -72,8 +72,8 @@ void add_pair_moment(const BodyModel& model,
                      const Vec3& u_G,
                      Eigen::VectorXd& arm);
 
-/// The two stations of the contact of wrap `number` with an object, whose frame W has the pose X_GW
-/// in ground: tangent points and arc.
+/// Returns the two stations of the contact of wrap `number` with an object, whose frame W has the
+/// pose X_GW in ground: tangent points and arc.
 [[nodiscard]] std::array<PathStation, 2> contact_stations(const WrapObject& object,
                                                           int number,
                                                           const Pose& X_GW,
@@ -86,8 +86,8 @@ void insert_behind(std::vector<PathStation>& stations,
                    int station,
                    const std::array<PathStation, 2>& contact);
 
-/// Derivative of a moving point's location by its coordinate, in ground. `beyond_range`: nonzero
-/// also outside the coordinate's range, as in OpenSim.
+/// Returns the derivative of a moving point's location by its coordinate, in ground.
+/// `beyond_range`: nonzero also outside the coordinate's range, as in OpenSim.
 [[nodiscard]] Vec3 moving_rate(const BodyModel& model,
                                const PathPoint& point,
                                const BodyState& state,

@@ -13,12 +13,12 @@ namespace myoid::model {
 struct CoordinateRange {
   double lower = 0.0, upper = 0.0;
 };
-/// The coordinate's range, at most +-3 rad or +-1 m about its default value.
+/// Returns the coordinate's range, at most +-3 rad or +-1 m about its default value.
 [[nodiscard]] CoordinateRange usual_range(const Coordinate& coordinate);
 
-/// A posture with every free coordinate drawn uniformly from its range (at most +-3 rad or +-1 m
-/// about the default value). Locked coordinates have their default; couplers give the dependent
-/// ones. The same seed and number give the same posture.
+/// Returns a posture with every free coordinate drawn uniformly from its range (at most +-3 rad or
+/// +-1 m about the default value). Locked coordinates have their default; couplers give the
+/// dependent ones. Equal seed and number give an equal posture.
 [[nodiscard]] Eigen::VectorXd random_posture(const BodyModel& model,
                                              std::uint64_t seed,
                                              std::uint64_t number);
@@ -33,9 +33,9 @@ struct PathDifference {
   Eigen::VectorXd worst_posture;  ///< Posture of the greatest length difference.
 };
 
-/// Muscles that differ by more than `least_m` in length or moment arm at some posture, the greatest
-/// length difference first. A moment arm of a coordinate in meters counts as well; a NaN of OpenSim
-/// counts as infinite.
+/// Returns the muscles that differ by more than `least_m` in length or moment arm at some posture,
+/// the greatest length difference first. A moment arm of a coordinate in meters counts as well; a
+/// NaN of OpenSim counts as infinite.
 [[nodiscard]] std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
                                                                int postures,
                                                                std::uint64_t seed = 1,
@@ -58,7 +58,7 @@ struct PathJump {
                                                double length_tolerance_m = 1e-5,
                                                double arm_tolerance_m = 1e-3);
 
-/// A sentence on the jump: muscle, coordinate, place and size.
+/// Describes the jump in a sentence: muscle, coordinate, place and size.
 [[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);
 
 }  // namespace myoid::model

@@ -20,7 +20,7 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 [[nodiscard]] inline Vec3 value_of(const Vec3& v) { return v; }
 [[nodiscard]] inline Vec3 value_of(const Vector3<Jet6>& v) { return {v[0].a, v[1].a, v[2].a}; }
 
-/// The angle plus the whole turns that bring it between 0 and 2 pi.
+/// Returns the angle plus the whole turns that bring it between 0 and 2 pi.
 template <typename T>
 [[nodiscard]] T within_one_turn(const T& angle) {
   return angle - T(2.0 * kPi * std::floor(value_of(angle) / (2.0 * kPi)));

@@ -7,8 +7,9 @@
 
 namespace myoid::model {
 
-/// Shortest path from p to q around a cylinder about the axis z of its frame: a straight piece to a
-/// tangent point, a helix, a straight piece. The unrolled path is one line, so z changes evenly:
+/// Returns the shortest path from p to q around a cylinder about the axis z of its frame: a
+/// straight piece to a tangent point, a helix, a straight piece. The unrolled path is one line, so
+/// z changes evenly:
 ///
 ///   s = t1 + R theta + t2,  z(s) linear,  length = sqrt(s^2 + (z_q - z_p)^2)
 ///

@@ -16,8 +16,8 @@ using Dynamics = ActivationDynamics<double>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Two lags with constants tau_e, tau_a for a time t, u held. e = u + (e0 - u) E_e, and the lead d
-/// = e - a follows d' = c E_e - d / tau_a with c = (u - e0) / tau_e:
+/// Runs two lags with constants tau_e, tau_a for a time t at constant u. e = u + (e0 - u) E_e, and
+/// the lead d = e - a follows d' = c E_e - d / tau_a with c = (u - e0) / tau_e:
 ///   d = E_a d0 + c (E_a - E_e) / k,   k = 1/tau_e - 1/tau_a
 Point two_lags(double u, const Point& from, double tau_e, double tau_a, double t) {
   const double decay_e = std::exp(-t / tau_e);
@@ -48,9 +48,9 @@ double switch_time(double u, const Point& from, double tau_e, double tau_a) {
   return argument <= -1.0 ? kNever : -std::log1p(argument) / k;
 }
 
-/// Thelen's lag under constant u. Falling, w = a - u is logistic. Rising, s = ln((u - a) / (u -
-/// a0)) solves k s - 3/2 w0 (exp(s) - 1) = -t / tau, k = 1/2 + 3/2 u. The left side is concave, so
-/// that Newton from the left never passes the root.
+/// Returns Thelen's lag under constant u. Falling, w = a - u is logistic. Rising, s = ln((u - a) /
+/// (u - a0)) solves k s - 3/2 w0 (exp(s) - 1) = -t / tau, k = 1/2 + 3/2 u. The left side is
+/// concave, so Newton from the left never passes the root.
 double thelen(double u, double a, const Dynamics& d, double t) {
   const double k = 0.5 + 1.5 * u;
   if (u <= a) {

@@ -54,7 +54,7 @@ struct ActivationPoint {
   return 0;
 }
 
-/// The right-hand side (de/dt, da/dt) [1/s] under excitation u in 0..1:
+/// Returns the right-hand side (de/dt, da/dt) [1/s] under excitation u in 0..1:
 ///   two_lags:  (u - e) / tau_ne,  (e - a) / tau,  tau = tau_ac if e >= a, else tau_deac
 ///   thelen:    0,  (u - a) / (tau_ac z) if u > a, else (u - a) z / tau_deac,  z = 1/2 + 3/2 a
 ///   de_groote: 0,  ((f + 1/2) / (tau_ac z) + (1/2 - f) z / tau_deac) (u - a),
@@ -93,30 +93,30 @@ template <typename T>
   return {};
 }
 
-/// Zero where the right-hand side has a kink: e - a (two_lags), u - a (thelen); 1 for the smooth
-/// laws.
+/// Returns a number that is zero at a kink of the right-hand side: e - a (two_lags), u - a
+/// (thelen); 1 for the smooth laws.
 [[nodiscard]] double activation_event(const ActivationDynamics<double>& dynamics,
                                       double excitation,
                                       const ActivationPoint<double>& state);
 
-/// The state under a constant excitation, everything settled: e = a = u.
+/// Returns the steady state under a constant excitation: e = a = u.
 template <typename T>
 [[nodiscard]] ActivationPoint<T> settled_activation(const T& excitation) {
   return {excitation, excitation};
 }
 
-/// The state `interval_s` later under an excitation that is held: exact to round-off for any
+/// Returns the state `interval_s` later under a constant excitation: exact to round-off for any
 /// interval, in closed form (the switch of `two_lags` is located; the rise of `thelen` solves one
-/// scalar equation). Only `de_groote` has no closed form: Runge-Kutta steps of at most a twentieth
-/// of its shortest time constant, to 1e-7 of the activation's change.
+/// scalar equation). Only `de_groote` has no closed form and takes Runge-Kutta steps of at most a
+/// twentieth of its shortest time constant, to 1e-7 of the activation's change.
 [[nodiscard]] ActivationPoint<double> step_activation(const ActivationDynamics<double>& dynamics,
                                                       double excitation,
                                                       const ActivationPoint<double>& state,
                                                       double interval_s);
 
-/// Activation over time from excitation on a uniform clock, each sample held to the next; begins
-/// settled on the first. Throws InvalidInput unless the rate is positive and the dynamics are
-/// valid.
+/// Returns activation over time from excitation on a uniform clock, each sample held to the next,
+/// from the steady state of the first. Throws InvalidInput unless the rate is positive and the
+/// dynamics are valid.
 [[nodiscard]] Eigen::VectorXd activation_from_excitation(
     const Eigen::Ref<const Eigen::VectorXd>& excitation,
     double rate_hz,

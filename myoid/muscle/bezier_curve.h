@@ -27,22 +27,22 @@ class BezierCurve {
   /// two tangents do not meet between their knots (the corner would be S-shaped).
   BezierCurve(std::span<const CurveKnot> knots, std::span<const double> curviness);
 
-  /// y, and dy/dx.
+  /// Returns y and dy/dx.
   template <typename T>
   [[nodiscard]] CurvePoint<T> operator()(const T& x) const {
     const CurvePoint<double> point = at(value_of(x));
     return {linearized(x, point.value, point.slope), point.slope};
   }
 
-  /// The integral of y from the first knot to x.
+  /// Returns the integral of y from the first knot to x.
   template <typename T>
   [[nodiscard]] T integral(const T& x) const {
     const double number = value_of(x);
     return linearized(x, integral_to(number), at(number).value);
   }
 
-  /// The x at which strength * y(x) + damping * x = force, for a curve that never falls: strength
-  /// and damping >= 0, and not both without effect there.
+  /// Returns the x at which strength * y(x) + damping * x = force, for a curve that never falls.
+  /// strength and damping are at least 0, and one of them has an effect at x.
   [[nodiscard]] double solve(double strength, double damping, double force) const;
 
   [[nodiscard]] const CurveKnot& first() const { return first_; }

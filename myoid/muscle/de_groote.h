@@ -9,11 +9,11 @@
 namespace myoid::muscle {
 
 /// The curves of De Groote, Kinney, Rao & Fregly (2016), Ann Biomed Eng 44:2922-2936, infinitely
-/// smooth, with the constants as OpenSim's muscle of that name carries them (full precision, so
-/// that the curves pass through (1, 1), (-1, 0), (0, 1)). Lengths in optimal fiber lengths or
-/// tendon slack lengths, velocities in v_max, forces in F_max.
+/// smooth, with the constants of OpenSim's muscle of this name (full precision, so that the curves
+/// pass through (1, 1), (-1, 0), (0, 1)). Lengths in optimal fiber lengths or tendon slack lengths,
+/// velocities in v_max, forces in F_max.
 
-/// Active force-length multiplier: three bells exp(-(l - b2)^2 / (2 (b3 + b4 l)^2)) b1.
+/// Returns the active force-length multiplier: three bells b1 exp(-(l - b2)^2 / (2 (b3 + b4 l)^2)).
 template <typename T>
 [[nodiscard]] CurvePoint<T> de_groote_force_length(const T& l) {
   using std::exp;
@@ -36,8 +36,8 @@ template <typename T>
 inline constexpr std::array<double, 4> kDeGrooteVelocity{-0.3211346127989808, -8.149, -0.374,
                                                          0.8825327733249912};
 
-/// Force-velocity multiplier d1 asinh(d2 v + d3) + d4; 0 at v = -1 and *negative below*, 1 at rest,
-/// 1.794 at v = 1. It has no plateau.
+/// Returns the force-velocity multiplier d1 asinh(d2 v + d3) + d4; 0 at v = -1 and *negative
+/// below*, 1 at rest, 1.794 at v = 1. It has no plateau.
 template <typename T>
 [[nodiscard]] CurvePoint<T> de_groote_force_velocity(const T& v) {
   using std::log;
@@ -50,9 +50,9 @@ template <typename T>
   return {T(d1) * asinh_x + T(d4), d1 * d2 / value_of(root)};
 }
 
-/// The velocity at which strength f + damping v = force, all over F_max; strength > 0, damping >=
-/// 0. In x = asinh(d2 v + d3) this is -a x - b sinh(x) = rest, odd and monotone: Newton from beyond
-/// the root never leaves its side.
+/// Returns the velocity at which strength f + damping v = force, all over F_max; strength > 0,
+/// damping >= 0. In x = asinh(d2 v + d3) this is -a x - b sinh(x) = rest, odd and monotone: Newton
+/// from beyond the root never leaves its side.
 [[nodiscard]] inline double solve_de_groote_velocity(double strength,
                                                      double damping,
                                                      double force) {
@@ -91,7 +91,7 @@ class DeGrootePassive {
     const T e = exp(rate_ * (l - T(1.0)));
     return {(e - offset_) * scale_, value_of(e * scale_ * rate_)};
   }
-  /// The integral from l = 0.2: the energy over F_max l0.
+  /// Returns the integral from l = 0.2: the energy over F_max l0.
   [[nodiscard]] T energy(const T& l) const {
     using std::exp;
     return ((exp(rate_ * (l - T(1.0))) - offset_) / rate_ - offset_ * (l - T(0.2))) * scale_;
@@ -101,8 +101,9 @@ class DeGrootePassive {
   T rate_, offset_, scale_;
 };
 
-/// Tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0 (published:
-/// 0.049). The published curve goes on below slack, to a push of F_max / 5; here it is 0 there.
+/// Returns the tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0
+/// (published: 0.049). The published curve continues below slack, to a push of F_max / 5; here it
+/// is 0 there.
 template <typename T>
 [[nodiscard]] CurvePoint<T> de_groote_tendon(const T& strain, const T& strain_at_max_force) {
   using std::exp;
@@ -112,7 +113,7 @@ template <typename T>
   return {T(0.2) * (e - T(1.0)), value_of(T(0.2) * rate * e)};
 }
 
-/// Its integral from slack, the energy over F_max l_t0.
+/// Returns the integral of de_groote_tendon from slack, the energy over F_max l_t0.
 template <typename T>
 [[nodiscard]] T de_groote_tendon_energy(const T& strain, const T& strain_at_max_force) {
   using std::exp;

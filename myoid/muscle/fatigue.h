@@ -12,7 +12,7 @@ template <typename T = double>
 struct FatigueRates {
   T fatigue_per_s{T(0.00912)};     ///< F: active to fatigued
   T recovery_per_s{T(0.00094)};    ///< R: fatigued to resting
-  T rest_recovery_factor{T(1.0)};  ///< r: recovery is r R while nothing is asked; 15 in 3CC-r
+  T rest_recovery_factor{T(1.0)};  ///< r: recovery is r R while the target is 0; 15 in 3CC-r
   T development_per_s{T(10.0)};    ///< LD: resting to active
   T relaxation_per_s{T(10.0)};     ///< LR: active to resting
 };
@@ -29,8 +29,8 @@ struct FatigueState {
 /// and relaxation positive.
 void validate(const FatigueRates<double>& rates);
 
-/// The central drive's flow from resting to active [1/s] under a target load in 0..1 of the fresh
-/// muscle's strength:
+/// Returns the central drive's flow from resting to active [1/s] under a target load in 0..1 of the
+/// fresh muscle's strength:
 ///   C = LD min(target - M_A, M_R) below the target, LR (target - M_A) above.
 template <typename T>
 [[nodiscard]] T fatigue_drive(const FatigueRates<T>& rates,
@@ -42,7 +42,7 @@ template <typename T>
          (value_of(state.resting) > value_of(lacking) ? lacking : state.resting);
 }
 
-/// The right-hand side [1/s]; its three parts add up to zero:
+/// Returns the right-hand side [1/s]; its three parts add up to zero:
 ///   dM_A = C - F M_A,   dM_R = -C + R' M_F,   dM_F = F M_A - R' M_F,
 ///   R' = r R while the target is 0, else R.
 template <typename T>
@@ -58,26 +58,26 @@ template <typename T>
   return {drive - tiring, recovering - drive, tiring - recovering};
 }
 
-/// Share of F_max that is left: F_max(t) = F_max (1 - M_F).
+/// Returns the remaining share of F_max: F_max(t) = F_max (1 - M_F).
 template <typename T>
 [[nodiscard]] T fatigue_capacity(const FatigueState<T>& state) {
   return T(1.0) - state.fatigued;
 }
 
-/// The state `interval_s` later under a held target load: Runge-Kutta steps of at most a twentieth
-/// of the fastest time constant (5 ms with LD = LR = 10 1/s), 3e-9 a step.
+/// Returns the state `interval_s` later under a constant target load, by Runge-Kutta steps of at
+/// most a twentieth of the fastest time constant (5 ms with LD = LR = 10 1/s), 3e-9 a step.
 [[nodiscard]] FatigueState<double> step_fatigue(const FatigueRates<double>& rates,
                                                 double target_load,
                                                 const FatigueState<double>& state,
                                                 double interval_s);
 
-/// The share that stays active under a target that is never reached again, t -> infinity:
+/// Returns the share that stays active under an unreachable target, t -> infinity:
 ///   M_A = 1 / (1 + F/R + F/LD).
 [[nodiscard]] double sustainable_load(const FatigueRates<double>& rates);
 
-/// Rates for the elbow: "elbow" (Frey-Law, Looft & Heitsman 2012, both directions, r = 1),
-/// "elbow_rest" (the same with r = 15, Looft, Herkert & Frey-Law 2018), "elbow_flexor",
-/// "elbow_extensor" (Rakshit, Xiang & Yang 2021). Throws InvalidInput listing the names.
+/// Returns rates for the elbow: "elbow" (Frey-Law, Looft & Heitsman 2012, both directions, r = 1),
+/// "elbow_rest" (these rates with r = 15, Looft, Herkert & Frey-Law 2018), "elbow_flexor",
+/// "elbow_extensor" (Rakshit, Xiang & Yang 2021). Throws InvalidInput with the list of names.
 [[nodiscard]] FatigueRates<double> published_fatigue_rates(std::string_view name);
 
 }  // namespace myoid::muscle

@@ -13,7 +13,7 @@
 namespace myoid::muscle {
 namespace {
 
-/// The field of this name; throws InvalidInput with all names if there is none.
+/// Returns the field of this name; throws InvalidInput with all names if there is none.
 double& field_of(MusculotendonParameters<double>& parameters, const std::string& wanted) {
   double* found = nullptr;
   std::string names;

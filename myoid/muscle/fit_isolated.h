@@ -30,7 +30,7 @@ struct IsolatedModel {
 struct IsolatedFitOptions {
   std::vector<std::string> parameters;  ///< Names of visit_parameters; positive at the start.
   double reach = 3.0;                   ///< A value stays within its start over and times this.
-  double relative_tolerance = 1e-7;     ///< Of the integration.
+  double relative_tolerance = 1e-7;     ///< Tolerance of the integration.
   Progress progress;
 };
 
@@ -47,21 +47,21 @@ struct IsolatedFit {
   std::vector<IsolatedEstimate> estimates;
   math::Termination termination = math::Termination::no_descent;
   std::string message;
-  int evaluations = 0;  ///< Of all recordings.
+  int evaluations = 0;  ///< Number for all recordings.
 };
 
-/// Force [N] that the model makes at the times of the recording's; NaN where the integration did
-/// not get to.
+/// Returns the model's force [N] at the times of the recording's; NaN at times that the integration
+/// did not reach.
 [[nodiscard]] Eigen::VectorXd isolated_force(const IsolatedModel& model,
                                              const IsolatedRecording& recording,
                                              double relative_tolerance = 1e-9,
                                              const Progress& progress = {});
 
-/// Parameters with which the simulated experiments (elastic tendon, mass and all) come nearest to
-/// the measured forces: least squares over all samples; logarithms as unknowns, derivatives by
-/// central differences. Under the law `millard`
-/// eccentric_plateau is the curve's greatest multiplier. Throws InvalidInput for names that are no
-/// parameters of the unit, values that are not positive, and sizes that differ.
+/// Fits the parameters so that the simulated experiments (elastic tendon, mass and all) come
+/// nearest to the measured forces: least squares over all samples; logarithms as unknowns,
+/// derivatives by central differences. Under the law `millard` eccentric_plateau is the curve's
+/// greatest multiplier. Throws InvalidInput for names that are no parameters of the unit, values
+/// that are not positive, and sizes that differ.
 [[nodiscard]] IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
                                               const std::vector<IsolatedRecording>& recordings,
                                               const IsolatedFitOptions& options);

@@ -4,15 +4,15 @@
 
 namespace myoid::muscle {
 
-/// Force-length multiplier f_l [-]: isometric force at this fiber length over that at the optimal
-/// length.
+/// Returns the force-length multiplier f_l [-]: isometric force at this fiber length over that at
+/// the optimal length.
 ///
 ///   f_l(l) = exp(-((l - l0) / l_sh)^2)
 ///
-/// Without a factor 1/2: the full width at half maximum is 2 sqrt(ln 2) l_sh = 1.665 l_sh. Thelen's
+/// Without a factor 1/2 the full width at half maximum is 2 sqrt(ln 2) l_sh = 1.665 l_sh. Thelen's
 /// KshapeActive is (l_sh / l0)^2. All lengths in one unit [m]; l_sh > 0, unchecked here. Beyond |l
-/// - l0| = 6 l_sh the value is below 1e-15 and so are its derivatives: a fit must start within
-/// about 2 l_sh. Equation (3) of the source paper.
+/// - l0| = 6 l_sh the value and its derivatives are below 1e-15, so a fit must start within about 2
+/// l_sh. Equation (3) of the source paper.
 template <typename T, typename L>
 [[nodiscard]] T force_length(const L& fiber_length_m,
                              const T& optimal_fiber_length_m,

@@ -13,15 +13,17 @@ struct VelocityHyperbola {
   T concentric_curvature{};         ///< V_sh [-]: the smaller, the more bent the hyperbola.
   T eccentric_curvature_product{};  ///< P = V_sh V_shl [-]: only the product acts.
   T eccentric_plateau{};            ///< V_ml [-]: f_v in fast lengthening; above 1 in life.
-  /// Share of the way from 1 to the plateau at which the lengthening branch goes on as its tangent.
+  /// Share of the way from 1 to the plateau at which the lengthening branch continues as its
+  /// tangent.
   /// 1: the published branch goes on to infinity.
   T tangent_from{1.0};
   /// Below -v_max the law is zero (false), or its tangent there (true): negative, and invertible.
   bool tangent_below = false;
 };
 
-/// Force-velocity multiplier f_v [-], the force over the isometric force at the same length and
-/// activation, and its slope d f_v / dv. `v` is dl_m/dt over v_max, positive in lengthening.
+/// Returns the force-velocity multiplier f_v [-], the force over the isometric force at equal
+/// length and activation, and its slope d f_v / dv. `v` is dl_m/dt over v_max, positive in
+/// lengthening.
 ///
 ///   f_v(v) = 0                            v <= -1
 ///   f_v(v) = V_sh (1 + v) / (V_sh - v)    -1 < v <= 0
@@ -57,10 +59,10 @@ template <typename T>
   return {(p + m * v) / pole, value_of(p * (m - T(1.0)) / (pole * pole))};
 }
 
-/// The velocity [v_max] at which strength f_v(v) + damping v = force, all over F_max, in closed
-/// form: each branch is a quadratic whose cancelling root is avoided. strength and damping are not
-/// negative, and not both zero. Zero damping needs an invertible law: tangents on both sides and
-/// V_ml > 1.
+/// Returns the velocity [v_max] at which strength f_v(v) + damping v = force, all over F_max, in
+/// closed form: each branch is a quadratic whose cancelling root is avoided. strength and damping
+/// are not negative, and not both zero. Zero damping needs an invertible law: tangents on both
+/// sides and V_ml > 1.
 [[nodiscard]] inline double solve_velocity(const VelocityHyperbola<double>& h,
                                            double strength,
                                            double damping,
@@ -95,7 +97,7 @@ template <typename T>
   return (root - b) / (2.0 * damping);
 }
 
-/// P that makes the eccentric slope at rest `slope_ratio` times the concentric one:
+/// Returns the P that makes the eccentric slope at rest `slope_ratio` times the concentric one:
 ///   P = (V_ml - 1) V_sh / (S (1 + V_sh)),   S = f_v'(0+) / f_v'(0-).
 /// S = 1 joins the branches smoothly; S = 2 is Thelen (2003).
 template <typename T>
@@ -106,7 +108,7 @@ template <typename T>
          (slope_ratio * (T(1.0) + concentric_curvature));
 }
 
-/// The inverse: S of the P of a law.
+/// Returns S of a law, the inverse of curvature_product_from_slope_ratio.
 template <typename T>
 [[nodiscard]] T slope_ratio(const VelocityHyperbola<T>& h) {
   return (h.eccentric_plateau - T(1.0)) * h.concentric_curvature /

@@ -6,8 +6,9 @@
 
 namespace myoid::muscle {
 
-/// Fiber force [N]:  F_m = a f_l(l) f_v(v) F_max, equation (2) of the source paper. Activation in
-/// 0..1, fiber length [m], velocity [m/s], positive in lengthening. No passive force, no pennation.
+/// Returns the fiber force [N], F_m = a f_l(l) f_v(v) F_max, equation (2) of the source paper.
+/// Activation in 0..1, fiber length [m], velocity [m/s], positive in lengthening. No passive force,
+/// no pennation.
 template <typename T>
 [[nodiscard]] T hill_force(double activation,
                            double fiber_length_m,

@@ -34,8 +34,7 @@ struct Range {
   double upper = 0.0;
 };
 
-/// One row per field: the only place where a name, a symbol, a unit and the physical bounds are
-/// written.
+/// One row per field: the single source of names, symbols, units and physical bounds.
 struct HillField {
   std::string_view name;
   std::string_view symbol;
@@ -87,12 +86,12 @@ inline constexpr std::array kHillFields = {
               {0.0, 1.0}},
 };
 
-/// The row of this name; throws InvalidInput listing the names there are.
+/// Returns the row of this name; throws InvalidInput with the list of names.
 [[nodiscard]] const HillField& hill_field(std::string_view name);
 
-/// Throws InvalidInput, naming the field and its value, unless all are positive and finite
-/// (tendon_slack_length may be 0). Values outside the physical bounds are allowed: they are a
-/// verdict, not an error.
+/// Throws InvalidInput with the field's name and value, unless all are positive and finite
+/// (tendon_slack_length may be 0). Values outside the physical bounds are allowed: a verdict, not
+/// an error, reports them.
 void validate(const HillParameters<double>& parameters);
 
 }  // namespace myoid::muscle

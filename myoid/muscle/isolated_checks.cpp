@@ -7,7 +7,7 @@
 namespace myoid::muscle {
 namespace {
 
-/// True if the lengths of `length` cover the times of the forces of `force`.
+/// Returns true if the lengths of `length` cover the times of the forces of `force`.
 bool covers(const IsolatedRecording& length, const IsolatedRecording& force) {
   const Eigen::VectorXd& from = length.input.time_s;
   const Eigen::VectorXd& wanted = force.time_s;

@@ -13,7 +13,7 @@
 
 namespace myoid::muscle {
 
-/// A muscle in a testing machine: its whole length is imposed, its drive given.
+/// A muscle in a testing machine: the whole length is imposed, the drive given.
 struct IsolatedMuscleInput {
   /// Samples of the length of fiber and tendon together [s], [m]; at least two, any spacing.
   /// Between them a cubic that keeps their shape (no overshoot, continuous velocity).
@@ -22,8 +22,8 @@ struct IsolatedMuscleInput {
   /// Samples of the drive, in 0..1; straight between them, constant outside. Times may be empty if
   /// there is one value: constant.
   Eigen::VectorXd drive_time_s, drive;
-  /// True: the drive is an excitation, and the activation follows it by `dynamics`. False: it is
-  /// the activation.
+  /// True: the drive is an excitation, and the activation follows by `dynamics`. False: the drive
+  /// is the activation.
   bool drive_is_excitation = false;
   ActivationDynamics<double> dynamics{
       .law = ActivationLaw::thelen, .activation_time_s = 0.010, .deactivation_time_s = 0.040};
@@ -32,7 +32,7 @@ struct IsolatedMuscleInput {
 };
 
 struct IsolatedMuscleOptions {
-  Eigen::VectorXd output_time_s;  ///< Within the samples of the length; empty: those times.
+  Eigen::VectorXd output_time_s;  ///< Within the samples of the length; empty: their times.
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-12;  ///< [m], [m/s], [-]
   Progress progress;

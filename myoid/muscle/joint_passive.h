@@ -30,8 +30,8 @@ struct JointPassive {
 /// viscosity and stop torques not negative.
 void validate(const JointPassive<double>& joint);
 
-/// A grown man's elbow, flexion angle from full extension: 1 N m/rad about 80 degrees, 0.2 N m
-/// s/rad, and stops of 1 N m at 10 and 140 degrees that grow e-fold every 3 degrees. Orders of
+/// Returns a grown man's elbow, flexion angle from full extension: 1 N m/rad about 80 degrees, 0.2
+/// N m s/rad, and stops of 1 N m at 10 and 140 degrees that grow e-fold every 3 degrees. Orders of
 /// magnitude from memory of the literature, not measurements: measure a relaxed joint and fit.
 [[nodiscard]] JointPassive<double> elbow_passive();
 

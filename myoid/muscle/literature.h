@@ -24,7 +24,7 @@ inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {
      {"BRD", 261.33, 0.1726, 0.1330, 0.0},
      {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
 
-/// The values for a muscle of which nothing better is known.
+/// The values for a muscle without better data.
 inline constexpr double kLiteratureWidth = 0.45;      ///< l_sh / l0
 inline constexpr double kLiteratureCurvature = 0.28;  ///< V_sh
 inline constexpr double kLiteraturePlateau = 1.4;     ///< V_ml
@@ -38,15 +38,15 @@ inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
 /// in use go up to 0.71 (Thelen's gamma of 0.5).
 inline constexpr Range kRelativeWidths{0.2, 1.0};
 
-/// The numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5, v_max = 10
-/// l0/s.
+/// Returns the numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5,
+/// v_max = 10 l0/s.
 [[nodiscard]] HillParameters<double> literature_parameters(const LiteratureMuscle& muscle);
 
-/// The muscle of this name (BIC, BRA, BRD, TRI); throws InvalidInput listing them.
+/// Returns the muscle of this name (BIC, BRA, BRD, TRI); throws InvalidInput with these names.
 [[nodiscard]] const LiteratureMuscle& literature_muscle(std::string_view name);
 
-/// Initial values that the source paper prints in its tables I and II; F_max and v_max it does not
-/// print. Its widths are far below the literature's: do not take them for normalized ones.
+/// Initial values in the source paper's tables I and II, which omit F_max and v_max. The paper's
+/// widths are far below the literature's: do not take them for normalized ones.
 struct PaperMuscle {
   std::string_view name;
   double optimal_fiber_length_m = 0.0;

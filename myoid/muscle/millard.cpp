@@ -10,7 +10,7 @@
 namespace myoid::muscle {
 namespace {
 
-/// The published curviness 0..1 maps to 0.1..0.9: at 0 a corner would have no length.
+/// Maps the published curviness 0..1 to 0.1..0.9: at 0 a corner would have no length.
 double scaled(double curviness) {
   if (!(curviness >= 0.0 && curviness <= 1.0)) {
     throw InvalidInput(fmt::format("a curviness of {:g}: expected 0 to 1", curviness));

@@ -11,17 +11,17 @@ struct MillardShape {
   double shortest_active_length = 0.4441;
   double transition_length = 0.73;  ///< From the steep to the shallow ascending limb.
   double longest_active_length = 1.8123;
-  double shallow_slope = 0.8616;  ///< Of the ascending limb near the optimum.
+  double shallow_slope = 0.8616;  ///< Slope of the ascending limb near the optimum.
   double active_minimum = 0.0;    ///< Value outside the active range; 0.1 where f_l is divided by.
   double passive_strain_at_zero = 0.0;
   double passive_strain_at_one = 0.7;
   double passive_stiffness_low = 0.2;
   double passive_stiffness_at_one = 2.0 / 0.7;
   double passive_curviness = 0.75;
-  double slope_at_shortening_limit = 0.0;  ///< df_v/dv at v = -1 ...
+  double slope_at_shortening_limit = 0.0;  ///< df_v/dv at v = -1.
   double slope_near_shortening_limit = 0.25;
   double slope_at_rest = 5.0;
-  double slope_at_lengthening_limit = 0.0;  ///< ... and at v = 1.
+  double slope_at_lengthening_limit = 0.0;  ///< df_v/dv at v = 1.
   double slope_near_lengthening_limit = 0.15;
   double max_eccentric_multiplier = 1.4;
   double concentric_curviness = 0.6;
@@ -37,16 +37,17 @@ class MillardCurves {
   /// Throws InvalidInput if the shape makes no curve.
   explicit MillardCurves(const MillardShape& shape = {});
 
-  /// Active force-length: ascending in a steep and a shallow limb, plateau at 1, descending limb;
-  /// `active_minimum` outside.
+  /// Returns the active force-length curve: a steep and a shallow ascending limb, plateau at 1,
+  /// descending limb; `active_minimum` outside.
   [[nodiscard]] const BezierCurve& force_length() const { return force_length_; }
-  /// Force-velocity: 0 at -1, 1 at rest, the eccentric maximum at 1, straight beyond.
-  [[nodiscard]] const BezierCurve& force_velocity() const { return force_velocity_; }
-  /// Passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`, straight
+  /// Returns the force-velocity curve: 0 at -1, 1 at rest, the eccentric maximum at 1, straight
   /// beyond.
+  [[nodiscard]] const BezierCurve& force_velocity() const { return force_velocity_; }
+  /// Returns the passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`,
+  /// straight beyond.
   [[nodiscard]] const BezierCurve& passive() const { return passive_; }
-  /// Tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default): 0 when
-  /// slack, toe to 2/3, straight through (1, 1).
+  /// Returns the tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default):
+  /// 0 when slack, toe to 2/3, straight through (1, 1).
   [[nodiscard]] const BezierCurve& tendon() const { return tendon_; }
 
  private:

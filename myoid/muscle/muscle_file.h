@@ -10,7 +10,7 @@
 
 namespace myoid::muscle {
 
-/// One muscle as a muscle.toml describes it; see docs/guide/muscle.md.
+/// One muscle by its muscle.toml; see docs/guide/muscle.md.
 struct MuscleFile {
   std::string name;
   muscle::MusculotendonParameters<double> parameters;
@@ -19,8 +19,8 @@ struct MuscleFile {
   muscle::ActivationDynamics<double> activation;
 };
 
-/// Reads it strictly: unknown keys, wrong types and numbers that make no muscle are ReadError with
-/// the line; numbers that contradict each other InvalidInput.
+/// Reads a muscle strictly. Throws ReadError with the line for unknown keys, wrong types and
+/// impossible numbers, and InvalidInput for contradictory numbers.
 [[nodiscard]] MuscleFile read_muscle_file(const std::filesystem::path& path);
 [[nodiscard]] MuscleFile parse_muscle_file(std::string_view text,
                                            const std::filesystem::path& path);

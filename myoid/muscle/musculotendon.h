@@ -10,11 +10,11 @@ namespace myoid::muscle {
 
 /// Cosine of the greatest pennation.
 inline constexpr double kLeastPennationCosine = 0.1;
-/// In the undamped equilibrium, the least value of a f_l.
+/// Least value of a f_l in the undamped equilibrium.
 inline constexpr double kLeastStrength = 0.01;
 
-/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and what
-/// follows from them, immutable. `T` is double, or ceres::Jet for exact derivatives by states,
+/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and
+/// derived quantities, immutable. `T` is double, or ceres::Jet for exact derivatives by states,
 /// inputs and parameters: lift the parameters with `lifted`, seed them, and build a
 /// Musculotendon<Jet>.
 ///
@@ -27,10 +27,10 @@ inline constexpr double kLeastStrength = 0.01;
 ///   rigid:        l_t = l_t0, F_t = F_m cos(alpha). A tendon does not push: where B_m v would make
 ///                 F_m negative, the damper gives way to F_m = 0.
 ///
-/// Below its shortest length (a hundredth of l0, or cos(alpha) = 0.1) the fiber is held by a stiff
-/// spring, and its line of pull keeps its angle. With zero damping the equilibrium needs a f_l f_v
-/// to be invertible: the velocity law goes on as its tangents (below -v_max, above 95 % of the
-/// plateau) and a f_l is at least `kLeastStrength`. docs/theory/muscle.md derives all this.
+/// Below its shortest length (a hundredth of l0, or cos(alpha) = 0.1) a stiff spring holds the
+/// fiber, and its line of pull keeps its angle. With zero damping the equilibrium needs an
+/// invertible a f_l f_v: the velocity law then continues as its tangents (below -v_max, above 95 %
+/// of the plateau) and a f_l is at least `kLeastStrength`. docs/theory/muscle.md derives all this.
 template <typename T = double>
 class Musculotendon {
  public:
@@ -69,7 +69,7 @@ struct MusculotendonInput {
   T velocity_mps{};
 };
 
-/// The states; a mode ignores those it does not have.
+/// The states; a mode ignores the states that it does not have.
 template <typename T = double>
 struct MusculotendonState {
   T fiber_length_m{};
@@ -115,11 +115,11 @@ template <typename T>
                                                           const MusculotendonInput<T>& input,
                                                           const MusculotendonState<T>& state);
 
-/// A state in which the unit is steady under a constant input: the tendon's length does not change,
-/// so that v = dl_mt/dt cos(alpha), and F_t = F_m cos(alpha) to round-off. Of several, a stable
-/// one: where the tendon's pull falls faster with l_m than the fiber's. With a slack tendon the
-/// fiber lies at the length that leaves it just slack. T = Jet: with the derivatives of the
-/// solution.
+/// Returns a state in which the unit is steady under a constant input: the tendon's length does not
+/// change, so v = dl_mt/dt cos(alpha), and F_t = F_m cos(alpha) to round-off. If there are several,
+/// the state is a stable one, in which the tendon's pull falls faster with l_m than the fiber's.
+/// With a slack tendon the fiber has the length that leaves the tendon just slack. T = Jet: with
+/// the derivatives of the solution.
 template <typename T>
 [[nodiscard]] MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
                                                       const MusculotendonInput<T>& input);

@@ -13,8 +13,8 @@ namespace musculotendon_detail {
 /// Stiffness [F_max / l0] of the spring at the shortest length.
 inline constexpr double kLimitStiffness = 100;
 
-/// The curves of a unit. Without damping its equilibrium needs an invertible velocity law: tangents
-/// below -v_max and above 95 % of the plateau, where Thelen's law has it already.
+/// Returns the curves of a unit. Without damping its equilibrium needs an invertible velocity law:
+/// tangents below -v_max and above 95 % of the plateau, which Thelen's law has already.
 template <typename T>
 NormalizedCurves<T> unit_curves(const MusculotendonParameters<T>& p,
                                 const MusculotendonLaws& laws,
@@ -26,7 +26,7 @@ NormalizedCurves<T> unit_curves(const MusculotendonParameters<T>& p,
   return {laws, shape};
 }
 
-/// The parameters as plain numbers, which `validate` sees.
+/// Returns the parameters as plain numbers, for `validate`.
 template <typename T>
 MusculotendonParameters<double> plain_parameters(const MusculotendonParameters<T>& p) {
   MusculotendonParameters<double> numbers;
@@ -67,7 +67,7 @@ T squeeze(const Musculotendon<T>& unit, const T& l) {
   return (l - unit.shortest_fiber_m()) / unit.parameters().hill.optimal_fiber_length_m;
 }
 
-/// Energy of the passive force and of the spring at the shortest length [J].
+/// Returns the energy of the passive force and of the spring at the shortest length [J].
 template <typename T>
 T passive_energy_j(const Musculotendon<T>& unit, const T& l) {
   const HillParameters<T>& hill = unit.parameters().hill;
@@ -83,7 +83,7 @@ template <typename T>
 struct Instant {
   T length_m{};
   Reach<T> reach{};
-  T strain{};                                               ///< Of the tendon.
+  T strain{};                                               ///< Strain of the tendon.
   CurvePoint<T> length{}, velocity{}, passive{}, tendon{};  ///< The first by l_m / l0.
   T strength{};                                             ///< a f_l
   T speed{};                                                ///< v / v_max
@@ -91,7 +91,7 @@ struct Instant {
   bool floored = false;
 };
 
-/// The forces that the fiber's length decides. The optimum is longer at low activation.
+/// Returns the forces that depend on the fiber's length. The optimum is longer at low activation.
 template <typename T>
 void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, Instant<T>& now) {
   const MusculotendonParameters<T>& p = unit.parameters();
@@ -111,11 +111,11 @@ void contract(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, 
   }
 }
 
-/// The part of an instant to compute: what an integrator needs, or all of it.
+/// The part of an instant to compute: the rates for an integrator, or all quantities.
 enum class Depth { rate, all };
 
-/// The equilibrium's velocity, with its derivatives: one Newton step in T from the solution in
-/// numbers, whose residual in T carries them (implicit function theorem).
+/// Returns the equilibrium's velocity with its derivatives: one Newton step in T from the solution
+/// in numbers, whose residual in T carries the derivatives (implicit function theorem).
 template <typename T>
 void solve_speed(const Musculotendon<T>& unit,
                  const T& activation,
@@ -137,7 +137,7 @@ void solve_speed(const Musculotendon<T>& unit,
   }
 }
 
-/// The fiber whose projection on the tendon is `along`, at least the shortest.
+/// Returns the fiber whose projection on the tendon is `along`, at least the shortest.
 template <typename T>
 T fiber_length(const Musculotendon<T>& unit, const T& along) {
   using std::sqrt;
@@ -172,7 +172,7 @@ Instant<T> rigid_instant(const Musculotendon<T>& unit, const MusculotendonInput<
   return now;
 }
 
-/// Tendon and fiber at a fiber length, but for the velocity.
+/// Returns tendon and fiber at a fiber length, without the velocity.
 template <typename T>
 Instant<T> stretched(const Musculotendon<T>& unit,
                      const MusculotendonInput<T>& input,
@@ -204,7 +204,7 @@ Instant<T> instant(const Musculotendon<T>& unit,
   return now;
 }
 
-/// A fiber of length l that moves with the path, while the tendon keeps its length.
+/// Returns a fiber of length l that moves with the path, while the tendon keeps its length.
 template <typename T>
 Instant<T> steady_instant(const Musculotendon<T>& unit,
                           const MusculotendonInput<T>& input,
@@ -216,7 +216,7 @@ Instant<T> steady_instant(const Musculotendon<T>& unit,
   return now;
 }
 
-/// (F_t / cos(alpha) - F_m) / F_max.
+/// Returns (F_t / cos(alpha) - F_m) / F_max.
 template <typename T>
 T imbalance(const Musculotendon<T>& unit, const Instant<T>& now) {
   return now.tendon.value / now.reach.cosine - now.strength * now.velocity.value -

@@ -34,9 +34,9 @@ struct MusculotendonLaws {
   TendonLaw tendon = TendonLaw::linear;
 };
 
-/// The numbers of one musculotendon unit. The laws read those they need: De Groote's and Millard's
-/// length and velocity curves take only l0, v_max and F_max of `hill`; Thelen's A_f is V_sh, his
-/// F_len V_ml, his gamma (l_sh / l0)^2, and P follows from A_f and F_len.
+/// The numbers of one musculotendon unit. Each law reads only some of them: De Groote's and
+/// Millard's length and velocity curves take only l0, v_max and F_max of `hill`; Thelen's A_f is
+/// V_sh, his F_len V_ml, his gamma (l_sh / l0)^2, and P follows from A_f and F_len.
 template <typename T = double>
 struct MusculotendonParameters {
   HillParameters<T> hill;
@@ -73,7 +73,7 @@ void visit_parameters(Parameters& p, F&& f) {
 }
 inline constexpr int kMusculotendonParameterCount = 15;
 
-/// The same numbers in another scalar, without derivatives: seed them afterwards.
+/// Returns the numbers in another scalar, without derivatives: seed them afterwards.
 template <typename T>
 [[nodiscard]] MusculotendonParameters<T> lifted(const MusculotendonParameters<double>& p) {
   MusculotendonParameters<T> result;
@@ -94,21 +94,21 @@ template <typename T>
   return 1060.0 * max_isometric_force_n / 0.5e6 * optimal_fiber_length_m;
 }
 
-/// The laws of the source paper: Gaussian, hyperbolas, linear tendon, no passive force; and the
-/// sets of the three publications.
+/// Returns the laws of the source paper (Gaussian, hyperbolas, linear tendon, no passive force) and
+/// the sets of the three publications.
 [[nodiscard]] MusculotendonLaws paper_laws(TendonMode mode = TendonMode::mass);
 [[nodiscard]] MusculotendonLaws thelen_laws(TendonMode mode = TendonMode::equilibrium);
 [[nodiscard]] MusculotendonLaws de_groote_laws(TendonMode mode = TendonMode::equilibrium);
 [[nodiscard]] MusculotendonLaws millard_laws(TendonMode mode = TendonMode::equilibrium);
 
-/// The Hill parameters, and for the rest the values in the publication of these laws: tendon strain
+/// Returns the Hill parameters with the published values of these laws for the rest: tendon strain
 /// 0.033 (linear), 0.04 (Thelen), 0.049 (De Groote, Millard); passive strain 0.6 and shape 5
 /// (Thelen) or 4; damping 0.1; the mass of `muscle_mass_kg`; no pennation, no shift of the optimum.
 [[nodiscard]] MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill,
                                                                  const MusculotendonLaws& laws);
 
-/// Throws InvalidInput, naming the field, its value and what these laws need, unless a
-/// musculotendon unit can be made of the numbers.
+/// Throws InvalidInput with the field, its value and the laws' requirement, unless the numbers make
+/// a musculotendon unit.
 void validate(const MusculotendonParameters<double>& parameters, const MusculotendonLaws& laws);
 
 }  // namespace myoid::muscle

@@ -8,19 +8,19 @@
 
 namespace myoid::muscle {
 
-/// The numbers that shape the normalized curves; each law reads those it needs.
+/// The numbers that shape the normalized curves; each law reads only some of them.
 template <typename T = double>
 struct CurveShape {
   T relative_width{};              ///< l_sh / l0 of the Gaussian.
-  VelocityHyperbola<T> hyperbola;  ///< Of the velocity laws `hill` and `thelen`.
-  T passive_strain{};              ///< Of the exponential passive laws.
+  VelocityHyperbola<T> hyperbola;  ///< For the velocity laws `hill` and `thelen`.
+  T passive_strain{};              ///< For the exponential passive laws.
   T passive_shape{};
   T tendon_strain{};  ///< e0, at F_max.
   MillardShape millard;
 };
 
-/// The shape that the parameters give under these laws. Thelen's hyperbolas follow from A_f and
-/// F_len.
+/// Returns the shape that the parameters give under these laws. Thelen's hyperbolas follow from A_f
+/// and F_len.
 template <typename T>
 [[nodiscard]] CurveShape<T> curve_shape(const MusculotendonParameters<T>& p,
                                         const MusculotendonLaws& laws,
@@ -55,7 +55,7 @@ class NormalizedCurves {
   [[nodiscard]] const MusculotendonLaws& laws() const { return laws_; }
   [[nodiscard]] const VelocityHyperbola<T>& hyperbola() const { return hyperbola_; }
 
-  /// f_l at the fiber length l.
+  /// Returns f_l at the fiber length l.
   [[nodiscard]] CurvePoint<T> length(const T& l) const {
     switch (laws_.length) {
       case LengthLaw::gaussian: {
@@ -71,7 +71,7 @@ class NormalizedCurves {
     return {};
   }
 
-  /// f_v at the velocity v. Thelen's law is slower at low activation.
+  /// Returns f_v at the velocity v. Thelen's law is slower at low activation.
   [[nodiscard]] CurvePoint<T> velocity(const T& activation, const T& v) const {
     switch (laws_.velocity) {
       case VelocityLaw::hill:
@@ -90,7 +90,7 @@ class NormalizedCurves {
     return {};
   }
 
-  /// The velocity at which strength f_v + damping v = force.
+  /// Returns the velocity at which strength f_v + damping v = force.
   [[nodiscard]] double solve_velocity(double activation,
                                       double strength,
                                       double damping,
@@ -111,7 +111,7 @@ class NormalizedCurves {
     return 0.0;
   }
 
-  /// Passive force of the fiber at the length l.
+  /// Returns the passive force of the fiber at the length l.
   [[nodiscard]] CurvePoint<T> passive(const T& l) const {
     switch (laws_.passive) {
       case PassiveLaw::none:
@@ -125,7 +125,7 @@ class NormalizedCurves {
     }
     return {T(0.0), 0.0};
   }
-  /// The integral of `passive`: the energy over F_max l0.
+  /// Returns the integral of `passive`: the energy over F_max l0.
   [[nodiscard]] T passive_energy(const T& l) const {
     switch (laws_.passive) {
       case PassiveLaw::none:
@@ -140,7 +140,7 @@ class NormalizedCurves {
     return T(0.0);
   }
 
-  /// Tendon force at a strain; zero when slack.
+  /// Returns the tendon force at a strain; zero when slack.
   [[nodiscard]] CurvePoint<T> tendon(const T& strain) const {
     if (value_of(strain) <= 0.0) return {T(0.0), 0.0};
     switch (laws_.tendon) {
@@ -158,7 +158,7 @@ class NormalizedCurves {
     }
     return {};
   }
-  /// The integral of `tendon`: the energy over F_max l_t0.
+  /// Returns the integral of `tendon`: the energy over F_max l_t0.
   [[nodiscard]] T tendon_energy(const T& strain) const {
     if (value_of(strain) <= 0.0) return T(0.0);
     switch (laws_.tendon) {

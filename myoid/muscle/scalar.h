@@ -4,16 +4,16 @@
 
 namespace myoid::muscle {
 
-/// The plain number in a scalar: itself, or the value part of an automatic-differentiation type
-/// that keeps it in a member `a` (ceres::Jet), to any depth.
+/// Returns the plain number in a scalar: the scalar itself, or the value part of an
+/// automatic-differentiation type with a member `a` (ceres::Jet), to any depth.
 inline double value_of(double x) { return x; }
 template <typename T>
 requires requires(const T& x) { x.a; }
 double value_of(const T& x) { return value_of(x.a); }
 
-/// y(x) to first order about the plain number in x: the value y with the derivatives of x times the
-/// slope dy/dx. Exact for first derivatives; how a law that is known as numbers enters a
-/// derivative.
+/// Returns y(x) to first order about the plain number in x: the value y with the derivatives of x
+/// times the slope dy/dx. Exact for first derivatives. A law that is known only as numbers enters a
+/// derivative by this function.
 template <typename T>
 [[nodiscard]] T linearized(const T& x, double y, double slope) {
   if constexpr (std::is_same_v<T, double>) {

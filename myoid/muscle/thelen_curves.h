@@ -11,9 +11,9 @@ namespace myoid::muscle {
 /// velocities in v_max, forces in F_max. The active force-length curve is `force_length` with l_sh
 /// = l0 sqrt(gamma).
 
-/// The force-velocity hyperbolas of A_f (`concentric_shape`) and F_len (`plateau`): P = (F_len - 1)
-/// / (2 + 2 / A_f), tangent beyond the share `extrapolation` of F_len. Their velocity is v / (v_max
-/// (1/4 + 3/4 a)): `thelen_speed`.
+/// Returns the force-velocity hyperbolas of A_f (`concentric_shape`) and F_len (`plateau`): P =
+/// (F_len - 1) / (2 + 2 / A_f), tangent beyond the share `extrapolation` of F_len. Their velocity
+/// is v / (v_max (1/4 + 3/4 a)): `thelen_speed`.
 template <typename T>
 [[nodiscard]] VelocityHyperbola<T> thelen_hyperbola(const T& concentric_shape,
                                                     const T& plateau,
@@ -23,7 +23,7 @@ template <typename T>
           (T(extrapolation) * plateau - T(1.0)) / (plateau - T(1.0)), false};
 }
 
-/// Share of v_max that a muscle of this activation reaches: 1/4 + 3/4 a.
+/// Returns the share of v_max that a muscle of this activation reaches: 1/4 + 3/4 a.
 template <typename T>
 [[nodiscard]] T thelen_speed(const T& activation) {
   return T(0.25) + T(0.75) * activation;
@@ -45,7 +45,7 @@ class ThelenPassive {
     const T e = exp(rate_ * (l - T(1.0)));
     return {(e - T(1.0)) * scale_, value_of(e * scale_ * rate_)};
   }
-  /// The integral from l = 1: the energy over F_max l0.
+  /// Returns the integral from l = 1: the energy over F_max l0.
   [[nodiscard]] T energy(const T& l) const {
     using std::exp;
     if (value_of(l) <= 1.0) return T(0.0);
@@ -57,13 +57,13 @@ class ThelenPassive {
   T rate_, scale_;
 };
 
-/// End of the toe of Thelen's tendon as a share of e0, 99 e^3 / (166 e^3 - 67) = 0.6091, and
-/// the slope beyond, 0.67 / (1 - that) [F_max / e0]: the exact values of his rounded 0.609
-/// and 1.712, which make the curve pass 1 at e0 with a continuous slope.
+/// End of the toe of Thelen's tendon as a share of e0, 99 e^3 / (166 e^3 - 67) = 0.6091. The slope
+/// beyond is 0.67 / (1 - share) [F_max / e0]. Both are the exact values of his rounded 0.609 and
+/// 1.712, with which the curve passes 1 at e0 with a continuous slope.
 inline const double kThelenToeShare = 99.0 * std::exp(3.0) / (166.0 * std::exp(3.0) - 67.0);
 
-/// Tendon multiplier over the strain: exponential to the toe's end (0.33), then a line through 1 at
-/// e0. 0 when slack.
+/// Returns the tendon multiplier over the strain: exponential to the toe's end (0.33), then a line
+/// through 1 at e0. 0 when slack.
 template <typename T>
 [[nodiscard]] CurvePoint<T> thelen_tendon(const T& strain, const T& strain_at_max_force) {
   using std::exp;
@@ -80,7 +80,7 @@ template <typename T>
           slope / value_of(strain_at_max_force)};
 }
 
-/// Its integral, the energy over F_max l_t0.
+/// Returns the integral of thelen_tendon, the energy over F_max l_t0.
 template <typename T>
 [[nodiscard]] T thelen_tendon_energy(const T& strain, const T& strain_at_max_force) {
   using std::exp;

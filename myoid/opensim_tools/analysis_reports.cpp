@@ -128,7 +128,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
 /// One output of the model that a report asks for.
 struct Output {
   enum class Kind { length, speed, marker, body } kind = Kind::length;
-  int index = 0;  ///< Of the marker, of the body, or in paths_of.
+  int index = 0;  ///< index of the marker, of the body, or in paths_of
   std::string path;
 };
 
@@ -184,7 +184,7 @@ std::string text_of(const OutputTable& table, const Eigen::VectorXd& times) {
   return text;
 }
 
-/// The outputs that an analysis asks for: numbers, then points. Others are noted.
+/// Returns the outputs that an analysis asks for: numbers, then points. Others are noted.
 std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node) {
   std::array<OutputTable, 2> tables{OutputTable{.components = 1}, OutputTable{.components = 3}};
   std::string missing;

@@ -30,37 +30,37 @@ struct AnalysisRun {
   std::optional<Eigen::MatrixXd> accelerations{};
 };
 
-/// The analysis's name in the set-up, else its class.
+/// Returns the analysis's name in the set-up, else its class.
 [[nodiscard]] std::string analysis_name(pugi::xml_node node);
 
-/// True if an analysis of this class can be run.
+/// Returns true if an analysis of this class can be run.
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
-/// Their names, for messages.
+/// Returns the names of the known analyses, for messages.
 [[nodiscard]] std::string known_analyses();
 /// Runs an analysis and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
 void run_analysis(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
-/// The model without muscles. Every coordinate that takes a value of its own has an actuator of
-/// unit strength with the coordinate's name instead.
+/// Returns the model without muscles. Every independent coordinate has an actuator of unit strength
+/// with the coordinate's name.
 [[nodiscard]] model::BodyModel with_coordinate_actuators(model::BodyModel model);
-/// Actuation: forces, speeds and powers of muscles (by their states) and actuators.
+/// Reports Actuation: forces, speeds and powers of muscles (by their states) and actuators.
 void report_actuation(AnalysisRun& run, pugi::xml_node node);
-/// InverseDynamics: the forces that make the motion's accelerations, with the least sum of squares
-/// of force by strength. They act without bounds, in muscles and actuators or in an actuator on
-/// every coordinate.
+/// Reports InverseDynamics: the forces that cause the motion's accelerations, with the least sum of
+/// squares of force by strength. The forces are unbounded and act in muscles and actuators or in an
+/// actuator on every coordinate.
 void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node);
-/// ForceReporter: muscles by their states, passive forces and external loads.
+/// Reports ForceReporter: muscles by their states, passive forces and external loads.
 void report_forces(AnalysisRun& run, pugi::xml_node node);
-/// JointReaction: forces and moments that the joints carry.
+/// Reports JointReaction: forces and moments that the joints carry.
 void report_reactions(AnalysisRun& run, pugi::xml_node node);
-/// BodyKinematics: centers of mass, orientations, their velocities and accelerations.
+/// Reports BodyKinematics: centers of mass, orientations, their velocities and accelerations.
 void report_bodies(AnalysisRun& run, pugi::xml_node node);
-/// PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another
-/// body.
+/// Reports PointKinematics: place, velocity and acceleration of a point of a body, in the axes of
+/// another body.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
-/// The forces of all actuators at the motion's rows: tendon forces of muscles by their states,
-/// forces of other actuators by the set-up's controls, else 0. Computed once for the rows.
+/// Returns the forces of all actuators at the motion's rows: tendon forces of muscles by their
+/// states, forces of other actuators by the set-up's controls, else 0. Computed once for the rows.
 [[nodiscard]] const TimeSeries& forces_of_states(AnalysisRun& run);
 /// Accelerations that these forces, passive forces, gravity and external loads make at the motion's
 /// rows, as OpenSim's analyses report them: rows x coordinates [rad/s^2, m/s^2]. Null, with a note,
@@ -73,7 +73,7 @@ void write_forces(AnalysisRun& run,
                   const std::filesystem::path& path,
                   const TimeSeries& actuators);
 
-/// <results>/<tool>_<name>, announced as a file of the run.
+/// Returns <results>/<tool>_<name>, announced as a file of the run.
 [[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);
 /// Claims <results>/<tool>_<name> and writes the table there with the run's decimals.
 void write_result(AnalysisRun& run,

@@ -24,7 +24,7 @@ namespace {
 
 using model::OsimXml;
 
-/// One frame: every marker at its mean over the range.
+/// Returns one frame with every marker at its mean over the range.
 recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
                                  std::pair<double, double> range,
                                  double most_movement_m,
@@ -54,7 +54,7 @@ recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
   return mean;
 }
 
-/// The pose as a row of OpenSim's states.
+/// Returns the pose as a row of OpenSim's states.
 TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, double time_s) {
   std::vector<Channel> channels;
   std::vector<double> values;
@@ -150,10 +150,10 @@ void note_undetermined(const model::BodyModel& model,
                      : fmt::format("; markers placed by that: {}", join_names(placed))));
 }
 
-/// The barrier at which OpenSim's search for the static pose stops. For a model with constraints
-/// (locked coordinates count) OpenSim uses an interior-point method with a tolerance of 1e-4 (of J,
-/// m^2), which a barrier of tolerance / 11 meets (Waechter and Biegler 2006, eq. 7: error below ten
-/// barriers).
+/// Returns the barrier at which OpenSim's search for the static pose stops. For a model with
+/// constraints (locked coordinates count) OpenSim uses an interior-point method with a tolerance of
+/// 1e-4 (of J, m^2), which a barrier of tolerance / 11 meets (Waechter and Biegler 2006, eq. 7:
+/// error below ten barriers).
 double barrier_of(const model::BodyModel& model) {
   const bool constrained =
       !model.couplers.empty() || !model.constraints.empty() ||

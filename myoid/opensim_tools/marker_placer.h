@@ -24,12 +24,12 @@ struct Scaling {
 [[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling,
                                                  const std::filesystem::path& file);
 
-/// First and last frame of a time range; all frames for a range without a frame.
+/// Returns the first and last frame of a time range; all frames for a range without a frame.
 [[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(
     const recording::MarkerSeries& markers, std::pair<double, double> range);
 
-/// The step <MarkerPlacer>: fits the model to the mean of the static trial, moves all markers but
-/// the fixed ones to their measured places, and writes the pose and the marker set if asked for.
+/// Runs <MarkerPlacer>: fits the model to the mean of the static trial, moves all markers but the
+/// fixed ones to their measured places, and writes the pose and the marker set if asked for.
 void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor);
 
 }  // namespace myoid

@@ -14,7 +14,7 @@ namespace {
 using model::OsimXml;
 using simulation::Signal;
 
-/// The name of the actuator of a column or control.
+/// Returns the name of the actuator of a column or control.
 std::string actuator_of(std::string name) {
   if (name.ends_with(".excitation")) name.resize(name.size() - 11);
   if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);

@@ -12,7 +12,7 @@ namespace myoid {
 /// Controls over time by the names of muscles and actuators.
 using ModelControls = std::map<std::string, simulation::Signal>;
 
-/// The controls that the set-up's <ControllerSet> gives: of ControlSetControllers with a
+/// Reads the controls in the set-up's <ControllerSet>: of ControlSetControllers with a
 /// <controls_file>, a table (.sto) or a <ControlSet> (.xml) of ControlLinear and ControlConstant.
 /// "<name>.excitation" and ".../<name>" control the muscle of that name. An enabled controller of
 /// another class is named in `notes` or, without `notes`, throws ReadError. A file without controls

@@ -30,7 +30,7 @@ class MovingBodies {
     return acceleration_.alpha_GB[body];
   }
   [[nodiscard]] PointMotion point(std::size_t body, const Vec3& p_B) const;
-  /// The mass center of a body.
+  /// Returns the mass center of a body.
   [[nodiscard]] PointMotion center(std::size_t body) const;
   [[nodiscard]] PointMotion center_of_all() const;
 

@@ -20,7 +20,7 @@
 namespace myoid {
 namespace {
 
-/// The coordinate that a column of a motion or states file holds, or -1.
+/// Returns the coordinate that a column of a motion or states file holds, or -1.
 int coordinate_of(const model::BodyModel& model, const std::string& column) {
   constexpr std::string_view kValue = "/value";
   std::string_view path = column;

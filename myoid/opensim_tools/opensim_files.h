@@ -24,17 +24,18 @@ enum class MissingCoordinate { default_value, zero };
                                           MissingCoordinate missing,
                                           std::vector<std::string>& notes);
 
-/// Row of the greatest time that is not after `time_s`; the first row if all times are later.
+/// Returns the row of the greatest time that is not after `time_s`; the first row if all times are
+/// later.
 [[nodiscard]] Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s);
 
 /// Rows `first` to `last`, both included.
 [[nodiscard]] TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last);
 
-/// The series of coordinates with only its angles in radians. OpenSim gives coupled coordinates no
-/// unit in files and never converts them to degrees.
+/// Returns the series of coordinates with only its angles in radians. OpenSim gives coupled
+/// coordinates no unit in files and never converts them to degrees.
 [[nodiscard]] TimeSeries with_file_units(const model::BodyModel& model, const TimeSeries& q);
 
-/// A table of which `fill(i, row)` writes row i, one for each time.
+/// Returns a table whose row i `fill(i, row)` writes, one for each time.
 template <typename Fill>
 [[nodiscard]] TimeSeries frame_table(const Eigen::VectorXd& times_s,
                                      std::vector<Channel> channels,

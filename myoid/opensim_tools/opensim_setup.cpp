@@ -19,7 +19,7 @@ constexpr const char* kTools[] = {
     "InverseKinematicsTool", "IKTool",    "InverseDynamicsTool",     "AnalyzeTool", "ScaleTool",
     "ForwardTool",           "IMUPlacer", "IMUInverseKinematicsTool"};
 
-/// Advice on the tools that serve in place of a tool that is not run.
+/// Returns advice on tools that replace a tool that is not run.
 std::string in_place_of(std::string_view tool) {
   if (tool == "CMCTool") {
     return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
@@ -32,8 +32,8 @@ std::string in_place_of(std::string_view tool) {
   return "";
 }
 
-/// True if the name of a result is from another computer: a Windows path, or an absolute path whose
-/// folder does not exist.
+/// Returns true if the name of a result is from another computer: a Windows path, or an absolute
+/// path whose folder does not exist.
 bool is_elsewhere(const std::filesystem::path& folder, const std::string& name) {
   if (name.empty()) return false;
   if (recording::is_windows_path(name)) return true;
@@ -44,7 +44,7 @@ bool is_elsewhere(const std::filesystem::path& folder, const std::string& name) 
          (above == above.root_path() || !std::filesystem::exists(above, ignored));
 }
 
-/// The elements that may name files: the tool, its stages, and the objects of its sets.
+/// Returns the elements that may name files: the tool, its stages, and the objects of its sets.
 std::vector<pugi::xml_node> holders_of(pugi::xml_node tool) {
   std::vector<pugi::xml_node> holders{tool};
   for (const auto stage : tool.children()) {

@@ -24,36 +24,37 @@ class OpensimSetup {
 
   [[nodiscard]] const model::OsimXml& xml() const { return xml_; }
   [[nodiscard]] pugi::xml_node tool() const { return tool_; }
-  /// "InverseKinematicsTool" (also for an IKTool of version 1), "AnalyzeTool", ...
+  /// Returns "InverseKinematicsTool" (also for an IKTool of version 1), "AnalyzeTool", ...
   [[nodiscard]] std::string kind() const {
     const std::string name = tool_.name();
     return name == "IKTool" ? "InverseKinematicsTool" : name;
   }
   [[nodiscard]] std::string name() const { return model::OsimXml::name_of(tool_); }
 
-  /// True if an element names a file.
+  /// Returns true if an element names a file.
   [[nodiscard]] bool names_file(pugi::xml_node object, const char* name) const;
-  /// The input file that an element names; empty for an element that is absent, empty or
+  /// Returns the input file that an element names; empty for an element that is absent, empty or
   /// "Unassigned". Throws ReadError, naming the element, if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> file(pugi::xml_node object,
                                                           const char* name) const;
-  /// The same; throws ReadError if the element names none.
+  /// Returns the input file as `file` does; throws ReadError if the element names none.
   [[nodiscard]] std::filesystem::path required_file(pugi::xml_node object, const char* name) const;
-  /// The file of that name, read on behalf of `node`. Throws ReadError if there is none.
+  /// Returns the file of that name, read on behalf of `node`. Throws ReadError if there is none.
   [[nodiscard]] std::filesystem::path file_named(pugi::xml_node node, std::string_view name) const;
   /// Files that a list in an element names.
   [[nodiscard]] std::vector<std::filesystem::path> files(pugi::xml_node object,
                                                          const char* name) const;
-  /// The output file that an element names; empty as for `file`.
+  /// Returns the output file that an element names; empty as for `file`.
   [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object,
                                                                  const char* name) const;
-  /// The existing files that the set-up names as inputs.
+  /// Returns the existing files that the set-up names as inputs.
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
-  /// Folder of the results; the set-up's own if no folder, or one of another computer, is given.
+  /// Returns the folder of the results; the set-up's own if no folder, or one of another computer,
+  /// is given.
   [[nodiscard]] std::filesystem::path results_folder() const;
-  /// A sentence for each file whose place differs from the name in the set-up.
+  /// Returns a sentence for each file whose place differs from the name in the set-up.
   [[nodiscard]] std::vector<std::string> notes() const;
-  /// Two numbers; (-inf, inf) where absent. Throws ReadError unless they increase.
+  /// Returns two numbers; (-inf, inf) if they are absent. Throws ReadError unless they increase.
   [[nodiscard]] std::pair<double, double> time_range(pugi::xml_node object, const char* name) const;
   /// Throws ReadError if the times asked for and the times recorded in `file` are disjoint; adds a
   /// note if the former reach more than a sample beyond the latter.
@@ -63,9 +64,9 @@ class OpensimSetup {
                    std::vector<std::string>& notes) const;
 
  private:
-  /// The file that replaces the file of an element; empty without a replacement.
+  /// Returns the file that replaces the file of an element; empty without a replacement.
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
-  /// The text of an element that names a file; empty for "Unassigned".
+  /// Returns the text of an element that names a file; empty for "Unassigned".
   [[nodiscard]] std::string named_in(pugi::xml_node object, const char* name) const;
   /// Elements that name a file to be read, in the tool or, when scaling, in one of its stages.
   [[nodiscard]] std::vector<std::pair<pugi::xml_node, const char*>> input_elements() const;
@@ -77,9 +78,9 @@ class OpensimSetup {
   SetupFiles instead_;
 };
 
-/// The model that a set-up names, with the actuators of its <force_set_files>; without the forces
-/// named in `excluded` ("all", "muscles", "actuators", or names; case does not matter). Unsupported
-/// parts of the model are added to `notes`.
+/// Returns the model that a set-up names, with the actuators of its <force_set_files>; without the
+/// forces named in `excluded` ("all", "muscles", "actuators", or names; case does not matter).
+/// Unsupported parts of the model are added to `notes`.
 [[nodiscard]] model::BodyModel setup_model(const OpensimSetup& setup,
                                            const model::Compat& compat,
                                            const std::vector<std::string>& excluded,

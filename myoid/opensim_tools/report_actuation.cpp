@@ -13,7 +13,7 @@
 namespace myoid {
 namespace {
 
-/// The model with muscles and actuators of unbounded control.
+/// Returns the model with muscles and actuators of unbounded control.
 model::BodyModel without_bounds(model::BodyModel model) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto free = [](auto& force) {
@@ -36,8 +36,8 @@ model::BodyModel with_coordinate_actuators_only(model::BodyModel model) {
   return with_coordinate_actuators(std::move(model));
 }
 
-/// "<coordinate>_moment", "_force", or the name alone where the coordinate is neither an angle nor
-/// a length.
+/// Returns "<coordinate>_moment", "_force", or the name alone where the coordinate is neither an
+/// angle nor a length.
 std::string column_name(const model::Coordinate& coordinate) {
   return coordinate.motion == model::MotionType::coupled
              ? coordinate.name

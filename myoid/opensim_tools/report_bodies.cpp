@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kWholeBody = "center_of_mass";
 
-/// Body-fixed X-Y-Z angles [rad].
+/// Returns the body-fixed X-Y-Z angles [rad].
 Vec3 angles_of(const Mat3& R) {
   return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
           std::atan2(-R(0, 1), R(0, 0))};
@@ -71,7 +71,8 @@ std::vector<Channel> body_channels(const model::BodyModel& model, const Wanted& 
 /// Tables of positions, velocities and accelerations, frames x columns.
 using MotionTables = std::array<Eigen::MatrixXd, 3>;
 
-/// With `local` the velocities and accelerations of bodies are expressed in their own axes.
+/// Computes the tables. With `local` the velocities and accelerations of bodies are in their own
+/// axes.
 MotionTables body_tables(MovingBodies& moving,
                          const Wanted& wanted,
                          bool local,

@@ -16,7 +16,7 @@
 namespace myoid {
 namespace {
 
-/// The force of a coordinate's limits at every time.
+/// Returns the force of a coordinate's limits at every time.
 Eigen::VectorXd limit_forces(const AnalysisRun& run, const model::CoordinateLimitForce& limit) {
   Eigen::VectorXd values(run.motion.sample_count());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -43,8 +43,8 @@ void add_passive(const AnalysisRun& run,
   }
 }
 
-/// Force, point and torque of an external force: force and torque in ground, the point in the body
-/// that the force acts on, as OpenSim reports them. Zero where the force has none.
+/// Returns the force, point and torque of an external force: force and torque in ground, the point
+/// in the body that the force acts on, as OpenSim reports them. Zero where the force has none.
 Eigen::Matrix<double, 1, 9> load_row(const dynamics::ExternalForce& load,
                                      const MovingBodies& moving,
                                      double time_s) {
@@ -87,7 +87,7 @@ void add_loads(const std::vector<dynamics::ExternalForce>& loads,
   }
 }
 
-/// The table of OpenSim's force reporter.
+/// Returns the table of OpenSim's force reporter.
 TimeSeries force_table(const AnalysisRun& run,
                        const model::BodyModel& model,
                        const TimeSeries& forces) {

@@ -24,8 +24,8 @@ struct Asked {
   std::string label;
 };
 
-/// The frame that <express_in_frame> names: ground, the joint's child or parent body, any body, or
-/// an offset frame by its path.
+/// Returns the frame that <express_in_frame> names: ground, the joint's child or parent body, any
+/// body, or an offset frame by its path.
 std::pair<model::FixedFrame, std::string> frame_named(const AnalysisRun& run,
                                                       pugi::xml_node node,
                                                       const model::Joint& joint,
@@ -52,7 +52,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The entry for the k-th joint of a list with one entry for all or one each.
+/// Returns the entry for the k-th joint of a list with one entry for all or one each.
 std::string entry(const std::vector<std::string>& list, std::size_t k, const char* otherwise) {
   if (list.empty()) return otherwise;
   return k < list.size() ? list[k] : list[0];
@@ -105,7 +105,7 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   return asked;
 }
 
-/// The rows at other times, along the line between two rows; beyond the ends the outer row.
+/// Returns the rows at other times, along the line between two rows; beyond the ends the outer row.
 TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
   const Eigen::VectorXd& t = file.time_s();
   return frame_table(times, file.channels(), [&](Eigen::Index i, auto&& row) {
@@ -118,8 +118,8 @@ TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
   });
 }
 
-/// The actuators' forces at the motion's times: from the file or, where the file lacks an actuator,
-/// from the states of the muscles, with the other actuators at rest.
+/// Returns the actuators' forces at the motion's times: from the file or, where the file lacks an
+/// actuator, from the states of the muscles, with the other actuators at rest.
 TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
   auto& notes = run.result.notes;
   const Eigen::VectorXd& times = run.motion.q.time_s();
@@ -157,7 +157,8 @@ std::vector<Channel> reaction_channels(const std::vector<Asked>& asked) {
   return channels;
 }
 
-/// Force, moment and point of a joint's load on the child or the parent, in the frame asked for.
+/// Returns the force, moment and point of a joint's load on the child or the parent, in the frame
+/// asked for.
 Eigen::Matrix<double, 1, 9> reaction(const model::BodyModel& model,
                                      const forces::JointLoads& frame,
                                      const Asked& asked) {

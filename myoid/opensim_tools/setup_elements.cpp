@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// The elements of OpenSim's classes, older versions included: names with blanks between.
+/// Returns the elements of OpenSim's classes, older versions included: names with blanks between.
 std::map<std::string, std::string, std::less<>> make_elements() {
   const std::string set = "objects groups defaults";
   const std::string folders = "results_directory input_directory ";
@@ -94,7 +94,7 @@ std::map<std::string, std::string, std::less<>> make_elements() {
   };
 }
 
-/// The elements of a class by name; null for a class without an entry.
+/// Returns the elements of a class by name; null for a class without an entry.
 const Names* elements_of(std::string_view class_name) {
   static const auto kElements = [] {
     std::map<std::string, Names, std::less<>> elements;

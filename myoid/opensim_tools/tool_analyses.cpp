@@ -102,8 +102,8 @@ TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>
   return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
 }
 
-/// The rows that an analysis records: the first, every row whose number the interval divides, the
-/// last.
+/// Returns the rows that an analysis records: the first, every row whose number the interval
+/// divides, the last.
 std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = first; i <= last; ++i) {

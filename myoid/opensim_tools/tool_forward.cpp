@@ -21,7 +21,8 @@ using simulation::Signal;
 using simulation::SimulationModel;
 using simulation::SimulationStart;
 
-/// The row of a states file that the motion starts from: posture, speeds, activations and fibers.
+/// Returns the row of a states file that the motion starts from: posture, speeds, activations and
+/// fibers.
 SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double& start_s) {
   auto& notes = run.result.notes;
   const auto path = run.setup.file(run.setup.tool(), "states_file");
@@ -53,8 +54,8 @@ SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double&
   return start;
 }
 
-/// The control of every muscle, clamped to its bounds as in OpenSim; a muscle without control
-/// rests.
+/// Returns the control of every muscle, clamped to its bounds as in OpenSim; a muscle without
+/// control rests.
 std::vector<Signal> excitations_of(const SimulationModel& model,
                                    const ModelControls& controls,
                                    std::vector<std::string>& notes) {
@@ -78,7 +79,7 @@ std::vector<Signal> excitations_of(const SimulationModel& model,
   return result;
 }
 
-/// The sum of controls times strengths, at the nodes of all.
+/// Returns the sum of controls times strengths, at the nodes of all.
 Signal sum_of(const std::vector<std::pair<double, const Signal*>>& parts) {
   std::set<double> times;
   for (const auto& [strength, signal] : parts)

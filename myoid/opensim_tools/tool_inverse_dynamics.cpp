@@ -68,8 +68,8 @@ void note_angular_speeds(const model::BodyModel& model,
       tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
 }
 
-/// The file of the result. As in OpenSim a folder in its name does not count, and the default
-/// extension is .sto.
+/// Returns the file of the result. As in OpenSim a folder in its name does not count, and the
+/// default extension is .sto.
 std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::string>& notes) {
   const std::string text = setup.xml().word(setup.tool(), "output_gen_force_file");
   std::filesystem::path name = recording::last_part(text.empty() ? "inverse_dynamics" : text);

@@ -31,8 +31,8 @@ recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, 
   return markers;
 }
 
-/// The element with the task: the tool itself or, in documents before 20300, the first trial of its
-/// set.
+/// Returns the element with the task: the tool itself or, in documents before 20300, the first
+/// trial of its set.
 pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& notes) {
   pugi::xml_node trial = setup.tool();
   int count = 0;

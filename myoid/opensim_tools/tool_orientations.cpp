@@ -26,7 +26,7 @@ namespace {
 
 using recording::OrientationSeries;
 
-/// The rotation about the axes of ground, x first: R = Rz Ry Rx.
+/// Returns the rotation about the axes of ground, x first: R = Rz Ry Rx.
 Mat3 sensor_to_ground(const OpensimSetup& setup) {
   const Vec3 angles = setup.xml().vec3(setup.tool(), "sensor_to_opensim_rotations", Vec3::Zero());
   return (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
@@ -35,7 +35,7 @@ Mat3 sensor_to_ground(const OpensimSetup& setup) {
       .toRotationMatrix();
 }
 
-/// The series in other axes of the laboratory: R_new = R R_old.
+/// Returns the series in other axes of the laboratory: R_new = R R_old.
 OrientationSeries turned(OrientationSeries series, const Mat3& R) {
   const Eigen::Quaterniond turn(R);
   for (Eigen::Index i = 0; i < series.quaternions.rows(); ++i) {
@@ -70,7 +70,7 @@ OrientationSeries orientations_of(const std::filesystem::path& path,
   return series;
 }
 
-/// The axis that a name like "-z" means.
+/// Returns the axis that a name like "-z" means.
 Vec3 heading_axis(const OpensimSetup& setup, const std::string& name) {
   const char letter = name.empty() ? ' ' : static_cast<char>(name.back() | 0x20);
   if (letter < 'x' || letter > 'z') {
@@ -81,8 +81,8 @@ Vec3 heading_axis(const OpensimSetup& setup, const std::string& name) {
   return (name.front() == '-' ? -1.0 : 1.0) * Vec3::Unit(letter - 'x');
 }
 
-/// The rotation about the vertical by the angle between the heading of the base sensor and the x
-/// axis of the body that stands on ground, as in OpenSim.
+/// Returns the rotation about the vertical by the angle between the heading of the base sensor and
+/// the x axis of the body that stands on ground, as in OpenSim.
 Mat3 heading_correction(const OpensimSetup& setup,
                         const model::BodyModel& model,
                         const model::BodyState& state,
@@ -172,8 +172,9 @@ Sensors sensors_of(const OpensimSetup& setup,
   return sensors;
 }
 
-/// The file that OpenSim's tool writes: the name of <output_motion_file> (or "ik_<orientations>")
-/// in the results folder or, without one, in the folder of <output_motion_file>.
+/// Returns the file that OpenSim's tool writes: the name of <output_motion_file> (or
+/// "ik_<orientations>") in the results folder or, without one, in the folder of
+/// <output_motion_file>.
 std::filesystem::path motion_file(const OpensimSetup& setup,
                                   const std::filesystem::path& orientations) {
   const auto wanted = setup.output_file(setup.tool(), "output_motion_file");

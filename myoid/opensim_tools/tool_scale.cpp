@@ -29,7 +29,8 @@ model::BodyState default_state(const model::BodyModel& model) {
   return state;
 }
 
-/// Factor of one measurement: the mean over its pairs of measured distance / model distance.
+/// Returns the factor of one measurement: the mean over its pairs of measured distance / model
+/// distance.
 std::optional<double> measured_factor(const Scaling& scaling,
                                       pugi::xml_node measurement,
                                       const model::BodyModel& model,

@@ -13,7 +13,7 @@
 namespace myoid {
 namespace {
 
-/// The controls as piecewise linear functions of time, as forward simulations read them.
+/// Returns the controls as piecewise linear functions of time, as forward simulations read them.
 std::string controls_text(const TimeSeries& controls) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40500\">\n"

@@ -34,11 +34,11 @@ class OsimEditor {
   /// names.
   void add_markers(const std::filesystem::path& file);
   void remove_markers(const std::function<bool(const std::string&)>& is_removed);
-  /// True if marker placement does not move the marker.
+  /// Returns true if marker placement does not move the marker.
   [[nodiscard]] bool is_fixed(const std::string& marker) const;
-  /// A new place in the frame of the marker's body.
+  /// Moves the marker to a place in the frame of its body.
   void move_marker(const std::string& marker, const Vec3& p_B);
-  /// The model's markers as a separate document.
+  /// Returns the model's markers as a separate document.
   [[nodiscard]] std::string marker_set_text() const;
 
   /// Scales mass centers, frames, points of paths, wrap objects, markers and meshes of the bodies,

@@ -196,7 +196,7 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
   return true;
 }
 
-/// The law of a ligament; empty, with a note in `unsupported`, without a resting length.
+/// Returns the law of a ligament; empty, with a note in `unsupported`, without a resting length.
 std::optional<Ligament> read_ligament(OsimReading& r, pugi::xml_node node) {
   Ligament ligament{read_path(r, node), r.xml.number(node, "resting_length", 0.0),
                     r.xml.number(node, "pcsa_force", 0.0), default_ligament_curve()};

@@ -22,7 +22,7 @@ double six_digits(double value) {
   return std::strtod(text, nullptr);
 }
 
-/// True for a frame fixed to a body, or a point fixed in one.
+/// Returns true for a frame fixed to a body, or a point fixed in one.
 bool is_frame(pugi::xml_node node) {
   for (const char* kind : {"PhysicalOffsetFrame", "StationDefinedFrame", "Station"})
     if (std::strcmp(node.name(), kind) == 0) return true;

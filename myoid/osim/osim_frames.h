@@ -32,7 +32,7 @@ struct OsimReading {
     std::string owner;  ///< Path of the component that holds the frame.
   };
   using Frames = std::map<std::string, OffsetFrame, std::less<>>;
-  Frames frames;  ///< By absolute path.
+  Frames frames;  ///< Frames by absolute path.
 
   /// Indices in the model by name; the first of several with one name.
   std::map<std::string, int, std::less<>> body_places, coordinate_places;
@@ -50,7 +50,8 @@ struct OsimReading {
   /// Finds a coordinate by its name or by a path that ends in joint/coordinate.
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
-  /// True for documents that have joints inside bodies and names of bodies instead of sockets.
+  /// Returns true for documents that have joints inside bodies and names of bodies instead of
+  /// sockets.
   [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
 };
 
@@ -60,13 +61,13 @@ struct ModelComponent {
   std::string path;
 };
 
-/// The objects of a set ("/bodyset/x"), then the components outside of the set whose class name
-/// ends in `kind`: in <components> ("/x") or <ComponentSet> of the model.
+/// Returns the objects of a set ("/bodyset/x"), then the components outside of the set whose class
+/// name ends in `kind`: in <components> ("/x") or <ComponentSet> of the model.
 [[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model,
                                                         const char* set,
                                                         std::string_view kind);
 
-/// The element that holds bodies and joints: the model or, before 10700, an engine in it.
+/// Returns the element that holds bodies and joints: the model or, before 10700, an engine in it.
 [[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
 
 /// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
@@ -74,7 +75,7 @@ struct ModelComponent {
 /// bodies of one name.
 void read_bodies(OsimReading& reading, pugi::xml_node model);
 
-/// The target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
+/// Returns the target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
 /// <connectors>, where betas of version 4 use the old name), or the text of <old_name>; empty if
 /// there is none.
 [[nodiscard]] std::string socket(const OsimReading& reading,
@@ -82,60 +83,61 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                  std::string_view name,
                                  const char* old_name = nullptr);
 
-/// The frame that a name means from the component `owner`: a body, ground or an offset frame, also
-/// in a chain. Throws ReadError for an unknown frame and for a frame that refers to itself.
+/// Returns the frame that a name means from the component `owner`: a body, ground or an offset
+/// frame, also in a chain. Throws ReadError for an unknown frame and for a frame that refers to
+/// itself.
 [[nodiscard]] FixedFrame resolve_frame(const OsimReading& reading,
                                        pugi::xml_node where,
                                        std::string name,
                                        const std::string& owner);
 
-/// The frame that a socket of `node` names; throws ReadError if the socket is missing.
+/// Returns the frame that a socket of `node` names; throws ReadError if the socket is missing.
 [[nodiscard]] FixedFrame frame_of(const OsimReading& reading,
                                   pugi::xml_node node,
                                   std::string_view socket_name,
                                   const std::string& owner,
                                   const char* old_name = "body");
 
-/// The frame of that path or name in a model file: a body, an offset frame of the model, of a body
-/// or of a joint, or a frame that OpenSim gives to the joints of old documents
+/// Returns the frame of that path or name in a model file: a body, an offset frame of the model, of
+/// a body or of a joint, or a frame that OpenSim gives to the joints of old documents
 /// ("/jointset/knee_r/tibia_r_offset"). Empty for an unknown name.
 [[nodiscard]] std::optional<FixedFrame> find_frame(const BodyModel& model,
                                                    const std::filesystem::path& path,
                                                    const std::string& name);
 
-/// The pose that two properties of an element give: location (translation) and body-fixed X-Y-Z
-/// angles. `rounded` rounds to six digits, as OpenSim's conversion of old documents.
+/// Returns the pose that two properties of an element give: location (translation) and body-fixed
+/// X-Y-Z angles. `rounded` rounds to six digits, as OpenSim's conversion of old documents.
 [[nodiscard]] Pose pose_of(const OsimReading& reading,
                            pugi::xml_node node,
                            const char* location,
                            const char* orientation,
                            bool rounded = false);
 
-/// The coordinate that a socket or a text names; of several with one name the coordinate of the
-/// first joint. Throws ReadError for an unknown name.
+/// Returns the coordinate that a socket or a text names; of several with one name the coordinate of
+/// the first joint. Throws ReadError for an unknown name.
 [[nodiscard]] int coordinate_named(const OsimReading& reading,
                                    pugi::xml_node where,
                                    std::string_view text);
 
-/// True if a force or constraint is switched on, in any version: `positive` (appliesForce,
+/// Returns true if a force or constraint is switched on, in any version: `positive` (appliesForce,
 /// isEnforced) or the old isDisabled.
 [[nodiscard]] bool is_enabled(const OsimReading& reading,
                               pugi::xml_node node,
                               const char* positive);
 
-/// A number above 0; throws ReadError for another.
+/// Returns a number above 0; throws ReadError for another.
 [[nodiscard]] double positive(const OsimReading& reading,
                               pugi::xml_node node,
                               const char* name,
                               double otherwise);
 
-/// The unit vector that a property gives; throws ReadError if it is no direction.
+/// Returns the unit vector that a property gives; throws ReadError if it is no direction.
 [[nodiscard]] Vec3 direction_of(const OsimReading& reading,
                                 pugi::xml_node node,
                                 const char* name,
                                 const Vec3& otherwise);
 
-/// The two frames that a bushing or a constraint joins, in the new and in the old spelling.
+/// Returns the two frames that a bushing or a constraint joins, in the new and in the old spelling.
 [[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading,
                                                            pugi::xml_node node);
 

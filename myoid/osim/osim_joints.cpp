@@ -262,7 +262,7 @@ void set_motion_types(OsimReading& r, const Joint& joint) {
   }
 }
 
-/// Ellipsoid joint, massless body, hinge: the two joints that make a ScapulothoracicJoint.
+/// Adds ellipsoid joint, massless body, hinge: the two joints of a ScapulothoracicJoint.
 void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   need_coordinates(r, node, joint, 4);
   const Vec3 radii = r.xml.vec3(node, "thoracic_ellipsoid_radii_x_y_z", Vec3::Ones());
@@ -386,8 +386,8 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
   r.model.joints.push_back(std::move(joint));
 }
 
-/// Finds the names that coordinates of several joints share; OpenSim tells these coordinates apart
-/// by their paths.
+/// Finds the names that coordinates of several joints share; OpenSim distinguishes these
+/// coordinates by their paths.
 void find_shared_names(OsimReading& r, pugi::xml_node model) {
   std::map<std::string, std::vector<std::string>> joints_of;
   const auto add = [&](pugi::xml_node joint) {

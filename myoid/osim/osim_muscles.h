@@ -8,7 +8,7 @@ namespace myoid::model {
 /// use them.
 void note_classes(BodyModel& model);
 
-/// True if an element is a muscle of a kind that is read.
+/// Returns true if an element is a muscle of a kind that is read.
 [[nodiscard]] bool is_muscle(pugi::xml_node node);
 [[nodiscard]] Muscle read_muscle(OsimReading& reading, pugi::xml_node node);
 

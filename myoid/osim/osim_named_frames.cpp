@@ -18,7 +18,7 @@ std::string numbers(const Vec3& v) {
   return format_number(v.x()) + " " + format_number(v.y()) + " " + format_number(v.z());
 }
 
-/// The first element of this class and name below `node`.
+/// Returns the first element of this class and name below `node`.
 pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::string& name) {
   return node.find_node([&](const pugi::xml_node& n) {
     return std::string_view(n.name()) == kind && OsimXml::name_of(n) == name;

@@ -30,8 +30,8 @@ struct SensorPlace {
   Vec3 angles_rad = Vec3::Zero();  ///< Axes of the sensor in the carrier: body-fixed X-Y-Z angles.
 };
 
-/// The text of a model of the newest form (osim_updater.h) with these frames. An offset frame of
-/// the sensor's name gets the new orientation; otherwise a frame with an IMU is added.
+/// Returns the text of a model of the newest form (osim_updater.h) with these frames. An offset
+/// frame of the sensor's name gets the new orientation; otherwise a frame with an IMU is added.
 [[nodiscard]] std::string with_sensors(std::string_view text,
                                        const std::filesystem::path& path,
                                        const std::vector<SensorPlace>& sensors);

@@ -15,8 +15,8 @@ void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 /// Throws ReadError without a path.
 [[nodiscard]] MusclePath read_path(OsimReading& reading, pugi::xml_node node);
 
-/// The class of an unsupported path (Scholz2015GeometryPath, a FunctionBasedPath of functions other
-/// than polynomials); empty for a supported path.
+/// Returns the class of an unsupported path (Scholz2015GeometryPath, a FunctionBasedPath of
+/// functions other than polynomials); empty for a supported path.
 [[nodiscard]] std::string foreign_path(const OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::model

@@ -44,7 +44,7 @@ bool is_path_point(std::string_view kind) {
   return kind == "PathPoint" || kind == "ConditionalPathPoint" || kind == "MovingPathPoint";
 }
 
-/// <isDisabled> is the negation of the newer switch.
+/// Replaces <isDisabled> by the newer switch, its negation.
 void update_switch(pugi::xml_node object) {
   const auto old = object.child("isDisabled");
   if (!old) return;
@@ -59,7 +59,7 @@ void update_switch(pugi::xml_node object) {
   object.remove_child(old);
 }
 
-/// <connectors> of 4.0's betas and <socket_x_connectee_name> become <socket_x>.
+/// Turns <connectors> of 4.0's betas and <socket_x_connectee_name> into <socket_x>.
 void update_sockets(pugi::xml_node object) {
   if (const auto connectors = object.child("connectors")) {
     for (const auto connector : connectors.children()) {
@@ -78,7 +78,7 @@ void update_sockets(pugi::xml_node object) {
   }
 }
 
-/// A property with a body's name becomes a socket with its path.
+/// Turns a property with a body's name into a socket with the body's path.
 void body_to_socket(pugi::xml_node object, const char* property, const char* socket) {
   auto old = object.child(property);
   if (!old) return;
@@ -110,7 +110,7 @@ void update_path_point(pugi::xml_node point) {
   }
 }
 
-/// Two bodies with a place and turn in each become two frames of the object's own.
+/// Turns two bodies, each with a place and a rotation, into two frames of the object.
 void bodies_to_frames(pugi::xml_node object) {
   if (!object.child("body_1") && !object.child("body_2")) return;
   auto frames = object.child("frames");
@@ -143,7 +143,7 @@ void update_constraint(pugi::xml_node object) {
   }
 }
 
-/// Before 10900 muscles held their points themselves.
+/// Updates muscles of documents before 10900, which hold their points themselves.
 void update_path_holder(pugi::xml_node force) {
   if (!force.child("GeometryPath") && force.child("PathPointSet")) {
     auto path = force.append_child("GeometryPath");

@@ -14,11 +14,11 @@ void update_parts(pugi::xml_node document, int version);
 
 /// Renames a child unless a child of the new name exists.
 void rename_child(pugi::xml_node object, const char* old_name, const char* new_name);
-/// The path of a body by its name in an old document: "/bodyset/x", "/ground".
+/// Returns the path of a body by its name in an old document: "/bodyset/x", "/ground".
 [[nodiscard]] std::string body_path(std::string_view name);
 /// Appends <name>text</name>.
 pugi::xml_node append_text(pugi::xml_node parent, const char* name, const std::string& text);
-/// Text of a child without blanks around it; empty without such a child.
+/// Returns the text of a child without blanks around it; empty without such a child.
 [[nodiscard]] std::string child_text(pugi::xml_node parent, const char* name);
 /// Appends <PhysicalOffsetFrame name=...> with its parent and place.
 pugi::xml_node append_frame(pugi::xml_node parent,

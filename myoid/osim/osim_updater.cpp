@@ -49,7 +49,7 @@ class ModelUpdate {
  private:
   [[nodiscard]] bool is_old() const { return source_.version() < 30500; }
 
-  /// Before 10700 an engine held the bodies.
+  /// Takes the bodies out of the engine that holds them in documents before 10700.
   void leave_engine() {
     const auto holder = model_.child("DynamicsEngine");
     const auto engine = OsimXml::first_element(holder);
@@ -84,7 +84,7 @@ class ModelUpdate {
     return recording::equal_ignoring_case(text, "true") || text == "1";
   }
 
-  /// Until 30514 a joint could be declared to move its parent on its child.
+  /// Reverses a joint that moves its parent on its child, which documents until 30514 allow.
   static void reverse_sockets(pugi::xml_node joint) {
     auto parent = joint.child("socket_parent_frame"), child = joint.child("socket_child_frame");
     if (is_true(child_text(joint, "reverse")) && parent && child) {
@@ -117,7 +117,7 @@ class ModelUpdate {
     body.remove_child(holder);
   }
 
-  /// `child`: the body that held the joint.
+  /// Updates a joint. `child`: the body that holds the joint.
   void update_joint(pugi::xml_node joint, std::string child) {
     const std::string name = OsimXml::name_of(joint);
     const auto take = [&](const char* property) {
@@ -174,7 +174,8 @@ class ModelUpdate {
     return name.find('/') == std::string::npos ? body_path(name) : name;
   }
 
-  /// Before 10901 a set held the axes, rotations and translations in any order.
+  /// Updates the axes of documents before 10901, whose sets hold rotations and translations in any
+  /// order.
   static void update_axes(pugi::xml_node joint) {
     const auto set = joint.child("TransformAxisSet");
     if (!set) return;
@@ -208,7 +209,7 @@ class ModelUpdate {
     joint.remove_child(set);
   }
 
-  /// A body that no joint carried could move freely.
+  /// Adds free joints for bodies without a joint, which move freely in old documents.
   void free_bodies(const std::vector<pugi::xml_node>& bodies) {
     for (const auto joint : joints_.children()) {
       for (const auto frame : joint.child("frames").children()) {

@@ -20,7 +20,7 @@ using recording::trim;
 
 namespace {
 
-/// True if there is neither text nor an element inside, nor a file that holds them.
+/// Returns true if there is neither text nor an element inside, nor a file that holds them.
 bool is_empty(pugi::xml_node node) {
   return trim(node.text().get()).empty() && !OsimXml::first_element(node) &&
          !node.attribute("file");

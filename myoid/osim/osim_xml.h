@@ -26,20 +26,21 @@ class OsimXml {
   OsimXml(std::string_view text, std::filesystem::path path, Root root = Root::opensim_document);
 
   [[nodiscard]] pugi::xml_node root() const { return root_; }
-  /// Document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a version.
+  /// Returns the document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a
+  /// version.
   [[nodiscard]] int version() const { return version_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   [[noreturn]] void fail(pugi::xml_node where, const std::string& message) const;
-  /// The line of an element in the text, counted from 1.
+  /// Returns the line of an element in the text, counted from 1.
   [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
 
   /// Prototypes of classes: the children of a <defaults> element.
   void set_prototypes(pugi::xml_node defaults);
-  /// The child of this name, or the prototype's; a child without content counts as absent.
+  /// Returns the child of this name, or the prototype's; a child without content counts as absent.
   [[nodiscard]] pugi::xml_node property(pugi::xml_node object, const char* name) const;
 
-  /// Text of an element without blanks around it; empty without such an element.
+  /// Returns the text of an element without blanks around it; empty without such an element.
   [[nodiscard]] std::string word(pugi::xml_node object, const char* name) const;
   [[nodiscard]] static std::string text_of(pugi::xml_node node);
   [[nodiscard]] static std::string name_of(pugi::xml_node node) {
@@ -50,17 +51,18 @@ class OsimXml {
   [[nodiscard]] double number(pugi::xml_node object, const char* name, double otherwise) const;
   [[nodiscard]] Vec3 vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const;
   [[nodiscard]] bool flag(pugi::xml_node object, const char* name, bool otherwise) const;
-  /// A sentence for each empty element for which `number`, `vec3` or `flag` took the default.
+  /// Returns a sentence for each empty element for which `number`, `vec3` or `flag` took the
+  /// default.
   [[nodiscard]] const std::vector<std::string>& defaulted() const { return defaulted_; }
 
-  /// The elements in the <objects> of a set: <XSet><objects>...</objects></XSet>.
+  /// Returns the elements in the <objects> of a set: <XSet><objects>...</objects></XSet>.
   [[nodiscard]] static std::vector<pugi::xml_node> objects(pugi::xml_node set);
-  /// First child that is an element (not a comment), other than those named.
+  /// Returns the first child that is an element (not a comment) with another name than these.
   [[nodiscard]] static pugi::xml_node first_element(pugi::xml_node parent,
                                                     std::initializer_list<const char*> except = {});
 
  private:
-  /// As `property`; an empty element is listed in `defaulted`.
+  /// Returns the element as `property` does; lists an empty element in `defaulted`.
   [[nodiscard]] pugi::xml_node value_of(pugi::xml_node object, const char* name) const;
 
   std::string_view text_;

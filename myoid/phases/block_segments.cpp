@@ -10,16 +10,16 @@
 namespace myoid {
 namespace {
 
-/// Robust spread of one block about its neighbors, at least one percent: people vary more than
-/// that.
+/// Returns the robust spread of one block about its neighbors, at least one percent, because people
+/// vary more.
 double block_sd(const Eigen::VectorXd& x) {
   std::vector<double> differences;
   for (Eigen::Index i = 1; i < x.size(); ++i) differences.push_back(std::abs(x[i] - x[i - 1]));
   return std::max(0.01, 1.4826 * math::median(differences) / std::sqrt(2.0));
 }
 
-/// The frequencies of the blocks. A block without a channel of sufficient amplitude takes the value
-/// of its neighbor. Empty if more than a fifth of the blocks have no such channel.
+/// Returns the frequencies of the blocks. A block without a channel of sufficient amplitude takes
+/// the value of its neighbor. Empty if more than a fifth of the blocks have no such channel.
 Eigen::VectorXd known_frequencies(const std::vector<Block>& blocks) {
   const auto n = static_cast<Eigen::Index>(blocks.size());
   Eigen::VectorXd frequency(n);
@@ -37,8 +37,8 @@ Eigen::VectorXd known_frequencies(const std::vector<Block>& blocks) {
   return 5 * unknown > n ? Eigen::VectorXd() : frequency;
 }
 
-/// Standard deviation of one block: of its own, or of means times the root of their size, whichever
-/// is larger.
+/// Returns the standard deviation of one block: the block's own, or that of means times the root of
+/// their size, whichever is larger.
 double noise_sd(const Eigen::VectorXd& x) {
   const double long_run = long_run_sd(x, kBatch);
   return std::isfinite(long_run) ? std::max(block_sd(x), long_run) : block_sd(x);

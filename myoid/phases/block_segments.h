@@ -27,7 +27,7 @@ struct Segment {
 struct BlockChanges {
   Eigen::VectorXd gain, frequency;  ///< Per block; the latter empty if not known.
   std::vector<Segment> segments;
-  double gain_sd = 0.0, frequency_sd = 0.0;  ///< Of one block.
+  double gain_sd = 0.0, frequency_sd = 0.0;  ///< For one block.
 };
 
 /// Searches both together for the blocks at which their means change. The noise of one block is its
@@ -35,7 +35,8 @@ struct BlockChanges {
 /// than a fifth of the frequencies are not known, none is used. Gains must be finite.
 [[nodiscard]] BlockChanges find_changes(const std::vector<Block>& blocks);
 
-/// True if two stretches are the same movement: speed and torque differ by less than `factor`.
+/// Returns true if two stretches are of one movement: speed and torque differ by less than
+/// `factor`.
 [[nodiscard]] bool alike(
     double speed, double torque, double other_speed, double other_torque, double factor);
 

@@ -39,7 +39,7 @@ std::vector<Phase> isometric_phases(const PhaseSignals& signals,
   return phases;
 }
 
-/// The phases of movement within one stretch.
+/// Returns the phases of movement within one stretch.
 std::vector<Phase> phases_within(const TrialStretch& stretch,
                                  const std::vector<Block>& blocks,
                                  const std::vector<BlockPhase>& moving,
@@ -70,7 +70,7 @@ void require_valid(const PhaseSignals& s) {
   }
 }
 
-/// Rest, or an isometric contraction with its parts.
+/// Returns rest, or an isometric contraction with its parts.
 std::vector<Phase> still_phases(const PhaseSignals& signals,
                                 const TrialStretch& stretch,
                                 const PhaseOptions& options,

@@ -33,8 +33,8 @@ double mean_log_frequency(const TimeSeries& median, double begin_s, double end_s
   return count > 0 ? sum / count : kNan;
 }
 
-/// The samples of a stretch at which the joint turns from falling to rising, with at least a third
-/// of its usual rate before and after.
+/// Returns the samples of a stretch at which the joint turns from falling to rising, with at least
+/// a third of its usual rate before and after.
 std::vector<Eigen::Index> lower_turns(const PhaseSignals& s, const TrialStretch& stretch) {
   const Eigen::Index n = stretch.last - stretch.first;
   const double least =

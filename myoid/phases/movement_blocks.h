@@ -40,9 +40,9 @@ struct Block {
                                            const TrialStretch& stretch,
                                            const PhaseOptions& options);
 
-/// Standard deviation of the mean of `batch` neighbors times sqrt(batch): of one block as it counts
-/// in a mean, correlation between neighbors reckoned in (batch means). By second differences of the
-/// batch means, so that a level or a slope has no part in it. NaN with fewer than 4 batches.
+/// Returns the standard deviation of the mean of `batch` neighbors times sqrt(batch): one block's
+/// contribution to a mean, with the correlation between neighbors (batch means). Second differences
+/// of the batch means exclude a level or a slope. NaN with fewer than 4 batches.
 [[nodiscard]] double long_run_sd(const Eigen::VectorXd& x, Eigen::Index batch);
 
 }  // namespace myoid

@@ -68,8 +68,8 @@ Phase judge(const Segment& segment,
   return phase;
 }
 
-/// The first block after a warm-up; 0: there is none. In a warm-up the EMG or the effort of the
-/// muscles against each other differs from the later one at the same torque. Blocks of another
+/// Returns the first block after a warm-up; 0: there is none. In a warm-up the EMG or the effort of
+/// the muscles against each other differs from the later one at the same torque. Blocks of another
 /// movement, such as a start from rest, do not count.
 std::size_t end_of_warm_up(const std::vector<Block>& blocks,
                            const Segment& regular,
@@ -95,8 +95,8 @@ std::size_t end_of_warm_up(const std::vector<Block>& blocks,
   return comparable[static_cast<std::size_t>(found->blocks)];
 }
 
-/// The first block of fatigue. Where a line through both segments fits torque per EMG better than a
-/// step, fatigue begins where the line is `gain_change` below the regular phase.
+/// Returns the first block of fatigue. Where a line through both segments fits torque per EMG
+/// better than a step, fatigue begins where the line is `gain_change` below the regular phase.
 std::size_t begin_of_fatigue(const Segment& before,
                              const Segment& after,
                              const Segment& regular,

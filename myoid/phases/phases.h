@@ -17,7 +17,7 @@ enum class PhaseKind {
   rest,       ///< Neither movement nor activation.
   isometric,  ///< Activation without movement.
   warm_up,    ///< Before the regular phase, and the muscles give another torque for their EMG.
-  fatigued,   ///< After it: less torque for the same EMG, and the EMG's frequency has fallen.
+  fatigued,   ///< Follows `regular`: less torque for equal EMG, and a lower frequency of the EMG.
   changed,    ///< Differs from the regular phase, and neither warm-up nor fatigue explains it.
   regular,    ///< The parameters are identified from it.
 };
@@ -32,7 +32,7 @@ struct Phase {
   std::optional<double> gain;
   /// Median frequency of the EMG, as a fraction of the regular phase's.
   std::optional<double> frequency;
-  bool excluded = false;  ///< By the study's rule; set by the caller.
+  bool excluded = false;  ///< Excluded by the study's rule; set by the caller.
   std::string reason;     ///< A sentence.
 };
 
@@ -57,11 +57,11 @@ struct TrialPhases {
 struct PhaseOptions {
   double still_radps = 0.1;  ///< Root mean square of the rate over 1 s below which nothing moves.
   double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.
-  double shortest_s = 1.5;        ///< Of rest and isometric phases.
+  double shortest_s = 1.5;        ///< Shortest rest and isometric phase.
   double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
-  double gain_change = 0.10;      ///< Smaller changes of torque per EMG are none ...
-  double warm_up_change = 0.06;   ///< ... before the regular phase these: a change that fades is
-                                  ///< small on average, and leaving it out costs little.
+  double gain_change = 0.10;      ///< Least relevant change of torque per EMG.
+  double warm_up_change = 0.06;   ///< Least relevant change before the regular phase: a change that
+                                  ///< fades is small on average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
   double significance = 4.0;   ///< Standard errors by which a phase differs from the regular one.
   double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.

@@ -18,7 +18,7 @@ constexpr Eigen::Index kMostOrder = 8;
 /// Widens the critical value: Student's t ignores that the autoregression is estimated.
 constexpr double kCaution = 1.25;
 
-/// Powers 0..3 of the time, -1..1.
+/// Returns the powers 0..3 of the time, -1..1.
 Eigen::MatrixXd slow_columns(Eigen::Index n) {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, -1.0, 1.0);
   Eigen::MatrixXd columns(n, 4);

@@ -38,8 +38,8 @@ struct NoiseOverEnvelope {
 /// + W^2 N. A constant envelope is its own drive.
 struct Drive {
   Envelope envelope;  ///< The drive as an envelope.
-  Eigen::VectorXd
-      left;  ///< Power of the drive's error over N, at the frequencies of `EnvelopeError`.
+  /// Power of the drive's error over N, at the frequencies of `EnvelopeError`.
+  Eigen::VectorXd left;
 };
 [[nodiscard]] Drive drive_behind(const Envelope& recorded,
                                  double noise_sd,

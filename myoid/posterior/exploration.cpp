@@ -12,8 +12,8 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kLeastWeight = 0.02;  // least share of a mode's weight
-constexpr double kSameMode =
-    0.3;  // conditional standard deviations between equal modes, root mean square
+// Conditional standard deviations between equal modes, root mean square
+constexpr double kSameMode = 0.3;
 constexpr int kMostReferences = 4;
 constexpr Eigen::Index kApproximateDraws = 4000;
 constexpr int kOtherStarts = 1;

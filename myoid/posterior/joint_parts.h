@@ -34,8 +34,8 @@ class JointParts {
 
  private:
   Eigen::MatrixXd longest_arm_m_;  ///< joints x muscles
-  std::vector<Eigen::MatrixXd>
-      weights_;  ///< Per joint; column k gives the weights of muscle k's part.
+  /// Per joint; column k gives the weights of muscle k's part.
+  std::vector<Eigen::MatrixXd> weights_;
 };
 
 }  // namespace myoid::identification

@@ -17,9 +17,9 @@ struct Panel {
   Index groups, width;
 };
 
-/// l_j' C s of the levers l_j of `kJoints` joints. C is read once, in single precision: 80 muscles
-/// with 8 unknowns each take 0.8 MB, which a processor's own cache holds. Products and sums stay in
-/// registers. Every processor adds in the same order.
+/// Computes l_j' C s of the levers l_j of `kJoints` joints. C is read once, in single precision: 80
+/// muscles with 8 unknowns each take 0.8 MB, which fits a processor's own cache. Products and sums
+/// stay in registers. Every processor adds in the same order.
 template <int kJoints>
 [[gnu::always_inline]] inline void shared_of(
     const Panel& panel, const float* slopes, const float* levers, Index stride, double* shared) {

@@ -20,7 +20,8 @@ namespace myoid {
 class BandSpace {
  public:
   BandSpace() = default;
-  /// `variables`: the unknowns of each block of slopes, of the muscles first, then of the joints.
+  /// Builds the space. `variables`: the unknowns of each block of slopes, first the muscles', then
+  /// the joints'.
   BandSpace(const Eigen::MatrixXd& covariance,
             const std::vector<std::vector<Eigen::Index>>& variables,
             std::size_t joints);
@@ -31,9 +32,9 @@ class BandSpace {
 
   /// Computes the variances of the slopes and arms. `covariance` is that of the constructor.
   void compute(const Eigen::MatrixXd& covariance);
-  Eigen::VectorXd force_variance;   ///< By muscle.
-  Eigen::VectorXd torque_variance;  ///< By joint.
-  /// True if C is read block by block.
+  Eigen::VectorXd force_variance;   ///< One per muscle.
+  Eigen::VectorXd torque_variance;  ///< One per joint.
+  /// Returns true if C is read block by block.
   [[nodiscard]] bool by_block() const { return by_block_; }
 
  private:
@@ -50,9 +51,9 @@ class BandSpace {
   bool by_block_ = false;
   Eigen::VectorXf single_slopes_;  ///< `slopes_` and `levers_` in single precision.
   Eigen::MatrixXf single_levers_;
-  std::vector<double> diagonals_;  ///< Of each block: C of its own unknowns.
-  std::vector<float> panels_;      ///< Of each block: the rows of C below it, some side by side.
-  Eigen::VectorXd shared_;         ///< By joint.
+  std::vector<double> diagonals_;  ///< Per block: C of its own unknowns.
+  std::vector<float> panels_;      ///< Per block: the rows of C below it, some side by side.
+  Eigen::VectorXd shared_;         ///< One per joint.
   Eigen::MatrixXd by_unknown_;     ///< Unknowns x joints: t_j.
   Eigen::VectorXd moved_;          ///< C t_j.
 };

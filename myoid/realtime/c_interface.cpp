@@ -32,7 +32,7 @@ const char* name_of(const List& list, int index) {
                                               : nullptr;
 }
 
-/// Value and band of each number; NaN where nothing was computed.
+/// Writes value and band of each number; NaN where none was computed.
 void put(const Eigen::VectorXd& value,
          const Eigen::VectorXd& sd,
          bool done,

@@ -21,8 +21,8 @@ bool in_range(const kinematics::PathSurrogate& path, const Eigen::VectorXd& q) {
   return true;
 }
 
-/// Force of a muscle at the workspace's paths and activations, and its slopes by its chains and
-/// those of its channel.
+/// Computes the force of a muscle at the workspace's paths and activations, and its slopes by the
+/// muscle's and the channel's chains.
 void predict_muscle(const Predictor& p, std::size_t m, PredictorWorkspace& w) {
   const Predictor::Muscle& muscle = p.muscles[m];
   double length_m = 0.0, velocity_mps = 0.0;
@@ -40,7 +40,7 @@ void predict_muscle(const Predictor& p, std::size_t m, PredictorWorkspace& w) {
   w.force_n[static_cast<Eigen::Index>(m)] = t.force_n;
 }
 
-/// Torque of a joint, with the moment arms and the joint's own slopes for the bands.
+/// Computes the torque of a joint, with the moment arms and the joint's own slopes for the bands.
 void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
   using namespace identification;
   const Predictor::Joint& joint = p.joints[j];
@@ -55,7 +55,7 @@ void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
     w.bands.arms(row, column) = arm_m;
   }
   const double angle = w.q[joint.coordinate], speed = w.qdot[joint.coordinate];
-  // T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset; nobody accelerates here.
+  // T = sum r F - viscosity qdot - inertia qddot - stiffness q + offset, without the acceleration
   const JointValues by{-speed, 0.0, -angle, 1.0};
   for (std::size_t f = 0; f < by.size(); ++f) torque += by[f] * joint.values[f];
   w.torque_nm[column] = torque;
@@ -64,7 +64,7 @@ void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
     *slope++ = by[static_cast<std::size_t>(c.field)] * c.slope;
 }
 
-/// The unknowns of the chains of each muscle with its channel's, then of each joint.
+/// Returns the unknowns of the chains of each muscle with its channel's, then of each joint.
 BandSpace band_space(const Predictor& p) {
   std::vector<std::vector<Eigen::Index>> variables;
   const auto add = [&](const std::vector<Predictor::Chain>& chains) {

@@ -59,15 +59,15 @@ struct Predictor {
   std::vector<Channel> channels;
   std::vector<Joint> joints;
   std::vector<kinematics::PathSurrogate> paths;
-  Eigen::VectorXd default_q;   ///< Of all coordinates of the model.
-  Eigen::MatrixXd covariance;  ///< Of the unknowns of the fit.
+  Eigen::VectorXd default_q;   ///< Default values of all coordinates of the model.
+  Eigen::MatrixXd covariance;  ///< Covariance of the fit's unknowns.
   double torque_sd_nm = 0.0;  ///< Standard deviation of the torque that the fit leaves unexplained.
 };
 
 /// Space for `predict`, and its results; one per thread.
 struct PredictorWorkspace {
-  Eigen::VectorXd torque_nm, torque_sd_nm;  ///< By joint.
-  Eigen::VectorXd force_n, force_sd_n;      ///< By muscle: tension along the tendon.
+  Eigen::VectorXd torque_nm, torque_sd_nm;  ///< One per joint.
+  Eigen::VectorXd force_n, force_sd_n;      ///< One per muscle: tension along the tendon.
 
   /// A channel's envelope on its way through the lags.
   struct Following {
@@ -103,8 +103,8 @@ void follow(const Predictor& predictor,
             PredictorWorkspace& workspace,
             std::span<double> acting);
 
-/// Activation a = shape(g u^p) of a channel at its acting envelope u, before the muscle's share,
-/// with the derivatives by gain, shape and exponent.
+/// Returns the activation a = shape(g u^p) of a channel at its acting envelope u, before the
+/// muscle's share, with the derivatives by gain, shape and exponent.
 [[nodiscard]] identification::Activation activation_at(
     double envelope, const identification::ChannelValues& channel);
 

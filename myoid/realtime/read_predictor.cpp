@@ -43,7 +43,7 @@ struct Numbers {
   Predictor* predictor;
   std::vector<double> slope_ratio;  ///< By muscle; 0: the product is the parameter.
 
-  /// The number of an owner; null where the owner has none of this scope.
+  /// Returns the numbers of an owner; null if the owner has none of this scope.
   [[nodiscard]] std::vector<double*> of(const ParameterField& field, std::string_view owner) {
     std::vector<double*> found;
     const auto f = static_cast<std::size_t>(field.field);
@@ -87,7 +87,7 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
 
 using Chains = std::vector<Predictor::Chain>;
 
-/// The product of a muscle whose slope ratio S is the unknown:
+/// Adds the chains of the product of a muscle whose slope ratio S is the unknown:
 ///   P = (V_ml - 1) V_sh / (S (1 + V_sh)).
 void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
   const double product = m[kProduct];
@@ -101,7 +101,7 @@ void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
   std::erase_if(chains, [](const Predictor::Chain& c) { return c.field == kSlopeRatio; });
 }
 
-/// "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
+/// Adds the chains of a label "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
 void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
   const std::size_t point = label.rfind('.');
   if (point == std::string::npos)
@@ -155,7 +155,7 @@ void set_covariance(const json& method, Numbers& numbers) {
   p.torque_sd_nm = sd.is_number() ? sd.get<double>() : 0.0;
 }
 
-/// Delay and lags of every channel as the fit chose them.
+/// Sets delay and lags of every channel as in the fit.
 void set_lags(const json& method, Predictor& p) {
   const json& word = method.at("emg_lag");
   const std::string lag = word.is_string() ? word.get<std::string>() : "delay";
@@ -172,7 +172,7 @@ void set_lags(const json& method, Predictor& p) {
   }
 }
 
-/// Muscles, channels and joints with the values that the fit started from.
+/// Returns muscles, channels and joints with the values from which the fit started.
 Predictor start_of(const Study& study, const model::BodyModel& model) {
   Predictor p;
   for (const MuscleSetup& setup : muscle_setups(study, model)) {
@@ -197,7 +197,7 @@ Predictor start_of(const Study& study, const model::BodyModel& model) {
   return p;
 }
 
-/// The polynomials of the heads that the muscles are made of.
+/// Sets the polynomials of the muscles' heads.
 void set_paths(const Study& study, const model::BodyModel& model, Predictor& p) {
   const std::vector<kinematics::PathSurrogate> all =
       kinematics::fit_surrogates(model, {.length_tolerance_m = kLengthTolerance,

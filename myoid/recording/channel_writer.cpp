@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::string_view kInDegrees = "inDegrees=yes";
 
-/// True if a remark above a table says that angles are in degrees; the table itself is not read.
+/// Returns true if a remark above a table says that angles are in degrees; the table itself is not
+/// read.
 bool remarks_degrees(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

@@ -57,7 +57,7 @@ struct PlateLoad {
                                   const Vec3& from_m,
                                   const Vec3& along);
 
-/// True for a plate within 60 degrees of horizontal, on which a person stands.
+/// Returns true for a plate within 60 degrees of horizontal, on which a person stands.
 [[nodiscard]] bool is_floor(const PlateLoad& load, const Vec3& up_L);
 
 /// Finds the upward axis from the file alone. The evidence is POINT:Y_SCREEN, the normals of the

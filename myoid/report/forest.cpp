@@ -13,10 +13,10 @@
 namespace myoid::report {
 namespace {
 
-constexpr double kEnd = 4.0;  // of the scale, in standard deviations of the prior
+constexpr double kEnd = 4.0;  // end of the scale, in standard deviations of the prior
 constexpr double k95 = 1.96;
 
-/// The place of z in the drawing, in percent of its width.
+/// Returns the place of z in the drawing, in percent of its width.
 double percent(double z) { return 50.0 + 50.0 * std::clamp(z, -kEnd, kEnd) / kEnd; }
 
 std::string number(const ForestRow& row, double value) {
@@ -89,7 +89,7 @@ std::string row_html(const ForestRow& row, bool first) {
       name(row.badge), typeset(row.verdict));
 }
 
-/// What a reader does with a number of this verdict.
+/// Returns the advice on a number of this verdict.
 std::string_view meaning(Badge badge) {
   switch (badge) {
     case Badge::good:

@@ -7,9 +7,9 @@
 
 namespace myoid::report {
 
-/// Returns the forest plot as an HTML table with one drawn bar per number. A bar's scale is
-/// (x - prior mean) / prior standard deviation, from -4 to 4: grey the prior's 95 %, a line the
-/// interval, a mark the estimate. Color and shape of the mark tell the verdict. Ends beyond the
+/// Returns the forest plot as an HTML table with one drawn bar per number. A bar's scale is (x -
+/// prior mean) / prior standard deviation, from -4 to 4: grey the prior's 95 %, a line the
+/// interval, a mark the estimate. Color and shape of the mark show the verdict. Ends beyond the
 /// scale become arrows. The table's cells hold the numbers as text. Empty without rows.
 [[nodiscard]] std::string forest_html(const std::vector<ForestRow>& rows);
 

@@ -23,8 +23,8 @@ enum class Role {
   points,      ///< Markers without a line; with y_lower/y_upper an error bar.
 };
 
-/// A curve. x and y have one length; NaN in y is a gap. `y_upper` (and `y_lower` for points) have
-/// the same length where used.
+/// A curve. x and y have equal lengths; NaN in y is a gap. `y_upper` (and `y_lower` for points)
+/// have this length if used.
 struct Series {
   std::string name;  ///< In the legend; empty: no entry.
   std::vector<double> x;
@@ -60,8 +60,8 @@ struct Figure {
   std::vector<std::string> comments{};
   int most_on_page = 0;  ///< The page draws the first panels only; 0: all. The files have all.
   std::string bad{};     ///< How the figure looks if something is wrong; one or two sentences.
-  std::string act{};     ///< What the reader does about it.
-  /// True if the workbench shows the same: the page then shows the drawing in print and without
+  std::string act{};     ///< Advice to the reader.
+  /// True if the workbench shows this figure: the page then shows the drawing in print and without
   /// script only.
   bool in_workbench = false;
 };
@@ -102,20 +102,20 @@ struct ForestRow {
   double estimate = 0.0;
   std::optional<double> lower, upper;          ///< 95 % interval.
   std::optional<double> prior_mean, prior_sd;  ///< Without both of them the row has no bar.
-  std::optional<double> truth;                 ///< Of a virtual recording.
+  std::optional<double> truth;                 ///< In a virtual recording.
   std::string verdict;                         ///< "identified"
-  Badge badge = Badge::none;                   ///< Of the verdict; decides color and shape.
-  std::string why;                             ///< The reason of the verdict, a sentence.
-  bool beside = false;  ///< Of an electrode or a joint: below the muscles' numbers.
+  Badge badge = Badge::none;  ///< Badge of the verdict; determines color and shape.
+  std::string why;            ///< The reason of the verdict, a sentence.
+  bool beside = false;        ///< A number of an electrode or a joint, below the muscles' numbers.
 };
 
 /// A number of one person in a strip plot. Without a value the cell is empty.
 struct StripCell {
   std::optional<double> value;
   std::optional<double> lower, upper;  ///< 95 % interval.
-  std::optional<double> truth;         ///< Of a virtual recording.
+  std::optional<double> truth;         ///< In a virtual recording.
   std::string verdict;                 ///< "identified"; empty for numbers without one.
-  Badge badge = Badge::none;           ///< Of the verdict; decides color and shape.
+  Badge badge = Badge::none;           ///< Badge of the verdict; determines color and shape.
   bool outlier = false;                ///< Far from the other persons.
 };
 

@@ -79,7 +79,7 @@ struct SceneLoad {
 
 /// A model in one trial, or in one posture (a single frame), as plain values.
 struct Scene {
-  std::string name;                     ///< Of the trial.
+  std::string name;                     ///< Name of the trial.
   std::vector<std::string> notes = {};  ///< Sentences: frames left out, columns not found.
   Vec3 up = Vec3::UnitY();              ///< Unit, in ground.
   std::vector<SceneBody> bodies = {};   ///< [0] is ground.
@@ -88,7 +88,7 @@ struct Scene {
   std::vector<SceneMuscle> muscles = {};
   std::vector<SceneCoordinate> coordinates = {};
 
-  Eigen::VectorXd time_s{};                   ///< Of each frame.
+  Eigen::VectorXd time_s{};                   ///< One per frame.
   std::vector<std::vector<Pose>> poses = {};  ///< Frames x bodies, in ground.
   Eigen::MatrixXd coordinate_values{};        ///< Frames x coordinates, in the units shown.
   std::vector<int> moving_muscles = {};       ///< Muscles with a line per frame.

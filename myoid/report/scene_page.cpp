@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Two decimals of a millimeter suffice for bodies at rest.
+/// Returns the vector in JSON with two decimals of a millimeter, enough for bodies at rest.
 ordered_json vector_json(const Vec3& v) {
   const auto rounded = [](double x) { return std::round(x * 1e5) / 1e5; };
   return {rounded(v.x()), rounded(v.y()), rounded(v.z())};

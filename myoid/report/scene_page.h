@@ -15,7 +15,7 @@ struct ScenePage {
   std::string title;
   std::string subtitle;
   std::vector<Scene> scenes = {};
-  std::vector<SceneMesh> meshes = {};  ///< Of the scenes' bodies, each once.
+  std::vector<SceneMesh> meshes = {};  ///< Meshes of the scenes' bodies, each once.
 };
 [[nodiscard]] std::string scene_page(const ScenePage& page);
 

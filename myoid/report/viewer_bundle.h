@@ -10,7 +10,7 @@ struct ViewerBundle {
   std::string_view script;   ///< JavaScript, minified; three.js inside.
   std::string_view style;    ///< CSS of a page that shows the model alone.
   std::string_view report;   ///< CSS of the workbench in a report.
-  std::string_view license;  ///< Of three.js.
+  std::string_view license;  ///< License of three.js.
 };
 
 [[nodiscard]] ViewerBundle viewer_bundle();

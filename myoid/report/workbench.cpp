@@ -157,7 +157,7 @@ ordered_json figure_json(const Figure& figure) {
   return j;
 }
 
-/// True if the page can draw the figure itself: curves over numbers.
+/// Returns true if the page can draw the figure itself: curves over numbers.
 bool is_live(const Figure& figure) {
   return !figure.in_workbench &&
          std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {

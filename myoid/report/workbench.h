@@ -17,7 +17,7 @@ struct TimeLine {
   Role role = Role::reference;
   int clock = 0;            ///< Number in WorkbenchTrial::clocks.
   Eigen::VectorXd value{};  ///< As long as the clock; NaN is a gap.
-  Eigen::VectorXd upper{};  ///< Of a band: its upper edge; empty for a line.
+  Eigen::VectorXd upper{};  ///< Upper edge of a band; empty for a line.
 };
 
 /// A plot over a trial's time.
@@ -26,8 +26,8 @@ struct TimePlot {
   std::string title;  ///< "elbow flexion", "BIC"
   std::string unit;
   std::vector<TimeLine> lines{};
-  int joint = -1;      ///< Of a torque: number of the joint; -1: none.
-  int muscle = -1;     ///< Of a force: number in Workbench::muscles; -1: none.
+  int joint = -1;      ///< For a torque: number of the joint; -1: none.
+  int muscle = -1;     ///< For a force: number in Workbench::muscles; -1: none.
   std::string file{};  ///< File of the run that holds the numbers, beside the report.
 };
 
@@ -51,7 +51,7 @@ struct TrialMark {
 /// The inputs of one muscle's law over a trial, on its first clock.
 struct MuscleDrive {
   Eigen::VectorXd activation{}, length_m{}, velocity_mps{};  ///< Musculotendon length and rate.
-  std::vector<Eigen::VectorXd> moment_arm_m{};               ///< Of each joint.
+  std::vector<Eigen::VectorXd> moment_arm_m{};               ///< One per joint.
 };
 
 /// One trial of the workbench.
@@ -86,9 +86,10 @@ struct MovableMuscle {
   std::string name;
   std::vector<double> literature{}, identified{};  ///< In the order of Workbench::fields.
   std::vector<MovableNumber> numbers{};
-  Eigen::MatrixXd correlation{};   ///< Of the logarithms of `numbers`, after the recording.
+  /// Correlation of the logarithms of `numbers`, after the recording.
+  Eigen::MatrixXd correlation{};
   Eigen::MatrixXd draws{};         ///< From a posterior: a row for each of `numbers`; else empty.
-  Eigen::VectorXd draw_weights{};  ///< Of its columns; they add to 1.
+  Eigen::VectorXd draw_weights{};  ///< Weights of the columns of `draws`; they add to 1.
 };
 
 /// The values that a report shows over time. The page draws them and computes none of them; it

@@ -124,8 +124,7 @@ std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
   return std::nullopt;
 }
 
-/// Returns a number of both sessions by the same route: given geometry and sensors, or the
-/// person's.
+/// Returns a number of both sessions by one route: given geometry and sensors, or the person's.
 std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first,
                                             const ParameterEstimate& second) {
   const auto one = given_geometry(first), other = given_geometry(second);

@@ -138,8 +138,7 @@ void say_torque(const StudyResult& result, Writer& out) {
                       from.empty() ? "" : fmt::format(" from {}", listed(from))));
 }
 
-/// Returns true if the joint hardly moves in any maximal contraction; false if its motion is
-/// unknown.
+/// Returns true if the joint hardly moves in any maximal contraction; false if unknown.
 bool isometric_mvc(const StudyResult& result) {
   bool any = false;
   for (const TrialResult& trial : result.trials) {

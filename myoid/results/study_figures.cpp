@@ -43,8 +43,8 @@ using Curve = std::function<double(double x, const HillParameters<double>& muscl
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;
-  Eigen::MatrixXd
-      log_covariance;  ///< Of the identified parameters, in the order of muscle::kHillFields.
+  /// Of the identified parameters, in the order of muscle::kHillFields.
+  Eigen::MatrixXd log_covariance;
 };
 
 report::Series sampled(std::string name,

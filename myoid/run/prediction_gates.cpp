@@ -178,7 +178,7 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   std::vector<Gate> gates;
   if (folds.empty()) return gates;
   const Explained all = explained(folds);
-  // Errors without smoothing: below 1.5 Hz the literature's prediction has no score.
+  // The errors are not smoothed, because the literature's prediction has no score below 1.5 Hz.
   double literature = 0.0, identified = 0.0, count = 0.0;
   int better = 0;
   for (const Fold& f : folds) {

@@ -20,8 +20,8 @@ struct RelaxedTrial {
   const TimeSeries* activation = nullptr;  ///< Empty: no EMG.
   const TimeSeries* q = nullptr;
   const TimeSeries* qdot = nullptr;
-  const TimeSeries* muscle_torque =
-      nullptr;  ///< For the study's coordinates, in their order [N m].
+  /// For the study's coordinates, in their order [N m].
+  const TimeSeries* muscle_torque = nullptr;
   const kinematics::MuscleKinematics* muscles = nullptr;
 };
 

@@ -22,8 +22,8 @@ struct TrialForces {
   kinematics::MuscleKinematics muscles;  ///< Paths of the model's muscles.
   TimeSeries muscle_torque;     ///< Torque of the muscles, for the study's coordinates [N m].
   forces::MuscleForces shared;  ///< Forces of the model's muscles.
-  std::optional<dynamics::UncarriedTime>
-      uncarried;  ///< Times in which torques lack a ground reaction.
+  /// Times in which torques lack a ground reaction.
+  std::optional<dynamics::UncarriedTime> uncarried;
   std::vector<Remark> remarks;
   std::string failure;  ///< Reason why the forces could not be computed; empty otherwise.
 };

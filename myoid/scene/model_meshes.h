@@ -38,7 +38,7 @@ struct LoadedMeshes {
 struct MeshOptions {
   /// Folders searched after the model's folder and its subfolder Geometry.
   std::vector<std::filesystem::path> folders = {};
-  int most_triangles = 60000;  ///< Of all meshes together; beyond, they are simplified.
+  int most_triangles = 60000;  ///< Limit for all meshes together; beyond, they are simplified.
 };
 
 /// Gives the scenes of a page the model's meshes, and the notes.

@@ -147,7 +147,7 @@ void place(const model::BodyModel& model, const Eigen::MatrixXd& q, report::Scen
   }
 }
 
-/// True if a column of a result or states file belongs to the muscle.
+/// Returns true if a column of a result or states file belongs to the muscle.
 bool belongs_to(std::string_view column, std::string_view muscle, std::string_view quantity) {
   const auto without_suffix = [&](std::string_view text) {
     for (const char mark : {'/', '.', '|'}) {
@@ -163,7 +163,7 @@ bool belongs_to(std::string_view column, std::string_view muscle, std::string_vi
   return name == muscle;
 }
 
-/// To two significant digits.
+/// Rounds up to two significant digits.
 double rounded_up(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return unit * std::ceil(value / unit - 1e-9);

@@ -23,7 +23,7 @@ struct HingePath {
   T pulley_m{};
 };
 
-/// One muscle of the arm: where it runs, what it is, how it is excited.
+/// One muscle of the arm: its path, properties and excitation.
 template <typename T = double>
 struct ArmMuscle {
   std::string name;
@@ -33,8 +33,8 @@ struct ArmMuscle {
   muscle::ActivationDynamics<T> activation;
 };
 
-/// An upper arm at rest, a forearm with hand and what it holds on a hinge, and any number of
-/// muscles: equation (8) of the source paper, as corrected,
+/// An upper arm at rest, a forearm with hand and held object on a hinge, and any number of muscles:
+/// equation (8) of the source paper, as corrected,
 ///
 ///   (J + m d^2) qddot = sum_i r_i(q) F_t,i - (S + m d) g sin q + T_joint(q, qdot) + T_ext
 template <typename T = double>
@@ -57,11 +57,11 @@ struct ArmSetup {
   muscle::JointPassive<double> joint = muscle::elbow_passive();
 };
 
-/// The built-in arm: paths, inertia and Hill parameters of `model::planar_elbow` and
+/// Returns the built-in arm: paths, inertia and Hill parameters of `model::planar_elbow` and
 /// `model::arm4_muscles`, the rest from `muscle::published_defaults`.
 [[nodiscard]] Arm<double> make_arm(const ArmSetup& setup = {});
 
-/// Every muscle in another tendon mode.
+/// Returns the arm with every muscle in another tendon mode.
 [[nodiscard]] Arm<double> with_tendon_mode(Arm<double> arm, muscle::TendonMode mode);
 
 /// Throws InvalidInput, naming muscle or field, unless the arm can move.

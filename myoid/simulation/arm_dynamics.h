@@ -73,13 +73,13 @@ class ArmDynamics {
     using std::sin;
     return -static_moment_ * arm_.gravity_mps2 * sin(q);
   }
-  /// Zero where the forearm hangs.
+  /// Returns the energy in gravity, zero if the forearm hangs.
   [[nodiscard]] T gravity_energy_j(const T& q) const {
     using std::cos;
     return static_moment_ * arm_.gravity_mps2 * (1.0 - cos(q));
   }
 
-  /// dy/dt. `activation` has one value per muscle.
+  /// Computes dy/dt. `activation` has one value per muscle.
   void rate(const T* activation, const T& external_nm, const T* y, T* ydot) const {
     T torque = external_nm + gravity_torque_nm(y[0]);
     torque += muscle::joint_passive(arm_.joint, y[0], y[1]).torque_nm;

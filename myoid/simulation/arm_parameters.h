@@ -9,9 +9,8 @@
 
 namespace myoid::simulation {
 
-/// Calls f(name, unit, field) for every number of the arm, in one fixed order:
-/// MUSCLE.<those of muscle::visit_parameters>, MUSCLE.path_..., MUSCLE.<times of activation>,
-/// joint_..., arm_....
+/// Calls f(name, unit, field) for every number of the arm, in one fixed order: MUSCLE.<names of
+/// muscle::visit_parameters>, MUSCLE.path_..., MUSCLE.<times of activation>, joint_..., arm_....
 template <typename ArmType, typename F>
 void visit_arm_parameters(ArmType& arm, F&& f) {
   for (auto& m : arm.muscles) {

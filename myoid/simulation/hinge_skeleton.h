@@ -8,8 +8,8 @@
 
 namespace myoid::simulation {
 
-/// The arm as `SimulationRun` moves it. A skeleton holds what one posture makes of it: `set` first,
-/// then ask. Not to be shared by threads; its arm is not copied.
+/// The arm in the form that `SimulationRun` moves. A skeleton holds all values of one posture:
+/// `set` first, then ask. Not to be shared by threads; its arm is not copied.
 class HingeSkeleton {
  public:
   explicit HingeSkeleton(const ArmDynamics<double>& arm) : arm_(arm), paths_(arm.muscle_count()) {}
@@ -41,9 +41,9 @@ class HingeSkeleton {
     return paths_[i].moment_arm_m;
   }
 
-  /// Accelerations under generalized forces `tau` (muscles and everything else from outside)
-  /// besides gravity and the joints' own; a prescribed one is taken as it is in `qddot`, and
-  /// `device` gets the force that this takes.
+  /// Computes accelerations under generalized forces `tau` (muscles and all other outside forces),
+  /// in addition to gravity and the joints' own. A prescribed acceleration is read from `qddot`,
+  /// and `device` gets the necessary force.
   void accelerate(const double* tau, const char* prescribed, double* qddot, double* device) const {
     const double all = tau[0] + arm_.gravity_torque_nm(q_) + passive_.torque_nm;
     device[0] = 0.0;

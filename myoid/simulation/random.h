@@ -8,19 +8,19 @@
 
 namespace myoid::simulation {
 
-/// A seeded stream of random numbers: the same on every machine with IEEE doubles, because both the
-/// engine (std::mt19937_64, fixed by the standard) and the transformations (ours) are.
+/// A seeded stream of random numbers, equal on every machine with IEEE doubles, because the
+/// standard fixes the engine (std::mt19937_64), and this class the transformations.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// A number in [0, 1), a multiple of 2^-53.
+  /// Returns a number in [0, 1), a multiple of 2^-53.
   [[nodiscard]] double uniform();
-  /// A number in [lower, upper).
+  /// Returns a number in [lower, upper).
   [[nodiscard]] double uniform(double lower, double upper);
-  /// Standard normal, by the method of Box and Muller.
+  /// Returns a standard normal number, by the method of Box and Muller.
   [[nodiscard]] double normal();
-  /// `count` of them.
+  /// Returns `count` standard normal numbers.
   [[nodiscard]] Eigen::VectorXd normals(Eigen::Index count);
 
  private:
@@ -29,9 +29,9 @@ class Random {
   bool has_spare_ = false;
 };
 
-/// A seed for one purpose, from the seed of the whole: streams of different names are independent,
-/// so that a further trial or channel leaves the noise of the others as it was. FNV-1a of the name,
-/// mixed by the finalizer of splitmix64.
+/// Returns a seed for one purpose, from the seed of the whole: streams of different names are
+/// independent, so a further trial or channel does not change the noise of the others. FNV-1a of
+/// the name, mixed by the finalizer of splitmix64.
 [[nodiscard]] std::uint64_t seed_for(std::uint64_t seed, std::string_view purpose);
 
 }  // namespace myoid::simulation

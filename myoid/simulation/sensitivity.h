@@ -19,8 +19,8 @@ struct Sensitivities {
   math::OdeStatistics statistics;
   std::vector<std::string> parameters;
   Eigen::VectorXd time_s;
-  Eigen::MatrixXd angle, speed, acceleration;  ///< Of elbow flexion.
-  Eigen::MatrixXd torque;                      ///< Of all muscles together.
+  Eigen::MatrixXd angle, speed, acceleration;  ///< Sensitivities of elbow flexion.
+  Eigen::MatrixXd torque;                      ///< Torque of all muscles together.
   Eigen::MatrixXd device;  ///< Torque of the device that moves the joint; 0 without one.
   std::vector<Eigen::MatrixXd> activation;  ///< One matrix per muscle, here and below.
   std::vector<Eigen::MatrixXd> fiber_length;

@@ -34,8 +34,8 @@ struct Device {
 
 /// Holds the coordinate at its initial value.
 [[nodiscard]] Device locked();
-/// Is at rest until `start_s`, accelerates evenly to the speed within `rise_s`, and slows down
-/// likewise from `end_s` on.
+/// Rests until `start_s`, accelerates evenly to the speed within `rise_s`, and slows down equally
+/// from `end_s` on.
 [[nodiscard]] Device isokinetic(double start_s, double end_s, double speed, double rise_s = 0.05);
 
 /// Excitations, external forces and devices.

@@ -13,7 +13,7 @@ namespace myoid::simulation {
 
 /// Force curves of the muscles of a model file.
 enum class MuscleCurves {
-  file,  ///< Those of the muscle's class in the file: Thelen's, Millard's, De Groote's.
+  file,  ///< The curves of the muscle's class in the file: Thelen's, Millard's, De Groote's.
   paper,
   thelen,
   de_groote,

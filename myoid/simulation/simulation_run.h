@@ -26,7 +26,7 @@ void check_simulation(std::span<const std::string> muscles,
                       const SimulationStart& start,
                       const SimulationOptions& options);
 
-/// The times of the result's rows.
+/// Returns the times of the result's rows.
 [[nodiscard]] std::vector<double> output_times(const SimulationStart& start,
                                                const SimulationOptions& options);
 

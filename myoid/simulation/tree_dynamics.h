@@ -39,12 +39,12 @@ class TreeDynamics {
   /// Adds to `tau` the generalized forces of a force and moment on a body.
   void add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const;
 
-  /// Computes the accelerations under generalized forces `tau` besides gravity. Where `prescribed`
-  /// is not 0, qddot is given and `device` receives the necessary force; elsewhere device is 0.
-  /// With couplers qddot = J x + b, where x are the accelerations of the free independent
-  /// coordinates, and
+  /// Computes the accelerations under generalized forces `tau` and gravity. Where `prescribed` is
+  /// not 0, qddot is given and `device` receives the necessary force; elsewhere device is 0. With
+  /// couplers qddot = J x + b, where x are the accelerations of the free independent coordinates,
+  /// and
   ///   J' M J x = J' (tau + gravity - C - M b).
-  /// Returns false if that matrix is not positive definite.
+  /// Returns false if J' M J is not positive definite.
   [[nodiscard]] bool accelerate(const double* tau,
                                 const char* prescribed,
                                 double* qddot,
@@ -53,7 +53,7 @@ class TreeDynamics {
  private:
   /// Mass, moment and inertia of each body about the ground's origin, and the potential energy.
   void take_bodies();
-  /// The mass matrix and gravity's torques, from the bodies inwards.
+  /// Computes the mass matrix and gravity's torques, from the bodies inwards.
   void take_mass_matrix();
 
   const model::BodyModel* model_;

@@ -104,19 +104,19 @@ class SettingVisitor {
   bool either(std::string_view key, bool& value, const About& about);
   bool number(std::string_view key, double& value, const About& about);
   bool number(std::string_view key, std::optional<double>& value, const About& about);
-  /// A number, nothing, or `about.word`, which sets `worded`.
+  /// Visits a number, nothing, or `about.word`, which sets `worded`.
   bool number(std::string_view key, std::optional<double>& value, bool& worded, const About& about);
   bool count(std::string_view key, int& value, const About& about);
   bool count(std::string_view key, std::optional<int>& value, const About& about);
   bool text(std::string_view key, std::string& value, const About& about);
-  /// A text, or a table { `about.table` = text }, which goes to `instead`.
+  /// Visits a text, or a table { `about.table` = text }, which goes to `instead`.
   bool text(std::string_view key,
             std::string& value,
             std::optional<std::string>& instead,
             const About& about);
   bool path(std::string_view key, std::filesystem::path& value, const About& about);
   bool path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about);
-  /// An empty list stands for `about.word`, where there is one.
+  /// Visits a list; an empty one stands for `about.word`, if there is one.
   bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
   bool numbers(std::string_view key, std::vector<double>& value, const About& about);
   bool texts_by_name(std::string_view key,

@@ -92,8 +92,8 @@ struct MarkerSpec {
 /// Coordinates that are measured once in a known posture and then held.
 struct CalibrationSpec {
   std::vector<double> window_s;  ///< Start and end in the trial.
-  std::vector<std::string>
-      free;  ///< Coordinates found in the window, with all others at their default.
+  /// Coordinates found in the window, with all others at their default.
+  std::vector<std::string> free;
   std::vector<std::string> hold;  ///< Coordinates of `free` that are then locked at their median.
   bool operator==(const CalibrationSpec&) const = default;
 };
@@ -219,8 +219,8 @@ struct SharingSpec {
 /// The search for warm-up and fatigue.
 struct PhasesSpec {
   bool search = true;
-  std::vector<PhaseKind> exclude{PhaseKind::warm_up,
-                                 PhaseKind::fatigued};  ///< Phases that are not fitted.
+  /// Phases that are not fitted.
+  std::vector<PhaseKind> exclude{PhaseKind::warm_up, PhaseKind::fatigued};
   bool operator==(const PhasesSpec&) const = default;
 };
 

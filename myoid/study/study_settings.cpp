@@ -43,7 +43,7 @@ void visit(HeldMassSpec& held, SettingVisitor& v) {
 
 namespace {
 
-/// The joints of a study form one list, the main joint first.
+/// Visits the joints of a study, which form one list, the main joint first.
 void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
   std::vector<std::string> names = study_coordinates(model);
   v.texts("coordinate", names,

@@ -48,7 +48,7 @@ std::optional<std::size_t> first_numbers(const TableText& text,
   return std::nullopt;
 }
 
-/// Qualisys: a line CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
+/// Finds Qualisys's layout: a line CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
 std::optional<TableLayout> qualisys_channels(const TableText& text,
                                              const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_SAMPLES")) return std::nullopt;
@@ -106,8 +106,8 @@ std::optional<double> biopac_rate(std::string_view line) {
   return std::nullopt;
 }
 
-/// BIOPAC: a file name, "0.5 msec/sample", "2 channels", name and unit of each channel, "CH1 CH2",
-/// counts, rows.
+/// Finds BIOPAC's layout: a file name, "0.5 msec/sample", "2 channels", name and unit of each
+/// channel, "CH1 CH2", counts, rows.
 std::optional<TableLayout> biopac_channels(const TableText& text,
                                            const std::filesystem::path& path) {
   if (text.lines.size() < 8) return std::nullopt;
@@ -148,7 +148,7 @@ std::optional<TableLayout> biopac_channels(const TableText& text,
   return layout;
 }
 
-/// BTS: "Measure unit:" holds for all tracks.
+/// Finds BTS's layout: "Measure unit:" holds for all tracks.
 std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
   constexpr std::size_t kHeader = 40;

@@ -29,7 +29,8 @@ std::optional<double> cell_number(const std::string& cell, char separator) {
   return separator == ',' ? std::nullopt : parse_comma_number(cell);
 }
 
-/// True for a row that holds at least one number and otherwise only numbers and empty cells.
+/// Returns true for a row that holds at least one number and otherwise only numbers and empty
+/// cells.
 bool is_numbers(const Cells& cells, char separator) {
   std::size_t numbers = 0;
   for (const std::string& cell : cells) {
@@ -120,7 +121,7 @@ class TableFinder {
     return false;
   }
 
-  /// True for a row that begins with a number and has text in one cell.
+  /// Returns true for a row that begins with a number and has text in one cell.
   [[nodiscard]] bool has_remark(const Cells& cells) const {
     const auto texts = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
       return !cell.empty() && !cell_number(cell, layout_.separator);
@@ -265,8 +266,8 @@ class TableFinder {
   std::size_t above_ = 0;
 };
 
-/// True if the first line that is no remark is a header with one time column, and no other line of
-/// text follows.
+/// Returns true if the first line that is no remark is a header with one time column, and no other
+/// line of text follows.
 bool is_plain(const TableText& text, const TableLayout& layout) {
   std::size_t n = 0;
   while (n < text.lines.size() &&

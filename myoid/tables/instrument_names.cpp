@@ -26,8 +26,8 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-/// True for signals that electrodes record beside EMG: motion and pressure ("Sensor 1: ACC.X 1",
-/// "GYRO Y", "FSR.A"), the heart ("EKG 1").
+/// Returns true for signals that electrodes record in addition to EMG: motion and pressure ("Sensor
+/// 1: ACC.X 1", "GYRO Y", "FSR.A"), the heart ("EKG 1").
 bool named_as_other_sensor(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
   for (std::size_t i = 0; i < words.size(); ++i) {

@@ -266,7 +266,7 @@ bool all_of_words(const Cells& cells, std::initializer_list<std::string_view> wo
   return any;
 }
 
-/// True for a row of column identifiers: decimal numbers or 32 hexadecimal digits.
+/// Returns true for a row of column identifiers: decimal numbers or 32 hexadecimal digits.
 bool are_numbers_of_columns(const Cells& cells) {
   constexpr std::size_t kDigits = 32;
   return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
@@ -310,7 +310,8 @@ std::optional<MotiveHeader> motive_header(const TableText& text,
   return header;
 }
 
-/// Motive: takes the markers as measured, or, without these, the markers of its rigid bodies.
+/// Finds Motive's layout: takes the markers as measured, or, without these, the markers of its
+/// rigid bodies.
 std::optional<MarkerLayout> motive_markers(const TableText& text,
                                            const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("Format Version")) return std::nullopt;

@@ -7,10 +7,10 @@
 
 namespace myoid::recording {
 
-/// True if a text is a table of marker positions as these programs export it: Vicon Nexus (.csv
-/// with a section "Trajectories"), Qualisys (.tsv, DATA_INCLUDED 3D), BTS (.emt, "Point 3D
-/// tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x", "NAME y", "NAME z" and
-/// a collection frequency).
+/// Returns true if a text is a table of marker positions exported by one of these programs: Vicon
+/// Nexus (.csv with a section "Trajectories"), Qualisys (.tsv, DATA_INCLUDED 3D), BTS (.emt, "Point
+/// 3D tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x", "NAME y", "NAME z"
+/// and a collection frequency).
 [[nodiscard]] bool is_marker_table(std::string_view text);
 
 /// Reads the markers of such a table. An empty cell is a gap; in Qualisys' files 0 0 0 is one too.

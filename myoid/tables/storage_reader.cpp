@@ -56,18 +56,18 @@ std::string_view text_between(const char* begin, const char* end) {
   return trim({begin, static_cast<std::size_t>(end - begin)});
 }
 
-/// True for a row with commas and no point, such as "1,5<tab>2,25".
+/// Returns true for a row with commas and no point, such as "1,5<tab>2,25".
 bool looks_like_comma_decimals(std::string_view line) {
   return line.find(',') != std::string_view::npos && line.find('.') == std::string_view::npos;
 }
 
-/// True for labels that commas separate: the line has no tab, and more cells than words.
+/// Returns true for labels that commas separate: the line has no tab, and more cells than words.
 bool are_comma_labels(std::string_view line) {
   return line.find('\t') == std::string_view::npos &&
          split(line, ',').size() >= std::max<std::size_t>(2, split_words(line).size());
 }
 
-/// True for a row of `width` numbers that commas separate.
+/// Returns true for a row of `width` numbers that commas separate.
 bool is_comma_row(std::string_view line, std::size_t width) {
   if (line.find('\t') != std::string_view::npos) return false;
   const auto cells = split(line, ',');

@@ -77,7 +77,7 @@ class RowClock {
     }
   }
 
-  /// True if a frame ends within the table: only then is its number of sub-frames known.
+  /// Returns true if a frame ends within the table: only then is its number of sub-frames known.
   [[nodiscard]] bool shows_a_whole_frame() const {
     for (Eigen::Index i = 1; i < rows(); ++i) {
       if (numbers_.clock(i, *frame_) != numbers_.clock(i - 1, *frame_)) return true;

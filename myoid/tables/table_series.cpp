@@ -127,7 +127,7 @@ class TableSeries {
     return time;
   }
 
-  /// True for equal times; one clock may have a few more at the end.
+  /// Returns true for equal times; one clock may have a few more at the end.
   static bool same_clock(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     const Eigen::Index n = std::min(a.size(), b.size());
     if (n < 2) return a.size() == b.size();

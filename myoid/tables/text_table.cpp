@@ -124,7 +124,7 @@ class RowReader {
     return text_.lines[rows_.first + i];
   }
 
-  /// True for blank lines, remarks and empty rows at the end of a table.
+  /// Returns true for blank lines, remarks and empty rows at the end of a table.
   [[nodiscard]] bool is_left_out(std::size_t n) const {
     const std::string_view line = text_.lines[n];
     if (line.find(rows_.separator) == std::string_view::npos) return trim(line).empty();
@@ -216,7 +216,8 @@ class RowReader {
     }
   }
 
-  /// True if the row is kept; false for a last row that is cut off. Throws if its width is wrong.
+  /// Returns true if the row is kept; false for a last row that is cut off. Throws if its width is
+  /// wrong.
   bool keeps(std::size_t i, Eigen::Index kept) {
     const RowScan& row = scans_[i];
     const std::size_t line = rows_.first + i + 1;
@@ -254,8 +255,8 @@ class RowReader {
     return true;
   }
 
-  /// True if the file writes separators of empty cells at the end of a row: then no row is cut off
-  /// by missing cells.
+  /// Returns true if the file writes separators of empty cells at the end of a row: then no row is
+  /// cut off by missing cells.
   [[nodiscard]] bool pads() const {
     return std::any_of(scans_.begin(), scans_.end(), [&](const RowScan& row) {
       return row.cells >= width() && row.filled < width() && !row.blank;

@@ -26,7 +26,7 @@ struct TableText {
 /// one quote, bytes that are no UTF-8 read as Latin-1. Separators inside quotes do not count.
 [[nodiscard]] std::vector<std::string> cells_of(std::string_view line, char separator);
 
-/// True for a line that holds only separators and blanks.
+/// Returns true for a line that holds only separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
 
 /// The last row of a text that ends without a line end.

@@ -261,7 +261,7 @@ class TrcFrames {
     return *time;
   }
 
-  /// True if the time equals that of the row before. Throws ReadError for an earlier one.
+  /// Returns true if the time equals that of the row before. Throws ReadError for an earlier one.
   bool repeats(double time, std::size_t line) {
     if (time_.empty() || time > time_.back()) return false;
     if (time < time_.back())

@@ -20,9 +20,9 @@ constexpr double kEmgSteps_perv = 1e7;
 constexpr double kTorqueSteps_pernm = 1e4;
 constexpr double kArtefactBand_hz = 4.0;
 constexpr double kArtefactSpeed_radps =
-    2.0;                                  ///< At which the artefact has the rms of the protocol.
-constexpr double kColdGain = 0.15;        ///< Of EMG at the beginning of a warm-up.
-constexpr double kEnvelopeRate_hz = 250;  ///< Amplitudes are straight lines in between.
+    2.0;                            ///< speed at which the artefact has the rms of the protocol
+constexpr double kColdGain = 0.15;  ///< excess of EMG at the beginning of a warm-up
+constexpr double kEnvelopeRate_hz = 250;  ///< amplitudes are straight lines between its samples
 constexpr double kShortestDropout_s = 0.03;
 constexpr double kLongestDropout_s = 0.30;
 constexpr double kMostOffsetSd = 3.0;
@@ -68,7 +68,7 @@ std::vector<MarkerError> place_markers(const MarkerNoise& noise,
   return errors;
 }
 
-/// Straight lines between values on an even clock.
+/// Interpolates values on an even clock by straight lines.
 Eigen::VectorXd stretched(const Eigen::VectorXd& values,
                           double first_s,
                           double rate_hz,
@@ -85,23 +85,23 @@ Eigen::VectorXd stretched(const Eigen::VectorXd& values,
 
 /// The activity of a muscle, on the clock of kEnvelopeRate_hz from `first_s`.
 struct Source {
-  Eigen::VectorXd amplitude;   ///< Rms of its signal, of the greatest.
+  Eigen::VectorXd amplitude;   ///< Rms of the muscle's signal, relative to the greatest.
   Eigen::VectorXd excitation;  ///< 0..1
-  Eigen::VectorXd fatigued;    ///< Share of its strength.
+  Eigen::VectorXd fatigued;    ///< Fatigued share of the muscle's strength.
 };
 
 EmgSpectrum scaled(const EmgSpectrum& spectrum, double factor) {
   return {.low_hz = spectrum.low_hz * factor, .high_hz = spectrum.high_hz * factor};
 }
 
-/// Its signal: noise whose rms is the amplitude.
+/// Returns the muscle's signal: noise whose rms is the amplitude.
 Eigen::VectorXd signal_of(const Source& source,
                           double first_s,
                           const Eigen::VectorXd& true_time_s,
                           const EmgNoise& emg,
                           double spectrum,
                           simulation::Random random) {
-  constexpr double kAudible = 0.005;  // a change of frequencies beyond which it is one
+  constexpr double kAudible = 0.005;  // least relevant change of frequencies
   const auto over_time = [&](const Eigen::VectorXd& values) {
     return stretched(values, first_s, kEnvelopeRate_hz, true_time_s);
   };
@@ -128,7 +128,7 @@ Eigen::VectorXd signal_of(const Source& source,
   const Eigen::VectorXd first = emg_from(fresh, emg.rate_hz, innovations, lead);
   if (most - least < kAudible) return amplitude.cwiseProduct(first);
 
-  // From one spectrum to the other as fatigue goes; their mixture has unit variance too.
+  // Mixes the two spectra by fatigue; the mixture has unit variance, too.
   const Eigen::VectorXd last = emg_from(tired, emg.rate_hz, innovations, lead);
   const double alike = first.dot(last) / (first.norm() * last.norm());
   const Eigen::VectorXd fatigued = over_time(source.fatigued);
@@ -141,7 +141,7 @@ Eigen::VectorXd signal_of(const Source& source,
   return signal;
 }
 
-/// One pass, as an amplifier does it.
+/// Filters in one pass, as an amplifier does.
 void limit_bandwidth(Eigen::VectorXd& signal, double cutoff_hz, double rate_hz) {
   for (const math::SecondOrderSection& s :
        math::design_butterworth(math::FilterBand::low_pass, 4, cutoff_hz, rate_hz)) {
@@ -156,7 +156,7 @@ void limit_bandwidth(Eigen::VectorXd& signal, double cutoff_hz, double rate_hz) 
   }
 }
 
-/// Drives that wander between nothing and the greatest effort, whatever the muscles do.
+/// Drives that wander between 0 and the greatest effort, independent of the muscles.
 class WanderingDrive {
  public:
   WanderingDrive(Eigen::Index count, const std::string& trial, std::uint64_t seed) {
@@ -179,7 +179,7 @@ class WanderingDrive {
   std::array<Eigen::VectorXd, 4> drives_;
 };
 
-/// Noise of amplifier, mains and movement, in shares of the greatest rms.
+/// Returns noise of amplifier, mains and movement, relative to the greatest rms.
 Eigen::VectorXd disturbance(const EmgNoise& emg,
                             double baseline,
                             const Eigen::VectorXd& speed_radps,
@@ -277,7 +277,7 @@ recording::MarkerSeries record_markers(const Protocol& protocol,
   }
   quantize(markers.positions_m, kMarkerSteps_perm);
 
-  // Gaps come as rain does: independent of each other, so many a minute.
+  // Gaps are a Poisson process: independent of each other, at a mean rate per minute.
   if (noise.dropouts_per_min > 0.0) {
     simulation::Random hidden = stream(seed, "dropouts", trial.name);
     const double end_s = markers.time_s(frames - 1);
@@ -345,7 +345,7 @@ TimeSeries record_emg(const Protocol& protocol,
     const double gain = (1.0 + kColdGain * script.cold(t)) * script.emg_gain(t);
     for (std::size_t m = 0; m < 4; ++m) {
       const double p = instruments.exponent[m];
-      // At the beginning of an effort its level is 0 but for round-off of either sign.
+      // At the beginning of an effort the level is 0 up to round-off of either sign.
       sources[m].amplitude(k) = gain * (p == 1.0 ? u[m] : std::pow(std::max(u[m], 0.0), 1.0 / p));
       sources[m].excitation(k) = u[m];
       sources[m].fatigued(k) = fatigued[m];

@@ -33,7 +33,7 @@ void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& t
 
 namespace {
 
-/// Muscles of the model file that make up this one, as a TOML list's content.
+/// Returns the muscles of the model file that make up this one, as a TOML list's content.
 std::string modelled_as(std::size_t muscle, bool seven_heads) {
   if (!seven_heads) return fmt::format("\"{}\"", kArmMuscles[muscle]);
   std::string list;
@@ -89,7 +89,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
         "delay_s = \"estimate\"\n",
         recording::toml_number(protocol.lowpass_hz), recording::toml_number(protocol.mvc_window_s));
     if (protocol.emg.effort_min < 1.0) {
-      // As in the literature of these people, not as this one happened to be.
+      // The study states the literature of these people, not this person's number.
       text += fmt::format(
           "mvc_effort = {:.3g}                 # what people reach of their greatest activation\n"
           "mvc_effort_sd = {:.3g}\n",
@@ -98,7 +98,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
     }
   }
 
-  // Whoever is drawn with the literature's v_max has it known; without the word it would be found.
+  // A person with the literature's v_max has a known one, which the study must hold.
   const std::vector<std::string>& vary = protocol.truth.vary;
   const bool speed_is_known =
       !recording.truth.arm &&
@@ -129,7 +129,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
 
 namespace {
 
-/// Rows of truth.csv for the properties that depart from the model.
+/// Returns the rows of truth.csv for the properties that depart from the model.
 std::string departures_csv(const Departures& departures) {
   std::string text;
   const auto add = [&text](std::string_view name, std::string_view unit, const PerMuscle& values,
@@ -161,8 +161,8 @@ std::string truth_csv(const VirtualRecording& recording) {
     text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
                         muscle::slope_ratio(recording.truth.muscles[i].velocity_law()));
   if (!recording.truth.arm) {
-    // The numbers that a fit finds beside the muscles, if the fitted model is the person's. Exact
-    // activations are the muscles' own: no electrode bends them.
+    // Adds the numbers beside the muscles' parameters, if the fitted model is the person's. Exact
+    // activations are the muscles' own, without an electrode's exponent.
     const bool exact = recording.protocol.level == Level::noise_free;
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
       const double exponent = exact ? 1.0 : recording.truth.instruments.exponent[i];

@@ -26,7 +26,7 @@ std::vector<Channel> per_muscle(Unit unit) {
   return channels;
 }
 
-/// The heads over time; empty where the truth has none.
+/// Returns the heads over time; empty if the truth has none.
 std::optional<TimeSeries> true_heads(const Performance& performance,
                                      const Truth& truth,
                                      const Eigen::VectorXd& time_s) {
@@ -102,10 +102,10 @@ TrueTrial true_trial(const Performance& performance, const Truth& truth, double 
           .emg_clock = {}};
 }
 
-/// A person who can do every trial, doing them.
+/// A person who can do every trial, with the performances.
 struct Session {
   std::vector<std::unique_ptr<Performance>> performances;
-  std::string too_hard;  ///< The trial that could not be done; empty if all could.
+  std::string too_hard;  ///< The trial that this person cannot do; empty if there is none.
   std::string why;
 };
 
@@ -143,7 +143,7 @@ Session perform_by_simulation(const Protocol& protocol,
                               const std::vector<TrialScript>& scripts,
                               std::uint64_t seed) {
   Session session;
-  // Whoever is too weak need not begin.
+  // A person who is too weak for a trial is not simulated.
   for (const TrialScript& script : scripts) {
     if (foreseen_activation(*truth.arm, script) > kGreatestActivation) {
       session.too_hard = script.protocol.name;
@@ -167,14 +167,14 @@ Session perform_by_simulation(const Protocol& protocol,
   return session;
 }
 
-/// At L2 the brachialis goes its own way, electrode or not: 0.7 to 1.3 of the biceps' activation,
-/// and slowly wandering.
+/// At L2 the brachialis, with or without an electrode, departs from the biceps: 0.7 to 1.3 of its
+/// activation, and slowly wandering.
 struct OwnBrachialis {
   double gain = 1.0;
   double wander = 0.0;
 };
 
-/// The EMG per excitation grows evenly from the first trial to the end of the last.
+/// Grows the EMG per excitation evenly from the first trial to the end of the last.
 void drift_gains(std::vector<TrialScript>& scripts, double growth, double rest_s) {
   double session_s = -rest_s;
   for (const TrialScript& script : scripts) session_s += script.duration_s + rest_s;
@@ -203,7 +203,7 @@ std::vector<TrialScript> make_scripts(const Protocol& protocol,
   return scripts;
 }
 
-/// `record`: let the instruments record too.
+/// Makes the recording. `record`: the instruments record, too.
 VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record) {
   const bool simulated = protocol.level == Level::different;
   const VirtualArm arm(protocol.subject, protocol.seven_heads);
@@ -229,7 +229,7 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   truth.emg_delay_s =
       random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
   if (protocol.level == Level::noise_free) {
-    // On the clock of the EMG, so that no interpolation stands between truth and recovery.
+    // Rounds to the clock of the EMG, so that no interpolation lies between truth and recovery.
     truth.emg_delay_s = std::round(truth.emg_delay_s * protocol.emg.rate_hz) / protocol.emg.rate_hz;
   }
   for (double& effort : truth.effort)

@@ -19,21 +19,21 @@
 
 namespace myoid::twin {
 
-/// The parameters of the virtual person, and the numbers that the identification is to find.
+/// The parameters of the virtual person, and the numbers that the identification seeks.
 struct Truth {
-  /// In the order of kArmMuscles. At L2, where nobody has such parameters, those of the fitted
+  /// In the order of kArmMuscles. At L2, where no person has such parameters, those of the fitted
   /// model that come closest to the person (effective_truth.h).
   HillSet muscles;
-  /// The muscle does at t what its EMG said at t - delay; at L2, as nearly as a delay can say it.
+  /// The muscle's activation at t follows the EMG at t - delay; at L2 approximately.
   double emg_delay_s = 0.0;
   PerMuscle effort = {1.0, 1.0, 1.0,
-                      1.0};  ///< What the MVC trials reach of the greatest activation.
+                      1.0};  ///< Share of the greatest activation that the MVC trials reach.
   Instruments instruments;
   BesideMuscles beside;        ///< L0, L1.
   Departures departures;       ///< L0, L1.
-  int draws = 1;               ///< Persons drawn until every trial could be done.
-  std::optional<TrueArm> arm;  ///< L2: what the person really is.
-  PerMuscle misfit = {};       ///< L2: of `muscles`, a share of the torque.
+  int draws = 1;               ///< Number of persons drawn until one could do every trial.
+  std::optional<TrueArm> arm;  ///< L2: the person's true arm.
+  PerMuscle misfit = {};       ///< L2: misfit of `muscles`, relative to the torque.
 };
 
 /// The truth over time in one trial, on the clock of the markers.
@@ -41,13 +41,13 @@ struct TrueTrial {
   TimeSeries motion;      ///< elbow_flexion [rad], its speed and acceleration.
   TimeSeries torque;      ///< elbow_flexion_moment (of the muscles), then ..._external_moment and
                           ///< ..._passive_moment (of the joint) [N m].
-  TimeSeries activation;  ///< Per muscle: what the muscle does, after the delay.
+  TimeSeries activation;  ///< Per muscle: activation, after the delay.
   TimeSeries force;       ///< Per muscle [N].
   TimeSeries length;      ///< Per muscle: fiber length [m].
-  /// L2: of each head HEAD_activation, HEAD_fiber_length [m] and HEAD_tendon_force [N].
+  /// L2: for each head HEAD_activation, HEAD_fiber_length [m] and HEAD_tendon_force [N].
   std::optional<TimeSeries> heads;
   TimeSeries state;         ///< `cold`, 1 to 0 in a warm-up; fatigued_MUSCLE, share of strength.
-  PerMuscle fatigued = {};  ///< Share of strength that is gone in the middle of the trial.
+  PerMuscle fatigued = {};  ///< Share of strength lost in the middle of the trial.
   EmgClock emg_clock;
 };
 
@@ -58,18 +58,18 @@ struct VirtualTrial {
   /// Per electrode: raw EMG [V], or the exact activation (before the delay) in a noise-free
   /// recording.
   TimeSeries emg;
-  /// elbow_flexion_moment [N m]: torque that the dynamometer exerts on the forearm about the axis
-  /// of flexion, positive if it flexes. The muscles' is M(q) qddot + ... - gravity - this one.
+  /// elbow_flexion_moment [N m]: torque of the dynamometer on the forearm about the axis of
+  /// flexion, positive in flexion. The muscles' torque is M(q) qddot + ... - gravity - this torque.
   std::optional<TimeSeries> external_torque;
   TrueTrial truth;
 };
 
-/// A virtual experiment: everything that `write_virtual_recording` puts into files, as values.
+/// A virtual experiment as values: the content of all files of `write_virtual_recording`.
 struct VirtualRecording {
   Protocol protocol;
   std::uint64_t seed = 0;
   std::string model_osim;  ///< Text of the model file: the arm with the literature's muscles.
-  std::string held_body;   ///< Body of the model that holds the mass, and where [m].
+  std::string held_body;   ///< Body of the model that holds the mass at `held_at_m`.
   Vec3 held_at_m = Vec3::Zero();
   Truth truth;
   std::vector<VirtualTrial> trials;
@@ -79,19 +79,19 @@ struct VirtualRecording {
 /// gives the same recording to the bit.
 ///
 /// L0 and L1, the built-in arm (four muscles, rigid tendons): a motion with five continuous
-/// derivatives is chosen, the torque that it requires is computed, and shared among the muscles by
-/// activations that solve T = sum r_i F_i exactly, with co-contraction and slowly changing
-/// proportions; against a dynamometer the activations are chosen and the dynamometer exerts what is
-/// left. The electrode sees the activation `emg_delay_s` earlier.
+/// derivatives is chosen and its torque computed. Activations that solve T = sum r_i F_i exactly,
+/// with co-contraction and slowly changing proportions, share this torque among the muscles.
+/// Against a dynamometer the activations are chosen and the dynamometer exerts the rest. The
+/// electrode sees the activation `emg_delay_s` earlier.
 ///
-/// L2, seven heads (true_arm.h): the person tries to follow that motion and is simulated forward
-/// (SimulatedPerformance); the motion recorded is what came of it.
+/// L2, seven heads (true_arm.h): the person tries to follow this motion and is simulated forward
+/// (SimulatedPerformance); the recorded motion is the simulated one.
 ///
-/// Then the instruments record (instruments.h). If a trial would need an activation above 0.95,
-/// another person is drawn. Throws InvalidInput, naming the trial, if 500 persons could not do it.
+/// Then the instruments record (instruments.h). If a trial needs an activation above 0.95, another
+/// person is drawn. Throws InvalidInput with the trial's name if 500 persons could not do it.
 [[nodiscard]] VirtualRecording make_virtual_recording(const Protocol& protocol, std::uint64_t seed);
 
-/// The same person doing the same, without recorded trials: for tables of truths.
+/// Draws the same person with the same performance, without records: for tables of truths.
 [[nodiscard]] VirtualRecording make_virtual_person(const Protocol& protocol, std::uint64_t seed);
 
 }  // namespace myoid::twin

@@ -31,7 +31,7 @@ using identification::Verdict;
 
 constexpr double kDelayUnit_s = 0.1;
 
-/// The study that would be written beside the recording, with the model in memory.
+/// Returns the study of the recording, with the model in memory.
 Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& options) {
   Study study = parse_study(twin::study_toml(recording), "study.toml");
   study.model.text = recording.model_osim;
@@ -39,7 +39,7 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
   study.identify.estimator = options.estimator;
   study.identify.cross_validate = false;
   study.identify.next_movements = 0;
-  study.identify.bootstrap = 0;  // beside the reported interval, not in it
+  study.identify.bootstrap = 0;  // it does not change the reported interval
   study.truth.reset();
   return study;
 }
@@ -192,12 +192,12 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   std::atomic<int> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
     if (options.progress.stop.stop_requested()) return;
-    // Isolated: a thread that waits inside one person must not begin with another.
+    // Isolated: a thread that waits inside one person must not begin another.
     oneapi::tbb::this_task_arena::isolate([&] {
       try {
         persons[k] = one_person(protocol, options.first_seed + k, options);
         finished[k] = 1;
-      } catch (const Interrupted&) {  // this person is lost, those before are not
+      } catch (const Interrupted&) {  // this person is lost, the finished ones are kept
       }
     });
     if (finished[k] == 0) return;

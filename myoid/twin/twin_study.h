@@ -15,30 +15,31 @@ namespace myoid::twin {
 
 struct TwinStudyOptions {
   int subjects = 200;
-  std::uint64_t first_seed = 1;  ///< Subject k has this plus k.
+  std::uint64_t first_seed = 1;  ///< Subject k has the seed first_seed + k.
   std::vector<identification::Method> methods = {identification::Method::torque};
   identification::EstimatorKind estimator = identification::EstimatorKind::least_squares;
   Progress progress;
 };
 
-/// One estimate of one virtual person beside its truth.
+/// One estimate of one virtual person with its truth.
 struct TwinRow {
   std::uint64_t seed = 0;
   double truth = 0.0;
   identification::ParameterEstimate estimate;
 
-  /// Relative to the truth; of the EMG delay in units of 100 ms, so that 0.1 is 10 ms.
+  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is
+  /// 10 ms.
   [[nodiscard]] double error() const;
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };
 
-/// Prediction of one trial that was held back.
+/// The prediction of one held-back trial.
 struct TwinPrediction {
   std::uint64_t seed = 0;
   std::string trial;
-  identification::Score law;     ///< Of the muscles' law with the parameters that are reported.
-  identification::Score smooth;  ///< The same, the prediction smoothed (smooth_prediction.h).
-  identification::Score band;    ///< The same, both torques below the fit's own cut-off.
+  identification::Score law;     ///< Score of the muscles' law with the reported parameters.
+  identification::Score smooth;  ///< Score of the smoothed prediction (smooth_prediction.h).
+  identification::Score band;    ///< Score of both torques below the fit's own cut-off.
 };
 
 struct TwinFailure {
@@ -50,50 +51,50 @@ struct TwinStudyResult {
   std::string protocol;
   std::string level;
   std::vector<WorldSetting> world;  ///< Keys of [truth] beside the level's defaults.
-  std::vector<TwinRow> rows;        ///< By seed, then as the estimators list them.
+  std::vector<TwinRow> rows;        ///< By seed, then in the order of the estimators.
   std::vector<TwinPrediction> predictions;
   std::vector<TwinFailure> failures;
-  int subjects = 0;  ///< Persons asked for ...
-  int finished = 0;  ///< ... and finished.
+  int subjects = 0;  ///< Number of persons asked for.
+  int finished = 0;  ///< Number of persons finished.
   std::uint64_t first_seed = 1;
   bool interrupted = false;  ///< Stopped before all were finished.
 };
 
-/// Errors of one parameter over the persons: shares are of all rows, `truths` apart.
+/// Errors of one parameter over the persons. Shares refer to all rows, except `truths`.
 struct TwinSummary {
   std::string method, fit_case;
-  std::string muscle;  ///< "all": over the muscles.
+  std::string muscle;  ///< "all": all muscles together.
   std::string parameter;
   int count = 0;
   double bias = 0.0;          ///< Median signed error.
-  double median_error = 0.0;  ///< Median of its size.
-  double mad = 0.0;           ///< Median absolute deviation from it.
+  double median_error = 0.0;  ///< Median absolute error.
+  double mad = 0.0;           ///< Median absolute deviation from the median.
   double rmse = 0.0;
   double within_5 = 0.0, within_10 = 0.0, within_15 = 0.0, within_20 = 0.0;
-  double prior_within_10 = 0.0;  ///< Of the values that the search began with.
+  double prior_within_10 = 0.0;  ///< Share of the starting values within 10 %.
   int with_interval = 0;
-  double coverage = 0.0;    ///< Of the 95 % intervals there are.
+  double coverage = 0.0;    ///< Share of the 95 % intervals that hold the truth.
   double half_width = 0.0;  ///< Median, in the unit of the error.
   double shrinkage = 0.0;   ///< Median.
   int verdicts[5] = {};     ///< As identification::Verdict.
   /// Confusion: the verdict `identified` against an error below 10 %.
   int identified_good = 0, identified_bad = 0, other_good = 0, other_bad = 0;
-  int identified_within_15 = 0;  ///< Of the identified ones.
+  int identified_within_15 = 0;  ///< Identified numbers within 15 %.
   int outside_physical = 0;      ///< Reported beyond the physical bounds and not `non_physical`.
 };
 
-/// Virtual persons, one per seed, recorded by the protocol at its level, put through the whole
-/// chain (EMG, inverse kinematics and dynamics, identification) as `run` would, and compared with
-/// their truth. Persons in parallel; the same numbers for every number of threads. A person whose
-/// run fails is listed, not left out in silence. When stopped, those who are finished are
-/// returned.
+/// Makes virtual persons, one per seed, recorded by the protocol at its level, and puts them
+/// through the whole chain (EMG, inverse kinematics and dynamics, identification) as `run` does.
+/// Compares the results with the truth. Persons run in parallel, with the same numbers for every
+/// number of threads. A person whose run fails is listed. When stopped, returns the finished
+/// persons.
 [[nodiscard]] TwinStudyResult twin_study(const twin::Protocol& protocol,
                                          const TwinStudyOptions& options = {});
 
-/// Per method, case, parameter: each muscle and all together.
+/// Summarizes per method, case and parameter: each muscle and all together.
 [[nodiscard]] std::vector<TwinSummary> summarize(const TwinStudyResult& result);
 
-/// persons.csv (every estimate), summary.csv, predictions.csv, run.json.
+/// Writes persons.csv (every estimate), summary.csv, predictions.csv, run.json.
 void write_twin_study(const TwinStudyResult& result,
                       const Provenance& provenance,
                       const std::filesystem::path& folder);

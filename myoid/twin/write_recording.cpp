@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes the folder, or accepts an empty one, or a used one if that is allowed.
+/// Makes the folder, or accepts an empty one, or with `overwrite` a used one.
 void prepare_directory(const fs::path& directory, bool overwrite) {
   std::error_code error;
   fs::create_directories(directory, error);

@@ -16,12 +16,12 @@ using muscle::CurvePoint;
 
 constexpr int kIntervals = 600;
 constexpr int kMostIterations = 60;
-/// A fiber's length is found to this share of its optimal length; the tendon's force then holds to
-/// about 1e-9 of F_max.
+/// Relative tolerance of a fiber's length, over the optimal length; the tendon's force is then
+/// exact to about 1e-9 of F_max.
 constexpr double kLengthTolerance = 1e-12;
 
-/// Over the strain, from slack to twice the strain at F_max. The slope at slack is that from the
-/// right, where De Groote's curve has a corner.
+/// Tabulates the tendon from slack to twice the strain at F_max. The slope at slack is the
+/// right-hand one, because De Groote's curve has a corner there.
 CurveTable tabulated_tendon(const muscle::NormalizedCurves<double>& curves,
                             double strain_at_max_force) {
   return {[&](double e) -> CurvePoint<double> {

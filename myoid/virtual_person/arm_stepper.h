@@ -24,7 +24,7 @@ struct ArmState {
   PerHead fiber_velocity_mps{};
   PerHead tendon_force_n{};
   double muscle_torque_nm = 0.0;
-  double passive_torque_nm = 0.0;  ///< Of the joint.
+  double passive_torque_nm = 0.0;  ///< Torque of the joint.
 };
 
 /// Forward dynamics of an arm with elastic tendons, in fixed steps: the same numbers on every
@@ -37,34 +37,33 @@ struct ArmState {
 ///   F_t(l_mt - along(l)) = cos(alpha) F_max (a f_l f_v + f_pe + beta v / v_max)
 ///
 /// is solved for every fiber at every step, so that at the end of a step forces balance to
-/// round-off. The method is stable however stiff the tendons are, and of second order. Excitation
-/// to activation, equation (1), advances by exact exponentials. Curves are tables of the laws of
+/// round-off. The method is of second order, and stable for tendons of any stiffness. Activation
+/// follows excitation by equation (1), in exact exponentials. Curves are tables of the laws of
 /// muscle/ (CurveTable).
 class ArmStepper {
  public:
   ArmStepper(const TrueArm& arm, double step_s);
 
-  /// Rests at this angle, driven by these excitations since ever; fibers in balance.
+  /// Starts at rest at this angle, after constant excitation, with fibers in balance.
   void start(const Surroundings& surroundings, double elbow_flexion_rad, const PerHead& excitation);
 
-  /// One step under the excitations at its end. The arm moves by itself ...
+  /// Takes one step of the free arm under the excitations at the step's end.
   void step_free(const PerHead& excitation);
-  /// ... or is moved: `q` at the end of the step.
+  /// Takes one step of an arm that is moved to `q` at the step's end.
   void step_moved(const PerHead& excitation, const Moment& q);
 
   [[nodiscard]] const ArmState& state() const { return state_; }
   [[nodiscard]] double step_s() const { return step_s_; }
-  /// F_max of each head is this times that of the fresh muscle.
+  /// Sets each head's F_max over that of the fresh muscle.
   void set_strength(const PerHead& share) { strength_ = share; }
 
-  /// Torques that a nervous system may expect of its muscles: those about the elbow in a motion if
-  /// the tendons were stretched as at a tenth of F_max and the optimum were that of an activation
-  /// of 0.2.
+  /// Torques that a nervous system may expect of its muscles: the torques about the elbow in a
+  /// motion with tendons stretched as at a tenth of F_max and the optimum at an activation of 0.2.
   struct Foresight {
-    PerHead capacity_nm{};    ///< Of each head at full activation; signed.
-    double passive_nm = 0.0;  ///< Of the muscles without activation.
-    double torque_nm = 0.0;   ///< What activation has to provide: what the motion requires, without
-                              ///< the passive torque of joint and muscles.
+    PerHead capacity_nm{};    ///< Torque of each head at full activation; signed.
+    double passive_nm = 0.0;  ///< Torque of the muscles without activation.
+    double torque_nm = 0.0;   ///< Torque that activation has to provide: the motion's, without the
+                              ///< passive torque of joint and muscles.
   };
   [[nodiscard]] Foresight foresee(const Moment& q) const;
 
@@ -77,7 +76,7 @@ class ArmStepper {
   };
   struct FiberBalance {
     double mismatch_n = 0.0;  ///< F_t - F_m cos(alpha)
-    double slope_npm = 0.0;   ///< Its derivative by the fiber's length.
+    double slope_npm = 0.0;   ///< Derivative by the fiber's length.
     double tendon_n = 0.0;
   };
 
@@ -86,7 +85,7 @@ class ArmStepper {
                                      double length_m,
                                      double velocity_mps,
                                      double velocity_slope) const;
-  /// The length at which the head is in balance, velocity = offset + slope * length.
+  /// Returns the length at which the head is in balance, with velocity = offset + slope * length.
   [[nodiscard]] double balanced_length_m(std::size_t i,
                                          double path_m,
                                          double guess_m,
@@ -97,14 +96,14 @@ class ArmStepper {
 
   const TrueArm* arm_;
   double step_s_;
-  double lag_;       ///< 1 - exp(-h / tau) of the excitation, ...
-  double lag_up_;    ///< ... of the rising ...
-  double lag_down_;  ///< ... and of the falling activation.
+  double lag_;       ///< 1 - exp(-h / tau) of the excitation.
+  double lag_up_;    ///< 1 - exp(-h / tau) of the rising activation.
+  double lag_down_;  ///< 1 - exp(-h / tau) of the falling activation.
   std::array<HeadLaws, kHeadCount> laws_;
   Surroundings surroundings_;
   ArmState state_;
   PerHead filtered_{};  ///< e
-  PerHead before_m_{};  ///< Fiber lengths a step ago.
+  PerHead before_m_{};  ///< Fiber lengths at the preceding step.
   PerHead strength_{};
 };
 

@@ -8,13 +8,13 @@
 namespace myoid::twin {
 
 /// A smooth curve on an even grid, cubic Hermite between the nodes: value and slope in a few
-/// nanoseconds, whatever the curve costs. Beyond the ends it goes on as its tangents. The error of
-/// the value is h^4 / 384 times the fourth derivative where there is one.
+/// nanoseconds for any curve. Beyond the ends it continues as its tangents. The error of the value
+/// is h^4 / 384 times the fourth derivative where this exists.
 class CurveTable {
  public:
   CurveTable() = default;
-  /// `curve` at `intervals` + 1 nodes from `first` to `last`. Throws InvalidInput unless first <
-  /// last, intervals > 0 and all values are finite.
+  /// Tabulates `curve` at `intervals` + 1 nodes from `first` to `last`. Throws InvalidInput unless
+  /// first < last, intervals > 0 and all values are finite.
   CurveTable(const std::function<muscle::CurvePoint<double>(double)>& curve,
              double first,
              double last,

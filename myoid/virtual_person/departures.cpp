@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMostDeviations = 2.5;
 constexpr double kLeastScale = 0.5;
-/// De Groote's tendon: F / F_max = 0.2 (exp(ln(6) strain / e0) - 1).
+/// Force scale of De Groote's tendon: F / F_max = 0.2 (exp(ln(6) strain / e0) - 1).
 constexpr double kTendonForce = 0.2;
 
 }  // namespace

@@ -11,28 +11,29 @@
 
 namespace myoid::twin {
 
-/// Bodily properties of a person at L0 or L1 in which the fitted model is wrong.
+/// Bodily properties of a person at L0 or L1 that differ from the fitted model.
 struct Departures {
   /// The true moment arm is scale (r(q) + slope r(q0) (q - q0)), with the model's r and q0 the
   /// angle at which the muscle is optimal. The true length has r = -dl/dq and is the model's at q0.
   PerMuscle moment_arm_scale = {1.0, 1.0, 1.0, 1.0};
   PerMuscle moment_arm_slope_per_rad = {};
-  PerMuscle tendon_strain = {};  ///< Of De Groote's tendon at F_max; 0: rigid.
+  PerMuscle tendon_strain = {};  ///< Strain of De Groote's tendon at F_max; 0: rigid.
   muscle::MusculotendonLaws laws = muscle::paper_laws(muscle::TendonMode::rigid);
 
   [[nodiscard]] bool paper_curves() const { return laws.length == muscle::LengthLaw::gaussian; }
   [[nodiscard]] bool elastic() const { return tendon_strain != PerMuscle{}; }
-  /// Published curves leave of these parameters F_max, l_0, v_max and l_ts.
+  /// Returns true if the curves have this parameter; published curves have F_max, l_0, v_max and
+  /// l_ts.
   [[nodiscard]] bool has(const muscle::HillField& parameter) const;
 };
 
-/// A normal number within 2.5 standard deviations: people with half a moment arm are rare.
+/// Returns a normal number within 2.5 standard deviations: people with half a moment arm are rare.
 [[nodiscard]] double bounded_normal(simulation::Random& random);
 
-/// Scales and slopes are normal, none beyond 2.5 standard deviations; tendon strains are uniform.
+/// Draws scales and slopes, normal within 2.5 standard deviations, and tendon strains, uniform.
 [[nodiscard]] Departures draw_departures(const TruthSpec& spec, simulation::Random random);
 
-/// Multiplies the moment arm; the length changes by as much.
+/// Multiplies the moment arm by `factor`, and the change of length, too.
 void scale_moment_arm(model::PlanarMuscle& path, double factor);
 
 /// Adds slope r(q0) (q - q0) to the moment arm; the length at q0 stays.
@@ -45,12 +46,12 @@ class DepartedMuscles {
 
   [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const;
 
-  /// l_mt less the tendon's length under this tension [N].
+  /// Returns l_mt minus the tendon's length under this tension [N].
   [[nodiscard]] double fiber_length_m(std::size_t muscle, double path_m, double tension_n) const;
 
-  /// Force at full activation [N] of muscles with optimal lengths longer by these factors, under
-  /// these tensions. The fibers' speed is the path's: the rate at which the tendon stretches is
-  /// left out, as in the identification's elastic tendon.
+  /// Returns the force at full activation [N] of muscles with optimal lengths longer by these
+  /// factors, under these tensions. The fibers' speed is the path's, without the rate of the
+  /// tendon's stretch, as in the identification's elastic tendon.
   [[nodiscard]] PerMuscle full_force_n(const MuscleGeometry& geometry,
                                        const PerMuscle& longer,
                                        const PerMuscle& tension_n) const;
@@ -59,7 +60,7 @@ class DepartedMuscles {
   Departures departures_;
   const HillSet* muscles_;
   std::array<model::PlanarMuscle, 4> paths_;
-  std::optional<muscle::NormalizedCurves<double>> curves_;  ///< Empty: the paper's.
+  std::optional<muscle::NormalizedCurves<double>> curves_;  ///< Empty: the paper's curves.
 };
 
 }  // namespace myoid::twin

@@ -14,7 +14,7 @@ using Hill = muscle::HillParameters<double>;
 
 namespace beliefs = identification::beliefs;
 
-constexpr double kTendonSd = 0.03;  // of a person about the model, whose tendon the study holds
+constexpr double kTendonSd = 0.03;  // a person's tendon about the model's, which the study holds
 constexpr double kLeastWidth = 0.2;
 constexpr double kLeastPlateau = 1.05;
 
@@ -22,8 +22,7 @@ bool varies(const TruthSpec& spec, std::string_view parameter) {
   return std::find(spec.vary.begin(), spec.vary.end(), parameter) != spec.vary.end();
 }
 
-/// Every number is drawn, whether it is used or not: a parameter that is held leaves the others as
-/// they were.
+/// Draws every number, used or not, so that a held parameter does not change the others.
 Hill draw(const TruthSpec& spec,
           const Hill& literature,
           double shared_strength,
@@ -49,7 +48,7 @@ Hill draw(const TruthSpec& spec,
 
   const double slope = normal("eccentric_curvature_product");
   if (varies(spec, "eccentric_curvature_product")) {
-    // The slopes of f_v at rest keep their ratio S, but for its own spread.
+    // The slopes of f_v at rest keep their ratio S, except for its own spread.
     const double ratio = muscle::slope_ratio(literature.velocity_law());
     p.eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
         ratio * std::exp(beliefs::kSlopeRatio.sd * slope), p.concentric_curvature,

@@ -17,8 +17,7 @@ constexpr double kRate_hz = 25.0;
 /// Noise that lowers the weight of a sample: of the torque, and of the EMG relative to its value.
 constexpr double kTorqueSd_nm = 0.3, kEmgSd = 0.14;
 
-/// Torque and viscosity of every unexcited muscle over the joint's range, in steps of 2.5
-/// degrees.
+/// Torque and viscosity of every unexcited muscle over the joint's range, in steps of 2.5 degrees.
 class RestingCurves {
  public:
   explicit RestingCurves(const TrueArm& person) {
@@ -51,12 +50,12 @@ class RestingCurves {
 /// Sums over the samples of a muscle's true torque y and the model's x.
 struct Sums {
   double xx = 0.0, xy = 0.0, yy = 0.0;
-  /// Squares that are left of y at the best gain.
+  /// Returns the sum of squares of y that the best gain leaves.
   [[nodiscard]] double left() const { return xx > 0.0 ? yy - xy * xy / xx : yy; }
 };
 
-/// Contractions of a `held` joint, if there are any, alone count: in a movement every error of the
-/// force-length and force-velocity curves shifts the torque, too.
+/// Returns true if a trial counts. If there are contractions of a `held` joint, these alone count:
+/// in a movement every error of the force-length and force-velocity curves shifts the torque, too.
 bool counts(TrialKind kind, bool held) {
   if (held) return kind == TrialKind::isometric_ramp;
   return kind != TrialKind::passive && kind != TrialKind::mvc;

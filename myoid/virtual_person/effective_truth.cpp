@@ -18,7 +18,7 @@ constexpr std::array kAngles_deg = {15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 1
 constexpr std::array kSpeeds_radps = {-5.0, -2.5, -1.0, 0.0, 1.0, 2.5, 5.0};
 constexpr std::array kActivations = {0.1, 0.3, 0.6, 0.9};
 
-/// A steady state of a muscle, and the model's kinematics in it.
+/// A steady state of a muscle, with the model's kinematics in this state.
 struct SteadyPoint {
   double activation, path_m, path_mps, arm_m, torque_nm;
 };
@@ -34,7 +34,7 @@ class TrueMuscle {
     }
   }
 
-  /// In equilibrium of fibers and tendons, the joint at a steady speed.
+  /// Returns the torque at a steady speed of the joint, with fibers and tendons in equilibrium.
   [[nodiscard]] double torque_nm(double activation, double angle_rad, double speed_radps) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < heads_.size(); ++i) {
@@ -71,7 +71,7 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
   return points;
 }
 
-/// A fitted parameter, as muscle::kHillFields and the fields of a tension count it.
+/// A fitted parameter, by the index in muscle::kHillFields and in a tension's fields.
 struct Fitted {
   identification::MuscleField field;
   double tether;  ///< Weight of (value / literature - 1) in the residual.
@@ -102,7 +102,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     largest_nm.push_back(largest);
     count += static_cast<Eigen::Index>(points.back().size());
   }
-  // The solver sees each parameter over the literature's value; at the end gamma of all.
+  // The solver's variables are the parameters over the literature's values, and at the end gamma.
   const Eigen::Index gamma = kPerMuscle * muscles;
   const auto hill_of = [&literature](const Eigen::VectorXd& x, Eigen::Index m) {
     Hill p = literature[static_cast<std::size_t>(m)];

@@ -13,7 +13,7 @@ constexpr double kFatigueStep_s = 0.05;
 template <std::size_t N>
 void Tiredness<N>::rest(double interval_s) {
   if (!rates) return;
-  constexpr double kRelaxing_s = 2.0;  // e^-20 is left of what was active
+  constexpr double kRelaxing_s = 2.0;  // leaves e^-20 of the active share
   const double relaxing_s = std::min(interval_s, kRelaxing_s);
   work({}, relaxing_s);
   const double decay =
@@ -104,8 +104,8 @@ Instant ExactPerformance::at(double time_s) const {
     }
   }
   // The force per activation depends a little on the activation (its shift of the optimum) and on
-  // the force (the tendon's stretch): in turn, until all agree. Stretches that answer the force by
-  // more than itself settle too, because half of each step is taken.
+  // the force (the tendon's stretch). Iterates until all agree. Half steps make the iteration
+  // converge even if a stretch changes the force by more than the force changed.
   constexpr int kMostTurns = 200;
   const bool at_once = !elastic_ && (prescribed || beside_.length_activation == 0.0);
   PerMuscle full_n{}, capacity_nm{}, tension_n{};
@@ -138,7 +138,7 @@ Instant ExactPerformance::at(double time_s) const {
 }
 
 PerMuscle ExactPerformance::drive(double time_s) const {
-  // The electrode sees now what the muscle does a delay later.
+  // The electrode shows the activation that the muscle has a delay later.
   return at(time_s + delay_s_).activation;
 }
 

@@ -16,21 +16,22 @@
 
 namespace myoid::twin {
 
-inline constexpr double kGreatestActivation = 0.95;  ///< More cannot be asked of a person.
+/// Greatest activation that a trial may require.
+inline constexpr double kGreatestActivation = 0.95;
 
 /// The state of the person at one instant of a trial.
 struct Instant {
   Moment q;                         ///< Elbow flexion.
-  PerMuscle activation{};           ///< What the muscle does; of heads, the mean by strength.
-  PerMuscle force_n{};              ///< On the skeleton; of heads, the sum.
-  PerMuscle fiber_length_m{};       ///< Of heads, the mean by strength.
-  double muscle_torque_nm = 0.0;    ///< Flexion positive, as all of them.
-  double passive_torque_nm = 0.0;   ///< Of the joint itself.
-  double external_torque_nm = 0.0;  ///< Of the dynamometer.
+  PerMuscle activation{};           ///< Activation of the muscle; for heads, the mean by strength.
+  PerMuscle force_n{};              ///< On the skeleton; for heads, the sum.
+  PerMuscle fiber_length_m{};       ///< For heads, the mean by strength.
+  double muscle_torque_nm = 0.0;    ///< Flexion positive, as all torques.
+  double passive_torque_nm = 0.0;   ///< Torque of the joint itself.
+  double external_torque_nm = 0.0;  ///< Torque of the dynamometer.
 };
 
-/// One person doing one trial: the truth at any time, a little before the beginning and after the
-/// end too.
+/// One person's performance of one trial: the truth at any time, also a little before the beginning
+/// and after the end.
 class Performance {
  public:
   explicit Performance(TrialScript script) : script_(std::move(script)) {}
@@ -41,11 +42,11 @@ class Performance {
   [[nodiscard]] const TrialScript& script() const { return script_; }
   [[nodiscard]] virtual Instant at(double time_s) const = 0;
   [[nodiscard]] virtual Moment motion(double time_s) const = 0;
-  /// Excitation of each muscle as its electrode sees it, before any delay.
+  /// Returns the excitation of each muscle at its electrode, before any delay.
   [[nodiscard]] virtual PerMuscle drive(double time_s) const = 0;
-  /// Share of the strength that fatigue has taken from each muscle by this time.
+  /// Returns the share of each muscle's strength that fatigue has taken by this time.
   [[nodiscard]] virtual PerMuscle fatigued(double time_s) const = 0;
-  /// The heads at this time; empty where the truth has none.
+  /// Returns the heads at this time; empty if the truth has none.
   [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const {
     return std::nullopt;
   }
@@ -54,15 +55,15 @@ class Performance {
   TrialScript script_;
 };
 
-/// A value of an even clock from 0 that is held before and after; straight lines in between.
+/// Interpolates by straight lines on an even clock from 0; the end values continue outside.
 [[nodiscard]] PerMuscle interpolated(const std::vector<PerMuscle>& values,
                                      double step_s,
                                      double time_s);
 
-/// Fatigue of N muscles or heads from trial to trial.
+/// Fatigue of N muscles or heads over the trials.
 template <std::size_t N>
 struct Tiredness {
-  std::optional<muscle::FatigueRates<double>> rates;  ///< Empty: nobody tires.
+  std::optional<muscle::FatigueRates<double>> rates;  ///< Empty: no fatigue.
   std::array<muscle::FatigueState<double>, N> state{};
 
   [[nodiscard]] std::array<double, N> strength() const {
@@ -75,18 +76,18 @@ struct Tiredness {
     for (std::size_t i = 0; i < N; ++i)
       state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
   }
-  /// Active muscle relaxes first; then M_F decays with the rate r R.
+  /// Rests: active muscle relaxes first; then M_F decays with the rate r R.
   void rest(double interval_s);
 };
 extern template struct Tiredness<4>;
 extern template struct Tiredness<7>;
 
-/// Levels L0 and L1: rigid tendons and prescribed motion, so that the equation of motion is solved
-/// by activations in closed form.
+/// Levels L0 and L1: tendons are rigid and the motion is prescribed, so that activations in closed
+/// form solve the equation of motion.
 class ExactPerformance : public Performance {
  public:
-  /// `effort`: what the muscles reach of their greatest activation in an MVC trial. `tiredness` is
-  /// carried on.
+  /// Performs the trial. `effort`: shares of the greatest activation in an MVC trial. `tiredness`
+  /// passes on to the next trial.
   ExactPerformance(const VirtualArm& arm,
                    const HillSet& muscles,
                    TrialScript script,
@@ -101,12 +102,12 @@ class ExactPerformance : public Performance {
   [[nodiscard]] PerMuscle drive(double time_s) const override;
   [[nodiscard]] PerMuscle fatigued(double time_s) const override;
 
-  /// The greatest activation that the motion asks for; 0 against a dynamometer.
+  /// Returns the greatest activation that the motion requires; 0 against a dynamometer.
   [[nodiscard]] double greatest_activation(double rate_hz) const;
 
  private:
   [[nodiscard]] PerMuscle strength(double time_s) const;
-  /// Force over activation at these activations and tensions.
+  /// Returns force over activation at these activations and tensions.
   [[nodiscard]] PerMuscle force_per_activation_n(const MuscleGeometry& geometry,
                                                  const PerMuscle& activation,
                                                  const PerMuscle& tension_n) const;
@@ -121,13 +122,13 @@ class ExactPerformance : public Performance {
   std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.
 };
 
-/// The greatest activation that a person at level L2 would foresee for a trial; 0 against a
+/// Returns the greatest activation that a person at level L2 would foresee for a trial; 0 against a
 /// dynamometer.
 [[nodiscard]] double foreseen_activation(const TrueArm& arm, const TrialScript& script);
 
-/// Level L2: a nervous system drives the arm forward in time (ArmStepper). It knows the motion it
-/// wants and about what its muscles can do; what it gets wrong it corrects by what it feels of
-/// angle and speed, and its drive is noisy. The motion is what comes of it.
+/// Level L2: a nervous system drives the arm forward in time (ArmStepper). It knows the intended
+/// motion and approximately its muscles' capacity, corrects errors by the felt angle and speed, and
+/// has a noisy drive. The motion is the result.
 class SimulatedPerformance : public Performance {
  public:
   SimulatedPerformance(const TrueArm& arm,
@@ -143,11 +144,11 @@ class SimulatedPerformance : public Performance {
   [[nodiscard]] PerMuscle fatigued(double time_s) const override;
   [[nodiscard]] std::optional<ArmState> heads(double time_s) const override;
 
-  /// Why the person could not do the trial; empty if it went well.
+  /// Returns the reason why the person could not do the trial; empty if there is none.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
-  /// The commands as the muscles' excitations, for simulating the same trial by other means: on the
-  /// clock of `sample_time_s`, the delay passed.
+  /// Returns the commands as the muscles' excitations after the delay, on the clock of
+  /// `sample_time_s`, for simulations of the same trial by other means.
   [[nodiscard]] std::size_t sample_count() const { return samples_.size(); }
   [[nodiscard]] double sample_time_s(std::size_t k) const;
   [[nodiscard]] const PerHead& excitation(std::size_t k) const { return samples_[k].excitation; }
@@ -160,14 +161,14 @@ class SimulatedPerformance : public Performance {
     PerMuscle command{};
     PerMuscle electrode{};
   };
-  /// The interval that holds the time, and where in it, 0..1.
+  /// The interval that contains a time, and the position inside it, 0..1.
   struct Place {
     std::size_t before;
     double share;
   };
   [[nodiscard]] Place place(double time_s) const;
   void simulate(double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed);
-  /// The command that reaches the muscles at a time, from those given so far.
+  /// Returns the command that reaches the muscles at a time, from the commands so far.
   [[nodiscard]] PerMuscle delayed_command(double t) const;
   /// Steps the arm from sample k - 1 to sample k.
   void step_to_sample(std::size_t k, ArmStepper& stepper) const;
@@ -177,7 +178,7 @@ class SimulatedPerformance : public Performance {
   const TrueArm* arm_;
   PerMuscle effort_;
   std::vector<Sample> samples_;
-  std::vector<PerMuscle> fatigued_;  ///< On an even clock from 0; empty: nobody tires.
+  std::vector<PerMuscle> fatigued_;  ///< On an even clock from 0; empty: no fatigue.
   std::string failure_;
 };
 

@@ -42,7 +42,7 @@ std::vector<std::string> parameter_names() {
   return names;
 }
 
-/// Overwrites `value` if the key is there; throws unless lower <= it <= upper.
+/// Overwrites `value` if the key exists; throws unless lower <= value <= upper.
 void number_into(TomlTable& table,
                  std::string_view key,
                  double& value,
@@ -68,7 +68,7 @@ void count_into(TomlTable& table, std::string_view key, int& value, int lower, i
   value = static_cast<int>(number);
 }
 
-/// A range [low, high].
+/// Reads a range [low, high].
 void range_into(
     TomlTable& table, std::string_view key, double& low, double& high, double lower, double upper) {
   if (!table.has(key)) return;
@@ -91,7 +91,7 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
   table.finish();
 }
 
-/// Throws where the level gives a key of [truth] no meaning.
+/// Throws if a key of [truth] has no meaning at the level.
 void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
   if (level == Level::different && truth.curves == "paper")
     table.fail("curves",
@@ -157,7 +157,7 @@ void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
   table.finish();
 }
 
-/// angle_deg = 70, or angles_deg = [30, 70] for one trial each.
+/// Reads angle_deg = 70, or angles_deg = [30, 70] for one trial each.
 std::vector<double> read_angles_deg(TomlTable& table) {
   std::vector<double> angles = {table.number("angle_deg").value_or(70.0)};
   if (auto several = table.numbers("angles_deg")) {
@@ -297,8 +297,8 @@ void read_raising(TomlTable& table, TrialProtocol& trial) {
   }
 }
 
-/// One [[trial]]; several if it names several angles. Every kind has its own keys: one that does
-/// not apply is an unknown key.
+/// Reads one [[trial]]; several if it names several angles. Every kind has its own keys; a key of
+/// another kind is an unknown key.
 std::vector<TrialProtocol> read_trial(TomlTable table) {
   const TrialProtocol common = read_kind(table);
   std::vector<TrialProtocol> result{common};

@@ -31,25 +31,26 @@ struct Section {
   }
 };
 
-/// 1 / (1 + s/w) by the bilinear rule, exact at w itself.
+/// Returns 1 / (1 + s/w) by the bilinear rule, exact at w itself.
 Section lag(double cutoff_hz, double rate_hz) {
   const double k = std::tan(kPi * cutoff_hz / rate_hz);
   return {k / (1.0 + k), k / (1.0 + k), (1.0 - k) / (1.0 + k)};
 }
 
-/// (s/w) / (1 + s/w) likewise.
+/// Returns (s/w) / (1 + s/w) by the bilinear rule.
 Section lead(double cutoff_hz, double rate_hz) {
   const double k = std::tan(kPi * cutoff_hz / rate_hz);
   return {1.0 / (1.0 + k), -1.0 / (1.0 + k), (1.0 - k) / (1.0 + k)};
 }
 
-/// y_k + a1 y_{k-1} + a2 y_{k-2} + a3 y_{k-3} = b0 n_k + b1 n_{k-1} + b2 n_{k-2} + b3 n_{k-3}
+/// The recursion y_k + a1 y_{k-1} + a2 y_{k-2} + a3 y_{k-3} = b0 n_k + b1 n_{k-1} + b2 n_{k-2} + b3
+/// n_{k-3}.
 struct Recursion {
   std::array<double, 4> a = {1.0, 0.0, 0.0, 0.0};
   std::array<double, 4> b = {1.0, 0.0, 0.0, 0.0};
 };
 
-/// The recursion whose output has the autocovariance of the shaped noise, sampled.
+/// Returns the recursion whose output has the autocovariance of the sampled shaped noise.
 Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
   // The autocovariance, from the response to an impulse at a finer rate.
   const double fine_hz = kOversampling * rate_hz;
@@ -57,7 +58,7 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
                                   lag(spectrum.high_hz, fine_hz)};
   Recursion result;
   for (const Section& section : chain) {
-    // Sampled, a pole p has become p^16; times (1 - p^16 z^-1).
+    // Sampling turns a pole p into p^16; multiplies by (1 - p^16 z^-1).
     const double pole = std::pow(section.p, kOversampling);
     for (std::size_t i = 3; i > 0; --i) result.a[i] -= pole * result.a[i - 1];
   }
@@ -75,7 +76,7 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
     for (std::size_t i = 0; i + lag_count * kOversampling < length; ++i)
       r[lag_count] += response[i] * response[i + lag_count * kOversampling];
   }
-  // The poles leave a moving average of autocovariance c.
+  // Without the poles a moving average of autocovariance c remains.
   std::array<double, 4> c = {};
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < 4; ++i) {
@@ -105,9 +106,8 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
   return result;
 }
 
-/// White noise through the sections, brought to unit variance: that of the output is the sum of the
-/// squared impulse response. The first `settle` values, which still remember the start, are
-/// dropped.
+/// Returns white noise through the sections, scaled to unit variance: the output's variance is the
+/// sum of the squared impulse response. Drops the first `settle` values, which depend on the start.
 template <std::size_t N>
 Eigen::VectorXd shaped_noise(const std::array<Section, N>& sections,
                              int settle,
@@ -181,11 +181,11 @@ Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
 }
 
 double discharges_hz(double motor_units, double excitation) {
-  constexpr double kRecruited = 0.6;    // excitation at which all units are at work
+  constexpr double kRecruited = 0.6;    // excitation at which all units are active
   constexpr double kThresholds = 30.0;  // highest over lowest
   constexpr double kSlowest_hz = 8.0;
   constexpr double kFastest_hz = 30.0;
-  constexpr double kLeast = 2.0;  // units of a muscle that is said to do anything
+  constexpr double kLeast = 2.0;  // least number of active units at any excitation
   const double u = std::clamp(excitation, 0.0, 1.0);
   const double share =
       std::log1p((kThresholds - 1.0) * std::min(1.0, u / kRecruited)) / std::log(kThresholds);
@@ -198,7 +198,7 @@ Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
   Eigen::VectorXd noise(per_second.size());
   for (Eigen::Index k = 0; k < per_second.size(); ++k) {
     const double mean = per_second(k) / rate_hz;
-    // The Poisson number by inversion of its distribution.
+    // Draws the Poisson number by inversion of its distribution.
     const double u = random.uniform();
     double probability = std::exp(-mean);
     double below = probability;

@@ -12,15 +12,17 @@ namespace {
 
 constexpr double kStep_s = 0.001;
 constexpr int kStepsPerSample = 5;
-constexpr double kSample_s = kStep_s * kStepsPerSample;  ///< Of the command, and of what is kept.
+/// Interval of the commands and of the stored samples.
+constexpr double kSample_s = kStep_s * kStepsPerSample;
 constexpr int kSamplesPerFatigue = 10;
-constexpr double kBefore_s = 1.0;  ///< The arm comes to rest, held, before the trial begins.
+constexpr double kBefore_s = 1.0;  ///< time at rest, held, before the trial begins
 constexpr double kAfter_s = 0.2;
 constexpr double kMotorNoiseCutoff_hz = 3.0;
-constexpr double kLost_rad = 0.6;        ///< So far from what was wanted, the movement has failed.
-constexpr double kFeedback_radps = 6.0;  ///< Natural frequency of the correction ...
-constexpr double kDamping = 0.8;         ///< ... its damping ratio ...
-constexpr double kIntegral = 0.1;        ///< ... and integral part.
+/// Distance from the intended angle at which a movement has failed.
+constexpr double kLost_rad = 0.6;
+constexpr double kFeedback_radps = 6.0;  ///< natural frequency of the correction
+constexpr double kDamping = 0.8;         ///< damping ratio of the correction
+constexpr double kIntegral = 0.1;        ///< integral part of the correction
 constexpr double kForceSense_s = 0.05;   ///< Time over which felt forces are averaged.
 
 /// The plan of the person at one time.
@@ -62,7 +64,7 @@ PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) 
   return fatigued;
 }
 
-/// Drive that nobody intends: a factor about 1 for each muscle, on the clock of the samples.
+/// Returns the unintended drive: a factor about 1 for each muscle, on the clock of the samples.
 std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std::uint64_t seed) {
   std::array<Eigen::VectorXd, 4> factor;
   simulation::Random random(seed);
@@ -74,8 +76,8 @@ std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std
   return factor;
 }
 
-/// Chooses the muscles' activations: those foreseen for the movement, corrected by what is seen and
-/// felt of it.
+/// Chooses the muscles' activations: the ones foreseen for the movement, corrected by the seen and
+/// felt errors.
 class Controller {
  public:
   Controller(const TrueArm& arm,
@@ -93,7 +95,7 @@ class Controller {
     viscosity_ = 2.0 * kDamping * inertia_kgm2 * kFeedback_radps;
   }
 
-  /// The command at time `t`. The first one knows no error yet.
+  /// Returns the command at time `t`. The first command knows no error yet.
   PerMuscle command(double t, bool first) {
     return script_.against_dynamometer() ? prescribed(t) : corrected(t, first);
   }
@@ -108,7 +110,7 @@ class Controller {
   }
 
   PerMuscle corrected(double t, bool first) {
-    // A command acts a little later than it is given.
+    // A command acts a little later, so the plan is that of the later time.
     const Plan later = plan_at(stepper_, arm_, script_, t + lead_s_);
     const Moment wanted = script_.motion(t);
     const Moment& is = stepper_.state().q;
@@ -131,7 +133,7 @@ class Controller {
   double lead_s_;
   double stiffness_ = 0.0, viscosity_ = 0.0;
   double held_nm_ = 0.0;  ///< The integral part.
-  double felt_nm_ = 0.0;  ///< Torque of the muscles beyond the foreseen.
+  double felt_nm_ = 0.0;  ///< Torque of the muscles beyond the foreseen torque.
 };
 
 PerHead excitation_of(const TrueArm& arm, const PerMuscle& command) {
@@ -150,7 +152,7 @@ PerMuscle electrode_of(const TrueArm& arm, const PerMuscle& command) {
   return power;
 }
 
-/// The reason why a movement has failed in this state; empty if it goes well.
+/// Returns the reason why a movement has failed in this state; empty if it has not failed.
 std::string failure_of(const ArmState& state, const TrialScript& script, double t) {
   const double off_rad = state.q.value - script.motion(t).value;
   if (!(std::abs(off_rad) < kLost_rad))
@@ -244,7 +246,7 @@ void SimulatedPerformance::simulate(double motor_noise,
   Controller controller(*arm_, script, stepper, effort_);
   const auto command_at = [&](std::size_t k) {
     PerMuscle u = controller.command(sample_time_s(k), k == 0);
-    // Excitation has a floor and a ceiling; one that would need more is found by failure_of().
+    // Limits the excitation to 0..1; failure_of() finds a movement that needs more.
     for (std::size_t m = 0; m < 4; ++m)
       u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
     return u;
@@ -279,7 +281,7 @@ SimulatedPerformance::Place SimulatedPerformance::place(double time_s) const {
       std::clamp((time_s + kBefore_s) / kSample_s, 0.0, static_cast<double>(samples_.size() - 1));
   const std::size_t before = std::min(static_cast<std::size_t>(s), samples_.size() - 2);
   double share = s - static_cast<double>(before);
-  // Times on the grid mean its samples, whatever round-off says.
+  // Round-off does not move times on the grid off their samples.
   if (share < 1e-9) share = 0.0;
   if (share > 1.0 - 1e-9) share = 1.0;
   return {before, share};
@@ -291,7 +293,7 @@ Moment SimulatedPerformance::motion(double time_s) const {
   const Moment& b = samples_[at.before + 1].arm.q;
   if (at.share == 0.0) return a;
   if (at.share == 1.0) return b;
-  // The quintic that meets value, speed and acceleration at both ends.
+  // The quintic with value, speed and acceleration of both ends.
   const double h = kSample_s;
   const double x = at.share;
   const double rise = b.value - a.value - h * (a.first + 0.5 * h * a.second);

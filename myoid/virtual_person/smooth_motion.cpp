@@ -88,7 +88,7 @@ Moment SmoothMotion::operator()(double time_s) const {
 double SmoothMotion::end_s() const {
   double end = 0.0;
   for (const Move& move : moves) end = std::max(end, move.start_s + move.duration_s);
-  // Both changes of pace together take the time of one at full pace.
+  // The changes of pace at both ends together take the time of one at full pace.
   if (cycles > 0) end = std::max(end, oscillation_start_s + pace_s + cycles / frequency_hz);
   return end;
 }

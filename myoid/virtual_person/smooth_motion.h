@@ -5,7 +5,7 @@
 
 namespace myoid::twin {
 
-/// A quantity and its first two derivatives by time.
+/// A quantity and its first two time derivatives.
 struct Moment {
   double value = 0.0;
   double first = 0.0;
@@ -18,15 +18,15 @@ struct Moment {
 [[nodiscard]] Moment operator*(double a, const Moment& b);
 [[nodiscard]] Moment cosine(const Moment& x);
 
-/// A step from 0 to 1 that starts at `start_s` and takes `duration_s`: x^6 (462 - 1980 x + 3465 x^2
-/// - 3080 x^3 + 1386 x^4 - 252 x^5), whose first five derivatives vanish at both ends. 0 before, 1
-/// after.
+/// Returns a step from 0 to 1 that starts at `start_s` and takes `duration_s`: x^6 (462 - 1980 x +
+/// 3465 x^2 - 3080 x^3 + 1386 x^4 - 252 x^5), whose first five derivatives vanish at both ends. 0
+/// before, 1 after.
 [[nodiscard]] Moment smooth_step(double time_s, double start_s, double duration_s);
 
-/// The integral of the step over time [s].
+/// Returns the integral of the step over time [s].
 [[nodiscard]] Moment smooth_ramp(double time_s, double start_s, double duration_s);
 
-/// From one angle to another.
+/// A move from one angle to another.
 struct Move {
   double start_s = 0.0;
   double duration_s = 1.0;
@@ -44,30 +44,30 @@ struct Sweep {
 };
 
 /// An angle over time that is at rest before its beginning and after its end, with five continuous
-/// derivatives, so that splines through its samples do no harm at the ends:
+/// derivatives, so that splines through its samples are accurate at the ends:
 ///
 ///   q(t) = start + sum_k by_k step((t - start_k) / duration_k) + sweeps + A (1 - cos phi(t))
 ///
-/// where phi rises from 0 to 2 pi `cycles`, first and last with a gentle change of pace.
+/// where phi rises from 0 to 2 pi `cycles` with a smooth change of pace at both ends.
 struct SmoothMotion {
   double start_rad = 0.0;
   std::vector<Move> moves;
   std::vector<Sweep> sweeps;
 
-  double amplitude_rad = 0.0;  ///< Of the oscillation, from `start_rad` to start + 2 A.
+  double amplitude_rad = 0.0;  ///< Amplitude of the oscillation, from `start_rad` to start + 2 A.
   double oscillation_start_s = 0.0;
-  double frequency_hz = 1.0;  ///< Once up to pace.
-  double pace_s = 0.5;        ///< Time to come up to pace, and to come to rest.
+  double frequency_hz = 1.0;  ///< Frequency at full pace.
+  double pace_s = 0.5;        ///< Time to reach full pace, and to come to rest.
   int cycles = 0;
   double amplitude_variation = 0.0;  ///< Relative change of A from cycle to cycle.
-  double variation_hz = 0.0;         ///< How fast it changes.
+  double variation_hz = 0.0;         ///< Frequency of this change.
   double variation_phase_rad = 0.0;
-  double wander_rad = 0.0;  ///< How far the phase goes ahead and behind, once up to pace.
+  double wander_rad = 0.0;  ///< Amplitude of the phase's lead and lag at full pace.
   double wander_hz = 0.0;
   double wander_phase_rad = 0.0;
 
   [[nodiscard]] Moment operator()(double time_s) const;
-  /// When it comes to rest for good [s].
+  /// Returns the time at which the motion ends in rest [s].
   [[nodiscard]] double end_s() const;
 };
 

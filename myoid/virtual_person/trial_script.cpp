@@ -9,15 +9,15 @@
 namespace myoid::twin {
 namespace {
 
-constexpr double kMarginOfFlexion_s = 0.5;  ///< At rest before and after.
+constexpr double kMarginOfFlexion_s = 0.5;  ///< time at rest before and after
 
-/// Adds a movement of an uneven person: several submovements that overlap.
+/// Adds a movement of an uneven person: several overlapping submovements.
 void add_uneven_move(double start_s,
                      double duration_s,
                      double by_rad,
                      SmoothMotion& motion,
                      simulation::Random& random) {
-  constexpr double kOne_s = 0.9;  // of the movements that slow ones are made of
+  constexpr double kOne_s = 0.9;  // duration of each submovement
   const int count = std::max(1, static_cast<int>(std::lround(duration_s / kOne_s)));
   std::vector<double> share;
   double sum = 0.0;
@@ -104,15 +104,16 @@ void make_uneven(TrialScript& script, double irregularity, simulation::Random& r
   }
 }
 
-/// The flexors' proportions go around a circle from effort to effort: each of them leads in turn.
+/// Returns flexor proportions that move around a circle from effort to effort, so that each leads
+/// in turn.
 Coordination lead(const ControlSpec& control, double first_rad, int k, int count) {
   const double angle_rad = first_rad + 2.0 * kPi * k / std::max(count, 3);
   return {.brachioradialis = control.synergy * std::sqrt(2.0) * std::cos(angle_rad),
           .brachialis = control.brachialis_synergy * std::sqrt(2.0) * std::sin(angle_rad)};
 }
 
-/// Effort at the angle where the sweep begins, the sweep, and rest; between sweeps that do not
-/// follow each other the relaxed arm is brought back.
+/// Adds effort at the angle where the sweep begins, the sweep, and rest; between sweeps that do not
+/// follow each other the relaxed arm is moved back.
 void add_sweeps(TrialScript& script, const ControlSpec& control, simulation::Random& random) {
   const TrialProtocol& p = script.protocol;
   constexpr double kReturn_s = 2.0;
@@ -167,7 +168,7 @@ void add_efforts(TrialScript& script, const ControlSpec& control, simulation::Ra
       if (p.direction == (flexion ? Direction::extension : Direction::flexion)) continue;
       Effort effort{
           .start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
-      // At the greatest effort every muscle does its utmost.
+      // At the greatest effort every muscle is fully active.
       if (p.kind != TrialKind::mvc && flexion)
         effort.coordination = lead(control, first_rad, k, p.repetitions);
       script.efforts.push_back(effort);
@@ -241,8 +242,8 @@ TrialScript make_script(const TrialProtocol& trial,
   script.co_contraction_change = {.depth = 0.5,
                                   .frequency_hz = random.uniform(0.07, 0.2),
                                   .phase_rad = random.uniform(0.0, 2.0 * kPi)};
-  // The proportions of the flexors: about half of their variance lies between trials (somewhere on
-  // a circle), half within.
+  // About half of the variance of the flexors' proportions lies between trials (a place on a
+  // circle), half within.
   const auto change = [&random](double sd) {
     return Modulation{.depth = sd,
                       .frequency_hz = random.uniform(0.05, 0.15),

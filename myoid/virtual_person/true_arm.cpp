@@ -24,12 +24,13 @@ constexpr double kExcitationTimeSd = 0.2;
 constexpr double kActivationTimeSd = 0.25;
 constexpr double kHeadDriveSd = 0.08;
 constexpr double kMostPureDelay_s = 0.020;
-/// The published 0.6 and 0.7 would give the relaxed biceps of this arm, whose fibers are optimal at
-/// 85 degrees, several newton meters at 20 degrees; a relaxed elbow has about one.
+/// Passive strains at F_max. The published 0.6 and 0.7 would give the relaxed biceps of this arm,
+/// whose fibers are optimal at 85 degrees, several newton meters at 20 degrees; a relaxed elbow has
+/// about one.
 constexpr double kLeastPassiveStrain = 0.8;
 constexpr double kMostPassiveStrain = 1.2;
-/// Share of each head in the EMG of its muscle: of the biceps both, of the triceps above all that
-/// of the lateral one.
+/// Share of each head in the EMG of its muscle: both heads of the biceps, and mainly the lateral
+/// head of the triceps.
 constexpr PerHead kElectrodeShare = {0.5, 0.5, 1.0, 1.0, 0.3, 0.6, 0.1};
 
 /// The draws for one muscle, in standard deviations.
@@ -89,7 +90,7 @@ TrueArm draw_true_arm(const TruthSpec& spec,
         std::max(0.5, 1.0 + beliefs::kFiberLength.sd * d.fiber_length + kHeadFiberLengthSd * z());
     hill.optimal_fiber_length_m *= length;
     hill.force_length_width_m *= length;
-    // v_max is so many fiber lengths per second.
+    // v_max is a fixed number of fiber lengths per second.
     hill.max_shortening_speed_mps *= length * std::exp(beliefs::kSpeed.sd * d.speed);
     head.parameters = muscle::published_defaults(hill, arm.laws);
     head.parameters.pennation_at_optimal_rad = from.pennation_at_optimal_rad;
@@ -97,8 +98,8 @@ TrueArm draw_true_arm(const TruthSpec& spec,
     head.parameters.passive_strain = passive_strain;
     head.parameters.optimal_length_shift = shift;
 
-    // The path is as long as fiber and half-stretched tendon at the angle where the fiber is
-    // optimal in the literature, but for the person's own departure.
+    // At the angle of the literature's optimum, the path is as long as fiber and half-stretched
+    // tendon, apart from the person's own departure.
     head.path = from.path;
     scale_moment_arm(head.path, std::max(0.5, 1.0 + spec.moment_arm_sd * d.moment_arm));
     const double published_m = from.hill.optimal_fiber_length_m + from.hill.tendon_slack_length_m;

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, muscle::kHillFields.size()> hill_names() 
 }
 constexpr std::array kHillNames = hill_names();
 
-/// A setting [low, high].
+/// Visits a setting [low, high].
 void range(SettingVisitor& v, std::string_view key, double& low, double& high, About about) {
   std::vector<double> both = {low, high};
   about.count = 2;
@@ -76,7 +76,7 @@ void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
            {.says = "The offset of the above.", .limits = within(-20.0, 20.0, "N m")});
 }
 
-/// Rows of the reference in the notation of a file.
+/// Collects the rows of the reference in the notation of a file.
 class FileRows : public FlatSettingVisitor {
  public:
   std::vector<SettingRow> rows;

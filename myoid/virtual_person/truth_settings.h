@@ -9,20 +9,20 @@
 
 namespace myoid::twin {
 
-/// The keys of [truth] in the order of the reference: of the person, then those in which a world is
-/// other than the identification believes.
+/// Visits the keys of [truth] in the order of the reference: the person's, then the departures of
+/// the world from the identification's assumptions.
 void visit(TruthSpec& truth, SettingVisitor& v);
 
-/// The keys of the second kind only.
+/// Visits the world's keys only.
 void visit_world(TruthSpec& truth, SettingVisitor& v);
 
-/// The reference of [truth].
+/// Returns the reference of [truth].
 [[nodiscard]] SettingTable truth_reference();
 
-/// A number of the world that is not the level's default.
+/// A number of the world that differs from the level's default.
 struct WorldSetting {
   std::string key;
-  std::string unit;   ///< "1" where there is none.
+  std::string unit;   ///< "1" if there is none.
   std::string value;  ///< "0.15", "0.08 to 0.08", "millard"
 };
 [[nodiscard]] std::vector<WorldSetting> stated_world(const Protocol& protocol);

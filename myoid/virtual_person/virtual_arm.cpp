@@ -13,7 +13,7 @@
 namespace myoid::twin {
 namespace {
 
-/// Heads as one muscle each: F_max added up, the rest in the mean by F_max.
+/// Lumps heads into one muscle each: F_max added up, other numbers in the mean by F_max.
 void lump(const std::vector<model::ArmHead>& heads, HillSet& muscles) {
   for (std::size_t m = 0; m < muscles.size(); ++m) {
     muscle::HillParameters<double> sum;
@@ -49,7 +49,7 @@ struct VirtualArm::Parts {
   model::BodyModel body_model;
   std::vector<std::string> marker_names;
   int elbow_coordinate = 0;
-  std::vector<model::ArmHead> heads;  ///< Of the model file; empty: four muscles.
+  std::vector<model::ArmHead> heads;  ///< Heads of the model file; empty: four muscles.
 };
 
 VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads)
@@ -64,7 +64,7 @@ VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads)
     lump(parts_->heads, parts_->literature);
   }
   parts_->held_at_m = model::arm4_held_at_m(arm);
-  // Read back from its own text: the markers are those of the file that goes with the recording.
+  // Read back from its own text, so that the markers are those of the recording's file.
   parts_->body_model = model::parse_osim(parts_->osim, "model.osim");
   parts_->elbow_coordinate = parts_->body_model.coordinate_index("elbow_flexion");
   for (const model::Marker& marker : parts_->body_model.markers) {

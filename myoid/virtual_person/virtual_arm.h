@@ -18,13 +18,13 @@ namespace myoid::twin {
 
 using HillSet = std::array<muscle::HillParameters<double>, 4>;  ///< In the order of kArmMuscles.
 
-/// The segments of a virtual subject.
+/// Returns the segments of a virtual subject.
 [[nodiscard]] model::ArmOptions arm_options(const VirtualSubject& subject);
 
 /// The muscles at one angle and speed of the elbow.
 struct MuscleGeometry {
-  PerMuscle length_m = {};      ///< Of muscle and tendon.
-  PerMuscle velocity_mps = {};  ///< Of both, positive when lengthening.
+  PerMuscle length_m = {};      ///< Length of muscle and tendon.
+  PerMuscle velocity_mps = {};  ///< Rate of this length, positive in lengthening.
   PerMuscle moment_arm_m = {};
 };
 
@@ -32,20 +32,21 @@ struct MuscleGeometry {
 [[nodiscard]] MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
                                          const Moment& elbow_flexion_rad);
 
-/// The departure of one marker of a person from the model's.
+/// The distance of one marker of a person from the model's marker.
 struct MarkerError {
-  Vec3 misplaced_m = Vec3::Zero();    ///< In the frame of its body.
-  Vec3 soft_tissue_m = Vec3::Zero();  ///< Times sin(q + phase): how far it moves on the skin.
+  Vec3 misplaced_m = Vec3::Zero();  ///< In the frame of its body.
+  /// Amplitude of the marker's motion on the skin, times sin(q + phase).
+  Vec3 soft_tissue_m = Vec3::Zero();
   double phase_rad = 0.0;
 };
 
 enum class MarkerSegment { trunk, upper_arm, forearm };
 
 /// The skeleton of one virtual subject: the built-in arm with the subject's segments. Muscle
-/// parameters are separate, since they are what is drawn.
+/// parameters are separate, because they are drawn.
 class VirtualArm {
  public:
-  /// `heads`: the model file has seven heads instead of four muscles.
+  /// Builds the arm. `heads`: the model file has seven heads instead of four muscles.
   explicit VirtualArm(const VirtualSubject& subject, bool heads = false);
   ~VirtualArm();
   VirtualArm(VirtualArm&&) noexcept;
@@ -54,25 +55,26 @@ class VirtualArm {
   [[nodiscard]] const std::array<model::PlanarMuscle, 4>& paths() const;
   [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const;
 
-  /// Torque about the elbow that the motion requires of muscles and dynamometer together [N m].
+  /// Returns the torque about the elbow that the motion requires of muscles and dynamometer
+  /// together [N m].
   [[nodiscard]] double required_torque_nm(const Moment& elbow_flexion_rad,
                                           Plane plane,
                                           double held_mass_kg) const;
 
-  /// Model file of this subject with the literature's muscle parameters.
+  /// Returns the model file of this subject with the literature's muscle parameters.
   [[nodiscard]] const std::string& osim() const;
   [[nodiscard]] const HillSet& literature() const;
 
   [[nodiscard]] const std::vector<std::string>& marker_names() const;
   [[nodiscard]] std::vector<MarkerSegment> marker_segments() const;
-  /// Positions in ground: a row per angle, x y z of one marker after the other [m]. `errors`: none,
-  /// or one per marker.
+  /// Returns positions in ground: a row per angle, x y z of one marker after the other [m].
+  /// `errors`: empty, or one per marker.
   [[nodiscard]] Eigen::MatrixXd markers_m(
       const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
       Plane plane,
       const std::vector<MarkerError>& errors = {}) const;
 
-  /// The muscle as the model file has it: of heads, the mean by the literature's F_max.
+  /// Returns the muscle's path in the model file; for heads, the mean by the literature's F_max.
   [[nodiscard]] model::MuscleTravel modelled_travel(std::size_t muscle,
                                                     double elbow_flexion_rad) const;
 
