@@ -62,8 +62,9 @@ TEST(Drive, OfAnEnvelopeThatNeverChangesIsTheEnvelope) {
 TEST(DriveMemory, FindsADriveOnceForEachEnvelopeAndNoise) {
   const Recorded of = recorded(0.15);
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
-  const TimeSeries series(of.time, {{"BIC", ""}, {"TRI", ""}},
-                          (Eigen::MatrixXd(of.time.size(), 2) << of.values, of.drive).finished());
+  Eigen::MatrixXd both(of.time.size(), 2);
+  both << of.values, of.drive;
+  const TimeSeries series(of.time, {{.name = "BIC"}, {.name = "TRI"}}, both);
   DriveMemory memory;
   const auto first = memory.behind(series, "BIC", 0.15, 0.0, error, kCutoff_hz);
   EXPECT_EQ(memory.behind(series, "BIC", 0.15, 0.0, error, kCutoff_hz), first);
