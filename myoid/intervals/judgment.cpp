@@ -340,12 +340,14 @@ Judgment judgment_of(const ParameterEstimate& e,
     if (MaybeJudgment weak = weakened(e, judgment.reason, context, rules))
       judgment = std::move(*weak);
   }
-  if (e.parameter == "max_isometric_force" && !context.from_mvc) {
-    judgment.reason +=
-        "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
-        "not the muscle's maximum";
-  }
+  judgment.reason += beside_the_maximum(e.parameter, context.from_mvc);
   return judgment;
+}
+
+std::string beside_the_maximum(std::string_view parameter, bool from_mvc) {
+  if (from_mvc || parameter != "max_isometric_force") return "";
+  return "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
+         "not the muscle's maximum";
 }
 
 }  // namespace myoid::identification

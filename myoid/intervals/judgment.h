@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "myoid/intervals/result.h"
 #include "myoid/intervals/verdict_rules.h"
@@ -103,5 +104,8 @@ struct Judgment {
 
 /// Describes a distance from the prior's mean in words, with the scale of its measure.
 [[nodiscard]] std::string deviations(double distance, const VerdictContext& context);
+
+/// Returns the end of the reason of F_max where no maximal contraction was recorded, else nothing.
+[[nodiscard]] std::string beside_the_maximum(std::string_view parameter, bool from_mvc);
 
 }  // namespace myoid::identification

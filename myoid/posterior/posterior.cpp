@@ -10,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/intervals/estimate_remarks.h"
+#include "myoid/intervals/judgment.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/explained_share.h"
@@ -81,6 +82,7 @@ struct Reporting {
   const std::vector<ActiveMotion>& motion;  ///< One per muscle.
   const IdentificationResult& result;
   bool converged = true;
+  bool from_mvc = true;  ///< Activation 1 is a maximal effort.
 };
 
 std::string owner_name(const Reporting& of, const Unknown& p, int owner) {
@@ -128,7 +130,7 @@ void judge_row(const Reporting& of,
   }
   const Finding found = finding(facts);
   e.verdict = verdict_of(found);
-  e.reason = reason_of(found, facts);
+  e.reason = reason_of(found, facts) + beside_the_maximum(e.parameter, of.from_mvc);
 }
 
 ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t target_at) {
@@ -307,9 +309,9 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   const Given given = given_geometry(*best.density, best, options.progress);
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
-  add_estimates(
-      {data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged},
-      result);
+  add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result,
+                 best.mode.converged, options.from_mvc},
+                result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);
   if (best.mode.converged) result.diagnoses = signatures(result.estimates);

@@ -38,6 +38,16 @@ ElbowStudy person(std::uint64_t seed) {
   return study;
 }
 
+TEST(IdentifyByPosterior, WithoutAMaximalContractionTheStrengthIsThatOfTheLargestEmg) {
+  EstimatorOptions options;
+  options.marginals = false;
+  options.from_mvc = false;
+  const IdentificationResult result = identify_by_posterior(person(3).data, options);
+  const std::string says = "not the muscle's maximum";
+  EXPECT_NE(find(result, "BIC", "max_isometric_force").reason.find(says), std::string::npos);
+  EXPECT_EQ(find(result, "BIC", "optimal_fiber_length").reason.find(says), std::string::npos);
+}
+
 TEST(IdentifyByPosterior, IntervalsHoldThePersonAndThoseOfExactGeometryAreInside) {
   const ElbowStudy study = person(3);
   EstimatorOptions options;
