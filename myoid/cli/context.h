@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "myoid/commands/call.h"
@@ -34,13 +36,19 @@ enum ExitCode : int {
 [[nodiscard]] const CLI::Validator& above_zero();
 [[nodiscard]] const CLI::Validator& zero_or_more();
 
-/// Returns the check of an option that takes the name of an enumerator (`choice_names`).
+/// Returns the check of an option that takes the name of an enumerator (`choice_names`). (CLI11's
+/// own check lists the numbers of the enumerators, too.)
 template <typename Enumeration>
-[[nodiscard]] CLI::CheckedTransformer one_of() {
-  std::vector<std::pair<std::string, Enumeration>> names;
-  for (const std::string_view name : choice_names(Enumeration{}))
-    names.emplace_back(name, *choice_named<Enumeration>(name));
-  return CLI::CheckedTransformer(std::move(names));
+[[nodiscard]] CLI::Validator one_of() {
+  const std::string names = fmt::format("{}", fmt::join(choice_names(Enumeration{}), ", "));
+  return CLI::Validator(
+      [names](std::string& word) {
+        const auto named = choice_named<Enumeration>(word);
+        if (!named) return fmt::format("{} is none of {}", word, names);
+        word = std::to_string(static_cast<int>(*named));
+        return std::string();
+      },
+      "{" + names + "}", "choice");
 }
 
 /// The common options of all commands, progress and log on stderr, and the way to stop.

@@ -95,6 +95,21 @@ TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
   EXPECT_GT(steady, static_cast<int>(0.75 * static_cast<double>(course.time_s.size())));
 }
 
+/// The plan as a person performs it, without noise.
+std::vector<identification::TrialData> performed(
+    const Study& study,
+    const DesignStudyResult& design,
+    const std::vector<identification::MuscleSetup>& muscles,
+    const MovementPerson& person) {
+  std::vector<identification::TrialData> trials;
+  for (const PlannedMovement& planned : design.plan)
+    trials.push_back(
+        perform(movement_course(study, movement_models(study, load_model(study)), planned.movement),
+                muscles, person)
+            .value());
+  return trials;
+}
+
 TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   // The plan for one person, the mean of what is known, is carried out by that person ten times
   // with the noise that the plan assumed; the errors of all estimates, in expected standard
@@ -124,23 +139,17 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     simulation::Random random(seed);
     data.trials.clear();
-    for (const PlannedMovement& planned : design.plan) {
-      auto trial = perform(
-          movement_course(study, movement_models(study, load_model(study)), planned.movement),
-          data.muscles, person);
-      ASSERT_TRUE(trial);
-      trial->torque_nm +=
-          options.torque_sd_nm / above_2_hz * random.normals(trial->torque_nm.size());
+    for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
+      trial.torque_nm += options.torque_sd_nm / above_2_hz * random.normals(trial.torque_nm.size());
       // The envelope's noise reaches up to 3 Hz, as after a filter.
-      Eigen::MatrixXd noisy = trial->activation.values();
+      Eigen::MatrixXd noisy = trial.activation.values();
       for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
         const Eigen::VectorXd noise =
             math::zero_phase(envelope_filter, random.normals(noisy.rows()));
         noisy.col(c).array() *= 1.0 + options.emg_cv / above_2_hz * noise.array();
       }
-      trial->activation =
-          TimeSeries(trial->activation.time_s(), trial->activation.channels(), noisy);
-      data.trials.push_back(std::move(*trial));
+      trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), noisy);
+      data.trials.push_back(std::move(trial));
     }
     const auto found = identification::identify_torque(
         data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},
@@ -210,12 +219,8 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     simulation::Random random(seed);
     data.trials.clear();
-    for (const PlannedMovement& planned : design.plan) {
-      auto trial = perform(
-          movement_course(study, movement_models(study, load_model(study)), planned.movement),
-          data.muscles, person);
-      ASSERT_TRUE(trial);
-      data.trials.push_back(recorded(std::move(*trial), options.torque_sd_nm, random));
+    for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
+      data.trials.push_back(recorded(std::move(trial), options.torque_sd_nm, random));
     }
     const auto found = identification::identify_torque(
         data, {.gain_prior_sd = {{"BIC", 0.05}, {"BRA", 0.05}, {"BRD", 0.05}, {"TRI", 0.05}},

@@ -57,7 +57,7 @@ class Envelope {
 /// Returns the factor on the relative spread of rectified EMG, `spread`, in an envelope after
 /// subtraction of the electrode's noise as power, u^2 = m^2 - rest^2: du / u = (1 + (rest/u)^2) dm
 /// / m. The factor is a root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
-/// Where chance makes u, u counts as the level that chance makes. 1 if `rest` is 0.
+/// A u below the level that chance makes counts as that level. The factor is 1 if `rest` is 0.
 [[nodiscard]] double noise_gain(
     const Envelope& envelope, double from_s, double to_s, double rest, double spread);
 

@@ -95,8 +95,28 @@ TEST(IdentifyData, OnlyTheTimeThatAllFilesCoverIsTaken) {
   const identification::TrialData trial = files.read();
   EXPECT_NEAR(trial.time_s[0], 1.0, 1e-9);
   EXPECT_NEAR(trial.time_s[trial.time_s.size() - 1], 4.0, 1e-9);
+  EXPECT_TRUE(files.remarks.empty());  // most of the trial is used
   files.sources.start_s = 4.5;
   EXPECT_NE(files.message().find("must overlap"), std::string::npos) << files.message();
+}
+
+TEST(IdentifyData, AFileThatLeavesOutMostOfATrialIsNamed) {
+  Written files;
+  const identification::TrialData& truth = files.study.data.trials[0];
+  recording::write_series(
+      files.folder / "id.sto",
+      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm)
+          .slice(0.0, 1.0),
+      "torque");
+  EXPECT_NEAR(files.read().time_s.maxCoeff(), 1.0, 1e-9);
+  ASSERT_EQ(files.remarks.size(), 1U);
+  EXPECT_NE(files.remarks[0].find("1 of 5 s are used"), std::string::npos) << files.remarks[0];
+  EXPECT_NE(files.remarks[0].find("id.sto leaves out most"), std::string::npos);
+  // Part of a trial that is asked for is not a part that is missing.
+  files.remarks.clear();
+  files.sources.end_s = 1.0;
+  (void)files.read();
+  EXPECT_TRUE(files.remarks.empty());
 }
 
 TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {

@@ -167,6 +167,9 @@ class TrialReader {
       lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
     if (lengths.sample_count() < 2)
       throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
+    const double asked_s = span_s(lengths);
+    std::string shortest;  // the file that leaves out most
+    double most_left_out_s = 0.0;
     std::vector<std::string> others{files.activations, files.velocities, files.torques};
     others.insert(others.end(), more.begin(), more.end());
     others.insert(others.end(), files.moment_arms.begin(), files.moment_arms.end());
@@ -182,6 +185,11 @@ class TrialReader {
       if (begin_s >= time_s[0] - spare_s && end_s <= last_s + spare_s) continue;
       const bool apart = last_s <= begin_s || time_s[0] >= end_s;
       if (!apart) lengths = lengths.slice(time_s[0] - 1e-9, last_s + 1e-9);
+      if (const double left_out_s = end_s - begin_s - span_s(lengths);
+          left_out_s > most_left_out_s) {
+        most_left_out_s = left_out_s;
+        shortest = file;
+      }
       if (apart || lengths.sample_count() < 2) {
         throw ReadError(file, 0,
                         fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must "
@@ -189,7 +197,17 @@ class TrialReader {
                                     time_s[0], last_s, files.lengths, begin_s, end_s));
       }
     }
+    constexpr double kMost = 0.5;  // of the lengths' time
+    if (span_s(lengths) < kMost * asked_s)
+      remark_(
+          fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial "
+                      "cover; {} leaves out most. Was a file cut off, or is its clock another?",
+                      files.lengths, span_s(lengths), asked_s, shortest));
     return lengths.time_s();
+  }
+
+  static double span_s(const TimeSeries& series) {
+    return series.time_s()[series.sample_count() - 1] - series.time_s()[0];
   }
 
   /// Returns the files of a trial, each once.

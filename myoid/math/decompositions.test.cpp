@@ -52,7 +52,7 @@ TEST(Decompositions, TheNearestRotationIsTheTurnAndNeverAReflection) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 2) / 3.0).matrix();
   const Eigen::Vector3d size(3.0, 2.0, 1.0);
   EXPECT_NEAR((nearest_rotation(turn * size.asDiagonal()) - turn).norm(), 0.0, 1e-14);
-  // Of a mirror image the axis of the smallest size turns back.
+  // A mirror image turns back about the axis of the smallest size.
   const Eigen::Vector3d mirrored(3.0, 2.0, -1.0);
   EXPECT_NEAR((nearest_rotation(turn * mirrored.asDiagonal()) - turn).norm(), 0.0, 1e-14);
 }

@@ -78,12 +78,12 @@ struct ForceLoop {
 
 /// Finds forces and parameters that agree.
 ///
-/// By least squares: alternates until nothing changes between sharing the torque among the muscles
+/// Least squares alternates until nothing changes between sharing the torque among the muscles
 /// (informed_forces) and fitting every muscle to its force (identify_force). The source paper
 /// leaves this loop open. The loop begins with the muscles' start. Its fixed point depends on the
 /// EMG for large W and on the optimizer's criterion for small W; method `torque` needs neither.
 ///
-/// By the posterior (EstimatorOptions::estimator): its likelihood includes the errors between
+/// The likelihood of the posterior (EstimatorOptions::estimator) includes the errors between
 /// muscles and torque. Shared forces have no such errors, and a fit to them would count the torque
 /// twice. So the muscles come from the posterior of the torque and share the forces. Both agree
 /// after one round, whose reserves measure the agreement. Throws as identify_force and

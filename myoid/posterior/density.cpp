@@ -14,8 +14,7 @@
 namespace myoid::identification {
 namespace {
 
-// Of a range: least distance from a bound at which a search begins
-constexpr double kInside = 0.003;
+constexpr double kInside = 0.003;   // of a range: a search begins no nearer to a bound
 constexpr double kFarthest = 40.0;  // of x: farther out z equals its bound to round-off
 constexpr double kStartingModelError = 0.1, kLeastModelError = 1e-6;
 constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean square

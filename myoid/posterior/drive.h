@@ -20,7 +20,7 @@ namespace myoid::identification {
 /// rest sqrt(noise_sd), where chance makes u, du is constant.
 [[nodiscard]] double envelope_sd_at(double u, double noise_sd, double rest);
 
-/// That standard deviation (envelope_sd_at) over `noise_sd` u, and its slope in u.
+/// Holds the ratio of envelope_sd_at to `noise_sd` u, and the slope of this ratio in u.
 struct NoiseOverEnvelope {
   double value = 1.0, slope = 0.0;
 };

@@ -43,7 +43,8 @@ using Curve = std::function<double(double x, const HillParameters<double>& muscl
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;
-  /// Of the identified parameters, in the order of muscle::kHillFields.
+  /// Covariance of the logarithms of the identified parameters, in the order of
+  /// muscle::kHillFields.
   Eigen::MatrixXd log_covariance;
 };
 

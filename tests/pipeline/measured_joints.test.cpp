@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -291,113 +290,6 @@ TEST(MeasuredWalk, AMinuteOfOneSpeedIsToldThatItPredictsAnotherWorseThanFiveSeco
   EXPECT_GT(seconds.r2[1], 0.5);
   EXPECT_NE(minute.warnings.find(warning), std::string::npos) << minute.warnings;
   EXPECT_EQ(seconds.warnings.find(warning), std::string::npos) << seconds.warnings;
-}
-
-/// Fits the plantarflexors, fully active, to maximal contractions at three ankle angles and
-/// predicts the others. `steady` replaces each plateau by its mean. Returns the error of each [N
-/// m].
-std::vector<double> predicted_plantarflexion(const fs::path& data,
-                                             const TemporaryFolder& folder,
-                                             const std::vector<int>& fitted,
-                                             bool steady) {
-  const std::vector<int> angles{70, 90, 95, 105, 110, 120};
-  const std::string muscles = "med_gas_r,lat_gas_r,soleus_r";
-  write_text(folder / "muscles.csv",
-             "muscle,max_isometric_force,optimal_fiber_length,tendon_slack_length,"
-             "force_length_width,concentric_curvature,eccentric_slope_ratio,eccentric_plateau,"
-             "max_shortening_speed\n"
-             "med_gas_r,1558,0.06,0.39,0.027,0.28,1.5,1.4,0.6\n"
-             "lat_gas_r,683,0.064,0.38,0.0288,0.28,1.5,1.4,0.64\n"
-             "soleus_r,3549,0.05,0.25,0.0225,0.28,1.5,1.4,0.5\n");
-  std::vector<std::string> arguments{"identify",
-                                     "--estimator",
-                                     "posterior",
-                                     "--muscles",
-                                     folder / "muscles.csv",
-                                     "--coordinate",
-                                     "ankle",
-                                     "--folds",
-                                     "none",
-                                     "--delay",
-                                     "0",
-                                     "--out",
-                                     folder / "out",
-                                     "--overwrite"};
-  std::vector<std::string> a{"--activations"}, l{"--lengths"}, r{"--moment-arms"}, t{"--torques"},
-      held{"--validate"};
-  for (const Row& row : read_rows(data / "peaks.csv")) {
-    const std::string name = row.at("trial");
-    const int angle = std::stoi(row.at("foot_shank_angle [deg]"));
-    const double begin = std::stod(row.at("peak_time [s]")),
-                 rest = std::stod(row.at("rest_torque [Nm]"));
-    // The paths at one angle, held.
-    std::string motion =
-                    "q\nversion=1\nnRows=151\nnColumns=2\ninDegrees=yes\nendheader\n"
-                    "time\tankle_angle_r\n",
-                active = "time," + muscles + "\n", torque = "time,ankle\n";
-    const auto recorded = read_columns(data / (name + ".csv"), 1);
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < recorded[0].size(); ++i) {
-      if (recorded[0][i] < begin || recorded[0][i] > begin + 0.5) continue;
-      sum += recorded[1][i] - rest;
-      count += 1.0;
-    }
-    for (int i = 0; i <= 150; ++i) {
-      const double s = 0.01 * i;
-      motion += fmt::format("{}\t{}\n", s, angle - 90);
-      active += fmt::format("{},1,1,1\n", s);
-      if (steady) torque += fmt::format("{},{}\n", s, -sum / count);
-    }
-    for (std::size_t i = 0; i < recorded[0].size() && !steady; ++i) {
-      const double s = recorded[0][i] - begin + 0.1;
-      if (s >= 0.0 && s <= 0.7) torque += fmt::format("{},{}\n", s, rest - recorded[1][i]);
-    }
-    write_text(folder / (name + ".mot"), motion);
-    EXPECT_EQ(myoid({"paths", "--model",
-                     (myoid::test::data_folder() / "ceinms-rt-leg/gait2392.osim").string(),
-                     "--motion", folder / (name + ".mot"), "--out", folder / name, "--overwrite"})
-                  .exit_code,
-              0);
-    a.push_back(folder / (name + "_a.csv"));
-    t.push_back(folder / (name + "_t.csv"));
-    l.push_back(folder / (name + "/MuscleAnalysis_Length.sto"));
-    r.push_back(folder / (name + "/MuscleAnalysis_MomentArm_ankle_angle_r.sto"));
-    write_text(a.back(), active);
-    write_text(t.back(), torque);
-    if (std::find(fitted.begin(), fitted.end(), angle) == fitted.end())
-      held.push_back(std::to_string(l.size() - 1));
-  }
-  for (const auto& list : {a, l, r, t, held})
-    arguments.insert(arguments.end(), list.begin(), list.end());
-  const Finished done = myoid(arguments);
-  EXPECT_NE(done.exit_code, 3) << done.err;
-  std::vector<double> errors;
-  for (const Row& row : read_rows(folder / "out/predictions.csv")) {
-    if (row.at("fitted") == "false") errors.push_back(std::stod(row.at("rmse_nm")));
-  }
-  return errors;
-}
-
-TEST(MeasuredPlantarflexion, ThreeAnglesTellTheTorqueBetweenThem) {
-  const fs::path data = myoid::test::data_folder() / "plantarflexor-mvc";
-  MYOID_REQUIRE_DATA(data);
-  for (const std::vector<int>& fitted : {std::vector{70, 90, 120}, std::vector{70, 95, 120}}) {
-    const TemporaryFolder folder;
-    const std::vector<double> errors = predicted_plantarflexion(data, folder, fitted, false);
-    ASSERT_EQ(errors.size(), 6U);
-    double squares = 0.0;
-    for (const double e : errors) squares += e * e;
-    EXPECT_LT(std::sqrt(squares / 6.0), 20.0) << fmt::format("{}", fmt::join(errors, " "));
-  }
-}
-
-TEST(MeasuredPlantarflexion, TorquesThatNeverChangeAreNotInfinitelyExact) {
-  const fs::path data = myoid::test::data_folder() / "plantarflexor-mvc";
-  MYOID_REQUIRE_DATA(data);
-  const TemporaryFolder folder;
-  // Far beyond the fitted angles the prediction errs, by less than the greatest torque there is.
-  for (const double e : predicted_plantarflexion(data, folder, {95, 105, 120}, true))
-    EXPECT_LT(std::abs(e), 330.0);
 }
 
 }  // namespace

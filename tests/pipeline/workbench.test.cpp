@@ -313,7 +313,7 @@ TEST_F(WorkbenchPage, SavesNumbersAndDrawings) {
 }
 
 TEST_F(WorkbenchPage, SavesAFilmOfTheBodyThatPlays) {
-  js("myoid.zoom([2, 3.5])");
+  js("myoid.zoom([2, 5])");
   js("myoid.film()");
   EXPECT_EQ(js("myoid.playing"), true);
   browser_->wait_for("window.myoidSaved && window.myoidSaved.name === 'swing_2kg.webm'");
@@ -337,11 +337,10 @@ TEST_F(WorkbenchPage, SavesAFilmOfTheBodyThatPlays) {
          " return [v.videoWidth / v.videoHeight, length, different]; })()");
   const double shape = js("myoid.canvas.clientWidth / myoid.canvas.clientHeight");
   EXPECT_NEAR(film[0].get<double>(), shape, 0.01);
-  // A busy machine leaves out pictures at the begin and at the end: a film of one moves nothing.
-  EXPECT_LT(film[1].get<double>(), 3.0);
-  if (film[1].get<double>() > 0.2) {
-    EXPECT_GT(film[2].get<double>(), 100.0);
-  }
+  // 3 s; a busy machine leaves out pictures at the begin and at the end.
+  EXPECT_GT(film[1].get<double>(), 0.2);
+  EXPECT_LT(film[1].get<double>(), 4.5);
+  EXPECT_GT(film[2].get<double>(), 100.0);
 }
 
 TEST_F(WorkbenchPage, TheLawOfThePageIsTheProgramsLaw) {
