@@ -13,13 +13,14 @@ namespace {
 constexpr double kCutoff_hz = 6.0, kRate_hz = 100.0;
 
 /// A drive of sines below 1.5 Hz, and its envelope: times 1 + white noise behind the filter.
-struct Recorded {
+struct MadeEnvelope {
   Eigen::VectorXd time, drive, values;
 };
 
-Recorded recorded(double noise_sd, double seconds = 20.0, double middle_hz = 0.6) {
+MadeEnvelope made_envelope(double noise_sd, double seconds = 20.0, double middle_hz = 0.6) {
   const auto n = static_cast<Eigen::Index>(seconds * kRate_hz) + 1;
-  Recorded r{Eigen::VectorXd::LinSpaced(n, 0.0, seconds), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  MadeEnvelope r{Eigen::VectorXd::LinSpaced(n, 0.0, seconds), Eigen::VectorXd(n),
+                 Eigen::VectorXd(n)};
   math::Random random(5);
   const Eigen::VectorXd h = EnvelopeError(kCutoff_hz, {0.0, 0.0}).from_white(1.0 / kRate_hz);
   const auto drive = [&](double t) {
@@ -38,7 +39,7 @@ Recorded recorded(double noise_sd, double seconds = 20.0, double middle_hz = 0.6
 }
 
 /// Root mean square of the relative error, two seconds from the ends.
-double error_of(const Recorded& of, const Envelope& envelope) {
+double error_of(const MadeEnvelope& of, const Envelope& envelope) {
   double sum = 0.0, count = 0.0;
   for (Eigen::Index i = 0; i < of.time.size(); ++i) {
     if (of.time[i] < 2.0 || of.time[i] > of.time[of.time.size() - 1] - 2.0) continue;
@@ -60,7 +61,7 @@ TEST(Drive, OfAnEnvelopeThatNeverChangesIsTheEnvelope) {
 }
 
 TEST(DriveMemory, FindsADriveOnceForEachEnvelopeAndNoise) {
-  const Recorded of = recorded(0.15);
+  const MadeEnvelope of = made_envelope(0.15);
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
   Eigen::MatrixXd both(of.time.size(), 2);
   both << of.values, of.drive;
@@ -77,7 +78,7 @@ TEST(DriveMemory, FindsADriveOnceForEachEnvelopeAndNoise) {
 
 TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
   for (const double noise_sd : {0.1, 0.15, 0.25}) {
-    const Recorded of = recorded(noise_sd);
+    const MadeEnvelope of = made_envelope(noise_sd);
     const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
     const Envelope envelope(of.time, of.values);
     const Drive drive = drive_behind(envelope, noise_sd, 0.0, error, kCutoff_hz);
@@ -89,14 +90,14 @@ TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
 
 TEST(Drive, ASmoothEnvelopeIsLeftAlone) {
   // The noise is believed to be there, and is not: it is lowered to what is recorded.
-  const Recorded of = recorded(0.0);
+  const MadeEnvelope of = made_envelope(0.0);
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
   const Drive drive = drive_behind(Envelope(of.time, of.values), 0.15, 0.0, error, kCutoff_hz);
   EXPECT_LT(error_of(of, drive.envelope), 0.03);
 }
 
 TEST(Drive, WithoutNoiseOrOfAShortRecordingItIsTheEnvelope) {
-  const Recorded of = recorded(0.1, 1.0);
+  const MadeEnvelope of = made_envelope(0.1, 1.0);
   const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
   const Envelope envelope(of.time, of.values);
   for (const double noise_sd : {0.0, 0.1}) {

@@ -39,13 +39,13 @@ struct AtStart {
     return all;
   }
 
-  Unseen unseen() const {
+  Unseen unseen() const { return unseen(recorded(runs, map.held().muscles)); }
+  Unseen unseen(const Recorded& of_session) const {
     const ModelValues values = map.values(map.start());
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
     for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
-    return unseen_quantities(data, options, map, recorded(runs, map.held().muscles), runs, values,
-                             at);
+    return unseen_quantities(data, options, map, of_session, runs, values, at);
   }
 
   /// The column of S of this name, all runs one after the other.
@@ -240,6 +240,51 @@ TEST(Unseen, TheModelsErrorsAreTheMusclesTorqueTimesTheirShapes) {
   };
   const Eigen::VectorXd torque = alone(1.0) - alone(0.0);
   EXPECT_LT((at.column("TRI.error_strength") - torque).norm(), 1e-9 * torque.norm());
+}
+
+TEST(Unseen, BeyondTheRecordedLengthsTheHigherPolynomialsStayAtTheirEnds) {
+  const AtStart at(two_trials());
+  // Of a session that had only the middle third of these lengths.
+  Recorded session = recorded(at.runs, at.map.held().muscles);
+  Recorded::Range& range = session.muscles[0];
+  const double third = range.span_m() / 3.0;
+  range.shortest_m += third;
+  range.longest_m -= third;
+  const Unseen unseen = at.unseen(session);
+  const auto column = [&](const std::string& name) -> Eigen::VectorXd {
+    for (std::size_t i = 0; i < unseen.quantities.size(); ++i) {
+      if (unseen.quantities[i].name == "BIC.error_" + name)
+        return unseen.columns[0].col(static_cast<Eigen::Index>(i));
+    }
+    ADD_FAILURE() << name;
+    return Eigen::VectorXd::Zero(unseen.columns[0].rows());
+  };
+  const Eigen::VectorXd torque = column("strength"), first = column("length_1"),
+                        second = column("length_2"), third_one = column("length_3");
+  double farthest = 0.0;
+  for (Eigen::Index i = 0; i < torque.size(); ++i) {
+    if (std::abs(torque[i]) < 1e-3) continue;
+    const double x = first[i] / torque[i], inside = std::clamp(x, -1.0, 1.0);
+    farthest = std::max(farthest, std::abs(x));
+    EXPECT_NEAR(second[i] / torque[i], 1.5 * inside * inside - 0.5, 1e-9);
+    EXPECT_NEAR(third_one[i] / torque[i], inside * (2.5 * inside * inside - 1.5), 1e-9);
+  }
+  EXPECT_GT(farthest, 1.5);
+}
+
+TEST(Unseen, AMuscleThatIsHeldHasARangeOfLengthsAndSpeeds) {
+  AtStart at(two_trials());
+  for (TrialRun& run : at.runs) {
+    run.length_m.setConstant(0.3);
+    run.velocity_mps.setZero();
+  }
+  const Recorded session = recorded(at.runs, at.map.held().muscles);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const muscle::HillParameters<double>& start = at.data.muscles[k].start;
+    EXPECT_NEAR(session.muscles[k].span_m(), 0.5 * start.optimal_fiber_length_m,
+                2e-6);  // a micrometer is the least span
+    EXPECT_NEAR(session.muscles[k].fastest_mps, 0.1 * start.max_shortening_speed_mps, 1e-12);
+  }
 }
 
 TEST(Unseen, ALagIsThatOfOneMuscleAgainstTheMuscles) {
