@@ -10,19 +10,19 @@ namespace myoid::identification {
 namespace beliefs {
 
 constexpr std::array kAll = {
-    &kMaxForce,         &kFiberLength,        &kWidth,          &kCurvature,
-    &kProduct,          &kSlopeRatio,         &kPlateau,        &kSpeed,
-    &kTendonSlack,      &kPennation,          &kPassiveForce,   &kPassiveStrain,
-    &kPassiveShape,     &kLengthActivation,   &kTendonStrain,   &kActivationShare,
-    &kEmgDelay,         &kEmgDelayBesideLags, &kEmgGain,        &kEmgShape,
-    &kEmgExponent,      &kExcitationTime,     &kActivationTime, &kDeactivationTime,
-    &kStiffnessShare,   &kOffsetShare,        &kViscosityShare, &kStiffness,
-    &kOffset,           &kViscosity,          &kInertia,        &kLeastEffort,
-    &kEmgNoise,         &kEmgBandwidth,       &kModelError,     &kRestingWeight,
-    &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,    &kTorqueNoiseTime,
-    &kTrialTorqueNoise, &kCommonStrength,     &kUnlikeness,     &kMomentArm,
-    &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,  &kCrossTalk,
-    &kGainDrift,        &kRiseAndFall,        &kUnknownEmgNoise};
+    &kMaxForce,         &kFiberLength,        &kWidth,           &kCurvature,
+    &kProduct,          &kSlopeRatio,         &kPlateau,         &kSpeed,
+    &kTendonSlack,      &kPennation,          &kPassiveForce,    &kPassiveStrain,
+    &kPassiveShape,     &kLengthActivation,   &kTendonStrain,    &kActivationShare,
+    &kEmgDelay,         &kEmgDelayBesideLags, &kEmgGain,         &kEmgShape,
+    &kEmgExponent,      &kExcitationTime,     &kActivationTime,  &kDeactivationTime,
+    &kStiffnessShare,   &kOffsetShare,        &kViscosityShare,  &kStiffness,
+    &kOffset,           &kViscosity,          &kInertia,         &kLeastEffort,
+    &kEmgNoise,         &kEmgBandwidth,       &kModelError,      &kRestingWeight,
+    &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,     &kTorqueNoiseTime,
+    &kTrialTorqueNoise, &kCommonStrength,     &kUnlikeness,      &kMomentArm,
+    &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,   &kCrossTalk,
+    &kGainDrift,        &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise};
 
 /// The muscle parameters whose prior lies about their starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

@@ -185,7 +185,9 @@ inline constexpr Belief kLeastEffort{
     value,
     "",
     "no maximal contraction was recorded: every ratio from there to 1 is as likely, ln(share) = ln "
-    "0.22 ± 0.86, which adds to the belief about F_max",
+    "0.22 ± 0.86. Estimator `posterior`: the belief about `emg_gain`; `least_squares`: adds to "
+    "that "
+    "about F_max, which is then the force at the largest EMG",
     "antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998), the muscles "
     "of walking 10 to 80 % of a manual test's (Perry and Burnfield 2010)"};
 inline constexpr Belief kEmgNoise{"noise of an EMG envelope, over that expected from its bandwidth",
@@ -342,6 +344,16 @@ inline constexpr Belief kGainDrift{"change of an EMG channel's gain over the ses
                                    "",
                                    kPosterior,
                                    "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
+inline constexpr Belief kVoluntaryEffort{
+    "force of a maximal voluntary contraction, over that of a completely active muscle",
+    "1",
+    1.0,
+    0.06,
+    value,
+    "",
+    "estimator `posterior`, about 1: the root mean square is the spread; not where a study states "
+    "`mvc_effort_sd`",
+    "voluntary activation of healthy people is 0.9 to 1 (Gandevia 2001)"};
 inline constexpr Belief kUnknownEmgNoise{
     "noise of an EMG envelope, over that of a bandwidth of 150 Hz",
     "1",
@@ -364,6 +376,7 @@ struct UnseenSpreads {
   double torque_scale = beliefs::kTorqueScale.sd;
   double crosstalk = beliefs::kCrossTalk.sd;
   double gain_drift = beliefs::kGainDrift.sd;
+  double effort = beliefs::kVoluntaryEffort.sd;             ///< Of a maximal contraction.
   double model_error = beliefs::kModelError.sd;             ///< Half normal.
   double common_strength = beliefs::kCommonStrength.value;  ///< Share, below 1.
   bool operator==(const UnseenSpreads&) const = default;

@@ -53,8 +53,11 @@ class StudyCheck {
     check_model();
     if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
       add(RemarkCode::no_maximal_contraction, Severity::warning, "study",
-          "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the "
-          "study's largest EMG");
+          study_.identify.estimator == identification::EstimatorKind::posterior
+              ? "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the "
+                "literature, because the share of the maximum at the largest EMG is unknown"
+              : "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at "
+                "the study's largest EMG");
     }
     if (!study_.model.file && !study_.subject.mass_kg)
       add(RemarkCode::no_body_mass, Severity::warning, "study",

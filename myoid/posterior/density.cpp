@@ -22,12 +22,14 @@ constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean squar
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
+constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
 /// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
 struct HalfNormal {
   double size = 0.0, slope = 0.0;
 };
-HalfNormal half_normal(double x) {
+HalfNormal half_normal(double score) {
+  const double x = std::clamp(score, -kFarthestScore, kFarthestScore);
   const double tail = 0.5 * std::erfc(std::abs(x) / std::numbers::sqrt2);  // Phi(-|x|)
   const double y =
       std::numbers::sqrt2 * (x < 0.0 ? boost::math::erf_inv(tail) : boost::math::erfc_inv(tail));
@@ -36,7 +38,8 @@ HalfNormal half_normal(double x) {
 
 /// Returns the normal score of `size`, which is s over the prior's spread.
 double score_of(double size) {
-  return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * std::erfc(size / std::numbers::sqrt2));
+  const double within = std::min(size, kFarthestScore);
+  return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * std::erfc(within / std::numbers::sqrt2));
 }
 
 /// Returns true for a number of a muscle whose prior spread is the literature's.

@@ -130,6 +130,23 @@ TEST(Density, APersonWhoIsUnlikeTheLiteratureWidensItsSpreads) {
   EXPECT_LT(unlike, 2.8);
 }
 
+// A search's long step, or a belief that the model is nearly exact, goes far into a normal tail.
+TEST(Density, ScoresFarOutHaveAFiniteDensity) {
+  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
+  EstimatorOptions options;
+  for (const double spread : {0.1, 1e-5}) {
+    options.unseen.model_error = spread;
+    const Density density(study.data, options);
+    Eigen::VectorXd x = density.start();
+    const Eigen::Index at = density.parameters().size() + kModelErrorSize;
+    for (const double score : {-39.0, -9.0, 9.0, 39.0}) {
+      x[at] = score;
+      EXPECT_TRUE(std::isfinite(density.value(x))) << spread << " " << score;
+      EXPECT_GT(std::exp(density.noise_of(x)[kModelErrorSize]), 0.0);
+    }
+  }
+}
+
 TEST(Density, XAndZAreOneAnother) {
   const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
   const Density density(study.data, {});

@@ -93,6 +93,27 @@ std::string owner_name(const Reporting& of, const Unknown& p, int owner) {
                                             : of.map.joints()[k];
 }
 
+/// Returns what F_max means without a maximal contraction, from draws of a muscle's F_max: the
+/// force at the largest EMG where the share of the maximum is an unknown, the channel's gain.
+std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, int muscle) {
+  const int channel = of.map.channel_of_muscle(static_cast<std::size_t>(muscle));
+  const std::vector<Unknown>& free = of.map.free();
+  const auto gain = std::find_if(free.begin(), free.end(), [&](const Unknown& p) {
+    return p.is(Scope::channel, kGain) && p.acts_on(channel) && p.bounds.upper <= 0.0;
+  });
+  if (gain == free.end()) return beside_the_maximum("max_isometric_force", of.from_mvc);
+  const Eigen::VectorXd share = of.sample.z.row(gain - free.begin()).array().exp().transpose();
+  const Eigen::VectorXd force = f_max.cwiseProduct(share);
+  const auto reach = [&](const Eigen::VectorXd& values, double p) {
+    return weighted_quantile(values, of.sample.weight, p);
+  };
+  return fmt::format(
+      "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest "
+      "EMG, between {:.0f} and {:.0f} % of its maximum",
+      reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025),
+      100.0 * reach(share, 0.975));
+}
+
 /// Fills the interval and the verdict of a row from draws of its value.
 void judge_row(const Reporting& of,
                std::size_t unknown,
@@ -130,7 +151,9 @@ void judge_row(const Reporting& of,
   }
   const Finding found = finding(facts);
   e.verdict = verdict_of(found);
-  e.reason = reason_of(found, facts) + beside_the_maximum(e.parameter, of.from_mvc);
+  e.reason = reason_of(found, facts);
+  if (!of.from_mvc && p.is(Scope::muscle, kMaxForce))
+    e.reason += without_maximum(of, values, owner);
 }
 
 ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t target_at) {

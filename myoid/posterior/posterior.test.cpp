@@ -48,6 +48,41 @@ TEST(IdentifyByPosterior, WithoutAMaximalContractionTheStrengthIsThatOfTheLarges
   EXPECT_EQ(find(result, "BIC", "optimal_fiber_length").reason.find(says), std::string::npos);
 }
 
+// The envelopes' 1 is the largest effort of the recording, 60 % of the maximum, but nobody says so.
+TEST(IdentifyByPosterior, AnUnknownEffortIsInTheIntervalOfTheStrength) {
+  constexpr double kEffort = 0.6;
+  ElbowStudy study = person(3);
+  for (TrialData& trial : study.data.trials)
+    trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(),
+                                  trial.activation.values() / kEffort);
+  EstimatorOptions options;
+  options.from_mvc = false;
+  options.unseen.effort = 0.0;
+  for (const MuscleSetup& muscle : study.data.muscles) {
+    options.gain_prior_mean[muscle.emg_channel] = 0.22;
+    options.gain_prior_sd[muscle.emg_channel] = 0.86;
+  }
+  ParameterRule bounds;
+  bounds.parameter = "emg_gain";
+  bounds.lower = 0.05;
+  bounds.upper = 1.0;
+  study.data.rules = {bounds};
+  const IdentificationResult result = identify_by_posterior(study.data, options);
+  ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const MuscleSetup& muscle = study.data.muscles[k];
+    const ParameterEstimate& strength = find(result, muscle.name, "max_isometric_force");
+    EXPECT_LT(*strength.ci_low, study.truth[k].max_isometric_force_n) << muscle.name;
+    EXPECT_GT(*strength.ci_high, study.truth[k].max_isometric_force_n) << muscle.name;
+    EXPECT_NE(strength.verdict, Verdict::identified);
+    EXPECT_NE(strength.reason.find("at the largest EMG"), std::string::npos) << strength.reason;
+    const ParameterEstimate& effort = find(result, muscle.emg_channel, "emg_gain");
+    EXPECT_LT(*effort.ci_low, kEffort);
+    EXPECT_GT(*effort.ci_high, kEffort);
+    EXPECT_LE(*effort.ci_high, 1.0);
+  }
+}
+
 TEST(IdentifyByPosterior, IntervalsHoldThePersonAndThoseOfExactGeometryAreInside) {
   const ElbowStudy study = person(3);
   EstimatorOptions options;
@@ -81,7 +116,8 @@ TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {
                     .tendon_strain = 0.0,
                     .torque_scale = 0.0,
                     .crosstalk = 0.0,
-                    .gain_drift = 0.0};
+                    .gain_drift = 0.0,
+                    .effort = 0.0};
   for (const MuscleSetup& muscle : study.data.muscles)
     options.emg_bandwidth_hz[muscle.emg_channel] = 5000.0;
   const IdentificationResult result = identify_by_posterior(study.data, options);

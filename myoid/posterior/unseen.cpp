@@ -55,6 +55,10 @@ class Collector {
     for (std::size_t c = 0; c < channels; ++c) {
       add(map_.channels()[c] + ".gain_drift", Source::electrodes, spreads_.gain_drift);
       for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque * of.run.session; });
+      if (spreads_.effort > 0.0) {
+        add(map_.channels()[c] + ".effort", Source::electrodes, spreads_.effort);
+        for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque; });
+      }
       add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd);
       for_channel(c, [&](const OfMuscle& of, auto column) {
         column += of.torque * earlier(of.at, c).abs();

@@ -83,7 +83,10 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (finding == Finding::not_converged) return "the search for the posterior's mode did not end";
   if (finding == Finding::one_length) return one_length_text(*facts.length_span);
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  const double given = half_width(facts.value, facts.low_given, facts.high_given, facts.is_delay);
+  // With exact geometry the value itself is another: half of the width alone is compared.
+  const double middle = 0.5 * (facts.low_given + facts.high_given);
+  const double given = half_width(facts.value, facts.value + facts.low_given - middle,
+                                  facts.value + facts.high_given - middle, facts.is_delay);
   std::string text = fmt::format("{} of the person, {} were geometry and sensors exact",
                                  size_text(half, facts.is_delay), size_text(given, facts.is_delay));
   if (facts.contraction)

@@ -27,7 +27,7 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   EXPECT_EQ(finding(facts), Finding::narrow);
   EXPECT_EQ(verdict_of(Finding::narrow), Verdict::identified);
   const std::string reason = reason_of(Finding::narrow, facts);
-  EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 5 % were geometry and sensors exact"));
+  EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 4.5 % were geometry and sensors exact"));
   EXPECT_THAT(reason, HasSubstr("takes 94 % off"));
   EXPECT_THAT(reason,
               HasSubstr("geometry 60 %, noise of the torque 20 %, scale of the torque 15 %"));

@@ -11,14 +11,22 @@ namespace myoid {
 /// the EMG came as activation.
 [[nodiscard]] bool from_maximal_effort(const EmgSpec& emg);
 
-/// Widens the priors of F_max where activation 1 is not a maximal contraction but the greatest EMG
-/// of the recording. F_max is then the force of that effort: the muscle's own times an unknown
-/// share.
-///
-/// Antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998, Sports Med
-/// 25:37-62), the muscles of walking 10 to 80 % of a manual test's (Perry & Burnfield 2010). Any
-/// ratio between identification::beliefs::kLeastEffort and 1 is as likely as any other, so that
-/// ln(share) = ln 0.22 +- 0.86, and the literature's own spread is added. Muscles without a prior
+/// Returns true if the share of the maximum that a channel's greatest EMG is counts as an unknown,
+/// the channel's gain: there is no maximal contraction, and the estimator `posterior` can carry a
+/// share that nothing but beliefs tells apart from F_max.
+[[nodiscard]] bool effort_is_unknown(const Study& study);
+
+/// Returns the prior of that share. Antagonists of resisted movements reach 5 to 20 % of their
+/// maximum (Kellis 1998, Sports Med 25:37-62), the muscles of walking 10 to 80 % of a manual test's
+/// (Perry & Burnfield 2010). Any ratio between identification::beliefs::kLeastEffort and 1 is as
+/// likely as any other: ln(share) = ln 0.22 +- 0.86.
+[[nodiscard]] Prior any_effort();
+
+/// Returns the bounds of the gains where the effort is unknown: from the least effort to 1.
+[[nodiscard]] identification::ParameterRule effort_bounds();
+
+/// Adds `any_effort` to the priors of F_max where the share is no unknown. F_max is then the force
+/// at the greatest EMG of the recording: the muscle's own times the share. Muscles without a prior
 /// for F_max stay without.
 void expect_any_effort(std::vector<identification::MuscleSetup>& muscles);
 

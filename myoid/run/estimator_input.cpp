@@ -70,7 +70,8 @@ identification::StudyData estimator_data(const FitSource& source) {
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, source.model);
   identification::StudyData data;
   data.muscles = muscle_setups(study, source.model);
-  if (!from_maximal_effort(study.emg)) expect_any_effort(data.muscles);
+  const bool unknown_effort = effort_is_unknown(study);
+  if (!from_maximal_effort(study.emg) && !unknown_effort) expect_any_effort(data.muscles);
   for (std::size_t i = 0; i < source.trials.size(); ++i) {
     const TrialResult& trial = source.trials[i];
     const TimeSeries& activation = *source.activation[i];
@@ -80,6 +81,7 @@ identification::StudyData estimator_data(const FitSource& source) {
     data.trials.push_back(trial_data(study, trial, use, activation, groups, source.resting));
   }
   if (study.identify.priors) data.rules = nuisance_rules(study.emg, data);
+  if (unknown_effort) data.rules.push_back(effort_bounds());
   data.rules.insert(data.rules.end(), study.parameters.begin(), study.parameters.end());
   identification::free_speeds(data, identification::unstated_speeds(data, study.identify.muscles));
   return data;
@@ -87,10 +89,13 @@ identification::StudyData estimator_data(const FitSource& source) {
 
 identification::EstimatorSettings estimator_settings(const Study& study) {
   const IdentifySpec& spec = study.identify;
+  identification::UnseenSpreads unseen = study.beliefs;
+  // The gain carries the spread of the effort where the study states it or no effort is maximal.
+  if (!from_maximal_effort(study.emg) || study.emg.mvc_effort_sd > 0.0) unseen.effort = 0.0;
   return {.muscles = spec.muscles,
           .priors = spec.priors,
           .estimator = spec.estimator,
-          .unseen = study.beliefs,
+          .unseen = unseen,
           .lag = spec.dynamics ? identification::LagChoice::equation_1 : spec.lag,
           .delay_s = study.emg.delay_s,
           .delay_per_channel = spec.delay_per_channel,
@@ -110,15 +115,16 @@ identification::ActivationSource activation_source(
   identification::ActivationSource source{.from_mvc = from_maximal_effort(study.emg),
                                           .envelope_cutoff_hz = study.emg.lowpass_hz};
   // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
-  const bool known = study.emg.has_mvc;
-  const double effort = known ? study.emg.mvc_effort : 1.0;
-  const double spread = known ? study.emg.mvc_effort_sd / effort : 0.0;
+  Prior effort{.mean = 1.0};
+  if (study.emg.has_mvc)
+    effort = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
+  if (effort_is_unknown(study)) effort = any_effort();
   for (const signals::ChannelNormalisation& n : normalisation) {
     identification::ChannelSource channel{.channel = n.channel,
-                                          .gain_mean = effort,
+                                          .gain_mean = effort.mean,
                                           .bandwidth_hz = n.bandwidth_hz,
                                           .rest = n.resting_level_v / n.reference_v};
-    if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, spread);
+    if (study.identify.gain) channel.gain_sd = std::hypot(n.relative_sd, effort.sd);
     source.channels.push_back(std::move(channel));
   }
   return source;

@@ -1,5 +1,7 @@
 #include "myoid/run/estimator_input.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -50,6 +52,39 @@ TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), 1.0, 1e-12);
   EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), 0.03, 1e-12);
   EXPECT_FALSE(unknown.from_mvc);
+}
+
+TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximum) {
+  StudyResult result = with_one_channel();
+  Study& study = result.source.study;
+  study.identify.estimator = identification::EstimatorKind::posterior;
+  const auto strength_sd = [&] {
+    return data_of(result).muscles.front().priors.at("max_isometric_force").sd;
+  };
+  const auto bounded = [&] {
+    const identification::StudyData data = data_of(result);
+    return std::any_of(data.rules.begin(), data.rules.end(), [](const auto& rule) {
+      return rule.parameter == "emg_gain" && rule.lower == 0.05 && rule.upper == 1.0;
+    });
+  };
+  study.emg.has_mvc = true;
+  const double literature_sd = strength_sd();
+  EXPECT_FALSE(bounded());
+  EXPECT_GT(options_of(result).unseen.effort, 0.0);
+  study.emg.mvc_effort_sd = 0.05;  // the gain carries what the study states
+  EXPECT_EQ(options_of(result).unseen.effort, 0.0);
+
+  study.emg.has_mvc = false;
+  const identification::EstimatorOptions unknown = options_of(result);
+  EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), std::sqrt(0.05), 1e-12);
+  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03),
+              1e-12);
+  EXPECT_EQ(unknown.unseen.effort, 0.0);
+  EXPECT_EQ(strength_sd(), literature_sd);
+  EXPECT_TRUE(bounded());
+  study.identify.gain = false;  // then F_max is the force at the largest EMG
+  EXPECT_GT(strength_sd(), 2.0 * literature_sd);
+  EXPECT_FALSE(bounded());
 }
 
 TEST(TorqueOptions, WithTheLagsOfTheActivationTheDelayIsWhatIsLeftBesideThem) {

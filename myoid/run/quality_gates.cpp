@@ -18,6 +18,7 @@
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/intake/limits.h"
 #include "myoid/report/typeset.h"
+#include "myoid/run/effort_prior.h"
 #include "myoid/run/prediction_gates.h"
 
 namespace myoid {
@@ -281,7 +282,7 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
 }
 
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
-std::vector<Gate> reference_gates(const EmgScale& emg) {
+std::vector<Gate> reference_gates(const EmgScale& emg, bool effort_is_unknown) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
                                [](const auto& n) { return n.from_mvc; });
@@ -294,6 +295,9 @@ std::vector<Gate> reference_gates(const EmgScale& emg) {
            fmt::format("largest effort in {}", fmt::join(sources, "; in ")),
            "every channel from an MVC trial",
            mvc ? "F_max means the maximal force."
+           : effort_is_unknown
+               ? "The share of the maximum that the largest EMG is, is an unknown of its own: "
+                 "F_max rests on the literature. Record a maximal contraction."
                : "F_max below means the force at the study's largest EMG, not the "
                  "muscle's maximum; forces and torques do not depend on it."}};
 }
@@ -360,7 +364,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
   add(sharing_gates(result.trials));
-  add(reference_gates(result.emg));
+  add(reference_gates(result.emg, effort_is_unknown(result.source.study)));
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
   add(fold_gates(result.folds));
   if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));

@@ -384,6 +384,10 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
   v.number(
       "gain_drift_sd", beliefs.gain_drift,
       {.says = "Relative change of an EMG channel's gain over the session.", .limits = kSpread});
+  v.number("effort_sd", beliefs.effort,
+           {.says = "Force of a maximal voluntary contraction: relative difference from that of a "
+                    "completely active muscle. Not beside `mvc_effort_sd` of `[emg]`.",
+            .limits = kSpread});
   v.number("model_error_sd", beliefs.model_error,
            {.says = "Relative size of the muscle law's systematic errors.",
             .limits = {.lower = 0.0, .upper = 1.0, .above_lower = true}});

@@ -144,6 +144,7 @@ tendon_strain = 0
 torque_scale_sd = 0.01
 crosstalk_sd = 0
 gain_drift_sd = 0.3
+effort_sd = 0.04
 model_error_sd = 0.05
 common_strength = 0.8
 [[muscle]]

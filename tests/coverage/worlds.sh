@@ -13,7 +13,8 @@ persons=40
 if [ $# -gt 0 ] && [[ $1 != -* ]]; then persons=$1; shift; fi
 protocols=$(cd "$(dirname "$0")/../../examples/protocols" && pwd)
 
-# Name | protocol | settings of [truth]
+# Name | protocol | settings of [truth]. The protocol no_maximum is the rich one without its maximal
+# contractions.
 worlds='as fitted|rich|
 three trials only|three_trials|
 literature 2 sd off|rich|offset=2
@@ -24,9 +25,11 @@ EMG exponent 0.6|rich|emg_exponent=0.6
 cross-talk 15 %|rich|crosstalk=0.15
 gain drift 20 %|rich|emg_gain_drift=0.2
 torque 5 %, 1.5 N m|rich|torque_scale=1.05 torque_offset_nm=1.5
-EMG that is noise|rich|emg_noise=true'
+EMG that is noise|rich|emg_noise=true
+no maximal contraction|no_maximum|'
 
 mkdir -p "$out"
+awk -v RS= -v ORS='\n\n' '!/kind = "mvc"/' "$protocols/rich.toml" > "$out/no_maximum.toml"
 echo "| world | persons | F_max: covered [%] | error [%] | half width [%] | l_m⁰: covered [%] | error [%] | half width [%] | F_max and l_m⁰ identified, within 15 % | all parameters identified, within 15 % |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
 while IFS='|' read -r name protocol settings <&3; do
@@ -35,7 +38,9 @@ while IFS='|' read -r name protocol settings <&3; do
     read -ra truth <<< "$settings"
     [ ${#truth[@]} -eq 0 ] || truth=(--truth "${truth[@]}")
     # Code 5: some persons' runs failed; the count below says how many remain.
-    "$myoid" twin-study --protocol "$protocols/$protocol.toml" --level L1 --subjects "$persons" \
+    file=$protocols/$protocol.toml
+    [ -f "$file" ] || file=$out/$protocol.toml
+    "$myoid" twin-study --protocol "$file" --level L1 --subjects "$persons" \
       "${truth[@]}" "$@" --out "$folder" > "$folder.txt" || [ $? -eq 5 ]
   fi
   awk -F, -v name="$name" '
