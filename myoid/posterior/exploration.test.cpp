@@ -37,10 +37,10 @@ TEST(Explore, TheApproximationAndTheSamplerAgree) {
   const Eigen::VectorXd shift =
       (mean_of(approximate.sample) - mean_of(sampled.sample)).cwiseQuotient(sd);
   const Eigen::VectorXd ratio = sd_of(approximate.sample).cwiseQuotient(sd);
-  // 1,200 draws know a mean to 0.05 standard deviations. The approximation begins at the mode,
-  // which lies above the mean of F_max by up to one standard deviation.
-  EXPECT_LT(shift.cwiseAbs().maxCoeff(), 1.2);
-  EXPECT_LT(shift.cwiseAbs().mean(), 0.35);
+  // 1,200 draws know a mean to 0.05 standard deviations. Without the change of the other unknowns'
+  // volume (Marginal, drift) these limits are exceeded: 1.1 and 0.29, at F_max.
+  EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.7);
+  EXPECT_LT(shift.cwiseAbs().mean(), 0.2);
   EXPECT_NEAR(ratio.mean(), 1.0, 0.1);
 }
 

@@ -14,6 +14,7 @@ constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; a normal on
 constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; a normal one has 1
 constexpr double kLeastFall = 0.5, kMostFall = 8.0;  // of ln density to a side; a normal one has 2
 constexpr double kMostPromise = 2.0;  // of ln density: the most that a step of Newton may promise
+constexpr double kMostDrift = 2.0;    // standard deviations by which a volume may move a mean
 
 /// Returns the cubic on [0, 2] with value and slope 0 at 0.
 double hermite(const Marginal::Side& side, double outward_slope, double distance) {
@@ -53,9 +54,31 @@ Marginal::Side side_of(const LogDensity& density, const Mode& mode, Eigen::Index
   return {-fall, -sign * slope};
 }
 
+/// Returns w, from second differences of the gradient along the columns of a root of C.
+Eigen::VectorXd third_derivatives(const LogDensity& density,
+                                  const Mode& mode,
+                                  const Progress& progress) {
+  const Eigen::Index d = mode.x.size();
+  const Eigen::MatrixXd root = mode.covariance.llt().matrixL();
+  Eigen::VectorXd at_mode;
+  density(mode.x, at_mode);
+  Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(d, d);
+  parallel_ranges(d, Eigen::Index{1}, [&](const auto& range) {
+    for (Eigen::Index k = range.begin(); k < range.end(); ++k) {
+      progress.check();
+      Eigen::VectorXd above, below;
+      if (std::isfinite(density(mode.x + root.col(k), above)) &&
+          std::isfinite(density(mode.x - root.col(k), below)))
+        parts.col(k) = above + below - 2.0 * at_mode;
+    }
+  });
+  return parts.rowwise().sum();
+}
+
 }  // namespace
 
-Marginal::Marginal(const Side& below, const Side& above) : sides_{below, above} {
+Marginal::Marginal(const Side& below, const Side& above, double drift)
+    : sides_{below, above}, drift_(drift) {
   const auto count = static_cast<std::size_t>(std::lround(2.0 * kGridEnd / kGridStep)) + 1;
   share_.resize(count);
   double sum = 0.0, before = std::exp(log_density(-kGridEnd));
@@ -72,9 +95,10 @@ double Marginal::log_density(double t) const {
   const double outward = t < 0.0 ? -side.slope : side.slope, distance = std::abs(t);
   if (distance > kSide) {
     const double beyond = distance - kSide;
-    return side.log_density + beyond * (outward - 0.5 * beyond * tail_curvature(side, outward));
+    return side.log_density + beyond * (outward - 0.5 * beyond * tail_curvature(side, outward)) +
+           drift_ * t;
   }
-  return hermite(side, outward, distance);
+  return hermite(side, outward, distance) + drift_ * t;
 }
 
 double Marginal::at(double normal) const {
@@ -98,8 +122,15 @@ std::vector<Marginal> marginals(const LogDensity& density,
       sides[static_cast<std::size_t>(i)] = side_of(density, mode, i / 2, i % 2 == 0 ? -1.0 : 1.0);
     }
   });
+  const Eigen::VectorXd w = third_derivatives(density, mode, progress);
   std::vector<Marginal> found;
-  for (std::size_t j = 0; j < sides.size(); j += 2) found.emplace_back(sides[j], sides[j + 1]);
+  for (Eigen::Index j = 0; j < d; ++j) {
+    const Marginal::Side &below = sides[static_cast<std::size_t>(2 * j)],
+                         &above = sides[static_cast<std::size_t>(2 * j + 1)];
+    const double along = mode.covariance.col(j).dot(w) / std::sqrt(mode.covariance(j, j)),
+                 own = (below.slope + above.slope) / (Marginal::kSide * Marginal::kSide);
+    found.emplace_back(below, above, std::clamp(0.5 * (along - own), -kMostDrift, kMostDrift));
+  }
   return found;
 }
 

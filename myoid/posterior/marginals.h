@@ -14,7 +14,8 @@
 namespace myoid::identification {
 
 /// The density of one entry of x, unnormalized, in Laplace's standard deviations t from the mode:
-/// ln p(t) is the cubic through values and slopes at -2, 0 and 2, and a parabola in the tails.
+/// ln p(t) is the cubic through values and slopes at -2, 0 and 2, a parabola in the tails, and
+/// `drift` t.
 class Marginal {
  public:
   /// State of the search at t = -2 or 2: ln p less that of the mode, and its slope in t.
@@ -24,7 +25,7 @@ class Marginal {
   };
   static constexpr double kSide = 2.0;
   /// Builds ln p(t) from both sides. A normal distribution has the sides {-2, 2} and {-2, -2}.
-  Marginal(const Side& below, const Side& above);
+  Marginal(const Side& below, const Side& above, double drift = 0.0);
 
   [[nodiscard]] double log_density(double t) const;
   /// Returns the t at which the distribution reaches the share that a standard normal one has at
@@ -33,6 +34,7 @@ class Marginal {
 
  private:
   std::array<Side, 2> sides_;
+  double drift_ = 0.0;
   std::vector<double> share_;  ///< Share of the distribution below each point of a grid of t.
 };
 
@@ -42,10 +44,16 @@ using LogDensity = std::function<double(const Eigen::VectorXd& x, Eigen::VectorX
 /// Returns the marginal of every entry of x about a mode with covariance C. The other entries move
 /// to their expectation given x_j, mode + t C e_j / sd_j, and from there by one step of Newton:
 ///
-///   ln p(t) = f + 1/2 g' K g,   K = C - C e_j e_j' C / C_jj
+///   ln p(t) = f + 1/2 g' K g + c t,   K = C - r r',   r = C e_j / sd_j
 ///
-/// f and g are the density's value and gradient. The change along t of the determinant of the other
-/// entries' curvature is left out. A side where the density is not finite stays normal.
+/// f and g are the density's value and gradient. c t is the change of the other entries' volume,
+/// -1/2 ln |curvature| (Rue, Martino and Chopin, J R Stat Soc B 71:319, 2009, their simplified
+/// Laplace approximation), to the first order by the third derivatives T of ln p,
+///
+///   c = 1/2 sum_kl T(r)_kl K_kl = 1/2 (r' w - T(r, r, r)),   w_i = sum_kl T_ikl C_kl.
+///
+/// Without c, F_max lies a standard deviation too high where many numbers err with it. A side where
+/// the density is not finite stays normal.
 [[nodiscard]] std::vector<Marginal> marginals(const LogDensity& density,
                                               const Mode& mode,
                                               const Progress& progress);

@@ -62,6 +62,22 @@ TEST(Marginals, FollowTheRidgeOfABanana) {
   for (const double t : {-1.96, -0.7, 1.96}) EXPECT_NEAR(found[0].at(t), t, 0.03);
 }
 
+TEST(Marginals, AFunnelHasItsMassWhereItIsWide) {
+  // ln p = -x^2 / 2 - y^2 exp(-2 k x) / 2: integrated over y, x is normal about k.
+  for (const double k : {-0.8, 0.3}) {
+    const LogDensity funnel = [k](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
+      const double narrow = std::exp(-2.0 * k * at[0]), y = at[1];
+      gradient.resize(2);
+      gradient << -at[0] + k * y * y * narrow, -y * narrow;
+      return -0.5 * at[0] * at[0] - 0.5 * y * y * narrow;
+    };
+    const Mode mode = mode_of(Eigen::Vector2d::Zero(), 0.0, Eigen::Matrix2d::Identity());
+    const std::vector<Marginal> found = marginals(funnel, mode, {});
+    for (const double t : {-1.96, 0.0, 1.96}) EXPECT_NEAR(found[0].at(t), t + k, 0.03) << k;
+    EXPECT_NEAR(found[1].at(0.0), 0.0, 0.02);
+  }
+}
+
 TEST(Marginals, OfANormalDensityDrawTheNormalDistribution) {
   Eigen::Matrix2d covariance;
   covariance << 4.0, 1.2, 1.2, 1.0;

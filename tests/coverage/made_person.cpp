@@ -230,6 +230,7 @@ class Maker {
       for (double& x : e.model) x = s * random_.normal();
       e.model[3] *= 0.5;
       drift_.push_back(beliefs::kGainDrift.sd * random_.normal());
+      effort_.push_back(1.0 + beliefs::kVoluntaryEffort.sd * random_.normal());
       rise_and_fall_s_.push_back(beliefs::kRiseAndFall.sd * random_.normal());
     }
     crosstalk_ = Eigen::MatrixXd::Identity(muscles(), muscles());
@@ -280,7 +281,7 @@ class Maker {
     for (std::size_t k = 0; k < of_arm_.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       ChannelValues channel = values.channels[k];
-      channel[kGain] *= 1.0 + drift_[k] * place;
+      channel[kGain] *= effort_[k] * (1.0 + drift_[k] * place);
       std::vector<Activation> a = activation(Envelope(clock, drives_[number].col(column)),
                                              trial.time_s, channel, EmgLag::delay);
       for (Activation& at : a)
@@ -413,7 +414,7 @@ class Maker {
   MadePerson person_;
   std::vector<Eigen::MatrixXd> drives_;  ///< Per trial, instants x channels.
   std::vector<MuscleErrors> errors_;
-  std::vector<double> drift_, rise_and_fall_s_;
+  std::vector<double> drift_, effort_, rise_and_fall_s_;
   Eigen::MatrixXd crosstalk_;
 };
 

@@ -39,7 +39,7 @@ struct MadePerson {
 ///
 /// - moment arms r (1 + alpha + beta x), which change length and rate, too,
 /// - slack lengths and strains of the tendons, by the law of the muscle,
-/// - each channel's gain drift, and cross-talk added to the recorded envelopes,
+/// - each channel's effort and gain drift, and cross-talk added to the recorded envelopes,
 /// - the scale of the torque, and the model's error as a factor of each muscle's torque.
 ///
 /// The literature's spreads are multiplied by a factor of the person's own (Density::unlikeness).
