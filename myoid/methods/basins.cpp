@@ -120,7 +120,8 @@ void look_around(const StudyData& data,
                  EstimatorOptions options,
                  IdentificationResult& result,
                  int starts) {
-  if (!options.weights || result.exact || result.termination != math::Termination::converged)
+  if (!options.weights || options.estimator == EstimatorKind::posterior || result.exact ||
+      result.termination != math::Termination::converged)
     return;
   options.lag = result.lag;
   options.progress.report = nullptr;

@@ -26,9 +26,9 @@ namespace myoid::identification {
 /// Number of starts from which a reported fit looks for other minima.
 inline constexpr int kUsualLook = 24;
 
-/// Calls `report_other_minima` for a fit of method torque with these options: with the fit's table
-/// if several starts were asked for, otherwise with searches from `starts` points at the weights of
-/// its minimum.
+/// Calls `report_other_minima` for a least-squares fit of method torque with these options: with
+/// the fit's table if several starts were asked for, otherwise with searches from `starts` points
+/// at the weights of its minimum. The posterior's intervals are over all of its modes already.
 void look_around(const StudyData& data,
                  EstimatorOptions options,
                  IdentificationResult& result,

@@ -21,7 +21,8 @@ constexpr double kMostNoise = 3.3;    // times the expected power: ln kappa at t
 constexpr double kAtOnce_s = 25.0;    // longest piece that is smoothed at once
 constexpr double kMargin_s = 1.0;     // overlap with each neighboring piece
 constexpr double kFade = 0.15;        // spread of the fade, over the period of the frequency grid
-constexpr double kLeastDrive = 1e-3;  // of the resting level, on which noise acts, too
+constexpr double kLeastDrive = 1e-4;  // of the resting level, on which noise acts, too
+constexpr double kFloor = 0.1;        // of the resting level, over which the drive fades to zero
 constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
 constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
 constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
@@ -226,15 +227,16 @@ Smoothed smooth(const Eigen::VectorXd& values,
 }  // namespace
 
 double envelope_sd_at(double u, double noise_sd, double rest) {
-  const double certain = std::max(u, rest * std::sqrt(noise_sd));
+  const double certain = std::hypot(u, rest * std::sqrt(noise_sd));
   return certain > 0.0 ? noise_sd * (certain + rest * rest / certain) : 0.0;
 }
 
 NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
-  const double chance = rest * std::sqrt(noise_sd), least = kLeastDrive * rest;
-  if (u >= chance) return {1.0 + std::pow(rest / u, 2), -2.0 * rest * rest / (u * u * u)};
-  const double by_chance = chance + rest * rest / chance;
-  return {by_chance / std::max(u, least), u > least ? -by_chance / (u * u) : 0.0};
+  if (!(rest > 0.0)) return {};
+  const double certain = std::hypot(u, rest * std::sqrt(noise_sd)), least = kLeastDrive * rest;
+  const double squared = rest * rest / (certain * certain), noise = certain * (1.0 + squared);
+  if (u <= least) return {noise / least, 0.0};
+  return {noise / u, (1.0 - squared) / certain - noise / (u * u)};
 }
 
 Drive drive_behind(const Envelope& recorded,
@@ -278,11 +280,11 @@ Drive drive_behind(const Envelope& recorded,
   // search for the delay would see the samples.
   const Eigen::VectorXd fine =
       Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
-  return {
-      Envelope(
-          fine,
-          math::Spline::interpolate(time, drive).evaluate(fine).value.cwiseMax(kLeastDrive * rest)),
-      std::move(left)};
+  const Eigen::VectorXd found = math::Spline::interpolate(time, drive).evaluate(fine).value;
+  // A corner at zero in place of the fade would give the posterior a kink at each sample there.
+  return {Envelope(fine, found.unaryExpr(
+                             [&](double u) { return 0.5 * (u + std::hypot(u, kFloor * rest)); })),
+          std::move(left)};
 }
 
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,

@@ -16,8 +16,9 @@
 namespace myoid::identification {
 
 /// Returns the standard deviation of an envelope of size u after subtraction of the electrode's
-/// noise as power, u^2 = m^2 - rest^2: du = (u + rest^2 / u) dm / m, dm / m = `noise_sd`. Below u =
-/// rest sqrt(noise_sd), where chance makes u, du is constant.
+/// noise as power, u^2 = m^2 - rest^2: du = (v + rest^2 / v) dm / m, dm / m = `noise_sd`. v is the
+/// root of u^2 + noise_sd rest^2: below rest sqrt(noise_sd) chance makes u. A bound on u in place
+/// of v would give the posterior a kink at each sample that passes it, at which searches end.
 [[nodiscard]] double envelope_sd_at(double u, double noise_sd, double rest);
 
 /// Holds the ratio of envelope_sd_at to `noise_sd` u, and the slope of this ratio in u.

@@ -16,7 +16,7 @@ constexpr double kLeastWeight = 0.02;  // least share of a mode's weight
 constexpr double kSameMode = 0.3;
 constexpr int kMostReferences = 4;
 constexpr Eigen::Index kApproximateDraws = 4000;
-constexpr int kOtherStarts = 1;
+constexpr int kOtherStarts = 3;  // of a fit that is reported
 constexpr std::uint64_t kSeed = 20;
 
 /// Returns the start moved by the prior's spread, up or down by a fixed pattern.
@@ -148,9 +148,9 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
   Exploration found;
   Density& by_delay = *found.densities.emplace_back(std::make_unique<Density>(data, options));
   std::vector<Eigen::VectorXd> starts{by_delay.start()};
-  const int others = options.multistart > 1        ? options.multistart - 1
-                     : options.posterior_draws > 0 ? kOtherStarts
-                                                   : 0;
+  const int others = options.multistart > 1 ? options.multistart - 1
+                     : options.marginals    ? kOtherStarts
+                                            : 0;
   for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
   found.modes = modes_of(by_delay, starts, options);
   if (options.choose_lag && options.lag == EmgLag::delay) {
