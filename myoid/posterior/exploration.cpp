@@ -70,7 +70,7 @@ std::vector<Candidate> modes_of(Density& density,
 }
 
 /// Computes curvatures and weights, drops light modes, and sorts the heaviest first.
-void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
+void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) {
   const double best = std::max_element(candidates.begin(), candidates.end(),
                                        [](const Candidate& a, const Candidate& b) {
                                          return a.mode.log_density < b.mode.log_density;
@@ -79,7 +79,7 @@ void weigh(std::vector<Candidate>& candidates, const Progress& progress) {
   std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - 8.0; });
   double most = -1e300;
   for (Candidate& c : candidates) {
-    add_curvature(*c.density, c.mode, progress);
+    add_curvature(*c.density, options.marginals, c.mode, options.progress);
     most = std::max(most, c.mode.log_evidence);
   }
   double sum = 0.0;
@@ -160,7 +160,7 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
     const std::vector<Eigen::VectorXd> from{found.modes.front().mode.x};
     for (Candidate& c : modes_of(by_lags, from, with_lags)) found.modes.push_back(std::move(c));
   }
-  weigh(found.modes, options.progress);
+  weigh(found.modes, options);
   found.sample = sample(found.modes, options);
   return found;
 }

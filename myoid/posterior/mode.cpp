@@ -100,22 +100,24 @@ Mode find_mode(const Density& density, const Eigen::VectorXd& start, const Progr
   return mode;
 }
 
-void add_curvature(const Density& density, Mode& mode, const Progress& progress) {
+void add_curvature(const Density& density, bool exact, Mode& mode, const Progress& progress) {
   const Eigen::Index d = density.size();
   const Eigen::MatrixXd expected = density.gauss_newton(mode.x);
   const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd h(d, d);
-  parallel_ranges(d, Eigen::Index{1}, [&](const auto& range) {
-    for (Eigen::Index j = range.begin(); j < range.end(); ++j) {
-      progress.check();
-      const Eigen::VectorXd step = kDifference * scale[j] * Eigen::VectorXd::Unit(d, j);
-      Eigen::VectorXd above = Eigen::VectorXd::Zero(d), below = Eigen::VectorXd::Zero(d);
-      const bool finite = std::isfinite(density.value(mode.x + step, above)) &&
-                          std::isfinite(density.value(mode.x - step, below));
-      h.col(j) = finite ? Eigen::VectorXd((below - above) / (2.0 * kDifference * scale[j]))
-                        : Eigen::VectorXd(expected.col(j));
-    }
-  });
+  Eigen::MatrixXd h = expected;
+  if (exact) {
+    parallel_ranges(d, Eigen::Index{1}, [&](const auto& range) {
+      for (Eigen::Index j = range.begin(); j < range.end(); ++j) {
+        progress.check();
+        const Eigen::VectorXd step = kDifference * scale[j] * Eigen::VectorXd::Unit(d, j);
+        Eigen::VectorXd above = Eigen::VectorXd::Zero(d), below = Eigen::VectorXd::Zero(d);
+        const bool finite = std::isfinite(density.value(mode.x + step, above)) &&
+                            std::isfinite(density.value(mode.x - step, below));
+        h.col(j) = finite ? Eigen::VectorXd((below - above) / (2.0 * kDifference * scale[j]))
+                          : Eigen::VectorXd(expected.col(j));
+      }
+    });
+  }
   const Eigen::MatrixXd scaled =
       scale.asDiagonal() * (0.5 * (h + h.transpose())).eval() * scale.asDiagonal();
   const Eigen::MatrixXd scaled_expected = scale.asDiagonal() * expected * scale.asDiagonal();

@@ -28,9 +28,9 @@ struct Mode {
                              const Eigen::VectorXd& start,
                              const Progress& progress);
 
-/// Adds covariance and evidence from second derivatives, central differences of the exact gradient
-/// over a third of a standard deviation, made symmetric. A direction in which the density does not
-/// fall gets a tenth of its Gauss-Newton curvature.
-void add_curvature(const Density& density, Mode& mode, const Progress& progress);
+/// Adds covariance and evidence from second derivatives: if `exact`, central differences of the
+/// exact gradient over a third of a standard deviation, made symmetric, else Gauss and Newton's. A
+/// direction in which the density does not fall gets a tenth of its Gauss-Newton curvature.
+void add_curvature(const Density& density, bool exact, Mode& mode, const Progress& progress);
 
 }  // namespace myoid::identification

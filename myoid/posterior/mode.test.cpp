@@ -19,7 +19,7 @@ TEST(Mode, IsWhereTheDensityIsFlatAndItsCovarianceIsTheCurvatureThere) {
   const Density density(study.data, {});
   Mode mode = find_mode(density, density.start(), {});
   ASSERT_TRUE(mode.converged) << mode.message;
-  add_curvature(density, mode, {});
+  add_curvature(density, true, mode, {});
   Eigen::VectorXd gradient;
   EXPECT_EQ(density.value(mode.x, gradient), mode.log_density);
   // A Newton step from there promises next to nothing.

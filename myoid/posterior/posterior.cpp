@@ -329,7 +329,9 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
 
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
-  const Given given = given_geometry(*best.density, best, options.progress);
+  // A fit whose numbers are not reported needs no second interval.
+  const Given given = options.marginals ? given_geometry(*best.density, best, options.progress)
+                                        : Given{.low = result.solution, .high = result.solution};
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
   add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result,

@@ -51,6 +51,7 @@ StudyValidation study_validation(const FitSource& source,
     if (how.kind != identification::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, progress);
       split = std::move(of_fold.data);
+      of_fold.options.drives = options.drives;
       options = identification::of_a_fold(std::move(of_fold.options));
     }
     return identification::identify_torque(split, options);
