@@ -127,6 +127,7 @@ Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& 
     count += parts.back().x.cols();
   }
   const Eigen::Index p = candidates.front().density->parameters().size();
+  all.of_best = parts.front().x.cols();
   all.z.resize(p, count);
   all.noise.resize(candidates.front().density->size() - p, count);
   all.weight.resize(count);

@@ -156,6 +156,13 @@ void judge_row(const Reporting& of,
     e.reason += without_maximum(of, values, owner);
 }
 
+/// Returns 1 - variance / prior variance of an unknown, over all modes.
+double contraction(const Reporting& of, std::size_t unknown) {
+  const Eigen::VectorXd z = of.sample.z.row(static_cast<Eigen::Index>(unknown)).transpose();
+  const double mean = z.dot(of.sample.weight), sd = of.map.free()[unknown].prior.sd;
+  return 1.0 - (z.array() - mean).square().matrix().dot(of.sample.weight) / (sd * sd);
+}
+
 ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t target_at) {
   const Unknown& p = of.map.free()[unknown];
   const Unknown::Target& target = p.targets[target_at];
@@ -174,7 +181,7 @@ ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t t
     e.prior_mean = value(p.prior.mean);
     e.prior_sd =
         p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
-    e.shrinkage = 1.0 - of.result.covariance(at, at) / (p.prior.sd * p.prior.sd);
+    e.shrinkage = contraction(of, unknown);
     e.prior_distance = distance_from_prior(p, of.result.solution[at]);
   }
   PosteriorFacts facts;
@@ -204,10 +211,7 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
                           physical.upper);
   e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
-  if (ratio.prior.sd > 0.0) {
-    const auto at = static_cast<Eigen::Index>(unknown);
-    e.shrinkage = 1.0 - of.result.covariance(at, at) / (ratio.prior.sd * ratio.prior.sd);
-  }
+  if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
   PosteriorFacts facts;
   facts.low_given = weighted_quantile(draws, of.sample.weight, 0.025);
   facts.high_given = weighted_quantile(draws, of.sample.weight, 0.975);
@@ -245,9 +249,13 @@ void fill_fit(const Candidate& best,
   result.samples_used = static_cast<int>(density.likelihood().row_count());
   result.effective_samples = static_cast<double>(result.samples_used);
   result.lag = best.lag;
-  result.solution = sample.z * sample.weight;
-  const Eigen::MatrixXd off = sample.z.colwise() - result.solution;
-  result.covariance = off * sample.weight.asDiagonal() * off.transpose();
+  // The mean over several modes may lie between them, where nothing fits.
+  const auto z = sample.z.leftCols(sample.of_best);
+  const Eigen::VectorXd weight =
+      sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
+  result.solution = z * weight;
+  const Eigen::MatrixXd off = z.colwise() - result.solution;
+  result.covariance = off * weight.asDiagonal() * off.transpose();
   result.values = map.values(result.solution);
   for (const MuscleValues& values : result.values.muscles)
     result.muscles.push_back(hill_parameters(values));
