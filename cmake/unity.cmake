@@ -6,6 +6,11 @@ if(MYOID_UNITY)
   if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
     set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
   endif()
+  # GCC looks for memory that it can use again each time it needs a third more, which takes a twelfth of its time. The
+  # largest room needs 2.2 GB when GCC does not look.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(--param=ggc-min-heapsize=2000000)
+  endif()
 endif()
 set(MYOID_COMMON_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <cstring> <filesystem> <fstream> <functional>
     <limits> <map> <memory> <numbers> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <utility>
