@@ -25,7 +25,7 @@ struct Sample {
   Eigen::MatrixXd z;      ///< unknowns x draws
   Eigen::MatrixXd noise;  ///< NoiseValues x draws
   Eigen::VectorXd weight;
-  Eigen::Index of_best = 0;  ///< The first draws are about the heaviest mode.
+  Eigen::Index of_best = 0;           ///< The first draws are about the heaviest mode.
   double rhat = 1.0, accepted = 1.0;  ///< The worst value among the modes (sampler.h).
   bool approximate = false;           ///< The sampler's chains cannot be relied on.
 };

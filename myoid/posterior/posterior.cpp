@@ -138,6 +138,7 @@ void judge_row(const Reporting& of,
   facts.is_delay = p.field->scope == Scope::channel && p.field->field == kDelay;
   facts.shares = of.shares[unknown];
   facts.r2 = of.result.r2;
+  facts.model_error = of.result.model_error;
   e.variance_shares = facts.shares;
   const bool of_width = p.field->scope == Scope::muscle && p.field->field == kWidth;
   if (of_width || (p.field->scope == Scope::muscle && p.field->field == kFiberLength)) {

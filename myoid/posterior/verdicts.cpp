@@ -54,6 +54,7 @@ Finding finding(const PosteriorFacts& facts) {
     return Finding::too_wide;
   if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width))
     return Finding::wide;
+  if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage)
     return Finding::half_the_prior;
   return Finding::narrow;
@@ -70,6 +71,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::one_length:
     case Finding::as_the_prior:
       return Verdict::prior_dominated;
+    case Finding::wrong_model:
     case Finding::half_the_prior:
     case Finding::wide:
       return Verdict::weak;
@@ -96,6 +98,10 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text += "; it rests on " + sources;
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
+  if (finding == Finding::wrong_model)
+    text = fmt::format(
+        "the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",
+        100.0 * facts.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
         "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or "

@@ -21,7 +21,8 @@ struct PosteriorFacts {
   bool is_delay = false;
   /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
   std::optional<double> length_span;
-  double r2 = 1.0;  ///< R2 of the fitted torque.
+  double r2 = 1.0;           ///< R2 of the fitted torque.
+  double model_error = 0.0;  ///< Relative size of the model's systematic error.
   SourceShares shares{};
 };
 
@@ -35,6 +36,7 @@ enum class Finding {
   unexplained,     ///< R2 of the fit below VerdictRules::least_r2.
   as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
   too_wide,        ///< Beyond VerdictRules::weak_half_width.
+  wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
   half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   wide,            ///< Beyond VerdictRules::identified_half_width.
   narrow

@@ -34,6 +34,16 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
 }
 
+TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
+  PosteriorFacts facts = good();
+  facts.model_error = 0.19;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  facts.model_error = 0.33;
+  EXPECT_EQ(finding(facts), Finding::wrong_model);
+  EXPECT_EQ(verdict_of(Finding::wrong_model), Verdict::weak);
+  EXPECT_THAT(reason_of(Finding::wrong_model, facts), HasSubstr("the model errs by 33 %"));
+}
+
 TEST(PosteriorVerdict, TheFartherEndCounts) {
   PosteriorFacts facts = good();
   facts.high = 1130.0;
