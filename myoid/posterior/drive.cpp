@@ -25,9 +25,7 @@ constexpr double kLeastDrive = 1e-4;  // of the resting level, on which noise ac
 constexpr double kFloor = 0.01;       // of the resting level, over which the drive fades to zero
 constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
 constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
-constexpr double kLeastTravel_m = 0.002;  // spread of a muscle's length that moves
-constexpr double kFarthestPlace = 3.0;    // spreads of length and rate
-constexpr int kPasses = 3;                // repetitions, because the noise depends on the drive
+constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
 
 Eigen::ArrayXd hann_window(Eigen::Index n) {
   return 0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
@@ -187,53 +185,22 @@ Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return each.reshaped(2, each.size() / 2).colwise().sum();
 }
 
-/// Returns the polynomials of length and rate at these times, each column of variance 1 or less;
-/// no column for a muscle that hardly moves.
-Eigen::MatrixXd polynomials(const Motion& motion, const Eigen::VectorXd& time_s) {
-  const Eigen::Index n = time_s.size();
-  if (motion.time_s.size() < 2) return Eigen::MatrixXd(n, 0);
-  const auto scaled = [&](const Eigen::VectorXd& of, double least) -> Eigen::ArrayXd {
-    const double mean = of.mean(), sd = std::sqrt((of.array() - mean).square().mean());
-    if (sd < least) return Eigen::ArrayXd(0);
-    Eigen::ArrayXd at(n);
-    Eigen::Index k = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      while (k + 2 < motion.time_s.size() && motion.time_s[k + 1] < time_s[i]) ++k;
-      const double share = std::clamp(
-          (time_s[i] - motion.time_s[k]) / (motion.time_s[k + 1] - motion.time_s[k]), 0.0, 1.0);
-      at[i] = (of[k] + share * (of[k + 1] - of[k]) - mean) / sd;
-    }
-    return at.max(-kFarthestPlace).min(kFarthestPlace);
-  };
-  const Eigen::ArrayXd x = scaled(motion.length_m, kLeastTravel_m);
-  if (x.size() == 0) return Eigen::MatrixXd(n, 0);
-  const Eigen::ArrayXd v = scaled(motion.velocity_mps, 0.0);
-  Eigen::MatrixXd columns(n, 9);
-  columns << x, v, x * x, x * v, v * v, x * x * x, x * x * v, x * v * v, v * v * v;
-  columns.rowwise() -= columns.colwise().mean();
-  for (auto column : columns.colwise())
-    column /= std::max(1.0, std::sqrt(column.squaredNorm() / static_cast<double>(n)));
-  return columns;
-}
-
 /// The drive of evenly sampled values, and the powers behind a Hann window of the drive's error and
 /// of the noise, at the frequencies of the spectra.
 struct Smoothed {
   Eigen::VectorXd drive, error, noise;
 };
 Smoothed smooth(const Eigen::VectorXd& values,
-                const Eigen::MatrixXd& of_motion,
                 double interval_s,
                 const Spectra& spectra,
                 double noise_sd,
                 double rest,
                 const EnvelopeError& error) {
   const Eigen::Index n = values.size();
-  const double mean = values.mean(), least = 0.001 * values.maxCoeff();
-  Eigen::MatrixXd prior = toeplitz(covariances(spectra.drive, error, interval_s, n - 1));
-  prior += (values.array() - mean).square().mean() * of_motion * of_motion.transpose();
+  const Eigen::MatrixXd prior = toeplitz(covariances(spectra.drive, error, interval_s, n - 1));
   const Eigen::MatrixXd correlation =
       toeplitz(covariances(error.spectrum() / error.step_hz(), error, interval_s, n - 1));
+  const double mean = values.mean(), least = 0.001 * values.maxCoeff();
   Smoothed result;
   result.drive = moving_mean(values, static_cast<Eigen::Index>(std::lround(0.25 / interval_s)));
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -276,8 +243,7 @@ Drive drive_behind(const Envelope& recorded,
                    double noise_sd,
                    double rest,
                    const EnvelopeError& error,
-                   double cutoff_hz,
-                   const Motion& motion) {
+                   double cutoff_hz) {
   const double span_s = recorded.last_s() - recorded.first_s();
   const double rate_hz = kRatePerCutoff * cutoff_hz;
   const auto n = static_cast<Eigen::Index>(span_s * rate_hz) + 1;
@@ -291,7 +257,6 @@ Drive drive_behind(const Envelope& recorded,
   if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff())
     return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
-  const Eigen::MatrixXd of_motion = polynomials(motion, time);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
   Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(spectra.drive.size()),
                             noise_power = left_power;
@@ -300,8 +265,7 @@ Drive drive_behind(const Envelope& recorded,
                        from = std::max<Eigen::Index>(0, first - margin),
                        to = std::min(n, end + margin);
     const Smoothed part =
-        smooth(values.segment(from, to - from), of_motion.middleRows(from, to - from),
-               1.0 / rate_hz, spectra, noise_sd, rest, error);
+        smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
     drive.segment(first, end - first) = part.drive.segment(first - from, end - first);
     left_power += part.error;
     noise_power += part.noise;
@@ -328,20 +292,17 @@ std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,
                                                  double noise_sd,
                                                  double rest,
                                                  const EnvelopeError& error,
-                                                 double cutoff_hz,
-                                                 const Motion& motion) {
+                                                 double cutoff_hz) {
   const Eigen::VectorXd values = recorded.column(channel);
   Key key{noise_sd, rest, cutoff_hz};
   key.insert(key.end(), recorded.time_s().begin(), recorded.time_s().end());
-  for (const Eigen::VectorXd* of :
-       {&values, &motion.time_s, &motion.length_m, &motion.velocity_mps})
-    key.insert(key.end(), of->begin(), of->end());
+  key.insert(key.end(), values.begin(), values.end());
   {
     const std::lock_guard lock(mutex_);
     if (const auto known = drives_.find(key); known != drives_.end()) return known->second;
   }
   auto found = std::make_shared<const Drive>(
-      drive_behind(Envelope(recorded.time_s(), values), noise_sd, rest, error, cutoff_hz, motion));
+      drive_behind(Envelope(recorded.time_s(), values), noise_sd, rest, error, cutoff_hz));
   const std::lock_guard lock(mutex_);
   return drives_.emplace(std::move(key), std::move(found)).first->second;
 }

@@ -37,14 +37,6 @@ struct NoiseOverEnvelope {
 /// most 3.3 times the expected power. A model that takes u for the drive finds lags that do not
 /// exist, because a lag damps the noise of u, too. The remaining error has the spectrum (1 - W)^2 S
 /// + W^2 N. A constant envelope is its own drive.
-///
-/// Before the recording is looked at, the drive is its mean, a stationary process with the spectrum
-/// S, and a cubic polynomial of the muscle's length and rate: a drive that repeats with the
-/// movement is told by all cycles together. Without the polynomial W takes a part of the harmonics
-/// of each cycle, an error that many cycles do not average out.
-struct Motion {
-  Eigen::VectorXd time_s, length_m, velocity_mps;  ///< Of one muscle; empty: not known.
-};
 struct Drive {
   Envelope envelope;  ///< The drive as an envelope.
   /// Power of the drive's error over N, at the frequencies of `EnvelopeError`.
@@ -54,21 +46,19 @@ struct Drive {
                                  double noise_sd,
                                  double rest,
                                  const EnvelopeError& error,
-                                 double cutoff_hz,
-                                 const Motion& motion = {});
+                                 double cutoff_hz);
 
 /// The drives that fits of one recording have found: its folds and predictions need the same ones.
 /// Several threads may ask at once.
 class DriveMemory {
  public:
-  /// Returns drive_behind of the channel, found once for each envelope, noise and motion.
+  /// Returns drive_behind of the channel, found once for each envelope and noise.
   [[nodiscard]] std::shared_ptr<const Drive> behind(const TimeSeries& recorded,
                                                     const std::string& channel,
                                                     double noise_sd,
                                                     double rest,
                                                     const EnvelopeError& error,
-                                                    double cutoff_hz,
-                                                    const Motion& motion = {});
+                                                    double cutoff_hz);
 
  private:
   using Key = std::vector<double>;  ///< All that the drive depends on.

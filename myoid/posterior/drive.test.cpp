@@ -1,6 +1,5 @@
 #include "myoid/posterior/drive.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -87,47 +86,6 @@ TEST(Drive, IsNearerThanTheEnvelopeAndKnowsItsError) {
     const double said = noise_sd * std::sqrt(error.behind(drive.left).share());
     EXPECT_NEAR(said / error_of(of, drive.envelope), 1.0, 0.3) << noise_sd;
   }
-}
-
-/// Root mean square over the phases of a movement of the relative error's mean over all cycles, two
-/// seconds from the ends.
-double systematic_error_of(const MadeEnvelope& of, const Envelope& envelope, double frequency_hz) {
-  constexpr int kPhases = 16;
-  std::array<double, kPhases> sum{}, count{};
-  for (Eigen::Index i = 0; i < of.time.size(); ++i) {
-    if (of.time[i] < 2.0 || of.time[i] > of.time[of.time.size() - 1] - 2.0) continue;
-    const double cycles = of.time[i] * frequency_hz;
-    const auto phase = static_cast<std::size_t>(kPhases * (cycles - std::floor(cycles)));
-    sum[phase] += envelope.at(of.time[i]).value / of.drive[i] - 1.0;
-    count[phase] += 1.0;
-  }
-  double squares = 0.0;
-  for (std::size_t k = 0; k < kPhases; ++k) squares += std::pow(sum[k] / count[k], 2) / kPhases;
-  return std::sqrt(squares);
-}
-
-// Bursts at 1 Hz: the stationary process takes a part of their harmonics in each cycle, which is
-// less where the movement is known. A muscle that does not move tells nothing.
-TEST(Drive, OfAMovementIsNotFlattenedWhereTheMovementIsKnown) {
-  constexpr double kMiddle_hz = 1.0, kSd = 0.25;
-  const EnvelopeError error(kCutoff_hz, {0.0, 0.0});
-  MadeEnvelope of = made_envelope(kSd, 40.0);
-  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * kMiddle_hz * of.time.array();
-  const Eigen::VectorXd bursts = 0.05 + 0.25 * (1.0 + angle.sin()).square() / 4.0;
-  of.values = of.values.cwiseProduct(bursts.cwiseQuotient(of.drive));
-  of.drive = bursts;
-  const Envelope envelope(of.time, of.values);
-  const auto drive_with = [&](const Motion& motion) {
-    return drive_behind(envelope, kSd, 0.0, error, kCutoff_hz, motion).envelope;
-  };
-  const Envelope without = drive_with({});
-  const Envelope with =
-      drive_with({of.time, 0.3 + 0.03 * (angle + 0.4).cos(), -0.03 * (angle + 0.4).sin()});
-  EXPECT_LT(systematic_error_of(of, with, kMiddle_hz),
-            0.8 * systematic_error_of(of, without, kMiddle_hz));
-  const Motion still{of.time, Eigen::VectorXd::Constant(of.time.size(), 0.3),
-                     Eigen::VectorXd::Zero(of.time.size())};
-  EXPECT_EQ(error_of(of, drive_with(still)), error_of(of, without));
 }
 
 TEST(Drive, ASmoothEnvelopeIsLeftAlone) {

@@ -75,16 +75,9 @@ Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const 
   const EnvelopeError plain(options.envelope_cutoff_hz, {});
   const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();
   Drives drives;
-  for (std::size_t c = 0; c < map.channels().size(); ++c) {
-    const std::string& name = map.channels()[c];
-    std::size_t muscle = 0;  // the first that the channel serves
-    while (map.channel_of_muscle(muscle) != static_cast<int>(c)) ++muscle;
-    const auto column = static_cast<Eigen::Index>(muscle);
-    drives.push_back(
-        memory->behind(trial.activation, name, envelope_spread(options, name),
-                       floor_of(name, options), plain, options.envelope_cutoff_hz,
-                       {trial.time_s, trial.length_m.col(column), trial.velocity_mps.col(column)}));
-  }
+  for (const std::string& name : map.channels())
+    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name),
+                                    floor_of(name, options), plain, options.envelope_cutoff_hz));
   return drives;
 }
 
