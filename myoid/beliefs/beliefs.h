@@ -186,8 +186,7 @@ inline constexpr Belief kLeastEffort{
     "",
     "no maximal contraction was recorded: every ratio from there to 1 is as likely, ln(share) = ln "
     "0.22 ± 0.86. Estimator `posterior`: the belief about `emg_gain`; `least_squares`: adds to "
-    "that "
-    "about F_max, which is then the force at the largest EMG",
+    "that about F_max, which is then the force at the largest EMG",
     "antagonists of resisted movements reach 5 to 20 % of their maximum (Kellis 1998), the muscles "
     "of walking 10 to 80 % of a manual test's (Perry and Burnfield 2010)"};
 inline constexpr Belief kEmgNoise{"noise of an EMG envelope, over that expected from its bandwidth",

@@ -118,6 +118,12 @@ TEST(NoiseOverEnvelope, IsThatOfTheStandardDeviationAndHasItsSlope) {
                          (2.0 * h);
     EXPECT_NEAR(noise.slope, slope, 1e-5 * (1.0 + std::abs(slope)));
   }
+  // Where chance makes u its slope has no jump, at which a search of the mode would end: over a
+  // millionth of u it changes by a few millionths.
+  const double chance = kRest * std::sqrt(kSd);
+  const double below = noise_over_envelope(chance * (1.0 - 1e-6), kSd, kRest).slope,
+               above = noise_over_envelope(chance * (1.0 + 1e-6), kSd, kRest).slope;
+  EXPECT_NEAR(above / below, 1.0, 1e-5);
   // Without rest the noise is in proportion.
   EXPECT_EQ(noise_over_envelope(0.1, kSd, 0.0).value, 1.0);
 }

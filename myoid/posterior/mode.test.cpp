@@ -32,6 +32,15 @@ TEST(Mode, IsWhereTheDensityIsFlatAndItsCovarianceIsTheCurvatureThere) {
                         density.value(mode.x - 0.5 * root.col(j));
     EXPECT_NEAR(fall, 0.25, 0.08) << j;
   }
+  // Not exact, it is the inverse of Gauss and Newton's matrix, which these data do not leave far.
+  const Eigen::MatrixXd exact = mode.covariance;
+  add_curvature(density, false, mode, {});
+  const Eigen::MatrixXd one = mode.covariance * density.gauss_newton(mode.x);
+  EXPECT_LT((one - Eigen::MatrixXd::Identity(one.rows(), one.cols())).cwiseAbs().maxCoeff(), 1e-6);
+  const Eigen::VectorXd ratio =
+      mode.covariance.diagonal().cwiseQuotient(exact.diagonal()).cwiseSqrt();
+  EXPECT_NEAR(ratio.mean(), 1.0, 0.2);
+  EXPECT_GT((mode.covariance - exact).cwiseAbs().maxCoeff(), 0.0);
 }
 
 }  // namespace

@@ -9,10 +9,12 @@ namespace myoid::identification {
 /// Identifies the unknowns: estimates, intervals and verdicts from one posterior (density.h) of the
 /// torques of all joints.
 ///
-/// The interval "of the person" comes from draws of the posterior (exploration.h). The route
-/// "geometry_and_sensors_exact" gives the interval of a posterior in which moment arms, tendons,
-/// the torque's scale, cross-talk and drift are exact. IdentificationResult::trials is left empty.
-/// Throws InvalidInput without priors.
+/// The interval "of the person" comes from draws of the posterior (exploration.h), over all modes.
+/// Estimates, IdentificationResult::solution and ::covariance are those of the heaviest mode. The
+/// route "geometry_and_sensors_exact" gives the interval of a posterior in which moment arms,
+/// tendons, the torque's scale, effort, cross-talk and drift are exact; without
+/// EstimatorOptions::marginals (a fold's fit) it is empty. IdentificationResult::trials is left
+/// empty. Throws InvalidInput without priors.
 [[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data,
                                                          const EstimatorOptions& options);
 

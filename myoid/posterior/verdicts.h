@@ -26,9 +26,9 @@ struct PosteriorFacts {
   SourceShares shares{};
 };
 
-/// The answer to five questions: did the search converge; did the muscle act at more than one
-/// length; is the number possible and does the fit explain the torque; how much narrower than the
-/// prior is the interval; is it narrow enough to use.
+/// The answer to six questions: did the search converge; did the muscle act at more than one
+/// length; is the number possible and does the fit explain the torque; does the model hold; how
+/// much narrower than the prior is the interval; is it narrow enough to use.
 enum class Finding {
   not_converged,
   one_length,  ///< VerdictRules::least_length_span: the interval is that of F_max's prior.

@@ -78,18 +78,8 @@ std::vector<std::string> assumptions(const StudyResult& result) {
   }
   const signals::EmgChain chain = emg_chain(result, nullptr);
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
-  if (result.source.study.emg.has_mvc) {
-    const EmgSpec& emg = result.source.study.emg;
-    list.push_back(
-        emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0
-            ? fmt::format(
-                  "F_max is the force of a completely active muscle: the maximal contractions "
-                  "are taken to reach {:.0f} +- {:.0f} % of it.",
-                  100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd)
-            : std::string("F_max is the force at the greatest effort that was recorded. Untrained "
-                          "people reach some 80 to 100 % of what their muscles could exert; "
-                          "[emg] mvc_effort accounts for that."));
-  }
+  const Study& study = result.source.study;
+  list.push_back(meaning_of_strength(study, from_maximal_effort(study.emg)));
   for (const std::string& text : result.source.model->unsupported)
     list.push_back("Model: " + text + ".");
   return list;

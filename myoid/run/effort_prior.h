@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "myoid/identification/study_data.h"
@@ -21,6 +22,15 @@ namespace myoid {
 /// (Perry & Burnfield 2010). Any ratio between identification::beliefs::kLeastEffort and 1 is as
 /// likely as any other: ln(share) = ln 0.22 +- 0.86.
 [[nodiscard]] Prior any_effort();
+
+/// Returns the spread of a maximal contraction's force about that of a completely active muscle, for
+/// the estimator `posterior` (UnseenSpreads::effort): 0 where the gain carries the spread, because
+/// the study states it or no effort is maximal.
+[[nodiscard]] double unseen_effort(const Study& study);
+
+/// Returns a sentence that says which force F_max is. `maximal`: the largest EMG is that of a
+/// maximal contraction.
+[[nodiscard]] std::string meaning_of_strength(const Study& study, bool maximal);
 
 /// Returns the bounds of the gains where the effort is unknown: from the least effort to 1.
 [[nodiscard]] identification::ParameterRule effort_bounds();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace myoid {
@@ -30,6 +31,24 @@ TEST(ExpectAnyEffort, HasTheMomentsOfAUniformLogarithmOfTheShareTimesTheLiteratu
   EXPECT_NEAR(prior.sd, std::sqrt(squares / kDraws - mean * mean), 0.01);
   EXPECT_TRUE(prior.logarithmic);
   EXPECT_TRUE(muscles[1].priors.empty());
+}
+
+TEST(MeaningOfStrength, FollowsTheEstimatorAndTheRecordedEfforts) {
+  using testing::HasSubstr;
+  Study study;
+  EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("greatest effort that was recorded"));
+  EXPECT_THAT(meaning_of_strength(study, false), HasSubstr("not the muscle's maximum"));
+  study.identify.estimator = identification::EstimatorKind::posterior;
+  study.beliefs.effort = 0.04;
+  EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("by 4 %"));
+  study.emg.mvc_effort = 0.9;
+  study.emg.mvc_effort_sd = 0.05;
+  EXPECT_THAT(meaning_of_strength(study, true), HasSubstr("90 +- 5 %"));
+  EXPECT_EQ(unseen_effort(study), 0.0);
+  study.emg.has_mvc = false;
+  EXPECT_THAT(meaning_of_strength(study, false), HasSubstr("rests on the literature"));
+  study.identify.gain = false;  // the share is held at 1
+  EXPECT_THAT(meaning_of_strength(study, false), HasSubstr("not the muscle's maximum"));
 }
 
 TEST(ExpectAnyEffort, SpreadInNewtonsIsTakenAsARatio) {

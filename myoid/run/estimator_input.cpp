@@ -90,8 +90,7 @@ identification::StudyData estimator_data(const FitSource& source) {
 identification::EstimatorSettings estimator_settings(const Study& study) {
   const IdentifySpec& spec = study.identify;
   identification::UnseenSpreads unseen = study.beliefs;
-  // The gain carries the spread of the effort where the study states it or no effort is maximal.
-  if (!from_maximal_effort(study.emg) || study.emg.mvc_effort_sd > 0.0) unseen.effort = 0.0;
+  unseen.effort = unseen_effort(study);
   return {.muscles = spec.muscles,
           .priors = spec.priors,
           .estimator = spec.estimator,

@@ -282,7 +282,7 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
 }
 
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
-std::vector<Gate> reference_gates(const EmgScale& emg, bool effort_is_unknown) {
+std::vector<Gate> reference_gates(const Study& study, const EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
   const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
                                [](const auto& n) { return n.from_mvc; });
@@ -294,12 +294,7 @@ std::vector<Gate> reference_gates(const EmgScale& emg, bool effort_is_unknown) {
   return {{"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn,
            fmt::format("largest effort in {}", fmt::join(sources, "; in ")),
            "every channel from an MVC trial",
-           mvc ? "F_max means the maximal force."
-           : effort_is_unknown
-               ? "The share of the maximum that the largest EMG is, is an unknown of its own: "
-                 "F_max rests on the literature. Record a maximal contraction."
-               : "F_max below means the force at the study's largest EMG, not the "
-                 "muscle's maximum; forces and torques do not depend on it."}};
+           mvc ? "F_max means the maximal force." : meaning_of_strength(study, false)}};
 }
 
 /// Tests whether the search of method torque converged, and how many parameters it determines.
@@ -364,7 +359,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
   add(sharing_gates(result.trials));
-  add(reference_gates(result.emg, effort_is_unknown(result.source.study)));
+  add(reference_gates(result.source.study, result.emg));
   if (const IdentificationResult* torque = torque_of(result.fit)) add(parameter_gates(*torque));
   add(fold_gates(result.folds));
   if (result.fit.force_loop) list.push_back(loop_gate(*result.fit.force_loop));
