@@ -108,6 +108,7 @@ double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
 }
 
 void Likelihood::refer_to(const Eigen::VectorXd& z) {
+  reference_ = z;
   const ModelValues values = map_.values(z);
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
@@ -181,6 +182,10 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
         exact ? 0.0 : of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
   }
   return w;
+}
+
+Eigen::VectorXd Likelihood::grown(const Eigen::VectorXd& z) const {
+  return (unseen_.growth * (z - reference_)).array().exp();
 }
 
 Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noise) const {
@@ -314,7 +319,7 @@ double Likelihood::value(const Eigen::VectorXd& z,
   });
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const Eigen::Index quantities = w.size();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(quantities, quantities);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(quantities, quantities);
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(quantities);
   double result = 0.0;
   for (const Block& block : blocks) {
@@ -323,15 +328,19 @@ double Likelihood::value(const Eigen::VectorXd& z,
     projected += block.projected;
     result += block.own;
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-  if (factor.info() != Eigen::Success) return kNever;
-  const Eigen::VectorXd shared = factor.solve(projected);
+  const Eigen::VectorXd factors = grown(z);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
+  const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram),
+      factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());
+  if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
+  const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
+  const Eigen::VectorXd shared = factors.cwiseProduct(expected);
   result += 0.5 * (projected.dot(shared) - log_determinant(factor));
   if (gradient == nullptr || !std::isfinite(result)) return result;
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(quantities, quantities));
+  const Eigen::MatrixXd inverse = factor.solve(identity);
   std::vector<Gradient> parts(runs_.size());
   each_run([&](std::size_t r) { pull_back(r, noise, shared, inverse, blocks[r], parts[r]); });
-  gradient->by_z.setZero(map_.size());
+  gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;

@@ -19,6 +19,7 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// W x, and the operator L of each run acts on all of these terms,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
+///   S = S_ref exp(growth (z - z_ref)) in the first term, S_ref in the second,
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
@@ -29,7 +30,9 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// of an envelope and the error of an angle act on all joints that the muscle crosses. A is one
 /// block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity
 /// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and Q
-/// belong to reference values of the unknowns; the errors of angle and rate in Q are independent
+/// belong to reference values of the unknowns; in the quadratic form alone the columns that multiply
+/// F_max grow with it (Unseen::growth), because a determinant that followed would prefer muscles
+/// whose errors are small. The errors of angle and rate in Q are independent
 /// from sample to sample. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
@@ -49,6 +52,8 @@ class Likelihood {
   [[nodiscard]] const ParameterMap& parameters() const { return map_; }
   [[nodiscard]] const std::vector<TrialRun>& runs() const { return runs_; }
   [[nodiscard]] const Unseen& unseen() const { return unseen_; }
+  /// The values of the unknowns to which S and Q belong.
+  [[nodiscard]] const Eigen::VectorXd& reference() const { return reference_; }
   [[nodiscard]] const Recorded& recorded() const { return recorded_; }
   [[nodiscard]] Eigen::Index row_count() const { return rows_; }
   /// Number of fitted trials, in whose order ln b stands in NoiseValues.
@@ -118,6 +123,8 @@ class Likelihood {
  private:
   struct Block;
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
+  /// Returns the columns' factors exp(growth (z - z_ref)).
+  [[nodiscard]] Eigen::VectorXd grown(const Eigen::VectorXd& z) const;
   /// Returns b^2 sigma_T^2 of the run.
   [[nodiscard]] double torque_variance(std::size_t run, const NoiseValues& noise) const;
   /// Returns kappa^2 sd_c^2 of each channel.
@@ -156,6 +163,7 @@ class Likelihood {
   std::vector<Eigen::MatrixXd> given_;
   std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.
   Eigen::Index trials_ = 0;
+  Eigen::VectorXd reference_;  ///< z_ref
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;
   std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.

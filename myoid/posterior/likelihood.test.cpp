@@ -216,6 +216,25 @@ std::vector<double> written_torque_sizes(const std::vector<TrialRun>& runs) {
   return sums;
 }
 
+/// F_max over that of the reference, the geometric mean of the muscles whose strength a quantity multiplies.
+Eigen::VectorXd written_strength(const Likelihood& likelihood,
+                                 const Eigen::VectorXd& z,
+                                 const Eigen::VectorXd& reference) {
+  const ParameterMap& map = likelihood.parameters();
+  const ModelValues now = map.values(z), then = map.values(reference);
+  const std::vector<UnseenQuantity>& quantities = likelihood.unseen().quantities;
+  Eigen::VectorXd ratio = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(quantities.size()));
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    double product = 1.0;
+    for (const std::size_t k : quantities[i].strength_of)
+      product *= now.muscles[k][kMaxForce] / then.muscles[k][kMaxForce];
+    if (!quantities[i].strength_of.empty())
+      ratio[static_cast<Eigen::Index>(i)] =
+          std::pow(product, 1.0 / static_cast<double>(quantities[i].strength_of.size()));
+  }
+  return ratio;
+}
+
 /// The density by one dense covariance of all runs, and the unseen quantities given the torques.
 void expect_written_out(const StudyData& data, const NoiseValues& noise, Believed believed) {
   EstimatorOptions options;
@@ -268,8 +287,12 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
     sigma += weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(sigma);
-  const double direct =
-      -0.5 * residual.dot(factor.solve(residual)) - 0.5 * factor.vectorD().array().log().sum();
+  // In the quadratic form strengths grow with the root of F_max.
+  const Eigen::VectorXd ratio = written_strength(likelihood, z, reference);
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i)
+    sigma += (ratio[i] - 1.0) * weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
+  const double direct = -0.5 * residual.dot(sigma.ldlt().solve(residual)) -
+                        0.5 * factor.vectorD().array().log().sum();
   // The program's derivatives by ln u, length and rate are secants.
   EXPECT_NEAR(likelihood.value(z, noise), direct, 1e-5 * std::abs(direct));
   // The unseen quantities given the torque: conditional moments of a joint normal density.

@@ -67,6 +67,7 @@ TEST(IdentifyByPosterior, AnUnknownEffortIsInTheIntervalOfTheStrength) {
   bounds.lower = 0.05;
   bounds.upper = 1.0;
   study.data.rules = {bounds};
+  options.posterior_draws = 600;
   const IdentificationResult result = identify_by_posterior(study.data, options);
   ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -58,6 +58,8 @@ class Collector {
       if (spreads_.effort > 0.0) {
         add(map_.channels()[c] + ".effort", Source::electrodes, spreads_.effort);
         for_channel(c, [](const OfMuscle& of, auto column) { column += of.torque; });
+        for (std::size_t k = 0; k < data_.muscles.size(); ++k)
+          if (map_.channel_of_muscle(k) == static_cast<int>(c)) multiplies_strength_of(k);
       }
       add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd);
       for_channel(c, [&](const OfMuscle& of, auto column) {
@@ -77,6 +79,7 @@ class Collector {
 
   void add_torque_scale() {
     add("torque_scale", Source::torque_scale, spreads_.torque_scale);
+    for (std::size_t k = 0; k < data_.muscles.size(); ++k) multiplies_strength_of(k);
     for (std::size_t r = 0; r < runs_.size(); ++r)
       columns_[r].back() = at_[r].signals().torque_nm.array();
   }
@@ -92,6 +95,7 @@ class Collector {
     };
     const auto place = [&](const OfMuscle& of) { return range.place(of.length); };
     shape("strength", 1.0, [](const OfMuscle&) { return 1.0; });
+    multiplies_strength_of(k);
     shape("length_1", 1.0, place);
     // Beyond the recorded lengths the higher polynomials stay at their ends: their own growth there
     // is no belief about muscles.
@@ -150,7 +154,19 @@ class Collector {
   }
 
   Unseen take() {
-    Unseen unseen{std::move(quantities_), {}};
+    Unseen unseen{std::move(quantities_), {}, {}};
+    unseen.growth.setZero(static_cast<Eigen::Index>(unseen.quantities.size()), map_.size());
+    for (Eigen::Index i = 0; i < unseen.growth.rows(); ++i) {
+      const std::vector<std::size_t>& muscles =
+          unseen.quantities[static_cast<std::size_t>(i)].strength_of;
+      for (const std::size_t k : muscles) {
+        for (Eigen::Index j = 0; j < map_.size(); ++j) {
+          const Unknown& of = map_.free()[static_cast<std::size_t>(j)];
+          if (of.is(Scope::muscle, kMaxForce) && of.acts_on(static_cast<int>(k)))
+            unseen.growth(i, j) += 0.5 / static_cast<double>(muscles.size());
+        }
+      }
+    }
     for (const auto& columns : columns_) {
       Eigen::MatrixXd& s = unseen.columns.emplace_back(columns.front().size(), columns.size());
       for (std::size_t i = 0; i < columns.size(); ++i)
@@ -199,6 +215,7 @@ class Collector {
       return Eigen::ArrayXd(recorded_.parts.of(all, k, joint).array());
     };
     add(name + of_joint, Source::geometry, spreads_.moment_arm);
+    multiplies_strength_of(k);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       column += own(of) * of.torque + of.by_length * (part(of.run.length_m) - mean) +
                 of.by_velocity * part(of.run.velocity_mps);
@@ -233,10 +250,12 @@ class Collector {
   }
 
   void add(std::string name, Source source, double weight, bool of_the_model = false) {
-    quantities_.push_back({std::move(name), source, weight, of_the_model});
+    quantities_.push_back({std::move(name), source, weight, of_the_model, {}});
     for (std::size_t r = 0; r < runs_.size(); ++r)
       columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
   }
+
+  void multiplies_strength_of(std::size_t k) { quantities_.back().strength_of.push_back(k); }
 
   template <typename Fill>
   void for_runs(std::size_t k, const Fill& fill) {

@@ -21,6 +21,7 @@ struct UnseenQuantity {
   Source source = Source::model;
   double weight = 0.0;        ///< Standard deviation; for a model's error, over its size s.
   bool of_the_model = false;  ///< The standard deviation is s weight.
+  std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies, so to speak.
 };
 
 /// All unseen quantities of a study, and their columns S in each run, at reference values of the
@@ -44,6 +45,10 @@ struct UnseenQuantity {
 struct Unseen {
   std::vector<UnseenQuantity> quantities;
   std::vector<Eigen::MatrixXd> columns;  ///< Per run: S, n J x quantities [N m].
+  /// d ln S / dz of each column, quantities x unknowns. A column that multiplies the strength of
+  /// muscles grows with the root of their F_max (geometric mean), because F + x sqrt(F F_ref) is an
+  /// error that is symmetric in ln F, as a factor of F is. F + x F_ref is symmetric in newtons.
+  Eigen::MatrixXd growth;
 };
 
 /// Recorded lengths and speeds of the muscles, and the torque: they scale the shapes of the errors,

@@ -101,6 +101,7 @@ class Posterior:
         self.precision = np.linalg.inv(alike * np.outer(sd, sd))
         self.logarithmic = get("logarithmic")
         self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"]) > 0.5
+        self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])
         self.torque_size = dump["torque_size"]
         self.runs = [Run(given) for given in dump["runs"]]
 
@@ -150,7 +151,7 @@ class Posterior:
         result -= 0.5 * (noise[:, TIME] - np.log(0.3)) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
         result -= 0.5 * x[:, p + MODEL] ** 2 + 0.5 * (noise[:, SHARE:] ** 2).sum(axis=1)
         width = self.weight * np.where(self.of_model, np.exp(noise[:, MODEL])[:, None], 1.0)
-        gram = np.tile(np.eye(len(self.weight)), (len(x), 1, 1))
+        gram = np.zeros((len(x), len(self.weight), len(self.weight)))
         seen = np.zeros((len(x), len(self.weight)))
         for run in self.runs:
             torque = self.torques(run, z)
@@ -169,10 +170,14 @@ class Posterior:
             result -= np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
             gram += np.einsum("wmi,wmj->wij", both[:, :, 1:], both[:, :, 1:], optimize=True)
             seen += np.einsum("wmi,wm->wi", both[:, :, 1:], both[:, :, 0])
-        root, worse = cholesky(gram)
+        grown = np.exp((z - self.reference) @ self.growth.T)
+        root, worse = cholesky(np.eye(len(self.weight)) + gram)
         far |= worse
-        half = np.linalg.solve(root, seen[:, :, None])[:, :, 0]
-        result += 0.5 * (half ** 2).sum(axis=1) - np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+        result -= np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+        root, worse = cholesky(np.eye(len(self.weight)) + grown[:, :, None] * gram * grown[:, None, :])
+        far |= worse
+        half = np.linalg.solve(root, (grown * seen)[:, :, None])[:, :, 0]
+        result += 0.5 * (half ** 2).sum(axis=1)
         return np.where(far | ~np.isfinite(result), -np.inf, result)
 
 

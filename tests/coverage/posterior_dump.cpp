@@ -85,8 +85,11 @@ void write(std::uint64_t seed, int draws) {
     weight[i] = unseen.quantities[static_cast<std::size_t>(i)].weight;
     model[i] = unseen.quantities[static_cast<std::size_t>(i)].of_the_model ? 1.0 : 0.0;
   }
-  fmt::print("],\"weight\":{},\"of_the_model\":{},\"torque_size\":{:.17g},\"runs\":[", json(weight),
-             json(model), likelihood.torque_size_nm());
+  fmt::print(
+      "],\"weight\":{},\"of_the_model\":{},\"growth\":{},\"reference\":{},\"torque_size\":{:.17g},"
+      "\"runs\":[",
+      json(weight), json(model), json(unseen.growth), json(likelihood.reference()),
+      likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");
     write_run(likelihood.runs()[r], unseen.columns[r]);
