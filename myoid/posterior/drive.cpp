@@ -227,13 +227,13 @@ Smoothed smooth(const Eigen::VectorXd& values,
 }  // namespace
 
 double envelope_sd_at(double u, double noise_sd, double rest) {
-  const double certain = std::hypot(u, rest * std::sqrt(noise_sd));
+  const double certain = std::sqrt(u * u + rest * rest * noise_sd);
   return certain > 0.0 ? noise_sd * (certain + rest * rest / certain) : 0.0;
 }
 
 NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
   if (!(rest > 0.0)) return {};
-  const double certain = std::hypot(u, rest * std::sqrt(noise_sd)), least = kLeastDrive * rest;
+  const double certain = std::sqrt(u * u + rest * rest * noise_sd), least = kLeastDrive * rest;
   const double squared = rest * rest / (certain * certain), noise = certain * (1.0 + squared);
   if (u <= least) return {noise / least, 0.0};
   return {noise / u, (1.0 - squared) / certain - noise / (u * u)};

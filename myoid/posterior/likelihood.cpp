@@ -73,9 +73,9 @@ struct Likelihood::Block {
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
   Eigen::VectorXd solved;              ///< A^-1 r
   Eigen::MatrixXd unseen;              ///< L S W
-  Eigen::MatrixXd unseen_solved;       ///< A^-1 L S W
+  Eigen::MatrixXd unseen_half;         ///< C^-1 L S W, A = C C'
   Eigen::VectorXd projected;           ///< (L S W)' A^-1 r
-  Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W
+  Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W, the lower half
   double own = 0.0;                    ///< -1/2 r' A^-1 r - 1/2 ln |A|
   bool positive = false;
 };
@@ -232,9 +232,10 @@ bool Likelihood::fill(std::size_t r,
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
   block.solved = block.factor.solve(residual);
   block.unseen = columns_[r] * weights.asDiagonal();
-  block.unseen_solved = block.factor.solve(block.unseen);
-  block.projected = block.unseen_solved.transpose() * residual;
-  block.gram = block.unseen.transpose() * block.unseen_solved;
+  block.unseen_half = block.factor.matrixL().solve(block.unseen);
+  block.projected = block.unseen.transpose() * block.solved;
+  block.gram.setZero(weights.size(), weights.size());
+  block.gram.selfadjointView<Eigen::Lower>().rankUpdate(block.unseen_half.transpose());
   block.own = -0.5 * (residual.dot(block.solved) + log_determinant(block.factor));
   return std::isfinite(block.own);
 }
@@ -242,18 +243,26 @@ bool Likelihood::fill(std::size_t r,
 void Likelihood::pull_back(std::size_t r,
                            const NoiseValues& noise,
                            const Eigen::VectorXd& shared,
-                           const Eigen::MatrixXd& inverse,
+                           const Eigen::LLT<Eigen::MatrixXd>& gram,
                            const Block& block,
                            Gradient& gradient) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
   const Eigen::Index n = run.time_s.size();
-  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1).
-  const Eigen::VectorXd w = block.solved - block.unseen_solved * shared;
-  const Eigen::MatrixXd spread = block.unseen_solved * inverse;
-  const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() + spread * block.unseen_solved.transpose() -
-                                      block.factor.solve(Eigen::MatrixXd::Identity(rows, rows)));
+  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C' and G of all runs
+  // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2.
+  const Eigen::VectorXd w =
+      block.solved -
+      block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * shared));
+  const Eigen::MatrixXd v =
+      gram.matrixL().solve(block.unseen_half.transpose());  // V'
+  Eigen::MatrixXd half = Eigen::MatrixXd::Identity(rows, rows);
+  half.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose(), -1.0);
+  half.triangularView<Eigen::StrictlyUpper>() = half.transpose();
+  block.factor.matrixU().solveInPlace(half);
+  block.factor.matrixL().solveInPlace<Eigen::OnTheRight>(half);
+  const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() - half);
 
   const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
@@ -288,12 +297,6 @@ void Likelihood::pull_back(std::size_t r,
     gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
 
-  for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    if (unseen_.quantities[i].of_the_model)
-      gradient.by_noise[kModelErrorSize] +=
-          shared[at] * w.dot(block.unseen.col(at)) - spread.col(at).dot(block.unseen.col(at));
-  }
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);
 }
@@ -331,17 +334,21 @@ double Likelihood::value(const Eigen::VectorXd& z,
   const Eigen::VectorXd factors = grown(z);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
   const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram),
-      factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());
+      factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());  // lower halves
   if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
   const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
   const Eigen::VectorXd shared = factors.cwiseProduct(expected);
   result += 0.5 * (projected.dot(shared) - log_determinant(factor));
   if (gradient == nullptr || !std::isfinite(result)) return result;
-  const Eigen::MatrixXd inverse = factor.solve(identity);
   std::vector<Gradient> parts(runs_.size());
-  each_run([&](std::size_t r) { pull_back(r, noise, shared, inverse, blocks[r], parts[r]); });
+  each_run([&](std::size_t r) { pull_back(r, noise, shared, factor, blocks[r], parts[r]); });
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
+  const Eigen::VectorXd left = factor.solve(identity).diagonal();  // variances of x, given r
+  for (Eigen::Index i = 0; i < quantities; ++i) {
+    if (unseen_.quantities[static_cast<std::size_t>(i)].of_the_model)
+      gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - left[i]);
+  }
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;
     gradient->by_noise += part.by_noise;
@@ -371,12 +378,13 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
     gram += block.gram;
     cross += block.unseen.transpose() * solved[r];
   }
-  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J
+  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
   const auto of = [&](Source source) -> Eigen::MatrixXd& {
     return result.by_source[static_cast<std::size_t>(source)];
   };
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const Eigen::MatrixXd k = solved[r] - blocks[r].unseen_solved * shared;
+    const Eigen::MatrixXd k =
+        solved[r] - blocks[r].factor.matrixU().solve(blocks[r].unseen_half * shared);
     const Eigen::MatrixXd envelopes =
         envelope_covariance(r, blocks[r].evaluation->signals(), noise);
     const Eigen::MatrixXd all = blocks[r].factor.reconstructedMatrix();
@@ -429,8 +437,9 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
     if (!fill(r, w, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
-    cross += block.unseen_solved.transpose() *
-             runs_[r].reduction.apply(block.evaluation->jacobian(map_.size()));
+    cross += block.unseen.transpose() *
+             block.factor.solve(
+                 runs_[r].reduction.apply(block.evaluation->jacobian(map_.size())));
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())),

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "myoid/identification/parameters.h"
@@ -140,7 +141,7 @@ class Likelihood {
   void pull_back(std::size_t run,
                  const NoiseValues& noise,
                  const Eigen::VectorXd& shared,
-                 const Eigen::MatrixXd& inverse,
+                 const Eigen::LLT<Eigen::MatrixXd>& gram,
                  const Block& block,
                  Gradient& gradient) const;
   /// Returns Q_ij of the joints with these first rows, one entry per sample, n.

@@ -1,5 +1,7 @@
 #include "myoid/posterior/torque_signals.h"
 
+#include <algorithm>
+
 #include "myoid/identification/muscle_law.h"
 #include "myoid/posterior/drive.h"
 
@@ -26,6 +28,14 @@ Eigen::VectorXd by_joint_field(const TrialRun& run, std::size_t j, int field) {
   if (field == kOffset) return Eigen::VectorXd::Ones(n);
   const Eigen::Index column = field == kViscosity ? 1 : field == kInertia ? 2 : 0;
   return -run.motion.col(column).segment(run.first_row(j), n);
+}
+
+/// Returns true where force is proportional to activation, also for other values of the unknowns.
+bool is_proportional(const MuscleValues& values, const std::vector<ParameterMap::Chain>& chains) {
+  return is_plain(values) && values[kLengthActivation] == 0.0 &&
+         std::all_of(chains.begin(), chains.end(), [](const ParameterMap::Chain& chain) {
+           return is_plain_field(chain.field) && chain.field != kLengthActivation;
+         });
 }
 
 void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen::VectorXd& by_z) {
@@ -67,7 +77,7 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
         signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(run, j, field);
     }
   }
-  std::vector<std::vector<Activation>> more;
+  exponent_.resize(channels);
   gain_.setOnes(n, channels);
   gain_by_delay_.setZero(n, channels);
   for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
@@ -80,7 +90,7 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
       gain_by_delay_(i, column) = -noise.slope * u.slope;
     }
     activations_.push_back(activation(run.envelopes[c], run.time_s, values.channels[c], lag));
-    more.push_back(more_active(activations_.back(), values.channels[c][kExponent]));
+    exponent_[column] = values.channels[c][kExponent];
   }
   static const std::vector<ParameterMap::Chain> kNone;
   for (std::size_t k = 0; k < muscles_.size(); ++k) {
@@ -94,14 +104,18 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
                       chains == nullptr ? kNone : chains->of_channel[c], rows);
     };
     evaluate(activations_[c], m.at);
-    evaluate(more[c], m.more_active);
+    m.proportional =
+        is_proportional(values.muscles[k], chains == nullptr ? kNone : chains->of_muscle[k]);
+    if (!m.proportional) evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
+    const Eigen::ArrayXd by_log_envelope =
+        m.proportional ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
+                       : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
     for (std::size_t j = 0; j < run.joints.size(); ++j) {
       const Eigen::Index first = run.first_row(j);
       const auto arm = run.arm_m.col(column).segment(first, n).array();
       signals_.torque_nm.segment(first, n).array() += arm * m.at.force_n.array();
       signals_.by_noise.col(m.channel).segment(first, n).array() +=
-          gain_.col(m.channel).array() * arm * (m.more_active.force_n - m.at.force_n).array() /
-          kActivationStep;
+          gain_.col(m.channel).array() * arm * by_log_envelope;
     }
   }
 }
@@ -117,9 +131,19 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
       const Muscle& m = muscles_[static_cast<std::size_t>(k)];
       const auto arm = run_.arm_m.col(k).segment(first, n).array();
       const Eigen::ArrayXd more = arm * by.by_noise.col(m.channel).segment(first, n).array() *
-                                  gain_.col(m.channel).array() / kActivationStep;
-      add_gradient(m.at, arm * by.torque_nm.segment(first, n).array() - more, by_z);
-      add_gradient(m.more_active, more, by_z);
+                                  gain_.col(m.channel).array();
+      const Eigen::ArrayXd of_force = arm * by.torque_nm.segment(first, n).array();
+      if (!m.proportional) {
+        add_gradient(m.at, of_force - more / kActivationStep, by_z);
+        add_gradient(m.more_active, more / kActivationStep, by_z);
+        continue;
+      }
+      add_gradient(m.at, of_force + exponent_[m.channel] * more, by_z);
+      for (const ParameterMap::Chain& chain :
+           chains_->of_channel[static_cast<std::size_t>(m.channel)]) {
+        if (chain.field == kExponent)
+          by_z[chain.variable] += chain.slope * (more * m.at.force_n.array()).sum();
+      }
     }
   }
   // The noise moves with the envelope when the delay changes.

@@ -30,7 +30,8 @@ struct ChainsByOwner {
 /// signals back to the unknowns.
 ///
 /// dT^/d ln u is a secant, between the activations a and a (1 + 0.02 p), p the exponent of the
-/// channel. Its gradient needs only first derivatives of the muscles' law, and is exact.
+/// channel. Its gradient needs only first derivatives of the muscles' law, and is exact. A muscle
+/// whose force is proportional to activation has the secant p F.
 class RunEvaluation {
  public:
   /// Evaluates a run. Without `chains` (null) the gradients cannot be asked for.
@@ -55,6 +56,7 @@ class RunEvaluation {
  private:
   struct Muscle {
     Eigen::Index channel = 0;
+    bool proportional = false;  ///< Force is proportional to activation; `more_active` is empty.
     MuscleRows at, more_active;
   };
 
@@ -66,6 +68,7 @@ class RunEvaluation {
   std::vector<std::vector<Activation>> activations_;
   std::vector<Muscle> muscles_;
   TorqueSignals signals_;
+  Eigen::VectorXd exponent_;                 ///< Of each channel.
   Eigen::MatrixXd gain_, gain_by_delay_;  ///< n x channels: n(u) / (sd u), and its slope.
 };
 
