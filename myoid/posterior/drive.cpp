@@ -25,6 +25,7 @@ constexpr double kLeastDrive = 1e-4;  // of the resting level, on which noise ac
 constexpr double kFloor = 0.01;       // of the resting level, over which the drive fades to zero
 constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
 constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
+constexpr Eigen::Index kBand = 3;     // frequencies that share one power of the drive's error
 constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
 
 Eigen::ArrayXd hann_window(Eigen::Index n) {
@@ -185,8 +186,11 @@ Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return each.reshaped(2, each.size() / 2).colwise().sum();
 }
 
+/// Returns the number of bands of kBand frequencies each, of which the last is whole.
+Eigen::Index bands(Eigen::Index frequencies) { return std::max<Eigen::Index>(1, frequencies / kBand); }
+
 /// The drive of evenly sampled values, and the powers behind a Hann window of the drive's error and
-/// of the noise, at the frequencies of the spectra.
+/// of the noise, at the middle of each kBand frequencies of the spectra.
 struct Smoothed {
   Eigen::VectorXd drive, error, noise;
 };
@@ -215,8 +219,9 @@ Smoothed smooth(const Eigen::VectorXd& values,
     result.drive = mean + (prior * off).array();
     if (pass + 1 < kPasses) continue;
     // The drive's error has the covariance P - P (P + N)^-1 P, P the drive's and N the noise's.
-    const Eigen::MatrixXd waves =
-        windowed_waves(error.frequencies_hz().head(spectra.drive.size()), interval_s, n);
+    const Eigen::VectorXd frequency = error.frequencies_hz();
+    const Eigen::MatrixXd waves = windowed_waves(
+        frequency(Eigen::seqN(kBand / 2, bands(spectra.drive.size()), kBand)), interval_s, n);
     const Eigen::MatrixXd of_prior = prior * waves, half = factor.matrixL().solve(of_prior);
     result.error = power_of(waves, of_prior) - power_of(half, half);
     result.noise = power_of(waves, noise * waves);
@@ -258,8 +263,8 @@ Drive drive_behind(const Envelope& recorded,
     return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
-  Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(spectra.drive.size()),
-                            noise_power = left_power;
+  const Eigen::Index count = bands(spectra.drive.size());
+  Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(count), noise_power = left_power;
   for (Eigen::Index first = 0; first < n; first += longest) {
     const Eigen::Index end = std::min(n, first + longest),
                        from = std::max<Eigen::Index>(0, first - margin),
@@ -270,9 +275,8 @@ Drive drive_behind(const Envelope& recorded,
     left_power += part.error;
     noise_power += part.noise;
   }
-  const Eigen::Index count = spectra.drive.size();
   for (Eigen::Index i = 0; i < left.size(); ++i) {
-    const Eigen::Index at = std::min(i, count - 1);
+    const Eigen::Index at = std::min(i / kBand, count - 1);
     left[i] =
         spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
   }

@@ -12,6 +12,8 @@ namespace myoid::identification {
 namespace {
 
 constexpr double kLeastWeight = 0.02;  // least share of a mode's weight
+constexpr double kFarBelow = 8.0;      // of ln density: a mode so far below the best weighs nothing
+constexpr double kMayRise = 12.0;      // of ln density, when the unseen quantities are taken there
 // Conditional standard deviations between equal modes, root mean square
 constexpr double kSameMode = 0.3;
 constexpr int kMostReferences = 4;
@@ -36,32 +38,45 @@ bool same(const Candidate& a, const Mode& b) {
   return squared < kSameMode * kSameMode * static_cast<double>(off.size());
 }
 
-/// Finds a mode, takes the unseen quantities there, and repeats until the mode stays.
-Mode settle(Density& density, const Eigen::VectorXd& start, const Progress& progress) {
-  Mode mode = find_mode(density, start, progress);
+/// Finds a mode, takes the unseen quantities there, and repeats until the mode stays. Gives up
+/// where the first mode lies far below `floor`.
+Mode settle(Density& density,
+            const Eigen::VectorXd& start,
+            double floor,
+            const Progress& progress) {
+  Mode mode = find_mode(density, start, progress, kRough);
+  if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
     density.refer_to(mode.x);
     const Candidate before{.density = &density, .mode = mode};
-    mode = find_mode(density, mode.x, progress);
+    mode = find_mode(density, mode.x, progress, kRough);
     if (same(before, mode)) break;
   }
-  return mode;
+  return find_mode(density, mode.x, progress);
 }
 
 /// Returns the modes of a density, the best first; at least one. Takes the unseen quantities at the
-/// first start's mode.
+/// first start's mode. Modes far below `floor` may be left out.
 std::vector<Candidate> modes_of(Density& density,
                                 const std::vector<Eigen::VectorXd>& starts,
+                                double floor,
                                 const EstimatorOptions& options) {
-  std::vector<Candidate> found;
-  for (const Eigen::VectorXd& start : starts) {
-    Mode mode = found.empty() ? settle(density, start, options.progress)
-                              : find_mode(density, start, options.progress);
-    if (!mode.converged && !found.empty()) continue;
-    if (std::any_of(found.begin(), found.end(),
-                    [&](const Candidate& other) { return same(other, mode); }))
+  std::vector<Candidate> found{
+      {.density = &density,
+       .lag = options.lag,
+       .mode = settle(density, starts.front(), floor, options.progress)}};
+  const auto is_new = [&](const Mode& mode) {
+    return mode.converged &&
+           std::none_of(found.begin(), found.end(),
+                        [&](const Candidate& other) { return same(other, mode); });
+  };
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    const Mode rough = find_mode(density, starts[i], options.progress, kRough);
+    if (!is_new(rough) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
-    found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
+    Mode mode = find_mode(density, rough.x, options.progress);
+    if (is_new(mode))
+      found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
   }
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.mode.log_density > b.mode.log_density;
@@ -76,7 +91,9 @@ void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) 
                                          return a.mode.log_density < b.mode.log_density;
                                        })
                           ->mode.log_density;
-  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - 8.0; });
+  std::erase_if(candidates, [best](const Candidate& c) {
+    return c.mode.log_density < best - kFarBelow;
+  });
   double most = -1e300;
   for (Candidate& c : candidates) {
     add_curvature(*c.density, options.marginals, c.mode, options.progress);
@@ -153,13 +170,16 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
                      : options.marginals    ? kOtherStarts
                                             : 0;
   for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
-  found.modes = modes_of(by_delay, starts, options);
+  found.modes = modes_of(by_delay, starts, -1e300, options);
   if (options.choose_lag && options.lag == EmgLag::delay) {
     EstimatorOptions with_lags = options;
     with_lags.lag = EmgLag::shared;
     Density& by_lags = *found.densities.emplace_back(std::make_unique<Density>(data, with_lags));
-    const std::vector<Eigen::VectorXd> from{found.modes.front().mode.x};
-    for (Candidate& c : modes_of(by_lags, from, with_lags)) found.modes.push_back(std::move(c));
+    const Mode best = found.modes.front().mode;
+    by_lags.refer_to(best.x);
+    for (Candidate& c :
+         modes_of(by_lags, {best.x}, best.log_density - kFarBelow, with_lags))
+      found.modes.push_back(std::move(c));
   }
   weigh(found.modes, options);
   found.sample = sample(found.modes, options);

@@ -14,6 +14,7 @@ constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; a normal on
 constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; a normal one has 1
 constexpr double kLeastFall = 0.5, kMostFall = 8.0;  // of ln density to a side; a normal one has 2
 constexpr double kMostPromise = 2.0;  // of ln density: the most that a step of Newton may promise
+constexpr double kSmallPromise = 0.3;  // of ln density: a smaller one is believed without a step
 constexpr double kMostDrift = 2.0;    // standard deviations by which a volume may move a mean
 
 /// Returns the cubic on [0, 2] with value and slope 0 at 0.
@@ -42,11 +43,13 @@ Marginal::Side side_of(const LogDensity& density, const Mode& mode, Eigen::Index
   double value = density(x, gradient);
   if (!std::isfinite(value)) return normal;
   const Eigen::VectorXd step = follow(gradient);
-  Eigen::VectorXd there;
-  const double reached = density(x + step, there);
-  if (std::isfinite(reached) && reached > value) {
-    value = reached;
-    gradient = there;
+  if (0.5 * gradient.dot(step) > kSmallPromise) {
+    Eigen::VectorXd there;
+    const double reached = density(x + step, there);
+    if (std::isfinite(reached) && reached > value) {
+      value = reached;
+      gradient = there;
+    }
   }
   value += std::min(kMostPromise, 0.5 * gradient.dot(follow(gradient)));
   const double fall = std::clamp(mode.log_density - value, kLeastFall, kMostFall);

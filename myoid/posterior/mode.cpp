@@ -15,7 +15,6 @@ namespace myoid::identification {
 namespace {
 
 constexpr int kMostIterations = 300;
-constexpr double kPromise = 1e-4;          // of ln density
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
 constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
 
@@ -31,7 +30,10 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
 
 }  // namespace
 
-Mode find_mode(const Density& density, const Eigen::VectorXd& start, const Progress& progress) {
+Mode find_mode(const Density& density,
+               const Eigen::VectorXd& start,
+               const Progress& progress,
+               double least_promise) {
   Mode mode;
   mode.x = start;
   Eigen::VectorXd gradient;
@@ -47,8 +49,8 @@ Mode find_mode(const Density& density, const Eigen::VectorXd& start, const Progr
     progress.check();
     Eigen::VectorXd step = inverse * gradient;
     double promise = 0.5 * gradient.dot(step);
-    if (promise < kPromise && promise >= 0.0) {
-      if (fresh) {
+    if (promise < least_promise && promise >= 0.0) {
+      if (fresh || least_promise > kFine) {
         mode.converged = true;
         break;
       }
@@ -71,7 +73,7 @@ Mode find_mode(const Density& density, const Eigen::VectorXd& start, const Progr
     }
     if (!climbed) {
       if (fresh) {
-        mode.converged = promise < 100.0 * kPromise;
+        mode.converged = promise < 100.0 * least_promise;
         mode.message =
             fmt::format("no step climbs, and {:.2g} of ln density are promised", promise);
         break;

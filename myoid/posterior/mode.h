@@ -9,6 +9,9 @@
 
 namespace myoid::identification {
 
+constexpr double kFine = 1e-4;   ///< Promise of a mode that is reported, in ln density.
+constexpr double kRough = 0.05;  ///< Promise that tells one mode from another.
+
 /// The point of greatest density that a search found, and Laplace's approximation about it.
 struct Mode {
   Eigen::VectorXd x;
@@ -22,11 +25,13 @@ struct Mode {
 };
 
 /// Climbs from `start` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno with
-/// Gauss and Newton's second derivatives at first. Stops where a full step promises less than 1e-4
-/// of ln density. Leaves `covariance` and `log_evidence` to `add_curvature`.
+/// Gauss and Newton's second derivatives at first. Stops where a full step promises less than
+/// `promise` of ln density; one above kFine is believed without fresh second derivatives. Leaves
+/// `covariance` and `log_evidence` to `add_curvature`.
 [[nodiscard]] Mode find_mode(const Density& density,
                              const Eigen::VectorXd& start,
-                             const Progress& progress);
+                             const Progress& progress,
+                             double promise = kFine);
 
 /// Adds covariance and evidence from second derivatives: if `exact`, central differences of the
 /// exact gradient over a third of a standard deviation, made symmetric, else Gauss and Newton's. A
