@@ -117,7 +117,7 @@ TEST(Density, APersonWhoIsUnlikeTheLiteratureWidensItsSpreads) {
       EXPECT_EQ(density.unlikeness(), 1.0);
       Eigen::VectorXd x = density.start();
       for (int pass = 0; pass < 3; ++pass) {
-        x = find_mode(density, x, {}).x;
+        x = find_mode(density, {.x = x}, {}).x;
         density.refer_to(x);
       }
       (believed == 1.0 ? as_drawn : unlike) += density.unlikeness() / 3.0;

@@ -44,15 +44,15 @@ Mode settle(Density& density,
             const Eigen::VectorXd& start,
             double floor,
             const Progress& progress) {
-  Mode mode = find_mode(density, start, progress, kRough);
+  Mode mode = find_mode(density, {.x = start}, progress, kRough);
   if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
     density.refer_to(mode.x);
     const Candidate before{.density = &density, .mode = mode};
-    mode = find_mode(density, mode.x, progress, kRough);
+    mode = find_mode(density, mode, progress, kRough);
     if (same(before, mode)) break;
   }
-  return find_mode(density, mode.x, progress);
+  return find_mode(density, mode, progress);
 }
 
 /// Returns the modes of a density, the best first; at least one. Takes the unseen quantities at the
@@ -71,10 +71,10 @@ std::vector<Candidate> modes_of(Density& density,
                         [&](const Candidate& other) { return same(other, mode); });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
-    const Mode rough = find_mode(density, starts[i], options.progress, kRough);
+    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRough);
     if (!is_new(rough) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
-    Mode mode = find_mode(density, rough.x, options.progress);
+    Mode mode = find_mode(density, rough, options.progress);
     if (is_new(mode))
       found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
   }

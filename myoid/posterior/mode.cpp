@@ -15,6 +15,8 @@ namespace myoid::identification {
 namespace {
 
 constexpr int kMostIterations = 300;
+constexpr double kOfFresh = 10.0;  // a promise by Gauss and Newton's curvature over the search's
+constexpr double kLonger = 2.6;    // the first share of a step over the share of the step before
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
 constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
 
@@ -31,25 +33,26 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
 }  // namespace
 
 Mode find_mode(const Density& density,
-               const Eigen::VectorXd& start,
+               const Mode& start,
                const Progress& progress,
                double least_promise) {
-  Mode mode;
-  mode.x = start;
+  Mode mode{.x = start.x, .covariance = start.covariance};
   Eigen::VectorXd gradient;
   mode.log_density = density.value(mode.x, gradient);
   if (!std::isfinite(mode.log_density)) {
     mode.message = "the density is not finite at the starting values";
     return mode;
   }
-  Eigen::MatrixXd inverse = inverse_of(density.gauss_newton(mode.x));
-  bool fresh = true;
+  Eigen::MatrixXd& inverse = mode.covariance;
+  bool fresh = inverse.size() == 0;
+  if (fresh) inverse = inverse_of(density.gauss_newton(mode.x));
+  double last_share = 1.0;
   Eigen::VectorXd at_trial;
   for (mode.iterations = 0; mode.iterations < kMostIterations; ++mode.iterations) {
     progress.check();
     Eigen::VectorXd step = inverse * gradient;
     double promise = 0.5 * gradient.dot(step);
-    if (promise < least_promise && promise >= 0.0) {
+    if (promise >= 0.0 && promise < (fresh ? kOfFresh : 1.0) * least_promise) {
       if (fresh || least_promise > kFine) {
         mode.converged = true;
         break;
@@ -63,7 +66,7 @@ Mode find_mode(const Density& density,
     const Eigen::VectorXd longest = density.longest_step(mode.x);
     step = step.cwiseMax(-longest).cwiseMin(longest);
     promise = 0.5 * gradient.dot(step);
-    double share = 1.0, value = 0.0;
+    double share = std::min(1.0, kLonger * last_share), value = 0.0;
     bool climbed = false;
     for (int halvings = 0; halvings < 12 && promise > 0.0; ++halvings, share *= 0.4) {
       value = density.value(mode.x + share * step, at_trial);
@@ -82,6 +85,7 @@ Mode find_mode(const Density& density,
       fresh = true;
       continue;
     }
+    last_share = share;
     const Eigen::VectorXd moved = share * step, turned = gradient - at_trial;
     const double bend = moved.dot(turned);
     if (bend > 1e-12 * moved.norm() * turned.norm()) {

@@ -24,12 +24,13 @@ struct Mode {
   std::string message;
 };
 
-/// Climbs from `start` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno with
-/// Gauss and Newton's second derivatives at first. Stops where a full step promises less than
-/// `promise` of ln density; one above kFine is believed without fresh second derivatives. Leaves
-/// `covariance` and `log_evidence` to `add_curvature`.
+/// Climbs from `start.x` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno. The
+/// first inverse of the second derivatives is `start.covariance`, or Gauss and Newton's where this
+/// is empty. Stops where a full step promises less than `promise` of ln density; kFine is tried with
+/// Gauss and Newton's second derivatives, too, which may promise ten times as much. `covariance` is
+/// the search's; `add_curvature` replaces it and adds `log_evidence`.
 [[nodiscard]] Mode find_mode(const Density& density,
-                             const Eigen::VectorXd& start,
+                             const Mode& start,
                              const Progress& progress,
                              double promise = kFine);
 

@@ -17,7 +17,7 @@ TEST(Mode, IsWhereTheDensityIsFlatAndItsCovarianceIsTheCurvatureThere) {
                                                     .with_priors = true,
                                                     .seed = 2});
   const Density density(study.data, {});
-  Mode mode = find_mode(density, density.start(), {});
+  Mode mode = find_mode(density, {.x = density.start()}, {});
   ASSERT_TRUE(mode.converged) << mode.message;
   add_curvature(density, true, mode, {});
   Eigen::VectorXd gradient;
