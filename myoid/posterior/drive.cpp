@@ -187,7 +187,9 @@ Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 /// Returns the number of bands of kBand frequencies each, of which the last is whole.
-Eigen::Index bands(Eigen::Index frequencies) { return std::max<Eigen::Index>(1, frequencies / kBand); }
+Eigen::Index bands(Eigen::Index frequencies) {
+  return std::max<Eigen::Index>(1, frequencies / kBand);
+}
 
 /// The drive of evenly sampled values, and the powers behind a Hann window of the drive's error and
 /// of the noise, at the middle of each kBand frequencies of the spectra.

@@ -61,14 +61,13 @@ std::vector<Candidate> modes_of(Density& density,
                                 const std::vector<Eigen::VectorXd>& starts,
                                 double floor,
                                 const EstimatorOptions& options) {
-  std::vector<Candidate> found{
-      {.density = &density,
-       .lag = options.lag,
-       .mode = settle(density, starts.front(), floor, options.progress)}};
+  std::vector<Candidate> found{{.density = &density,
+                                .lag = options.lag,
+                                .mode = settle(density, starts.front(), floor, options.progress)}};
   const auto is_new = [&](const Mode& mode) {
-    return mode.converged &&
-           std::none_of(found.begin(), found.end(),
-                        [&](const Candidate& other) { return same(other, mode); });
+    return mode.converged && std::none_of(found.begin(), found.end(), [&](const Candidate& other) {
+             return same(other, mode);
+           });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
     const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRough);
@@ -91,9 +90,8 @@ void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) 
                                          return a.mode.log_density < b.mode.log_density;
                                        })
                           ->mode.log_density;
-  std::erase_if(candidates, [best](const Candidate& c) {
-    return c.mode.log_density < best - kFarBelow;
-  });
+  std::erase_if(candidates,
+                [best](const Candidate& c) { return c.mode.log_density < best - kFarBelow; });
   double most = -1e300;
   for (Candidate& c : candidates) {
     add_curvature(*c.density, options.marginals, c.mode, options.progress);
@@ -177,8 +175,7 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
     Density& by_lags = *found.densities.emplace_back(std::make_unique<Density>(data, with_lags));
     const Mode best = found.modes.front().mode;
     by_lags.refer_to(best.x);
-    for (Candidate& c :
-         modes_of(by_lags, {best.x}, best.log_density - kFarBelow, with_lags))
+    for (Candidate& c : modes_of(by_lags, {best.x}, best.log_density - kFarBelow, with_lags))
       found.modes.push_back(std::move(c));
   }
   weigh(found.modes, options);

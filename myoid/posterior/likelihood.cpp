@@ -253,10 +253,8 @@ void Likelihood::pull_back(std::size_t r,
   // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C' and G of all runs
   // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2.
   const Eigen::VectorXd w =
-      block.solved -
-      block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * shared));
-  const Eigen::MatrixXd v =
-      gram.matrixL().solve(block.unseen_half.transpose());  // V'
+      block.solved - block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * shared));
+  const Eigen::MatrixXd v = gram.matrixL().solve(block.unseen_half.transpose());  // V'
   Eigen::MatrixXd half = Eigen::MatrixXd::Identity(rows, rows);
   half.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose(), -1.0);
   half.triangularView<Eigen::StrictlyUpper>() = half.transpose();
@@ -378,7 +376,8 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
     gram += block.gram;
     cross += block.unseen.transpose() * solved[r];
   }
-  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
+  const Eigen::MatrixXd shared =
+      gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
   const auto of = [&](Source source) -> Eigen::MatrixXd& {
     return result.by_source[static_cast<std::size_t>(source)];
   };
@@ -438,8 +437,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
     gram += block.gram;
     projected += block.projected;
     cross += block.unseen.transpose() *
-             block.factor.solve(
-                 runs_[r].reduction.apply(block.evaluation->jacobian(map_.size())));
+             block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(map_.size())));
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())),

@@ -31,10 +31,10 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// of an envelope and the error of an angle act on all joints that the muscle crosses. A is one
 /// block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity
 /// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and Q
-/// belong to reference values of the unknowns; in the quadratic form alone the columns that multiply
-/// F_max grow with it (Unseen::growth), because a determinant that followed would prefer muscles
-/// whose errors are small. The errors of angle and rate in Q are independent
-/// from sample to sample. The constant -n/2 ln(2 pi) is left out.
+/// belong to reference values of the unknowns; in the quadratic form alone the columns that
+/// multiply F_max grow with it (Unseen::growth), because a determinant that followed would prefer
+/// muscles whose errors are small. The errors of angle and rate in Q are independent from sample to
+/// sample. The constant -n/2 ln(2 pi) is left out.
 class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.

@@ -216,7 +216,8 @@ std::vector<double> written_torque_sizes(const std::vector<TrialRun>& runs) {
   return sums;
 }
 
-/// F_max over that of the reference, the geometric mean of the muscles whose strength a quantity multiplies.
+/// F_max over that of the reference, the geometric mean of the muscles whose strength a quantity
+/// multiplies.
 Eigen::VectorXd written_strength(const Likelihood& likelihood,
                                  const Eigen::VectorXd& z,
                                  const Eigen::VectorXd& reference) {

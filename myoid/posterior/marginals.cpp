@@ -13,9 +13,9 @@ constexpr double kGridStep = 0.05;
 constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; a normal one has 2
 constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; a normal one has 1
 constexpr double kLeastFall = 0.5, kMostFall = 8.0;  // of ln density to a side; a normal one has 2
-constexpr double kMostPromise = 2.0;  // of ln density: the most that a step of Newton may promise
+constexpr double kMostPromise = 2.0;    // of ln density: the most that a step of Newton may promise
 constexpr double kSmallPromise = 0.02;  // of ln density: a smaller one is believed without a step
-constexpr double kMostDrift = 2.0;    // standard deviations by which a volume may move a mean
+constexpr double kMostDrift = 2.0;      // standard deviations by which a volume may move a mean
 
 /// Returns the cubic on [0, 2] with value and slope 0 at 0.
 double hermite(const Marginal::Side& side, double outward_slope, double distance) {

@@ -106,7 +106,8 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
     evaluate(activations_[c], m.at);
     m.proportional =
         is_proportional(values.muscles[k], chains == nullptr ? kNone : chains->of_muscle[k]);
-    if (!m.proportional) evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
+    if (!m.proportional)
+      evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
     const Eigen::ArrayXd by_log_envelope =
         m.proportional ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
                        : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
@@ -130,8 +131,8 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
       const Muscle& m = muscles_[static_cast<std::size_t>(k)];
       const auto arm = run_.arm_m.col(k).segment(first, n).array();
-      const Eigen::ArrayXd more = arm * by.by_noise.col(m.channel).segment(first, n).array() *
-                                  gain_.col(m.channel).array();
+      const Eigen::ArrayXd more =
+          arm * by.by_noise.col(m.channel).segment(first, n).array() * gain_.col(m.channel).array();
       const Eigen::ArrayXd of_force = arm * by.torque_nm.segment(first, n).array();
       if (!m.proportional) {
         add_gradient(m.at, of_force - more / kActivationStep, by_z);

@@ -68,7 +68,7 @@ class RunEvaluation {
   std::vector<std::vector<Activation>> activations_;
   std::vector<Muscle> muscles_;
   TorqueSignals signals_;
-  Eigen::VectorXd exponent_;                 ///< Of each channel.
+  Eigen::VectorXd exponent_;              ///< Of each channel.
   Eigen::MatrixXd gain_, gain_by_delay_;  ///< n x channels: n(u) / (sd u), and its slope.
 };
 

@@ -23,9 +23,9 @@ namespace myoid {
 /// likely as any other: ln(share) = ln 0.22 +- 0.86.
 [[nodiscard]] Prior any_effort();
 
-/// Returns the spread of a maximal contraction's force about that of a completely active muscle, for
-/// the estimator `posterior` (UnseenSpreads::effort): 0 where the gain carries the spread, because
-/// the study states it or no effort is maximal.
+/// Returns the spread of a maximal contraction's force about that of a completely active muscle,
+/// for the estimator `posterior` (UnseenSpreads::effort): 0 where the gain carries the spread,
+/// because the study states it or no effort is maximal.
 [[nodiscard]] double unseen_effort(const Study& study);
 
 /// Returns a sentence that says which force F_max is. `maximal`: the largest EMG is that of a

@@ -371,8 +371,8 @@ class Maker {
     for (std::size_t r = 0; r < runs.size(); ++r) {
       Eigen::MatrixXd torque(runs[r].arm_m.rows(), muscles);
       for (Eigen::Index k = 0; k < muscles; ++k)
-        torque.col(k) = runs[r].arm_m.col(k).cwiseProduct(
-            at[r].muscle(static_cast<std::size_t>(k)).force_n);
+        torque.col(k) =
+            runs[r].arm_m.col(k).cwiseProduct(at[r].muscle(static_cast<std::size_t>(k)).force_n);
       square += torque.transpose() * torque;
       product += torque.transpose() * (unseen.columns[r] * x);
     }
