@@ -46,14 +46,15 @@ Mode find_mode(const Density& density,
   Eigen::MatrixXd& inverse = mode.covariance;
   bool fresh = inverse.size() == 0;
   if (fresh) inverse = inverse_of(density.gauss_newton(mode.x));
+  const bool rough = least_promise > kFine;
   double last_share = 1.0;
   Eigen::VectorXd at_trial;
   for (mode.iterations = 0; mode.iterations < kMostIterations; ++mode.iterations) {
     progress.check();
     Eigen::VectorXd step = inverse * gradient;
     double promise = 0.5 * gradient.dot(step);
-    if (promise >= 0.0 && promise < (fresh ? kOfFresh : 1.0) * least_promise) {
-      if (fresh || least_promise > kFine) {
+    if (promise >= 0.0 && promise < (fresh && !rough ? kOfFresh : 1.0) * least_promise) {
+      if (fresh || rough) {
         mode.converged = true;
         break;
       }

@@ -21,7 +21,7 @@ struct UnseenQuantity {
   Source source = Source::model;
   double weight = 0.0;        ///< Standard deviation; for a model's error, over its size s.
   bool of_the_model = false;  ///< The standard deviation is s weight.
-  std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies, so to speak.
+  std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies.
 };
 
 /// All unseen quantities of a study, and their columns S in each run, at reference values of the
