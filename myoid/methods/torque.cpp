@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "myoid/identification/estimator.h"
 #include "myoid/intervals/estimates.h"
 #include "myoid/methods/basins.h"
+#include "myoid/methods/motion_alone.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/smooth_prediction.h"
@@ -117,15 +121,7 @@ Estimator::Solution best_solution(const Estimator& estimator,
   return best_of_basins(estimator, start, tables.emplace_back());
 }
 
-}  // namespace
-
-IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
-  if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {
-    const TorqueOptions remembering = remembering_drives(options);
-    IdentificationResult result = identify_by_posterior(data, remembering);
-    if (options.predictions) add_predictions(data, remembering, result);
-    return result;
-  }
+IdentificationResult by_least_squares(const StudyData& data, const TorqueOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
   const Estimator estimator(data, options);
@@ -153,6 +149,23 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
       lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);
   result.basins = std::move(lags ? tables_of_lags : tables);
   result.shared_lag_gain = gain;
+  return result;
+}
+
+}  // namespace
+
+IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
+  IdentificationResult result;
+  if (options.estimator == EstimatorKind::posterior && !options.measured_is_force) {
+    const TorqueOptions remembering = remembering_drives(options);
+    result = identify_by_posterior(data, remembering);
+    if (options.predictions) add_predictions(data, remembering, result);
+  } else {
+    result = by_least_squares(data, options);
+  }
+  if (options.measured_is_force) return result;
+  if (std::optional<std::string> warning = motion_alone_warning(data))
+    result.warnings.push_back(std::move(*warning));
   return result;
 }
 

@@ -92,32 +92,35 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
     activations_.push_back(activation(run.envelopes[c], run.time_s, values.channels[c], lag));
     exponent_[column] = values.channels[c][kExponent];
   }
-  static const std::vector<ParameterMap::Chain> kNone;
   for (std::size_t k = 0; k < muscles_.size(); ++k) {
-    Muscle& m = muscles_[k];
-    const auto column = static_cast<Eigen::Index>(k);
-    const auto c = static_cast<std::size_t>(map.channel_of_muscle(k));
-    m.channel = static_cast<Eigen::Index>(c);
-    const auto evaluate = [&](const std::vector<Activation>& a, MuscleRows& rows) {
-      evaluate_muscle(a, run.length_m.col(column), run.velocity_mps.col(column), values.muscles[k],
-                      chains == nullptr ? kNone : chains->of_muscle[k],
-                      chains == nullptr ? kNone : chains->of_channel[c], rows);
-    };
-    evaluate(activations_[c], m.at);
-    m.proportional =
-        is_proportional(values.muscles[k], chains == nullptr ? kNone : chains->of_muscle[k]);
-    if (!m.proportional)
-      evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
-    const Eigen::ArrayXd by_log_envelope =
-        m.proportional ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
-                       : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
-    for (std::size_t j = 0; j < run.joints.size(); ++j) {
-      const Eigen::Index first = run.first_row(j);
-      const auto arm = run.arm_m.col(column).segment(first, n).array();
-      signals_.torque_nm.segment(first, n).array() += arm * m.at.force_n.array();
-      signals_.by_noise.col(m.channel).segment(first, n).array() +=
-          gain_.col(m.channel).array() * arm * by_log_envelope;
-    }
+    muscles_[k].channel = map.channel_of_muscle(k);
+    add_muscle(k, values.muscles[k]);
+  }
+}
+
+void RunEvaluation::add_muscle(std::size_t k, const MuscleValues& values) {
+  static const std::vector<ParameterMap::Chain> kNone;
+  Muscle& m = muscles_[k];
+  const auto column = static_cast<Eigen::Index>(k);
+  const auto c = static_cast<std::size_t>(m.channel);
+  const auto& of_muscle = chains_ == nullptr ? kNone : chains_->of_muscle[k];
+  const auto evaluate = [&](const std::vector<Activation>& a, MuscleRows& rows) {
+    evaluate_muscle(a, run_.length_m.col(column), run_.velocity_mps.col(column), values, of_muscle,
+                    chains_ == nullptr ? kNone : chains_->of_channel[c], rows);
+  };
+  evaluate(activations_[c], m.at);
+  m.proportional = is_proportional(values, of_muscle);
+  if (!m.proportional) evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
+  const Eigen::ArrayXd by_log_envelope =
+      m.proportional ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
+                     : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
+  const Eigen::Index n = run_.time_s.size();
+  for (std::size_t j = 0; j < run_.joints.size(); ++j) {
+    const Eigen::Index first = run_.first_row(j);
+    const auto arm = run_.arm_m.col(column).segment(first, n).array();
+    signals_.torque_nm.segment(first, n).array() += arm * m.at.force_n.array();
+    signals_.by_noise.col(m.channel).segment(first, n).array() +=
+        gain_.col(m.channel).array() * arm * by_log_envelope;
   }
 }
 

@@ -60,6 +60,8 @@ class RunEvaluation {
     MuscleRows at, more_active;
   };
 
+  /// Evaluates the k-th muscle and adds its torque to the signals.
+  void add_muscle(std::size_t k, const MuscleValues& values);
   /// Returns the chains of the numbers of the run's j-th joint.
   [[nodiscard]] const std::vector<ParameterMap::Chain>& own_chains(std::size_t j) const;
 

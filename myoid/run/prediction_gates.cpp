@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/intake/limits.h"
+#include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/statistics.h"
 
@@ -171,6 +173,17 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
                      "of the same size."});
   }
   if (!fit.prior_distances.empty()) gates.push_back(distance_gate(fit));
+  // The distances have a gate of their own.
+  std::vector<std::string> distances, others;
+  add_distances_to(distances, fit.prior_distances);
+  std::copy_if(fit.warnings.begin(), fit.warnings.end(), std::back_inserter(others),
+               [&](const std::string& text) {
+                 return std::find(distances.begin(), distances.end(), text) == distances.end();
+               });
+  if (!others.empty())
+    gates.push_back({"Fit without reservations", GateStatus::warn,
+                     fmt::format("{}", fmt::join(others, ". ")), "none",
+                     "Every number of the fit rests on it."});
   return gates;
 }
 

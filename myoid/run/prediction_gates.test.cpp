@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/intervals/estimate_remarks.h"
+
 namespace myoid {
 namespace {
 
@@ -90,6 +92,19 @@ TEST(FitGates, AMuscleThatLeftTheLiteratureIsNamed) {
   fit.prior_distances[0].farthest_distance = 2.1;
   fit.prior_distances[1].distance = 3.2;
   EXPECT_EQ(status_of(fit_gates(fit), name), GateStatus::warn);
+}
+
+TEST(FitGates, AReservationOfTheFitIsAWarningButForDistancesThatHaveAGate) {
+  IdentificationResult fit;
+  fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 3.8}};
+  identification::add_distances_to(fit.warnings, fit.prior_distances);
+  ASSERT_EQ(fit.warnings.size(), 1U);
+  EXPECT_EQ(fit_gates(fit).size(), 1U);
+  fit.warnings.emplace_back("the posterior has 2 modes");
+  const std::vector<Gate> gates = fit_gates(fit);
+  ASSERT_EQ(gates.size(), 2U);
+  EXPECT_EQ(gates[1].value, "the posterior has 2 modes");
+  EXPECT_EQ(status_of(gates, "Fit without reservations"), GateStatus::warn);
 }
 
 Fold fold(const std::string& name, double amplitude_nm, double error_nm) {
