@@ -155,7 +155,8 @@ IdentifyResult identify(const IdentifyOptions& o) {
                                          .seed = o.call.seed,
                                          .progress = o.call.progress});
   }
-  for (const std::string& text : result.fit.warnings) remarks.warn(text);
+  for (const auto* warnings : {&result.fit.interval_warnings, &result.fit.warnings})
+    for (const std::string& text : *warnings) remarks.warn(text);
   result.speed_may_be_free = !table.speed_may_be_free.empty();
   if (o.method != "paper") result.told.max_rate_hz = o.max_rate_hz;
   result.told.left_out = result.folds.empty() ? "none" : o.folds;

@@ -172,7 +172,7 @@ IdentificationResult report_estimates(const Estimator& estimator,
   result.estimates = estimate_rows(estimator, solution, data, intervals, result);
   RouteRemarks routes;
   for (ParameterEstimate& e : result.estimates) routes.compare(e);
-  routes.add_to(result.warnings, result.estimates.size());
+  routes.add_to(result.interval_warnings, result.estimates.size());
   for (std::string& warning :
        warnings_of(result, estimator.options(), solution.weighting.corrected))
     result.warnings.push_back(std::move(warning));

@@ -168,10 +168,11 @@ struct IdentificationResult {
   std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
   std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
   std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
-  std::vector<std::string> warnings;
-  std::vector<BranchTest> branch_tests;  ///< Method paper.
-  std::vector<BasinTable> basins;        ///< One for each fit, if several starts were asked for.
-  int bootstrap_replicates = 0;          ///< Number of converged replicates.
+  std::vector<std::string> warnings;           ///< About the fit as a whole.
+  std::vector<std::string> interval_warnings;  ///< About how the intervals of numbers were found.
+  std::vector<BranchTest> branch_tests;        ///< Method paper.
+  std::vector<BasinTable> basins;  ///< One for each fit, if several starts were asked for.
+  int bootstrap_replicates = 0;    ///< Number of converged replicates.
   int bootstrap_failed = 0;
   bool exact = false;  ///< The data are free of noise and are fitted without priors and weights.
   int samples_used = 0;

@@ -107,6 +107,7 @@ void take_over(IdentificationResult fit,
   append(all.undetermined, fit.undetermined);
   append(all.diagnoses, fit.diagnoses);
   append(all.warnings, fit.warnings);
+  append(all.interval_warnings, fit.interval_warnings);
   all.samples_used += fit.samples_used;
   all.samples_dropped += fit.samples_dropped;
   all.effective_samples += fit.effective_samples;

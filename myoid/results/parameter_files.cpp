@@ -218,7 +218,9 @@ ordered_json method_json(const IdentificationResult& method) {
   m["exact_data"] = method.exact;
   m["left_open_by_the_data"] = method.undetermined;
   m["diagnoses"] = method.diagnoses;
-  m["warnings"] = method.warnings;
+  std::vector<std::string> warnings = method.interval_warnings;
+  warnings.insert(warnings.end(), method.warnings.begin(), method.warnings.end());
+  m["warnings"] = warnings;
   m["prior_distances"] = array_of(method.prior_distances, distance_json);
   m["bootstrap"] = {{"converged", method.bootstrap_replicates},
                     {"failed", method.bootstrap_failed}};
