@@ -121,13 +121,13 @@ TEST(CompareRuns, AStrongerMuscleIsFoundWhereTheMomentArmsAreWrong) {
       others += p.change == Change::differs;
       continue;
     }
-    EXPECT_EQ(p.change, p.muscle == "BIC" ? Change::differs : Change::no_change) << p.muscle;
+    // A muscle of which a session tells little beyond the priors is not compared.
+    EXPECT_EQ(p.change == Change::differs, p.muscle == "BIC") << p.muscle;
     if (p.muscle != "BIC") continue;
     // 40 % of what these moment arms make of the strength, within two standard errors.
     EXPECT_NEAR(p.difference, 0.4 * p.first.estimate, *p.smallest_detectable);
-    // Each session's own interval, of the person, holds the other's number.
-    EXPECT_LT(p.second.estimate, *p.first.ci_high + 0.1 * p.first.estimate);
-    EXPECT_LT(*p.smallest_detectable, 0.5 * (*p.first.ci_high - *p.first.ci_low));
+    // The intervals of the person overlap, although the change is certain.
+    EXPECT_LT(*p.second.ci_low, *p.first.ci_high);
   }
   // Nothing else has changed; one of twenty may err by chance without the adjustment.
   EXPECT_EQ(others, 0);
