@@ -16,7 +16,8 @@ namespace myoid::identification {
 /// any EMG, and no fit can tell them from muscles that do not.
 [[nodiscard]] std::optional<double> told_by_motion_alone(const StudyData& data);
 
-/// Returns the warning where that share is above 98 %, else nothing.
+/// Returns the warning where that share is above 98 %, else nothing. No number of a muscle is then
+/// called identified.
 [[nodiscard]] std::optional<std::string> motion_alone_warning(const StudyData& data);
 
 }  // namespace myoid::identification

@@ -164,8 +164,16 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
     result = by_least_squares(data, options);
   }
   if (options.measured_is_force) return result;
-  if (std::optional<std::string> warning = motion_alone_warning(data))
+  if (std::optional<std::string> warning = motion_alone_warning(data)) {
+    for (ParameterEstimate& e : result.estimates) {
+      const bool of_muscle = std::any_of(data.muscles.begin(), data.muscles.end(),
+                                         [&](const MuscleSetup& m) { return m.name == e.muscle; });
+      if (!of_muscle || e.verdict != Verdict::identified) continue;
+      e.verdict = Verdict::weak;
+      e.reason = *warning;
+    }
     result.warnings.push_back(std::move(*warning));
+  }
   return result;
 }
 

@@ -153,6 +153,24 @@ TEST(IdentifyTorque, ForceAndDelayComeOutOfNoisyRecordings) {
   }
 }
 
+TEST(IdentifyTorque, NoMuscleIsIdentifiedWhereTheMotionAloneTellsTheTorque) {
+  ElbowStudy study = elbow_study({.emg_cv = 0.05, .torque_sd_nm = 0.2, .with_priors = true});
+  const auto identified = [&](const IdentificationResult& result) {
+    return std::count_if(result.estimates.begin(), result.estimates.end(), [](const auto& e) {
+      return e.parameter != "emg_delay" && e.verdict == Verdict::identified;
+    });
+  };
+  EXPECT_GT(identified(identify_torque(study.data, {})), 0);
+  for (TrialData& trial : study.data.trials) {
+    trial.angle_rad = 0.05 * trial.torque_nm;  // a spring
+    trial.velocity_radps.setZero(trial.torque_nm.size());
+    trial.acceleration_radps2.setZero(trial.torque_nm.size());
+  }
+  const IdentificationResult result = identify_torque(study.data, {});
+  EXPECT_EQ(identified(result), 0);
+  EXPECT_NE(result.warnings.back().find("100.0 % of the torque"), std::string::npos);
+}
+
 TEST(IdentifyTorque, TwiceTheSameInputIsTwiceTheSameResult) {
   const ElbowStudy study = elbow_study(
       {.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true});
