@@ -182,7 +182,7 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
                });
   if (!others.empty())
     gates.push_back({"Fit without reservations", GateStatus::warn,
-                     fmt::format("{}", fmt::join(others, ". ")), "none",
+                     fmt::format("{}", fmt::join(others, "; ")), "none",
                      "Every number of the fit rests on it."});
   return gates;
 }
