@@ -209,8 +209,7 @@ std::vector<PlausibilityRow> gate_rows() {
        fmt::format("R² below {:g}; below {:g}, or errors larger than the torque", l.explains,
                    l.unrelated)},
       {"a reservation of the fit", "warning",
-       "any: several minima, a wrong model, or motion that tells the torque without EMG (98 % of "
-       "its variance by angle, rate and acceleration)"},
+       "any: several minima, a wrong model, or motion that tells the torque without EMG"},
       {"an outlier among the trials left out", "warning",
        fmt::format("its error is more than {:g} robust deviations from the others', and {:g} times "
                    "their median",

@@ -34,6 +34,8 @@ std::string verdict_rules_markdown(const VerdictRules& r) {
       fmt::format("at most {:g} spread", r.prior_stays));
   row("systematic error of the model, of `weak` at best",
       fmt::format("above {}", percent(r.model_error)));
+  row("torque of moving joints that their angle, rate and acceleration explain, of `weak` at best",
+      fmt::format("above {}", percent(r.motion_alone)));
   row("R² of the fit, of `weak` at best", fmt::format("below {:g}", r.least_r2));
   row("l_mˢʰ over l_m⁰ that a muscle can have",
       fmt::format("{:g} to {:g}", r.relative_width.lower, r.relative_width.upper));

@@ -18,6 +18,9 @@ struct VerdictRules {
   double delay_weak_s = 0.05;
   double model_error =
       0.20;  ///< Systematic error of the model above which nothing is `identified`.
+  /// Share of a moving joint's torque that its angle, rate and acceleration explain, above which
+  /// nothing of a muscle is `identified`.
+  double motion_alone = 0.98;
   /// Distance from the prior's mean, in its spreads, above which at most `weak`.
   double prior_conflict = 3.0;
   /// Within this distance a value that is not narrowed is the literature's.

@@ -2,43 +2,52 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/explained_share.h"
 
 namespace myoid::identification {
 namespace {
 
-constexpr double kAlone = 0.98;
+constexpr double kMoves_rad = 0.0873;  // 5 degrees: a joint that turns less is held
 
-/// Returns 1, q, dq/dt and d2q/dt2, n x 4; no rows where the trial has no motion.
-Eigen::MatrixXd motion_of(const TrialData& trial) {
-  const Eigen::Index n = trial.torque_nm.size();
-  if (trial.angle_rad.size() != n || trial.velocity_radps.size() != n ||
-      trial.acceleration_radps2.size() != n)
-    return Eigen::MatrixXd(0, 4);
-  Eigen::MatrixXd motion(n, 4);
-  motion << Eigen::VectorXd::Ones(n), trial.angle_rad, trial.velocity_radps,
-      trial.acceleration_radps2;
-  return motion;
+/// Torque and motion (1, q, dq/dt, d2q/dt2) of one joint in one trial.
+struct Moved {
+  Eigen::VectorXd torque_nm;
+  Eigen::MatrixXd motion;  ///< n x 4
+};
+
+/// Returns nothing where the data have no motion or the joint is held.
+template <typename Joint>
+std::optional<Moved> moved(const Joint& joint) {
+  const Eigen::Index n = joint.torque_nm.size();
+  if (n == 0 || joint.angle_rad.size() != n || joint.velocity_radps.size() != n ||
+      joint.acceleration_radps2.size() != n ||
+      joint.angle_rad.maxCoeff() - joint.angle_rad.minCoeff() < kMoves_rad)
+    return std::nullopt;
+  Moved found{joint.torque_nm, Eigen::MatrixXd(n, 4)};
+  found.motion << Eigen::VectorXd::Ones(n), joint.angle_rad, joint.velocity_radps,
+      joint.acceleration_radps2;
+  return found;
 }
 
 /// Returns the share of the torque of one joint in all of its trials.
-std::optional<double> told(const std::vector<TrialData>& trials) {
+double told(const std::vector<Moved>& trials) {
   Eigen::Index count = 0;
-  for (const TrialData& trial : trials) count += trial.torque_nm.size();
+  for (const Moved& trial : trials) count += trial.torque_nm.size();
   Eigen::MatrixXd motion(count, 4);
   Eigen::VectorXd torque(count);
   Eigen::Index first = 0;
-  for (const TrialData& trial : trials) {
-    const Eigen::MatrixXd of = motion_of(trial);
-    if (of.rows() == 0) return std::nullopt;
-    motion.middleRows(first, of.rows()) = of;
-    torque.segment(first, of.rows()) = trial.torque_nm;
-    first += of.rows();
+  for (const Moved& trial : trials) {
+    motion.middleRows(first, trial.motion.rows()) = trial.motion;
+    torque.segment(first, trial.motion.rows()) = trial.torque_nm;
+    first += trial.motion.rows();
   }
   const Eigen::VectorXd size = motion.colwise().norm().cwiseMax(1e-12);
   const Eigen::MatrixXd scaled = motion * size.cwiseInverse().asDiagonal();
@@ -50,30 +59,37 @@ std::optional<double> told(const std::vector<TrialData>& trials) {
 }  // namespace
 
 std::optional<double> told_by_motion_alone(const StudyData& data) {
-  std::map<std::string, std::vector<TrialData>> by_joint;
+  std::map<std::string, std::vector<Moved>> by_joint;
+  const auto add = [&](const std::string& name, std::optional<Moved> trial) {
+    if (trial) by_joint[name].push_back(std::move(*trial));
+    return trial.has_value();
+  };
   for (const TrialData& trial : data.trials) {
-    for (std::size_t j = 0; trial.calibration && j < joint_count(trial); ++j) {
-      TrialData one = of_joint(trial, j);
-      by_joint[one.joint].push_back(std::move(one));
-    }
+    if (!trial.calibration) continue;
+    if (!add(trial.joint, moved(trial))) return std::nullopt;
+    for (const JointData& joint : trial.more_joints)
+      if (!add(joint.name, moved(joint))) return std::nullopt;
   }
   std::optional<double> least;
-  for (const auto& [joint, trials] : by_joint) {
-    const std::optional<double> share = told(trials);
-    if (!share) return std::nullopt;
-    least = std::min(least.value_or(1.0), *share);
-  }
+  for (const auto& [name, trials] : by_joint) least = std::min(least.value_or(1.0), told(trials));
   return least;
 }
 
-std::optional<std::string> motion_alone_warning(const StudyData& data) {
+void judge_motion_alone(const StudyData& data, IdentificationResult& result) {
   const std::optional<double> share = told_by_motion_alone(data);
-  if (!share || *share < kAlone) return std::nullopt;
-  return fmt::format(
+  if (!share || *share < VerdictRules{}.motion_alone) return;
+  result.warnings.push_back(fmt::format(
       "angle, rate and acceleration alone tell {:.1f} % of the torque's variance: no fit can tell "
       "the muscles from a spring and an inertia, and intervals may miss the truth. Record efforts "
       "against several loads, or at held angles",
-      100.0 * *share);
+      100.0 * *share));
+  for (ParameterEstimate& e : result.estimates) {
+    const bool of_muscle = std::any_of(data.muscles.begin(), data.muscles.end(),
+                                       [&](const MuscleSetup& m) { return m.name == e.muscle; });
+    if (!of_muscle || e.verdict != Verdict::identified) continue;
+    e.verdict = Verdict::weak;
+    e.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share);
+  }
 }
 
 }  // namespace myoid::identification

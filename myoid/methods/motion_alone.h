@@ -1,9 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "myoid/identification/study_data.h"
+#include "myoid/intervals/result.h"
 
 namespace myoid::identification {
 
@@ -11,13 +11,14 @@ namespace myoid::identification {
 ///
 ///   y = c_0 + c_1 q + c_2 dq/dt + c_3 d2q/dt2   [N m; q in rad],
 ///
-/// by least squares over the calibration trials, of the joint where it is least. Empty: a joint has
-/// no motion in the data. Muscles that work against each other can make such a torque with hardly
-/// any EMG, and no fit can tell them from muscles that do not.
+/// by least squares over the calibration trials, of the joint where it is least. Muscles that work
+/// against each other can make such a torque with hardly any EMG, and no fit can tell them from
+/// muscles that do not. Empty: the data have no motion of a joint, or a trial holds a joint within
+/// 5 degrees, whose torque is then an effort and not a movement.
 [[nodiscard]] std::optional<double> told_by_motion_alone(const StudyData& data);
 
-/// Returns the warning where that share is above 98 %, else nothing. No number of a muscle is then
-/// called identified.
-[[nodiscard]] std::optional<std::string> motion_alone_warning(const StudyData& data);
+/// Where that share is above VerdictRules::motion_alone, adds a warning to the result of these data
+/// and makes every `identified` number of a muscle `weak`.
+void judge_motion_alone(const StudyData& data, IdentificationResult& result);
 
 }  // namespace myoid::identification

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "myoid/identification/estimator.h"
@@ -163,17 +161,7 @@ IdentificationResult identify_torque(const StudyData& data, const TorqueOptions&
   } else {
     result = by_least_squares(data, options);
   }
-  if (options.measured_is_force) return result;
-  if (std::optional<std::string> warning = motion_alone_warning(data)) {
-    for (ParameterEstimate& e : result.estimates) {
-      const bool of_muscle = std::any_of(data.muscles.begin(), data.muscles.end(),
-                                         [&](const MuscleSetup& m) { return m.name == e.muscle; });
-      if (!of_muscle || e.verdict != Verdict::identified) continue;
-      e.verdict = Verdict::weak;
-      e.reason = *warning;
-    }
-    result.warnings.push_back(std::move(*warning));
-  }
+  if (!options.measured_is_force) judge_motion_alone(data, result);
   return result;
 }
 

@@ -118,8 +118,8 @@ TEST(NoiseOverEnvelope, IsThatOfTheStandardDeviationAndHasItsSlope) {
                          (2.0 * h);
     EXPECT_NEAR(noise.slope, slope, 1e-5 * (1.0 + std::abs(slope)));
   }
-  // Where chance makes u its slope has no jump, at which a search of the mode would end: over a
-  // millionth of u it changes by a few millionths.
+  // The slope has no jump where chance makes u: over a millionth of u it changes by a few
+  // millionths. A jump would end a search for the mode.
   const double chance = kRest * std::sqrt(kSd);
   const double below = noise_over_envelope(chance * (1.0 - 1e-6), kSd, kRest).slope,
                above = noise_over_envelope(chance * (1.0 + 1e-6), kSd, kRest).slope;

@@ -44,12 +44,12 @@ Mode settle(Density& density,
             const Eigen::VectorXd& start,
             double floor,
             const Progress& progress) {
-  Mode mode = find_mode(density, {.x = start}, progress, kRough);
+  Mode mode = find_mode(density, {.x = start}, progress, kRoughPromise);
   if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
     density.refer_to(mode.x);
     const Candidate before{.density = &density, .mode = mode};
-    mode = find_mode(density, mode, progress, kRough);
+    mode = find_mode(density, mode, progress, kRoughPromise);
     if (same(before, mode)) break;
   }
   return find_mode(density, mode, progress);
@@ -70,7 +70,7 @@ std::vector<Candidate> modes_of(Density& density,
            });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
-    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRough);
+    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise);
     if (!is_new(rough) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
     Mode mode = find_mode(density, rough, options.progress);

@@ -44,10 +44,15 @@ Mode find_mode(const Density& density,
     return mode;
   }
   Eigen::MatrixXd& inverse = mode.covariance;
-  bool fresh = inverse.size() == 0;
-  if (fresh) inverse = inverse_of(density.gauss_newton(mode.x));
-  const bool rough = least_promise > kFine;
+  const bool rough = least_promise > kFinePromise;
+  bool fresh = false;
   double last_share = 1.0;
+  const auto refresh = [&] {
+    inverse = inverse_of(density.gauss_newton(mode.x));
+    fresh = true;
+    last_share = 1.0;
+  };
+  if (inverse.size() == 0) refresh();
   Eigen::VectorXd at_trial;
   for (mode.iterations = 0; mode.iterations < kMostIterations; ++mode.iterations) {
     progress.check();
@@ -59,8 +64,7 @@ Mode find_mode(const Density& density,
         break;
       }
       // The quasi-Newton steps may have learned a wrong curvature; Gauss and Newton's replaces it.
-      inverse = inverse_of(density.gauss_newton(mode.x));
-      fresh = true;
+      refresh();
       continue;
     }
     // Near a bound the logistic map makes one entry's step very long; only this entry is cut.
@@ -77,13 +81,12 @@ Mode find_mode(const Density& density,
     }
     if (!climbed) {
       if (fresh) {
-        mode.converged = promise < 100.0 * least_promise;
+        mode.converged = promise < 100.0 * kFinePromise;
         mode.message =
             fmt::format("no step climbs, and {:.2g} of ln density are promised", promise);
         break;
       }
-      inverse = inverse_of(density.gauss_newton(mode.x));
-      fresh = true;
+      refresh();
       continue;
     }
     last_share = share;

@@ -9,8 +9,8 @@
 
 namespace myoid::identification {
 
-constexpr double kFine = 1e-4;   ///< Promise of a mode that is reported, in ln density.
-constexpr double kRough = 0.05;  ///< Promise that tells one mode from another.
+constexpr double kFinePromise = 1e-4;   ///< Promise of a mode that is reported, in ln density.
+constexpr double kRoughPromise = 0.05;  ///< Promise that tells one mode from another.
 
 /// The point of greatest density that a search found, and Laplace's approximation about it.
 struct Mode {
@@ -26,13 +26,13 @@ struct Mode {
 
 /// Climbs from `start.x` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno. The
 /// first inverse of the second derivatives is `start.covariance`, or Gauss and Newton's where this
-/// is empty. Stops where a full step promises less than `promise` of ln density; kFine is tried
-/// with Gauss and Newton's second derivatives, too, which may promise ten times as much.
+/// is empty. Stops where a full step promises less than `promise` of ln density; kFinePromise is
+/// tried with Gauss and Newton's second derivatives, too, which may promise ten times as much.
 /// `covariance` is the search's; `add_curvature` replaces it and adds `log_evidence`.
 [[nodiscard]] Mode find_mode(const Density& density,
                              const Mode& start,
                              const Progress& progress,
-                             double promise = kFine);
+                             double promise = kFinePromise);
 
 /// Adds covariance and evidence from second derivatives: if `exact`, central differences of the
 /// exact gradient over a third of a standard deviation, made symmetric, else Gauss and Newton's. A

@@ -63,7 +63,7 @@ struct Given {
 
 Given given_geometry(Density density, const Candidate& best, const Progress& progress) {
   density.believe(Believed::geometry_and_sensors_exact);
-  const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRough);
+  const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
   const Eigen::MatrixXd precision = density.gauss_newton(mode.x);
   const Eigen::MatrixXd covariance =
       precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
