@@ -242,8 +242,9 @@ NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
   if (!(rest > 0.0)) return {};
   const double certain = std::sqrt(u * u + rest * rest * noise_sd), least = kLeastDrive * rest;
   const double squared = rest * rest / (certain * certain), noise = certain * (1.0 + squared);
-  if (u <= least) return {noise / least, 0.0};
-  return {noise / u, (1.0 - squared) / certain - noise / (u * u)};
+  const double drive = std::sqrt(u * u + least * least);  // not the larger: a kink stops a search
+  return {noise / drive,
+          u * ((1.0 - squared) / (certain * drive) - noise / (drive * drive * drive))};
 }
 
 Drive drive_behind(const Envelope& recorded,

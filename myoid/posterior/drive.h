@@ -21,7 +21,8 @@ namespace myoid::identification {
 /// of v would give the posterior a kink at each sample that passes it, at which searches end.
 [[nodiscard]] double envelope_sd_at(double u, double noise_sd, double rest);
 
-/// Holds the ratio of envelope_sd_at to `noise_sd` u, and the slope of this ratio in u.
+/// Holds the ratio of envelope_sd_at to `noise_sd` u, and the slope of this ratio in u. The root of
+/// u^2 + (1e-4 rest)^2 stands for the divisor u, again without a kink.
 struct NoiseOverEnvelope {
   double value = 1.0, slope = 0.0;
 };

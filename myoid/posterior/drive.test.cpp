@@ -108,22 +108,25 @@ TEST(Drive, WithoutNoiseOrOfAShortRecordingItIsTheEnvelope) {
 }
 
 TEST(NoiseOverEnvelope, IsThatOfTheStandardDeviationAndHasItsSlope) {
-  constexpr double kSd = 0.15, kRest = 0.02;
-  for (const double u : {1e-4, 0.003, 0.0077, 0.0078, 0.05, 0.8}) {
+  constexpr double kSd = 0.15, kRest = 0.02, kLeast = 1e-4 * kRest;
+  for (const double u : {1e-7, kLeast, 1e-4, 0.003, 0.0077, 0.0078, 0.05, 0.8}) {
     const NoiseOverEnvelope noise = noise_over_envelope(u, kSd, kRest);
-    EXPECT_NEAR(noise.value, envelope_sd_at(u, kSd, kRest) / (kSd * u), 1e-12 * noise.value);
+    EXPECT_NEAR(noise.value,
+                envelope_sd_at(u, kSd, kRest) / (kSd * std::sqrt(u * u + kLeast * kLeast)),
+                1e-12 * noise.value);
     const double h = 1e-7 * u;
     const double slope = (noise_over_envelope(u + h, kSd, kRest).value -
                           noise_over_envelope(u - h, kSd, kRest).value) /
                          (2.0 * h);
     EXPECT_NEAR(noise.slope, slope, 1e-5 * (1.0 + std::abs(slope)));
   }
-  // The slope has no jump where chance makes u: over a millionth of u it changes by a few
-  // millionths. A jump would end a search for the mode.
-  const double chance = kRest * std::sqrt(kSd);
-  const double below = noise_over_envelope(chance * (1.0 - 1e-6), kSd, kRest).slope,
-               above = noise_over_envelope(chance * (1.0 + 1e-6), kSd, kRest).slope;
-  EXPECT_NEAR(above / below, 1.0, 1e-5);
+  // The slope has no jump where chance makes u, nor at the least drive: over a millionth of u it
+  // changes by a few millionths. A jump would end a search for the mode.
+  for (const double at : {kRest * std::sqrt(kSd), kLeast}) {
+    const double below = noise_over_envelope(at * (1.0 - 1e-6), kSd, kRest).slope,
+                 above = noise_over_envelope(at * (1.0 + 1e-6), kSd, kRest).slope;
+    EXPECT_NEAR(above / below, 1.0, 1e-5);
+  }
   // Without rest the noise is in proportion.
   EXPECT_EQ(noise_over_envelope(0.1, kSd, 0.0).value, 1.0);
 }
