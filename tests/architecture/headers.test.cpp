@@ -54,6 +54,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/c3d/c3d_header.h", "exercised by c3d_layout.test"},
     {"myoid/tables/storage_header.h", "exercised by storage.test"},
     {"myoid/identification/residual_block.h", "a plain value, exercised by residual_model.test"},
+    {"myoid/posterior/likelihood_block.h", "a plain value, exercised by likelihood.test"},
     {"myoid/intervals/estimates.h", "exercised by torque.test"},
     {"myoid/intervals/estimate_rows.h", "exercised by torque.test"},
     {"myoid/intervals/judgment.h", "exercised by identifiability.test"},

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "myoid/posterior/likelihood.h"
+
+namespace myoid::identification {
+
+/// One run at one point.
+struct Likelihood::Block {
+  std::unique_ptr<RunEvaluation> evaluation;
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
+  Eigen::VectorXd solved;              ///< A^-1 r
+  Eigen::MatrixXd unseen;              ///< L S W
+  Eigen::MatrixXd unseen_half;         ///< C^-1 L S W, A = C C'
+  Eigen::VectorXd projected;           ///< (L S W)' A^-1 r
+  Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W, the lower half
+  double own = 0.0;                    ///< -1/2 r' A^-1 r - 1/2 ln |A|
+  bool positive = false;
+};
+
+}  // namespace myoid::identification
