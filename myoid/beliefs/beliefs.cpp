@@ -20,9 +20,10 @@ constexpr std::array kAll = {
     &kOffset,           &kViscosity,          &kInertia,         &kLeastEffort,
     &kEmgNoise,         &kEmgBandwidth,       &kModelError,      &kRestingWeight,
     &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,     &kTorqueNoiseTime,
-    &kTrialTorqueNoise, &kCommonStrength,     &kUnlikeness,      &kMomentArm,
-    &kMomentArmSlope,   &kTorqueScale,        &kTendonStretch,   &kCrossTalk,
-    &kGainDrift,        &kRiseAndFall,        &kVoluntaryEffort, &kUnknownEmgNoise};
+    &kTrialTorqueNoise, &kCommonStrength,     &kIndependentRows, &kUnlikeness,
+    &kMomentArm,        &kMomentArmSlope,     &kTorqueScale,     &kTendonStretch,
+    &kCrossTalk,        &kGainDrift,          &kRiseAndFall,     &kVoluntaryEffort,
+    &kUnknownEmgNoise};
 
 /// The muscle parameters whose prior lies about their starting value.
 constexpr std::array kOfMuscles = {&kMaxForce, &kFiberLength, &kWidth, &kCurvature,

@@ -268,6 +268,16 @@ inline constexpr Belief kCommonStrength{
     "",
     kPosterior,
     "judgment: a strong person is strong in every muscle"};
+inline constexpr Belief kIndependentRows{
+    "rows of a trial, 0.22 s each, that count as independent evidence, per joint",
+    "16",
+    16.0,
+    0.0,
+    value,
+    "",
+    kPosterior,
+    "judgment: a movement that is repeated repeats the EMG's and the model's errors, which the "
+    "density takes to be independent (coarsening, Miller and Dunson 2019)"};
 inline constexpr Belief kUnlikeness{
     "spread of a person's muscles about the model's, over the spreads stated above",
     "1",
@@ -378,6 +388,8 @@ struct UnseenSpreads {
   double effort = beliefs::kVoluntaryEffort.sd;             ///< Of a maximal contraction.
   double model_error = beliefs::kModelError.sd;             ///< Half normal.
   double common_strength = beliefs::kCommonStrength.value;  ///< Share, below 1.
+  /// Rows of a trial, per joint, that count as independent; 0: all.
+  double independent_rows = beliefs::kIndependentRows.value;
   bool operator==(const UnseenSpreads&) const = default;
 };
 

@@ -208,7 +208,7 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
   options.persons = 1;
   options.choice.movements = 5;
   options.catalogue.held_masses_kg = {0.0, 2.0};
-  options.catalogue.frequencies_hz = {0.3, 1.0};
+  options.catalogue.frequencies_hz = {0.3, 0.6};
   const DesignStudyResult design = design_study(study, options);
   ASSERT_EQ(design.plan.size(), 5U);
   identification::StudyData data;
@@ -242,7 +242,7 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
     for (const double ratio : ratios[name]) sum += std::log(ratio);
     ASSERT_EQ(ratios[name].size(), 12U);
     const double mean = std::exp(sum / 12.0);
-    EXPECT_GT(mean, 0.8) << name;
+    EXPECT_GT(mean, 0.75) << name;
     EXPECT_LT(mean, 1.25) << name;
   }
   // Moment arms of 15 % stay in F_max whatever is recorded; the priors take a third off.

@@ -232,7 +232,8 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
   // The torque's error has the size b sigma_T: ln b and ln sigma_T share a gradient.
   for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {
-    const double rows = 0.5 * static_cast<double>(likelihood_.runs()[r].measured_nm.size());
+    const double rows = 0.5 * likelihood_.row_weight(r) *
+                        static_cast<double>(likelihood_.runs()[r].measured_nm.size());
     const Eigen::Index size = p + kTorqueSd, share = p + likelihood_.share_place(r);
     h(size, size) += rows;
     h(share, share) += rows;

@@ -1,5 +1,6 @@
 #include "myoid/posterior/likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -7,6 +8,8 @@
 #include <Eigen/Cholesky>
 
 #include "myoid/core/parallel.h"
+#include "myoid/identification/told_by_motion.h"
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/posterior/likelihood_block.h"
 
 namespace myoid::identification {
@@ -87,7 +90,23 @@ Likelihood::Likelihood(const StudyData& data,
     for (const EnvelopeError& error : run.errors)
       of_channels.emplace_back(run.reduction, error.from_white(run.interval_s));
   }
+  if (session == nullptr) recorded_.told_by_motion = told_by_motion_alone(data).value_or(0.0);
+  weigh_rows();
   refer_to(map_.start());
+}
+
+void Likelihood::weigh_rows() {
+  std::vector<double> rows(static_cast<std::size_t>(trials_));  // of each trial, per joint
+  const auto of_trial = [&](std::size_t r) -> double& {
+    return rows[static_cast<std::size_t>(trial_of_run_[r])];
+  };
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
+  double most = options_.unseen.independent_rows;
+  if (recorded_.told_by_motion > VerdictRules{}.motion_alone)
+    most = std::min(most, static_cast<double>(kMotionCoefficients));
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    row_weight_.push_back(most > 0.0 ? std::min(1.0, most / of_trial(r)) : 1.0);
 }
 
 double Likelihood::log_share(std::size_t r, const NoiseValues& noise) const {
@@ -217,6 +236,8 @@ bool Likelihood::fill(std::size_t r,
   a += given_[r];
   block.factor.compute(a);
   if (block.factor.info() != Eigen::Success) return false;
+  const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
+  if (weight < 1.0) block.factor.compute(a / weight);
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
   block.solved = block.factor.solve(residual);
   block.unseen = columns_[r] * weights.asDiagonal();
@@ -224,7 +245,7 @@ bool Likelihood::fill(std::size_t r,
   block.projected = block.unseen.transpose() * block.solved;
   block.gram.setZero(weights.size(), weights.size());
   block.gram.selfadjointView<Eigen::Lower>().rankUpdate(block.unseen_half.transpose());
-  block.own = -0.5 * (residual.dot(block.solved) + log_determinant(block.factor));
+  block.own = -0.5 * (residual.dot(block.solved) + weight * log_of_a);
   return std::isfinite(block.own);
 }
 
@@ -239,16 +260,17 @@ void Likelihood::pull_back(std::size_t r,
   const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
   const Eigen::Index n = run.time_s.size();
   // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C' and G of all runs
-  // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2.
+  // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2. A block's A is that of the
+  // measurement over the rows' weight, by which the determinant's A^-1 is multiplied.
   const Eigen::VectorXd w =
       block.solved - block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * shared));
   const Eigen::MatrixXd v = gram.matrixL().solve(block.unseen_half.transpose());  // V'
-  Eigen::MatrixXd half = Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
   half.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose(), -1.0);
   half.triangularView<Eigen::StrictlyUpper>() = half.transpose();
   block.factor.matrixU().solveInPlace(half);
   block.factor.matrixL().solveInPlace<Eigen::OnTheRight>(half);
-  const Eigen::MatrixXd by_a = 0.5 * (w * w.transpose() - half);
+  const Eigen::MatrixXd by_a = 0.5 / row_weight_[r] * (w * w.transpose() - half);
 
   const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);

@@ -35,6 +35,13 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// multiply F_max grow with it (Unseen::growth), because a determinant that followed would prefer
 /// muscles whose errors are small. The errors of angle and rate in Q are independent from sample to
 /// sample. The constant -n/2 ln(2 pi) is left out.
+///
+/// Errors are not independent where a movement is repeated: the drive repeats with the movement,
+/// and so does the error of the model. Of a trial's n rows per joint at most a count: the density
+/// of the trial, given x, has the power min(1, a/n), a = UnseenSpreads::independent_rows; 0 leaves
+/// every row its weight. Where motion alone tells the torque, a is at most the number of the
+/// motion's coefficients (told_by_motion_alone). This is a coarsened posterior (Miller and Dunson,
+/// J. Am. Stat. Assoc. 114, 1113, 2019).
 class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
@@ -65,6 +72,8 @@ class Likelihood {
   }
   /// Returns ln b of the run's trial, or 0 where `noise` has no entry for this trial.
   [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
+  /// Returns the weight of a row of the run, min(1, a/n).
+  [[nodiscard]] double row_weight(std::size_t run) const { return row_weight_[run]; }
   /// Root mean square of the measured torques of all joints.
   [[nodiscard]] double torque_size_nm() const { return recorded_.torque_nm; }
 
@@ -123,6 +132,8 @@ class Likelihood {
 
  private:
   struct Block;
+  /// Computes the weight of each run's rows.
+  void weigh_rows();
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
   /// Returns the columns' factors exp(growth (z - z_ref)).
   [[nodiscard]] Eigen::VectorXd grown(const Eigen::VectorXd& z) const;
@@ -164,7 +175,8 @@ class Likelihood {
   std::vector<Eigen::MatrixXd> given_;
   std::vector<Eigen::Index> trial_of_run_;  ///< Per run: its trial among the fitted trials.
   Eigen::Index trials_ = 0;
-  Eigen::VectorXd reference_;  ///< z_ref
+  std::vector<double> row_weight_;  ///< Per run.
+  Eigen::VectorXd reference_;       ///< z_ref
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;
   std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.

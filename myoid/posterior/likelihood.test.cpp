@@ -1,5 +1,6 @@
 #include "myoid/posterior/likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -213,6 +214,15 @@ Eigen::VectorXd written_strength(const Likelihood& likelihood,
   return ratio;
 }
 
+/// The weight of a row of a run: of a trial's rows per joint, `most` count.
+double written_row_weight(const std::vector<TrialRun>& runs, const TrialRun& of, double most) {
+  double count = 0.0;
+  for (const TrialRun& run : runs)
+    if (run.trial == of.trial)
+      count += static_cast<double>(run.measured_nm.size()) / static_cast<double>(run.joints.size());
+  return std::min(1.0, most / count);
+}
+
 /// The density by one dense covariance of all runs, and the unseen quantities given the torques.
 void expect_written_out(const StudyData& data, const NoiseValues& noise, Believed believed) {
   EstimatorOptions options;
@@ -234,8 +244,11 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   Eigen::MatrixXd shapes(rows, static_cast<Eigen::Index>(likelihood.unseen().quantities.size()));
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(shapes.cols());
   Eigen::Index first = 0;
+  double counted_twice = 0.0;  // of the determinants of the runs, whose power is the rows' weight
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const TrialRun& run = runs[r];
+    const double weight = written_row_weight(runs, run, options.unseen.independent_rows);
+    ASSERT_LT(weight, 1.0);
     const Eigen::MatrixXd of_joint = written_low_pass(run, 1.5);
     const Eigen::Index n = run.time_s.size(), m = run.measured_nm.size(),
                        joints = m / of_joint.rows();
@@ -254,6 +267,12 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
           std::pow(0.002 * likelihood.torque_size_nm() *
                        written_torque_sizes(runs)[static_cast<std::size_t>(j)],
                    2);
+    const auto log_determinant = [&] {
+      return sigma.block(first, first, m, m).eval().ldlt().vectorD().array().log().sum();
+    };
+    counted_twice -= weight * log_determinant();
+    sigma.block(first, first, m, m) /= weight;
+    counted_twice += log_determinant();
     residual.segment(first, m) = run.measured_nm - l * written.torque;
     shapes.middleRows(first, m) = l * likelihood.unseen().columns[r];
     first += m;
@@ -270,7 +289,7 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   for (Eigen::Index i = 0; i < shapes.cols(); ++i)
     sigma += (ratio[i] - 1.0) * weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
   const double direct = -0.5 * residual.dot(sigma.ldlt().solve(residual)) -
-                        0.5 * factor.vectorD().array().log().sum();
+                        0.5 * (factor.vectorD().array().log().sum() - counted_twice);
   // The program's derivatives by ln u, length and rate are secants.
   EXPECT_NEAR(likelihood.value(z, noise), direct, 1e-5 * std::abs(direct));
   // The unseen quantities given the torque: conditional moments of a joint normal density.

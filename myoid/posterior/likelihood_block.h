@@ -9,7 +9,7 @@
 
 namespace myoid::identification {
 
-/// One run at one point.
+/// One run at one point. A is divided by the weight w of the run's rows.
 struct Likelihood::Block {
   std::unique_ptr<RunEvaluation> evaluation;
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
@@ -18,7 +18,7 @@ struct Likelihood::Block {
   Eigen::MatrixXd unseen_half;         ///< C^-1 L S W, A = C C'
   Eigen::VectorXd projected;           ///< (L S W)' A^-1 r
   Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W, the lower half
-  double own = 0.0;                    ///< -1/2 r' A^-1 r - 1/2 ln |A|
+  double own = 0.0;                    ///< -1/2 r' A^-1 r - w/2 ln |w A|
   bool positive = false;
 };
 

@@ -39,7 +39,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
     const Eigen::MatrixXd k =
         solved[r] - blocks[r].factor.matrixU().solve(blocks[r].unseen_half * shared);
     const Eigen::MatrixXd envelopes =
-        envelope_covariance(r, blocks[r].evaluation->signals(), noise);
+        envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
     const Eigen::MatrixXd all = blocks[r].factor.reconstructedMatrix();
     of(Source::electrodes) += k.transpose() * envelopes * k;
     of(Source::noise) += k.transpose() * (all - envelopes) * k;

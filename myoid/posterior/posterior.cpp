@@ -248,7 +248,11 @@ void fill_fit(const Candidate& best,
   result.message = best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
-  result.effective_samples = static_cast<double>(result.samples_used);
+  result.effective_samples = 0.0;
+  for (std::size_t r = 0; r < density.likelihood().runs().size(); ++r)
+    result.effective_samples +=
+        density.likelihood().row_weight(r) *
+        static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
   result.lag = best.lag;
   // The mean over several modes may lie between them, where nothing fits.
   const auto z = sample.z.leftCols(sample.of_best);

@@ -65,6 +65,7 @@ struct Recorded {
   std::vector<std::vector<Range>> by_joint;  ///< Ranges of the parts, by joint and muscle.
   double torque_nm = 0.0;                    ///< Root mean square of L y.
   std::vector<double> joint_torque_nm;       ///< Root mean square of each joint's L y.
+  double told_by_motion = 0.0;               ///< told_by_motion_alone of all calibration trials.
 
   /// Returns the joint's `joint_torque_nm` over `torque_nm`, at least a hundredth.
   [[nodiscard]] double size_share(int joint) const;

@@ -395,6 +395,10 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
            {.says = "Share of the variance of F_max about the literature that all muscles of the "
                     "person have in common.",
             .limits = within(0.0, 0.95)});
+  v.number("independent_rows", beliefs.independent_rows,
+           {.says = "Rows (of 0.22 s) of a trial, per joint, that count as independent evidence; "
+                    "0: all.",
+            .limits = zero_or_more("")});
 }
 
 void visit(NormSpec& norm, SettingVisitor& v) {

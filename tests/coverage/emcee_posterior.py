@@ -104,6 +104,9 @@ class Posterior:
         self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])
         self.torque_size = dump["torque_size"]
         self.runs = [Run(given) for given in dump["runs"]]
+        for run in self.runs:  # of a trial's rows, so many count
+            rows = sum(len(other.measured) for other in self.runs if other.trial == run.trial)
+            run.weight = min(1.0, dump["independent_rows"] / rows) if dump["independent_rows"] > 0.0 else 1.0
 
     def z(self, x):
         return self.lower + self.range / (1.0 + np.exp(-x[:, :len(self.lower)]))
@@ -165,9 +168,9 @@ class Posterior:
             far |= worse
             r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
             right = np.concatenate([r[:, :, None], run.seen[None] * width[:, None, :]], axis=2)
-            both = np.linalg.solve(root, right)
+            both = np.linalg.solve(root, right) * np.sqrt(run.weight)
             result -= 0.5 * (both[:, :, 0] ** 2).sum(axis=1)
-            result -= np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+            result -= run.weight * np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
             gram += np.einsum("wmi,wmj->wij", both[:, :, 1:], both[:, :, 1:], optimize=True)
             seen += np.einsum("wmi,wm->wi", both[:, :, 1:], both[:, :, 0])
         grown = np.exp((z - self.reference) @ self.growth.T)

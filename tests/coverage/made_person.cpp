@@ -325,6 +325,7 @@ class Maker {
   void make_torque_of_the_model(const ParameterMap& map) {
     StudyData& data = person_.data;
     person_.options.max_rate_hz = o_.rate_hz;
+    person_.options.unseen.independent_rows = 0.0;  // the made errors are independent
     const std::vector<TrialRun> runs = trial_runs(data, person_.options, map);
     const ModelValues values = map.values(person_.z);
     std::vector<RunEvaluation> at;
