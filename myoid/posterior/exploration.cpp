@@ -129,8 +129,10 @@ Draws draws_about(const Candidate& c,
   }
   if (!options.marginals)
     return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
-  return draw_about(c.mode, marginals(density, c.mode, options.progress), count(kApproximateDraws),
-                    seed);
+  // Each trial has an ln b, which is not reported.
+  const Eigen::Index reported = c.density->parameters().size() + kNoiseFieldCount;
+  return draw_about(c.mode, marginals(density, c.mode, reported, options.progress),
+                    count(kApproximateDraws), seed);
 }
 
 Sample sample(const std::vector<Candidate>& candidates, const EstimatorOptions& options) {

@@ -116,10 +116,10 @@ double Marginal::at(double normal) const {
 
 std::vector<Marginal> marginals(const LogDensity& density,
                                 const Mode& mode,
+                                Eigen::Index followed,
                                 const Progress& progress) {
-  const Eigen::Index d = mode.x.size();
-  std::vector<Marginal::Side> sides(static_cast<std::size_t>(2 * d));
-  parallel_ranges(2 * d, Eigen::Index{1}, [&](const auto& range) {
+  std::vector<Marginal::Side> sides(static_cast<std::size_t>(2 * followed));
+  parallel_ranges(2 * followed, Eigen::Index{1}, [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
       progress.check();
       sides[static_cast<std::size_t>(i)] = side_of(density, mode, i / 2, i % 2 == 0 ? -1.0 : 1.0);
@@ -127,13 +127,14 @@ std::vector<Marginal> marginals(const LogDensity& density,
   });
   const Eigen::VectorXd w = third_derivatives(density, mode, progress);
   std::vector<Marginal> found;
-  for (Eigen::Index j = 0; j < d; ++j) {
+  for (Eigen::Index j = 0; j < followed; ++j) {
     const Marginal::Side &below = sides[static_cast<std::size_t>(2 * j)],
                          &above = sides[static_cast<std::size_t>(2 * j + 1)];
     const double along = mode.covariance.col(j).dot(w) / std::sqrt(mode.covariance(j, j)),
                  own = (below.slope + above.slope) / (Marginal::kSide * Marginal::kSide);
     found.emplace_back(below, above, std::clamp(0.5 * (along - own), -kMostDrift, kMostDrift));
   }
+  found.resize(static_cast<std::size_t>(mode.x.size()), Marginal({-2.0, 2.0}, {-2.0, -2.0}));
   return found;
 }
 

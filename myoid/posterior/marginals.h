@@ -41,8 +41,9 @@ class Marginal {
 /// Returns ln p(x) and fills the gradient.
 using LogDensity = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
-/// Returns the marginal of every entry of x about a mode with covariance C. The other entries move
-/// to their expectation given x_j, mode + t C e_j / sd_j, and from there by one step of Newton:
+/// Returns the marginal of every entry of x about a mode with covariance C. Those of the first
+/// `followed` entries follow the density; the rest stay normal. The other entries move to their
+/// expectation given x_j, mode + t C e_j / sd_j, and from there by one step of Newton:
 ///
 ///   ln p(t) = f + 1/2 g' K g + c t,   K = C - r r',   r = C e_j / sd_j
 ///
@@ -56,6 +57,7 @@ using LogDensity = std::function<double(const Eigen::VectorXd& x, Eigen::VectorX
 /// the density is not finite stays normal.
 [[nodiscard]] std::vector<Marginal> marginals(const LogDensity& density,
                                               const Mode& mode,
+                                              Eigen::Index followed,
                                               const Progress& progress);
 
 /// Draws points of equal weight with these marginals and, as a Gaussian copula, the dependence of

@@ -57,7 +57,7 @@ TEST(Marginals, FollowTheRidgeOfABanana) {
     return -0.5 * at[0] * at[0] - 0.5 * 0.04 * off * off;
   };
   const Mode mode = mode_of(Eigen::Vector2d::Zero(), 0.0, Eigen::Vector2d(1.0, 0.04).asDiagonal());
-  const std::vector<Marginal> found = marginals(banana, mode, {});
+  const std::vector<Marginal> found = marginals(banana, mode, mode.x.size(), {});
   ASSERT_EQ(found.size(), 2U);
   for (const double t : {-1.96, -0.7, 1.96}) EXPECT_NEAR(found[0].at(t), t, 0.03);
 }
@@ -72,7 +72,7 @@ TEST(Marginals, AFunnelHasItsMassWhereItIsWide) {
       return -0.5 * at[0] * at[0] - 0.5 * y * y * narrow;
     };
     const Mode mode = mode_of(Eigen::Vector2d::Zero(), 0.0, Eigen::Matrix2d::Identity());
-    const std::vector<Marginal> found = marginals(funnel, mode, {});
+    const std::vector<Marginal> found = marginals(funnel, mode, mode.x.size(), {});
     for (const double t : {-1.96, 0.0, 1.96}) EXPECT_NEAR(found[0].at(t), t + k, 0.03) << k;
     EXPECT_NEAR(found[1].at(0.0), 0.0, 0.02);
   }
@@ -88,7 +88,7 @@ TEST(Marginals, OfANormalDensityDrawTheNormalDistribution) {
     return 0.5 * gradient.dot(x - mean);
   };
   const Mode mode = mode_of(mean, 0.0, covariance);
-  const Draws draws = draw_about(mode, marginals(normal, mode, {}), 20000, 7);
+  const Draws draws = draw_about(mode, marginals(normal, mode, mode.x.size(), {}), 20000, 7);
   const Eigen::VectorXd average = draws.x * draws.weight;
   const Eigen::MatrixXd off = draws.x.colwise() - average;
   EXPECT_LT((average - mean).cwiseAbs().maxCoeff(), 0.05);
@@ -102,7 +102,7 @@ TEST(Marginals, ASideWithoutADensityStaysNormal) {
     return x[0] < -1.0 ? -HUGE_VAL : -0.5 * x.squaredNorm();
   };
   const Mode mode = mode_of(Eigen::VectorXd::Zero(1), 0.0, Eigen::MatrixXd::Identity(1, 1));
-  EXPECT_NEAR(marginals(half, mode, {}).front().at(-1.96), -1.96, 0.02);
+  EXPECT_NEAR(marginals(half, mode, mode.x.size(), {}).front().at(-1.96), -1.96, 0.02);
 }
 
 }  // namespace
