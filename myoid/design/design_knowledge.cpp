@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/decompositions.h"
+#include "myoid/math/statistics.h"
 #include "myoid/simulation/random.h"
 
 namespace myoid {
@@ -138,7 +139,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.method = "torque";
   e.fit_case = "both";
   e.initial = e.estimate = f.to_value(mean);
-  double below = 1.96 * sd, above = 1.96 * sd;
+  double below = math::normal_quantile(0.975) * sd, above = below;
   if (found != nullptr) {
     // The run's own interval, which includes other routes, shrinks by the same ratio.
     const bool logarithmic = f.field->logarithmic;
