@@ -91,7 +91,8 @@ class TrialWriter {
     f.motion_taken = true;
     FoundRecording* emg = emg_of(f, found_);
     std::string use = guessed_use(f.stem);
-    if (emg == nullptr && use == "calibration") use = "passive";
+    const bool without_emg = emg == nullptr && use != "static";
+    if (without_emg) use = use == "mvc" ? "static" : "passive";
     if (emg != nullptr) emg->emg_taken = true;
     out_.line("[[trial]]");
     out_.line("name = " + in_quotes(unique(f.stem)));
@@ -100,7 +101,7 @@ class TrialWriter {
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
     out_.line("use = " + in_quotes(use));
     any_calibration_ = any_calibration_ || use == "calibration";
-    if (emg == nullptr && use == "passive")
+    if (without_emg)
       out_.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
     for (const std::filesystem::path& loads : around_.external_loads) {
       if (trial_stem(loads) == f.stem)

@@ -298,7 +298,9 @@ class Draft {
   void muscle_tables() {
     const std::vector<std::string> channels = all_channels();
     if (channels.empty())
-      todo("no EMG was found; without it only motion and joint torque are computed");
+      todo(
+          "no EMG was found, and a study identifies muscles from EMG; for motion and joint torque "
+          "alone see `myoid ik` and `myoid id`");
     const std::vector<std::string> able =
         coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
     std::set<std::string> covered, names;

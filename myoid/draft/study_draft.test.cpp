@@ -60,6 +60,19 @@ TEST(StudyDraft, OfAFolderOfRecordingsPassesTheCheck) {
   EXPECT_THAT(draft.notes, Contains(HasSubstr("broken.trc")));
 }
 
+// A maximal contraction without EMG says nothing of the largest EMG, and study.toml refuses it.
+TEST(StudyDraft, AMaximalContractionWithoutEmgIsATrialOfMotionAndTorque) {
+  const test::TemporaryFolder folder;
+  for (const char* stem : {"slow", "mvc_flexion"}) write_trial(folder.path(), stem);
+  std::filesystem::remove(folder / "mvc_flexion_emg.csv");
+  const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
+  const Study study = parse_study(draft.toml, folder / "study.toml");
+  ASSERT_EQ(study.trials.size(), 2U);
+  EXPECT_EQ(study.trials[0].name, "mvc_flexion");
+  EXPECT_EQ(study.trials[0].use, Use::static_pose);
+  EXPECT_THAT(draft.todo, Contains(HasSubstr("no EMG was found for 'mvc_flexion'")));
+}
+
 TEST(StudyDraft, WhereNoChannelIsKnownTheCheckSaysWhatToFillIn) {
   const test::TemporaryFolder folder;
   write_trial(folder.path(), "a");
