@@ -320,7 +320,8 @@ double relative_half_width(const ParameterEstimate& estimate) {
   const double half = identification::half_width(estimate);
   if (estimate.parameter == "emg_delay") return 1e3 * half;
   const bool zero = identification::zero_by_nature(estimate.parameter) && estimate.prior_sd;
-  return 100.0 * half / (zero ? math::normal_quantile(0.975) * *estimate.prior_sd : std::abs(estimate.estimate));
+  return 100.0 * half /
+         (zero ? math::normal_quantile(0.975) * *estimate.prior_sd : std::abs(estimate.estimate));
 }
 
 int identified_count(const std::vector<ParameterEstimate>& estimates) {
