@@ -1,7 +1,5 @@
 #include "myoid/methods/motion_alone.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "myoid/identification/told_by_motion.h"
@@ -18,9 +16,7 @@ void judge_motion_alone(const StudyData& data, IdentificationResult& result) {
       "against several loads, or at held angles",
       100.0 * *share));
   for (ParameterEstimate& e : result.estimates) {
-    const bool of_muscle = std::any_of(data.muscles.begin(), data.muscles.end(),
-                                       [&](const MuscleSetup& m) { return m.name == e.muscle; });
-    if (!of_muscle || e.verdict != Verdict::identified) continue;
+    if (e.verdict != Verdict::identified) continue;
     e.verdict = Verdict::weak;
     e.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share);
   }

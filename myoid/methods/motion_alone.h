@@ -6,7 +6,7 @@
 namespace myoid::identification {
 
 /// Where told_by_motion_alone is above VerdictRules::motion_alone, adds a warning to the result of
-/// these data and makes every `identified` number of a muscle `weak`.
+/// these data and makes every `identified` number `weak`.
 void judge_motion_alone(const StudyData& data, IdentificationResult& result);
 
 }  // namespace myoid::identification

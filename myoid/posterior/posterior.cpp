@@ -134,6 +134,7 @@ void judge_row(const Reporting& of,
   facts.low = *e.ci_low;
   facts.high = *e.ci_high;
   facts.contraction = e.shrinkage;
+  if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
   facts.nuisance_gain = p.field->scope == Scope::channel && p.field->field == kGain;
   facts.is_delay = p.field->scope == Scope::channel && p.field->field == kDelay;
   facts.shares = of.shares[unknown];

@@ -21,6 +21,10 @@ double half_width(double value, double low, double high, bool absolute) {
   return absolute ? half : half / std::max(std::abs(value), 1e-12);
 }
 
+bool is_far(const PosteriorFacts& facts) {
+  return facts.prior_distance && *facts.prior_distance > VerdictRules{}.prior_conflict;
+}
+
 std::string size_text(double half, bool is_delay) {
   return is_delay ? fmt::format("± {:.0f} ms", 1000.0 * half)
                   : fmt::format("± {:.2g} %", 100.0 * half);
@@ -47,8 +51,9 @@ Finding finding(const PosteriorFacts& facts) {
   if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
   if (!facts.possible) return Finding::impossible;
   if (facts.r2 < rules.least_r2) return Finding::unexplained;
-  if (facts.nuisance_gain || (facts.contraction && *facts.contraction < rules.least_shrinkage))
-    return Finding::as_the_prior;
+  if (facts.nuisance_gain) return Finding::as_the_prior;
+  if (facts.contraction && *facts.contraction < rules.least_shrinkage)
+    return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
   if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width))
     return Finding::too_wide;
@@ -65,6 +70,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::not_converged:
     case Finding::unexplained:
     case Finding::too_wide:
+    case Finding::far_from_prior:
       return Verdict::not_identifiable;
     case Finding::impossible:
       return Verdict::non_physical;
@@ -96,6 +102,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
                         100.0 * std::max(0.0, *facts.contraction));
   if (const std::string sources = sources_text(facts.shares); !sources.empty())
     text += "; it rests on " + sources;
+  if (is_far(facts))
+    text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
   if (finding == Finding::wrong_model)

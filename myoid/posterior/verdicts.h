@@ -17,6 +17,8 @@ struct PosteriorFacts {
   double low_given = 0.0, high_given = 0.0;  ///< The 95 % interval with geometry and sensors exact.
   /// 1 - posterior variance / prior variance; empty: no prior.
   std::optional<double> contraction;
+  /// Distance of the value from the prior's mean, in its standard deviations; empty: no prior.
+  std::optional<double> prior_distance;
   bool possible = true;  ///< A muscle can have this value.
   bool is_delay = false;
   /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
@@ -35,6 +37,7 @@ enum class Finding {
   impossible,
   unexplained,     ///< R2 of the fit below VerdictRules::least_r2.
   as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
+  far_from_prior,  ///< So, and farther from the prior than VerdictRules::prior_conflict.
   too_wide,        ///< Beyond VerdictRules::weak_half_width.
   wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
   half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.

@@ -65,6 +65,17 @@ TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
 
+TEST(PosteriorVerdict, AValueThatIsFarFromAPriorThatItDoesNotNarrowIsNotTheLiterature) {
+  PosteriorFacts facts = good();
+  facts.prior_distance = 4.9;
+  EXPECT_EQ(finding(facts), Finding::narrow);
+  EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("4.9 standard deviations away"));
+  facts.contraction = 0.1;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
+  facts.prior_distance = 2.9;
+  EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
+}
+
 TEST(PosteriorVerdict, ASearchWithoutAnEndAndAnImpossibleMuscleComeFirst) {
   PosteriorFacts facts = good();
   facts.possible = false;
