@@ -62,6 +62,11 @@ class StudyCheck {
     if (!study_.model.file && !study_.subject.mass_kg)
       add(RemarkCode::no_body_mass, Severity::warning, "study",
           "[subject] mass_kg is not given: the built-in arm has the segments of a person of 73 kg");
+    if (study_.identify.estimator == identification::EstimatorKind::least_squares &&
+        study_.beliefs != identification::UnseenSpreads{})
+      add(RemarkCode::general, Severity::note, "study",
+          "[beliefs] are those of the estimator posterior; least_squares, which the study asks "
+          "for, uses none of them");
     check_todos();
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });

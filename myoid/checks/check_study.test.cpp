@@ -59,6 +59,20 @@ struct WrittenStudy {
 
 TEST(CheckStudy, FindsNoErrorWhereThereIsNone) { EXPECT_EQ(WrittenStudy().error(), "(no error)"); }
 
+TEST(CheckStudy, BeliefsBesideLeastSquaresAreSaidToBeUnused) {
+  const auto said = [](const std::string& more) {
+    WrittenStudy study;
+    study.text += more;
+    const std::vector<Remark> all = study.findings();
+    return std::any_of(all.begin(), all.end(), [](const Remark& r) {
+      return r.severity == Severity::note && r.says.find("[beliefs]") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said("[beliefs]\nmoment_arm_sd = 0.05\n"));
+  EXPECT_FALSE(said("[beliefs]\nmoment_arm_sd = 0.05\n[identify]\nestimator = \"posterior\"\n"));
+  EXPECT_FALSE(said(""));
+}
+
 TEST(CheckStudy, NamesAMissingFileWithoutThrowing) {
   WrittenStudy study;
   study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"nowhere.sto\"\n";
