@@ -5,8 +5,8 @@
 
 namespace myoid::identification {
 
-/// Where told_by_motion_alone is above VerdictRules::motion_alone, adds a warning to the result of
-/// these data and makes every `identified` number `weak`.
+/// Adds a warning to the result of these data, and makes every `identified` number `weak`, where
+/// told_by_motion_alone reaches VerdictRules::motion_alone.
 void judge_motion_alone(const StudyData& data, IdentificationResult& result);
 
 }  // namespace myoid::identification

@@ -10,37 +10,21 @@
 #include "myoid/identification/parameters.h"
 #include "myoid/posterior/mode.h"
 
+#include "tests/support/crowded_study.h"
 #include "tests/support/elbow_study.h"
 
 namespace myoid::identification {
 namespace {
 
+using test::crowded_options;
+using test::crowded_study;
 using test::elbow_study;
 using test::ElbowStudy;
-using test::freed;
-
-/// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
-ElbowStudy shared_electrode() {
-  ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 6.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
-  study.data.muscles[1].emg_channel = study.data.muscles[0].emg_channel;
-  study.data.rules = {freed("emg_exponent"), freed("length_activation"),
-                      freed("joint_torque_offset")};
-  study.data.rules[0].value = 1.2;
-  study.data.rules[1].tie = true;
-  study.data.rules[1].value = 0.1;
-  return study;
-}
 
 TEST(Density, TheGradientIsThatOfDifferences) {
-  const ElbowStudy study = shared_electrode();
+  const ElbowStudy study = crowded_study();
   for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
-    EstimatorOptions options;
-    options.angle_sd_rad = 0.01;
-    for (const char* channel : {"BIC", "BRD", "TRI"}) {
-      options.gain_prior_sd[channel] = 0.1;
-      options.emg_bandwidth_hz[channel] = 150.0;
-    }
+    EstimatorOptions options = crowded_options();
     options.lag = lag;
     const Density density(study.data, options);
     Eigen::VectorXd x = density.start();

@@ -103,7 +103,7 @@ void Likelihood::weigh_rows() {
   for (std::size_t r = 0; r < runs_.size(); ++r)
     of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
   double most = options_.unseen.independent_rows;
-  if (recorded_.told_by_motion > VerdictRules{}.motion_alone)
+  if (recorded_.told_by_motion >= VerdictRules{}.motion_alone)
     most = std::min(most, static_cast<double>(kMotionCoefficients));
   for (std::size_t r = 0; r < runs_.size(); ++r)
     row_weight_.push_back(most > 0.0 ? std::min(1.0, most / of_trial(r)) : 1.0);

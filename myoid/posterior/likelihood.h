@@ -132,6 +132,7 @@ class Likelihood {
 
  private:
   struct Block;
+  struct Point;
   /// Computes the weight of each run's rows.
   void weigh_rows();
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;

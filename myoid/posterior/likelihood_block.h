@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -8,6 +9,15 @@
 #include "myoid/posterior/likelihood.h"
 
 namespace myoid::identification {
+
+/// The model's values at z and their derivatives by z.
+struct Likelihood::Point {
+  Point(const ParameterMap& map, const Eigen::VectorXd& z)
+      : values(map.values(z, &chains)), by_owner(map, chains) {}
+  std::vector<ParameterMap::Chain> chains;
+  ModelValues values;
+  ChainsByOwner by_owner;
+};
 
 /// One run at one point. A is divided by the weight w of the run's rows.
 struct Likelihood::Block {

@@ -10,9 +10,7 @@ namespace myoid::identification {
 
 Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
                                                 const NoiseValues& noise) const {
-  std::vector<ParameterMap::Chain> chains;
-  const ModelValues values = map_.values(z, &chains);
-  const ChainsByOwner by_owner(map_, chains);
+  const Point point(map_, z);
   const Eigen::VectorXd w = weights(noise);
   const Eigen::Index p = map_.size(), quantities = w.size();
   std::vector<Block> blocks(runs_.size());
@@ -23,8 +21,8 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block& block = blocks[r];
-    block.evaluation =
-        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
+                                                       &point.by_owner);
     if (!fill(r, w, noise, block)) return result;
     solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
     gram += block.gram;
@@ -54,9 +52,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
 
 std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::VectorXd& z,
                                                               const NoiseValues& noise) const {
-  std::vector<ParameterMap::Chain> chains;
-  const ModelValues values = map_.values(z, &chains);
-  const ChainsByOwner by_owner(map_, chains);
+  const Point point(map_, z);
   const Eigen::VectorXd w = weights(noise);
   const Eigen::Index p = map_.size();
   std::vector<Eigen::MatrixXd> found;
@@ -64,8 +60,8 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
     if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
       found.emplace_back(Eigen::MatrixXd::Zero(p + w.size(), p + w.size()));
     Block block;
-    block.evaluation =
-        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
+                                                       &point.by_owner);
     if (!fill(r, w, noise, block)) continue;
     Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
     both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
@@ -76,17 +72,15 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
 
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
                                                  const NoiseValues& noise) const {
-  std::vector<ParameterMap::Chain> chains;
-  const ModelValues values = map_.values(z, &chains);
-  const ChainsByOwner by_owner(map_, chains);
+  const Point point(map_, z);
   const Eigen::VectorXd w = weights(noise);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(w.size(), w.size());
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(w.size());
   Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block block;
-    block.evaluation =
-        std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values, &by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
+                                                       &point.by_owner);
     if (!fill(r, w, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
@@ -102,14 +96,12 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
                                              const Eigen::VectorXd& z,
                                              const NoiseValues& noise,
                                              const UnseenGiven& unseen) const {
-  std::vector<ParameterMap::Chain> chains;
-  const ModelValues values = map_.values(z, &chains);
-  const ChainsByOwner by_owner(map_, chains);
+  const Point point(map_, z);
   std::vector<RunEvaluation> at;
-  at.emplace_back(run, map_, options_.lag, values, &by_owner);
+  at.emplace_back(run, map_, options_.lag, point.values, &point.by_owner);
   const RunEvaluation& here = at.front();
   const Eigen::MatrixXd columns =
-      unseen_quantities(data_, options_, map_, recorded_, {run}, values, at).columns.front() *
+      unseen_quantities(data_, options_, map_, recorded_, {run}, point.values, at).columns.front() *
       weights(noise).asDiagonal();
   RunForecast of;
   of.mean_nm = here.signals().torque_nm + columns * unseen.mean;
