@@ -20,7 +20,7 @@ constexpr std::array kAll = {
     &kOffset,           &kViscosity,          &kInertia,         &kLeastEffort,
     &kEmgNoise,         &kEmgBandwidth,       &kModelError,      &kRestingWeight,
     &kRestingTissue,    &kStrengthRatio,      &kTorqueNoise,     &kTorqueNoiseTime,
-    &kTrialTorqueNoise, &kCommonStrength,     &kIndependentRows, &kUnlikeness,
+    &kTrialTorqueNoise, &kStrength,           &kIndependentRows, &kUnlikeness,
     &kMomentArm,        &kMomentArmSlope,     &kTorqueScale,     &kTendonStretch,
     &kCrossTalk,        &kGainDrift,          &kRiseAndFall,     &kVoluntaryEffort,
     &kUnknownEmgNoise};

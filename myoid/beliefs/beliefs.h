@@ -44,9 +44,25 @@ inline constexpr std::string_view kNuisance =
 
 // A muscle's parameters, about the starting values.
 inline constexpr Belief kMaxForce{
-    "max_isometric_force", kModels, 0.0, 0.25, logarithm, "N", kAlways, kPublished};
-inline constexpr Belief kFiberLength{"optimal_fiber_length", kModels, 0.0,     0.10,
-                                     fiber_length,           "m",     kAlways, kPublished};
+    "max_isometric_force",
+    kModels,
+    0.0,
+    0.25,
+    logarithm,
+    "N",
+    kAlways,
+    "two public models of a leg and two of an arm differ by ln 0.30 and ln 0.55 about their mean "
+    "ratio, 0.21 and 0.39 to each (`tests/coverage/public_models.py`)"};
+inline constexpr Belief kFiberLength{
+    "optimal_fiber_length",
+    kModels,
+    0.0,
+    0.15,
+    fiber_length,
+    "m",
+    kAlways,
+    "two public models of a leg and two of an arm differ by ln 0.22 and ln 0.20 about their mean "
+    "ratio, 0.15 and 0.14 to each (`tests/coverage/public_models.py`)"};
 inline constexpr Belief kWidth{"force_length_width", kModels, 0.0,     0.12,
                                fiber_length,         "m",     kAlways, kPublished};
 inline constexpr Belief kCurvature{
@@ -259,15 +275,18 @@ inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torq
                                          "judgment"};
 inline constexpr Belief kTrialTorqueNoise{
     "torque error of a trial over all", "1", 1.0, 1.0, logarithm, "", kPosterior, "judgment"};
-inline constexpr Belief kCommonStrength{
-    "share of the variance of F_max about the model's that a person's muscles have in common",
-    "0.5",
-    0.5,
-    0.0,
-    value,
+inline constexpr Belief kStrength{
+    "strength of a person, over the model's: a factor of F_max that all muscles share",
+    "1",
+    1.0,
+    0.38,
+    logarithm,
     "",
-    kPosterior,
-    "judgment: a strong person is strong in every muscle"};
+    "estimator `posterior`, beside the spread of each muscle's F_max",
+    "the muscles of ten arms have 1.4 to 4.4 L (Holzbaur 2007): ln 0.37; two public models of a "
+    "leg "
+    "and two of an arm differ by ln 0.45 and ln 0.81 on average, ln 0.32 and ln 0.57 to each "
+    "(`tests/coverage/public_models.py`)"};
 inline constexpr Belief kIndependentRows{
     "rows of a trial, 0.22 s each, that count as independent evidence, per joint",
     "16",
@@ -285,7 +304,7 @@ inline constexpr Belief kUnlikeness{
     0.3,
     logarithm,
     "",
-    kPosterior,
+    "estimator `posterior`, half normal: 1 or more",
     "a standard deviation from n people or cadavers is known to 1/sqrt(2 (n - 1)): 0.16 to 0.35 "
     "for "
     "n of 20 to 5"};
@@ -301,7 +320,7 @@ inline constexpr Belief kRiseAndFall{
 inline constexpr std::string_view kMomentArmSource =
     "of 40 moment arms, two public models differ by ln 0.13 in size and by 0.17 in this slope "
     "(robust), by 0.26 and 0.25 (root mean square): 0.09 to 0.18 and 0.12 to 0.18 to each "
-    "(`tests/coverage/moment_arms.py`)";
+    "(`tests/coverage/public_models.py`)";
 inline constexpr Belief kMomentArm{"size of a muscle's moment arms, over the model's",
                                    "1",
                                    1.0,
@@ -345,14 +364,16 @@ inline constexpr Belief kCrossTalk{
     "",
     kPosterior,
     "judgment: surface electrodes over neighboring muscles share 5 to 15 %"};
-inline constexpr Belief kGainDrift{"change of an EMG channel's gain over the session",
-                                   "0",
-                                   0.0,
-                                   0.1,
-                                   value,
-                                   "",
-                                   kPosterior,
-                                   "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
+inline constexpr Belief kGainDrift{
+    "change of an EMG channel's gain from the maximal contraction to the end of the "
+    "session",
+    "0",
+    0.0,
+    0.1,
+    value,
+    "",
+    kPosterior,
+    "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
 inline constexpr Belief kVoluntaryEffort{
     "force of a maximal voluntary contraction, over that of a completely active muscle",
     "1",
@@ -385,9 +406,9 @@ struct UnseenSpreads {
   double torque_scale = beliefs::kTorqueScale.sd;
   double crosstalk = beliefs::kCrossTalk.sd;
   double gain_drift = beliefs::kGainDrift.sd;
-  double effort = beliefs::kVoluntaryEffort.sd;             ///< Of a maximal contraction.
-  double model_error = beliefs::kModelError.sd;             ///< Half normal.
-  double common_strength = beliefs::kCommonStrength.value;  ///< Share, below 1.
+  double effort = beliefs::kVoluntaryEffort.sd;  ///< Of a maximal contraction.
+  double model_error = beliefs::kModelError.sd;  ///< Half normal.
+  double strength = beliefs::kStrength.sd;       ///< Common to all muscles' F_max; logarithm.
   /// Rows of a trial, per joint, that count as independent; 0: all.
   double independent_rows = beliefs::kIndependentRows.value;
   bool operator==(const UnseenSpreads&) const = default;

@@ -18,6 +18,7 @@
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/fatigue.h"
+#include "myoid/posterior/density.h"
 #include "myoid/simulation/random.h"
 #include "myoid/study/study_model.h"
 
@@ -265,6 +266,7 @@ struct Expected {
   const Knowledge& known;
   const std::vector<Eigen::Index>& targets;
   const Eigen::VectorXd& prior_sd;
+  double strength_sd = 0.0;  ///< UnseenSpreads::strength; 0: estimator least_squares.
   const std::vector<identification::MuscleSetup>& muscles;
   const std::optional<EarlierRun>& earlier;
 
@@ -272,15 +274,16 @@ struct Expected {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : targets) {
       const Unknown& f = free[static_cast<std::size_t>(j)];
-      estimates.push_back(
-          expected_estimate(f,
-                            {.mean = known.mean[j],
-                             .sd = sd[j],
-                             .prior_sd = f.prior.sd > 0.0 ? f.prior.sd : prior_sd[j],
-                             .model_error = earlier ? earlier->model_error : 0.0,
-                             .found = found_by(earlier, f),
-                             .ratio = ratio(j, sd)},
-                            muscles));
+      estimates.push_back(expected_estimate(
+          f,
+          {.mean = known.mean[j],
+           .sd = sd[j],
+           .prior_sd =
+               f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
+           .model_error = earlier ? earlier->model_error : 0.0,
+           .found = found_by(earlier, f),
+           .ratio = ratio(j, sd)},
+          muscles));
     }
     return estimates;
   }
@@ -366,7 +369,7 @@ DesignStudyResult design_study(const Study& study,
   const std::vector<Unknown>& free = parameters->free();
   Knowledge known = knowledge_of(free, options.earlier);
   const bool by_posterior = torque.estimator == identification::EstimatorKind::posterior;
-  if (by_posterior && !options.earlier) join_strengths(free, torque.unseen.common_strength, known);
+  if (by_posterior && !options.earlier) join_strengths(free, torque.unseen.strength, known);
   const std::vector<Eigen::VectorXd> persons =
       draw_persons(free, known, options.persons, options.seed);
 
@@ -396,8 +399,13 @@ DesignStudyResult design_study(const Study& study,
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const Expected expected{free,         known,          problem.targets, choice.prior_sd,
-                          data.muscles, options.earlier};
+  const Expected expected{free,
+                          known,
+                          problem.targets,
+                          choice.prior_sd,
+                          by_posterior ? torque.unseen.strength : 0.0,
+                          data.muscles,
+                          options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {

@@ -82,9 +82,9 @@ Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial,
 }
 
 void join_strengths(const std::vector<identification::Unknown>& free,
-                    double common_share,
+                    double strength_sd,
                     Knowledge& known) {
-  Eigen::MatrixXd precision = identification::prior_precision(free, common_share);
+  Eigen::MatrixXd precision = identification::prior_precision(free, strength_sd);
   for (Eigen::Index j = 0; j < precision.rows(); ++j) {
     if (!(precision(j, j) > 0.0)) precision(j, j) = known.precision(j, j);
   }

@@ -58,10 +58,9 @@ class PosteriorInformation {
   std::vector<std::string> quantities_;
 };
 
-/// Gives the muscles' F_max the common share of variance among one person's muscles
-/// (identification::prior_precision).
+/// Gives the muscles' F_max the person's strength in common (identification::prior_precision).
 void join_strengths(const std::vector<identification::Unknown>& free,
-                    double common_share,
+                    double strength_sd,
                     Knowledge& known);
 
 }  // namespace myoid

@@ -98,7 +98,7 @@ TEST(PosteriorInformation, AStrongPersonIsStrongInEveryMuscle) {
   const Eigen::MatrixXd of_strength = known.covariance(strength, strength);
   for (Eigen::Index i = 0; i < 4; ++i) {
     for (Eigen::Index j = 0; j < i; ++j)
-      EXPECT_NEAR(of_strength(i, j) / std::sqrt(of_strength(i, i) * of_strength(j, j)), 0.5, 1e-9);
+      EXPECT_NEAR(of_strength(i, j), 0.5 * 0.5, 1e-9);
   }
 }
 

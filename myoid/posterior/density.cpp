@@ -21,7 +21,7 @@ constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean squar
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
-constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
+constexpr double kLeastUnlike = 1.0, kMostUnlike = 4.0;
 constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
 /// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
@@ -49,11 +49,16 @@ bool is_literature(const Unknown& of) {
 
 }  // namespace
 
+double prior_spread(const Unknown& of, double strength_sd) {
+  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd)
+                                                              : of.prior.sd;
+}
+
 Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                double common_share,
+                                double strength_sd,
                                 double unlikeness) {
   const auto p = static_cast<Eigen::Index>(free.size());
-  const double squared = unlikeness * unlikeness;
+  const double squared = unlikeness * unlikeness, common = strength_sd * strength_sd;
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
   std::vector<Eigen::Index> strengths;
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -63,30 +68,26 @@ Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
   }
   const auto n = static_cast<Eigen::Index>(strengths.size());
   if (n == 0) return precision;
-  // A single muscle has no other to share a part with.
-  const double common = n > 1 ? common_share * squared : 0.0;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd spread(n);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, common);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double sd =
         free[static_cast<std::size_t>(strengths[static_cast<std::size_t>(i)])].prior.sd;
-    spread[i] = std::min(sd, beliefs::kMaxForce.sd);
-    covariance(i, i) = sd * sd + (squared - 1.0 - common) * spread[i] * spread[i];
+    const double own = std::min(sd, beliefs::kMaxForce.sd);
+    covariance(i, i) += sd * sd + (squared - 1.0) * own * own;
   }
-  covariance += common * spread * spread.transpose();
   const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
   precision(strengths, strengths) = inverse;
   return precision;
 }
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : common_strength_(options.unseen.common_strength), likelihood_(data, options) {
+    : strength_sd_(options.unseen.strength), likelihood_(data, options) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);
   range_.resize(p);
   prior_mean_.setZero(p);
-  precision_ = prior_precision(free, common_strength_);
+  precision_ = prior_precision(free, strength_sd_);
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
     lower_[j] = of.bounds.lower;
@@ -113,7 +114,7 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
 void Density::refer_to(const Eigen::VectorXd& x) {
   likelihood_.refer_to(z_of(x));
   unlikeness_ = likeliest_unlikeness(x);
-  precision_ = prior_precision(parameters().free(), common_strength_, unlikeness_);
+  precision_ = prior_precision(parameters().free(), strength_sd_, unlikeness_);
 }
 
 double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
@@ -125,7 +126,7 @@ double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
   Eigen::MatrixXd flat = Eigen::MatrixXd::Zero(precision_.rows(), precision_.cols());
   for (Eigen::Index j = 0; j < flat.rows(); ++j) flat(j, j) = precision_(j, j) > 0.0 ? 0.0 : 1.0;
   const auto log_density = [&](double log_unlikeness) {
-    const Eigen::MatrixXd prior = prior_precision(free, common_strength_, std::exp(log_unlikeness));
+    const Eigen::MatrixXd prior = prior_precision(free, strength_sd_, std::exp(log_unlikeness));
     const Eigen::LDLT<Eigen::MatrixXd> all(of_data + prior), alone(prior + flat);
     const double off = log_unlikeness / beliefs::kUnlikeness.sd;
     return 0.5 *

@@ -9,17 +9,21 @@
 
 namespace myoid::identification {
 
+/// Returns the standard deviation of an unknown's prior. That of F_max, if it is the literature's
+/// and not the study's, has the person's strength (UnseenSpreads::strength) beside the muscle's
+/// own.
+[[nodiscard]] double prior_spread(const Unknown& of, double strength_sd);
+
 /// Returns the inverse covariance of the priors of z. Where a prior's spread is the literature's
-/// and not the study's, `unlikeness` (lambda) multiplies the belief's spread s_i. For F_max the
-/// share `common_share` of that variance is common to all muscles of the person
-/// (UnseenSpreads::common_strength):
+/// and not the study's, `unlikeness` (lambda) multiplies the belief's spread s_i. All ln F_max of a
+/// person share the person's strength, of spread c = `strength_sd`:
 ///
-///   cov(z_i, z_j) = common_share lambda^2 s_i s_j,    var(z_i) = sd_i^2 + (lambda^2 - 1) s_i^2,
+///   cov(ln F_i, ln F_j) = c^2,    var(z_i) = prior_spread_i^2 + (lambda^2 - 1) s_i^2,
 ///
-/// with s_i at most sd_i. A missing maximal contraction adds a spread (sd_i > s_i) that every
+/// with s_i at most the muscle's own spread. A missing maximal contraction adds a spread that every
 /// muscle has by itself and that lambda does not change.
 [[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                              double common_share,
+                                              double strength_sd,
                                               double unlikeness = 1.0);
 
 /// The posterior's density over unbounded unknowns x. One entry of x belongs to each entry of the
@@ -41,8 +45,10 @@ namespace myoid::identification {
 /// normal.
 ///
 /// The literature's spreads are uncertain themselves: if all muscles of a person deviate by two
-/// spreads, that is one coincidence, not twenty. Their common factor lambda (`unlikeness`) has a
-/// prior. Laplace's approximation gives the density of lambda, whose maximum is taken,
+/// spreads, that is one coincidence, not twenty. Their common factor lambda (`unlikeness`), 1 or
+/// more, has a prior. One recording does not make the literature surer than it says: where the
+/// unseen quantities happen to be exact, lambda would come out below 1 without ground. Laplace's
+/// approximation gives the density of lambda, whose maximum is taken,
 ///
 ///   ln p(lambda | y) = 1/2 b' (I + P)^-1 b + 1/2 ln |P| - 1/2 ln |I + P| + ln p(lambda),
 ///   b = (I + P_0) (z - m),    P the prior's precision at lambda, P_0 at the last lambda,
@@ -88,7 +94,7 @@ class Density {
   [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
   [[nodiscard]] double likeliest_unlikeness(const Eigen::VectorXd& x) const;
 
-  double common_strength_ = 0.0, unlikeness_ = 1.0;
+  double strength_sd_ = 0.0, unlikeness_ = 1.0;
   Likelihood likelihood_;
   Eigen::VectorXd lower_, range_, prior_mean_;
   Eigen::MatrixXd precision_;

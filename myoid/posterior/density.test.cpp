@@ -54,8 +54,8 @@ Unknown number_of(const ParameterField& field, double sd) {
 }
 
 TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
-  // z_i = mean + sqrt(rho) s_i person + own_i, person N(0, 1): the person is integrated over by
-  // hand, -2 ln p = sum off_i^2 / v_i - (sum c_i off_i / v_i)^2 / (1 + sum c_i^2 / v_i).
+  // z_i = mean + c person + own_i, person N(0, 1): the person is integrated over by hand,
+  // -2 ln p = sum off_i^2 / v_i - (sum c off_i / v_i)^2 / (1 + sum c^2 / v_i).
   const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
   const ParameterMap map(study.data, {});
   const auto at = std::find_if(map.free().begin(), map.free().end(),
@@ -65,20 +65,26 @@ TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
                                number_of(*at->field, 0.9), number_of(*at->field, 0.3)};
   free[3].prior_is_given = true;
   const Eigen::Vector4d off(0.3, -0.1, 0.7, 0.2);
-  const double rho = 0.4;
+  const double common = 0.4;
   const std::array<double, 3> spread = {0.25, 0.2, 0.25}, sd = {0.25, 0.2, 0.9};
   for (const double unlikeness : {1.0, 1.7}) {
     double squares = off[3] * off[3] / 0.09, along = 0.0, share = 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double s = unlikeness * spread[i], common = std::sqrt(rho) * s;
-      const double own = s * s * (1.0 - rho) + sd[i] * sd[i] - spread[i] * spread[i];
+      const double s = unlikeness * spread[i];
+      const double own = s * s + sd[i] * sd[i] - spread[i] * spread[i];
       const double o = off[static_cast<Eigen::Index>(i)];
       squares += o * o / own;
       along += common * o / own;
       share += common * common / own;
     }
-    EXPECT_NEAR(off.dot(prior_precision(free, rho, unlikeness) * off),
+    EXPECT_NEAR(off.dot(prior_precision(free, common, unlikeness) * off),
                 squares - along * along / share, 1e-12);
+  }
+  // The precision's inverse has the spreads that are reported.
+  const Eigen::MatrixXd covariance = prior_precision(free, common).inverse();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto j = static_cast<Eigen::Index>(i);
+    EXPECT_NEAR(std::sqrt(covariance(j, j)), prior_spread(free[i], common), 1e-12);
   }
 }
 

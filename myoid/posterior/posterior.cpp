@@ -56,20 +56,39 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   return shares;
 }
 
-/// The interval of z with geometry and sensors exact: Laplace's, with Gauss and Newton's curvature.
+/// Returns the standard deviations of x by Gauss and Newton's curvature.
+Eigen::VectorXd gauss_newton_sd(const Density& density, const Eigen::VectorXd& x) {
+  const Eigen::MatrixXd precision = density.gauss_newton(x);
+  return precision.ldlt()
+      .solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()))
+      .diagonal()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+/// The interval of z with geometry and sensors exact. It has the shape of the person's interval:
+/// the distances of its ends from the mode are those of the person's, by the ratio of both standard
+/// deviations.
 struct Given {
   Eigen::VectorXd low, high;
 };
 
-Given given_geometry(Density density, const Candidate& best, const Progress& progress) {
+Given given_geometry(const Candidate& best, const Sample& sample, const Progress& progress) {
+  Density density = *best.density;
+  const Eigen::VectorXd of_person = gauss_newton_sd(density, best.mode.x);
   density.believe(Believed::geometry_and_sensors_exact);
   const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
-  const Eigen::MatrixXd precision = density.gauss_newton(mode.x);
-  const Eigen::MatrixXd covariance =
-      precision.ldlt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
-  const Eigen::VectorXd reach =
-      math::normal_quantile(0.975) * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  return {density.z_of(mode.x - reach), density.z_of(mode.x + reach)};
+  const Eigen::ArrayXd ratio =
+      (gauss_newton_sd(density, mode.x).array() / of_person.array().max(1e-300)).min(1.0);
+  const NoiseValues noise = density.noise_of(mode.x);
+  const auto end = [&](double share) {
+    Eigen::VectorXd z(sample.z.rows());
+    for (Eigen::Index j = 0; j < z.size(); ++j)
+      z[j] = weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
+    const Eigen::ArrayXd beyond = (density.x_of(z, noise) - best.mode.x).array();
+    return density.z_of(mode.x + (ratio * beyond).matrix());
+  };
+  return {end(0.025), end(0.975)};
 }
 
 /// The inputs that every reported row needs.
@@ -82,7 +101,8 @@ struct Reporting {
   const std::vector<ActiveMotion>& motion;  ///< One per muscle.
   const IdentificationResult& result;
   bool converged = true;
-  bool from_mvc = true;  ///< Activation 1 is a maximal effort.
+  bool from_mvc = true;      ///< Activation 1 is a maximal effort.
+  double strength_sd = 0.0;  ///< UnseenSpreads::strength.
 };
 
 std::string owner_name(const Reporting& of, const Unknown& p, int owner) {
@@ -161,12 +181,14 @@ void judge_row(const Reporting& of,
 /// Returns 1 - variance / prior variance of an unknown, over all modes.
 double contraction(const Reporting& of, std::size_t unknown) {
   const Eigen::VectorXd z = of.sample.z.row(static_cast<Eigen::Index>(unknown)).transpose();
-  const double mean = z.dot(of.sample.weight), sd = of.map.free()[unknown].prior.sd;
+  const double mean = z.dot(of.sample.weight),
+               sd = prior_spread(of.map.free()[unknown], of.strength_sd);
   return 1.0 - (z.array() - mean).square().matrix().dot(of.sample.weight) / (sd * sd);
 }
 
 ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t target_at) {
-  const Unknown& p = of.map.free()[unknown];
+  Unknown p = of.map.free()[unknown];
+  p.prior.sd = prior_spread(p, of.strength_sd);
   const Unknown::Target& target = p.targets[target_at];
   const auto at = static_cast<Eigen::Index>(unknown);
   const auto value = [&](double z) { return target.ratio * p.to_value(z); };
@@ -246,7 +268,7 @@ void fill_fit(const Candidate& best,
   result.method = "torque";
   result.termination =
       best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
-  result.message = best.mode.message;
+  result.message = "estimator posterior: " + best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
   result.effective_samples = 0.0;
@@ -344,12 +366,12 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   IdentificationResult result;
   fill_fit(best, drawn, data, result);
   // A fit whose numbers are not reported needs no second interval.
-  const Given given = options.marginals ? given_geometry(*best.density, best, options.progress)
+  const Given given = options.marginals ? given_geometry(best, drawn, options.progress)
                                         : Given{.low = result.solution, .high = result.solution};
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
   add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result,
-                 best.mode.converged, options.from_mvc},
+                 best.mode.converged, options.from_mvc, options.unseen.strength},
                 result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);

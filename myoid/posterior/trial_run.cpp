@@ -179,7 +179,7 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
         TrialRun& run = runs.emplace_back(make_run(trial, rows, drives, options, map));
         run.trial = static_cast<int>(i);
         const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
-        run.session = (before + middle / span) / static_cast<double>(trials) - 0.5;
+        run.session = (before + middle / span) / static_cast<double>(trials);
       }
     }
     before += 1.0;
@@ -204,7 +204,7 @@ TrialRun whole_run(const TrialData& trial,
   const auto all =
       static_cast<double>(std::count_if(data.trials.begin(), data.trials.end(), is_fitted));
   run.trial = static_cast<int>(here - data.trials.begin());
-  run.session = std::min((before + 0.5) / all, 1.0) - 0.5;
+  run.session = std::min((before + 0.5) / all, 1.0);
   return run;
 }
 

@@ -19,7 +19,7 @@ namespace myoid::identification {
 /// the work grows with the square of a run's length.
 struct TrialRun {
   int trial = 0;                      ///< Index in StudyData::trials.
-  double session = 0.0;               ///< Place of the run's middle in the session, -1/2 to 1/2.
+  double session = 0.0;               ///< Place of the run's middle in the session, 0 to 1.
   std::vector<int> joints;            ///< J indices in ParameterMap::joints().
   Eigen::VectorXd time_s;             ///< n
   Eigen::MatrixXd length_m;           ///< n x muscles, musculotendon length.

@@ -21,8 +21,8 @@ TEST(TrialRuns, AreNoLongerThanEightSecondsAndKnowTheirPlaceInTheSession) {
   }
   EXPECT_EQ(runs[3].trial, 0);
   EXPECT_EQ(runs[4].trial, 1);
-  EXPECT_NEAR(runs[0].session, -0.4375, 0.01);
-  EXPECT_NEAR(runs[7].session, 0.4375, 0.01);
+  EXPECT_NEAR(runs[0].session, 0.0625, 0.01);
+  EXPECT_NEAR(runs[7].session, 0.9375, 0.01);
 }
 
 TEST(TrialRuns, DoNotReachAcrossWhatIsLeftOut) {

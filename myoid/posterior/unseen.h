@@ -36,7 +36,7 @@ struct UnseenQuantity {
 /// length: an error d shortens the fibers by d. Tendon: one that the study holds rigid stretches by
 /// l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
 /// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the
-/// channel's torque times the place in the session. Effort of the maximal contraction: the
+/// channel's torque times the place in the session, 0 at the maximal contraction. Its effort: the
 /// channel's torque; no quantity where its spread is 0. Cross-talk: the channel's torque times the
 /// ratio of another's activation to its own. Rise and fall: activation that rises earlier and falls
 /// later by d than the delay says, a + d |da/dt|. Model error: the muscle's torque times

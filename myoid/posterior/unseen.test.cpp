@@ -204,8 +204,8 @@ TEST(Unseen, AGainDriftsWithThePlaceInTheSession) {
   expect_derivative(at, "BRD.gain_drift", 1e-4, [](double by, TrialRun& run, ModelValues& values) {
     values.channels[2][kGain] *= 1.0 + by * run.session;
   });
-  EXPECT_NEAR(at.runs[0].session, -0.25, 1e-9);
-  EXPECT_NEAR(at.runs[1].session, 0.25, 1e-9);
+  EXPECT_NEAR(at.runs[0].session, 0.25, 1e-9);
+  EXPECT_NEAR(at.runs[1].session, 0.75, 1e-9);
 }
 
 TEST(Unseen, AnActivationRisesEarlierAndFallsLater) {

@@ -27,7 +27,10 @@ using Names = std::set<std::string>;
 /// Returns the names of the [[muscle]] tables; refuses repeated names.
 Names muscle_names(const Study& study) {
   if (study.muscles.empty())
-    refuse(study, "no [[muscle]]; add one table per muscle to identify, with name, osim and emg");
+    refuse(study,
+           "no [[muscle]]; add one table per muscle to identify, with name, osim and emg. Without "
+           "EMG no "
+           "muscle can be identified: `ik`, `id` and `so` do without");
   Names names;
   for (const MuscleSpec& muscle : study.muscles) {
     if (!names.insert(muscle.name).second)

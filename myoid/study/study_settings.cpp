@@ -391,10 +391,10 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
   v.number("model_error_sd", beliefs.model_error,
            {.says = "Relative size of the muscle law's systematic errors.",
             .limits = {.lower = 0.0, .upper = 1.0, .above_lower = true}});
-  v.number("common_strength", beliefs.common_strength,
-           {.says = "Share of the variance of F_max about the literature that all muscles of the "
-                    "person have in common.",
-            .limits = within(0.0, 0.95)});
+  v.number("strength_sd", beliefs.strength,
+           {.says = "Strength of the person over the model's, common to the F_max of all muscles; "
+                    "spread of the logarithm, beside that of each muscle.",
+            .limits = kSpread});
   v.number("independent_rows", beliefs.independent_rows,
            {.says = "Rows (of 0.22 s) of a trial, per joint, that count as independent evidence; "
                     "0: all.",

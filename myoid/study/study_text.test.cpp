@@ -146,7 +146,7 @@ crosstalk_sd = 0
 gain_drift_sd = 0.3
 effort_sd = 0.04
 model_error_sd = 0.05
-common_strength = 0.8
+strength_sd = 0.8
 [[muscle]]
 name = "BIC"
 osim = ["BIClong", "BICshort"]

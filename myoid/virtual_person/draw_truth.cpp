@@ -38,7 +38,7 @@ Hill draw(const TruthSpec& spec,
   const double strength = normal("max_isometric_force") - offset_of("max_isometric_force");
   p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength +
                                       beliefs::kMaxForce.sd * offset_of("max_isometric_force"));
-  p.optimal_fiber_length_m *= 1.0 + beliefs::kFiberLength.sd * normal("optimal_fiber_length");
+  p.optimal_fiber_length_m *= 1.0 + kFiberLengthSd * normal("optimal_fiber_length");
   p.force_length_width_m +=
       beliefs::kWidth.sd * normal("force_length_width") * literature.optimal_fiber_length_m;
   p.concentric_curvature *= std::exp(beliefs::kCurvature.sd * normal("concentric_curvature"));

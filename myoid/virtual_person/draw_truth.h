@@ -10,6 +10,8 @@ namespace myoid::twin {
 /// The two parts of the belief about ln F_max, which together give its standard deviation.
 inline constexpr double kSharedStrengthSd = 0.2;  ///< The whole person's.
 inline constexpr double kStrengthSd = 0.15;       ///< The muscle's own.
+/// Of l_m^0 between persons, relative. The estimator's belief holds the error of the model, too.
+inline constexpr double kFiberLengthSd = 0.10;
 
 /// Draws the muscle parameters of a virtual person about `literature` with `spec.spread` times
 /// these standard deviations: ln F_max 0.2 for the whole person and 0.15 per muscle, l_0 10 %, l_sh

@@ -87,7 +87,7 @@ TrueArm draw_true_arm(const TruthSpec& spec,
         std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * d.strength +
                  kHeadStrengthSd * z() + beliefs::kMaxForce.sd * spec.offset);
     const double length =
-        std::max(0.5, 1.0 + beliefs::kFiberLength.sd * d.fiber_length + kHeadFiberLengthSd * z());
+        std::max(0.5, 1.0 + kFiberLengthSd * d.fiber_length + kHeadFiberLengthSd * z());
     hill.optimal_fiber_length_m *= length;
     hill.force_length_width_m *= length;
     // v_max is a fixed number of fiber lengths per second.

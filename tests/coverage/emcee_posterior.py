@@ -96,9 +96,8 @@ class Posterior:
         self.mean, sd = get("mean"), get("sd")
         sd = np.where(get("literature"), sd * dump["unlikeness"], sd)
         strength = get("name") == "max_isometric_force"
-        alike = np.outer(strength, strength) * dump["common_strength"]
-        np.fill_diagonal(alike, 1.0)
-        self.precision = np.linalg.inv(alike * np.outer(sd, sd))
+        common = np.outer(strength, strength) * dump["strength_sd"] ** 2
+        self.precision = np.linalg.inv(common + np.diag(sd * sd))
         self.logarithmic = get("logarithmic")
         self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"]) > 0.5
         self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])

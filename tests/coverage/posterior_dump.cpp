@@ -73,9 +73,9 @@ void write(std::uint64_t seed, int draws) {
         u.field->scope == Scope::muscle && !u.prior_is_given);
   }
   fmt::print(
-      "],\"common_strength\":{:.17g},\"independent_rows\":{:.17g},\"unlikeness\":{:.17g},"
+      "],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"unlikeness\":{:.17g},"
       "\"muscles\":[",
-      beliefs::kCommonStrength.value, options.unseen.independent_rows, density.unlikeness());
+      options.unseen.strength, options.unseen.independent_rows, density.unlikeness());
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
     fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}",

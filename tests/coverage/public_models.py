@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""How far the moment arms of public models differ: the source of two beliefs of the posterior.
+"""How far public models differ: the source of the beliefs about moment arms and strength.
 
-usage: moment_arms.py MYOID DATA
+usage: public_models.py MYOID DATA
 
 MYOID: the program. DATA: the folder with opensim/, ceinms-rt-leg/, box-lift/ and upper-limb-optical/.
 Of each muscle that two models have in common, with 10 mm or more in both, ln r2/r1 of the means over the movement, and
 the slope of r2/r1 over its mean along the length of the first model, from -1 to 1. Two models that err
-alike differ by sqrt(2) of the error of each.
+alike differ by sqrt(2) of the error of each. Then F_max and l_m0 of the muscles of two models of a leg and two of an
+arm: the mean over muscles of the ln ratio, and its standard deviation about this mean.
 """
 import pathlib
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as xml
 
 import numpy as np
 
@@ -78,6 +80,26 @@ def differences(first, second, names):
     return found
 
 
+def muscles_of(model, members):
+    """F_max and l_m0 of each muscle, F_max summed and l_m0 averaged over its parts."""
+    of = {}
+    for muscle in xml.parse(model).iter():
+        force, length = (muscle.find(f"./{tag}") for tag in ("max_isometric_force", "optimal_fiber_length"))
+        if force is not None and length is not None:
+            of[muscle.get("name")] = float(force.text), float(length.text)
+    parts = {name: [of[m] for m in heads if m in of] for name, heads in members.items()}
+    return {name: tuple(np.array(found).T @ np.ones(len(found)) / [1, len(found)])
+            for name, found in parts.items() if found}
+
+
+def compare_muscles(name, first, second):
+    for at, parameter in enumerate(("F_max", "l_m0")):
+        x = np.array([np.log(second[m][at] / first[m][at]) for m in first if m in second])
+        mean, own = abs(x.mean()), x.std(ddof=1)
+        print(f"{name}, {parameter} of {len(x)} muscles: ln ratio {mean:.2f} on average, {own:.2f} about it; "
+              f"each {mean / np.sqrt(2):.2f} and {own / np.sqrt(2):.2f}")
+
+
 def main(program, data):
     data = pathlib.Path(data)
     leg = [data / "ceinms-rt-leg/gait2392.osim", data / "opensim/rajagopal2016/model.osim"]
@@ -100,6 +122,11 @@ def main(program, data):
         square = np.sqrt(np.mean(x * x))
         print(f"{name}: {len(x)} muscles, robust {robust:.3f}, root mean square {square:.3f}; "
               f"each {robust / np.sqrt(2):.3f} to {square / np.sqrt(2):.3f}")
+    names = KNEE | ANKLE | HIP
+    compare_muscles("leg", muscles_of(leg[0], {a: [f"{a}_r"] for a in names}),
+                    muscles_of(leg[1], {a: [f"{b}_r"] for a, b in names.items()}))
+    compare_muscles("arm", muscles_of(data / "opensim/arm26/model.osim", ARM26),
+                    muscles_of(data / "box-lift/das.osim", DAS))
 
 
 if __name__ == "__main__":
