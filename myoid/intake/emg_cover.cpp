@@ -43,37 +43,37 @@ std::string which_rate(const TrialLengths& t) {
 
 }  // namespace
 
-void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInput& input) {
+std::optional<Cover> check_cover(const std::filesystem::path& file,
+                                 std::string_view recorded,
+                                 const Eigen::VectorXd& time_s,
+                                 const TrialInput& input) {
   const Eigen::VectorXd* motion_s = motion_clock(input);
-  if (motion_s == nullptr) return;
-  const double begin_s = (*motion_s)[0];
-  const double end_s = (*motion_s)[motion_s->size() - 1];
-  const double emg_end_s = emg_s[emg_s.size() - 1];
-  const double overlap = std::min(emg_end_s, end_s) - std::max(emg_s[0], begin_s);
+  if (motion_s == nullptr) return std::nullopt;
+  const double begin_s = (*motion_s)[0], end_s = (*motion_s)[motion_s->size() - 1];
+  const double first_s = time_s[0], last_s = time_s[time_s.size() - 1];
+  const Cover both{.begin_s = std::max(first_s, begin_s), .end_s = std::min(last_s, end_s)};
+  const double overlap = both.end_s - both.begin_s;
   if (end_s - begin_s < kLimits.shortest_trial_s) {
     throw ReadError(
-        *trial.emg, 0,
+        file, 0,
         fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
                     "start_s and end_s that are farther apart",
                     end_s - begin_s, begin_s, end_s, kLimits.shortest_trial_s));
   }
   if (overlap < std::max(kLimits.shortest_trial_s, kLimits.covered * (end_s - begin_s))) {
     throw ReadError(
-        *trial.emg, 0,
-        fmt::format("the EMG ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
+        file, 0,
+        fmt::format("the {} ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
                     "to {:.5g} s); are both in seconds, at the rate they were recorded with, on "
                     "one clock? If so, give the trial the start_s and end_s that both have",
-                    emg_s[0], emg_end_s, begin_s, end_s));
+                    recorded, first_s, last_s, begin_s, end_s));
   }
-  if (overlap < end_s - begin_s - 0.1) {
-    warn(input, RemarkCode::emg_cover,
-         fmt::format("{}: the EMG ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
-                     "to {:.5g} s): those seconds are not fitted. If both were recorded "
-                     "together, the rate of one of them is wrong; else start_s and end_s "
-                     "leave the rest out",
-                     trial.emg->filename().string(), emg_s[0], emg_end_s, end_s - begin_s - overlap,
-                     begin_s, end_s));
-  }
+  if (!(overlap < end_s - begin_s - kLimits.uncovered_s)) return std::nullopt;
+  return Cover{both.begin_s, both.end_s,
+               fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
+                           "to {:.5g} s)",
+                           file.filename().string(), recorded, first_s, last_s,
+                           end_s - begin_s - overlap, begin_s, end_s)};
 }
 
 Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,10 +14,18 @@
 
 namespace myoid {
 
-/// Adds a warning to `input` if more than 0.1 s of its motion has no EMG, with the missing time and
-/// the consequence. Throws ReadError if the trial is shorter than half a second, or the EMG covers
-/// less than half of it.
-void check_cover(const TrialSpec& trial, const Eigen::VectorXd& emg_s, TrialInput& input);
+/// The part of a motion that another recording covers, and the sentence about the part that lacks.
+struct Cover {
+  double begin_s = 0.0, end_s = 0.0;
+  std::string lacks;
+};
+/// Returns the covered part if more than 0.1 s of the motion in `input` lies outside the clock of a
+/// file with `recorded` ("EMG", "torque"). Throws ReadError if the trial is shorter than half a
+/// second, or the file covers less than half of it.
+[[nodiscard]] std::optional<Cover> check_cover(const std::filesystem::path& file,
+                                               std::string_view recorded,
+                                               const Eigen::VectorXd& time_s,
+                                               const TrialInput& input);
 
 /// Rows [first, last] of a motion's clock with EMG, or up to half a sample of the motion beyond the
 /// EMG's ends. first > last if there are none.

@@ -50,22 +50,23 @@ TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
 }
 
 TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
-  TrialSpec trial;
-  trial.emg = "e.sto";
   const auto check = [&](double motion_to_s, double emg_from_s, double emg_to_s) {
     TrialInput input;
     input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s),
                               {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Zero(50, 1));
-    check_cover(trial, Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
-    return input.remarks.size();
+    return check_cover("e.sto", "EMG", Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
   };
   EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"),
             std::string::npos);
-  EXPECT_EQ(check(0.6, 0.0, 0.6), 0U);
+  EXPECT_FALSE(check(0.6, 0.0, 0.6));
   EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("less than half"), std::string::npos);
   EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("less than half"), std::string::npos);
-  EXPECT_EQ(check(10.0, 0.0, 6.0), 1U);
-  EXPECT_EQ(check(10.0, 0.05, 10.0), 0U);
+  const std::optional<Cover> cover = check(10.0, 1.0, 7.0);
+  ASSERT_TRUE(cover);
+  EXPECT_EQ(cover->begin_s, 1.0);
+  EXPECT_EQ(cover->end_s, 7.0);
+  EXPECT_EQ(cover->lacks, "e.sto: the EMG (1 to 7 s) lacks 4 s of the motion (0 to 10 s)");
+  EXPECT_FALSE(check(10.0, 0.05, 10.0));
 }
 
 TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {

@@ -54,11 +54,11 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
        fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A "
                    "spline bridges shorter pauses, with a warning",
                    l.pause_s)});
-  rows.push_back({"EMG that does not cover its motion", "error or warning",
-                  fmt::format("EMG covers less than {:g} % of the motion, or {:g} s; a warning if "
-                              "more than 0.1 s lacks EMG, "
-                              "which is not fitted",
-                              percent(l.covered), l.shortest_trial_s)});
+  rows.push_back({"EMG or `external_torque` that does not cover its motion", "error or warning",
+                  fmt::format("it covers less than {:g} % of the motion, or {:g} s; a warning if "
+                              "more than {:g} s of the motion lacks it. Time without EMG is not "
+                              "fitted, time without the torque is left out",
+                              percent(l.covered), l.shortest_trial_s, l.uncovered_s)});
   rows.push_back(
       {"EMG and motion of unlike length", "error or warning",
        fmt::format("the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An "

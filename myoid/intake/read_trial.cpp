@@ -9,6 +9,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/byte_source.h"
+#include "myoid/intake/emg_cover.h"
 #include "myoid/intake/trial_emg.h"
 #include "myoid/intake/trial_loads.h"
 #include "myoid/intake/trial_markers.h"
@@ -133,6 +134,19 @@ TrialInput read_trial_input(const Study& study,
   if (trial.external_torque) {
     remember(*trial.external_torque);
     input.external_torque = read_external_torque(study, trial, input.remarks);
+  }
+  // A torque's last value is no torque of the time after it.
+  if (input.external_torque) {
+    if (const auto cover =
+            check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input)) {
+      TrialSpec within = trial;
+      within.start_s = cover->begin_s;
+      within.end_s = cover->end_s;
+      TrialInput covered = read_trial_input(study, within, model);
+      warn(covered, RemarkCode::general,
+           cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
+      return covered;
+    }
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
   return input;

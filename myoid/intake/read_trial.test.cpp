@@ -51,5 +51,24 @@ TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   EXPECT_EQ(read_trial_parts(study, WrittenTrial(0.01, 5.0).spec, arm())[0].spec.name, "t");
 }
 
+TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheTorquesFile) {
+  // 5 s of motion; the torque's file ends after 3 s, as one that was cut off.
+  WrittenTrial trial(0.01, 4.99);
+  std::string torque = "torque\nendheader\ntime\telbow_flexion_moment\n";
+  for (int i = 0; i <= 300; ++i) torque += fmt::format("{:.2f}\t{:.1f}\n", 0.01 * i, -0.1 * i);
+  recording::write_file(trial.folder / "torque.sto", torque);
+  trial.spec.external_torque = trial.folder / "torque.sto";
+  const TrialInput input = trial.read(arm_study());
+  EXPECT_NEAR(input.motion->time_s()[input.motion->sample_count() - 1], 3.0, 1e-9);
+  EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
+    return remark.severity == Severity::warning &&
+           remark.says.find("torque.sto: the torque (0 to 3 s) lacks 1.99 s of the motion") == 0;
+  }));
+
+  recording::write_file(trial.folder / "torque.sto", torque.substr(0, 2000));
+  EXPECT_NE(message_of([&] { (void)trial.read(arm_study()); }).find("less than half"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace myoid

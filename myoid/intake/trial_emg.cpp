@@ -260,7 +260,11 @@ TimeSeries read_trial_emg(const Study& study,
   if (emg.sample_count() < 10) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
   if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
-  check_cover(trial, emg.time_s(), input);
+  if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))
+    warn(input, RemarkCode::emg_cover,
+         cover->lacks +
+             ": those seconds are not fitted. If both were recorded together, the rate of one of "
+             "them is wrong; else start_s and end_s leave the rest out");
   return emg;
 }
 
