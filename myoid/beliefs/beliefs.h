@@ -284,8 +284,7 @@ inline constexpr Belief kStrength{
     "",
     "estimator `posterior`, beside the spread of each muscle's F_max",
     "the muscles of ten arms have 1.4 to 4.4 L (Holzbaur 2007): ln 0.37; two public models of a "
-    "leg "
-    "and two of an arm differ by ln 0.45 and ln 0.81 on average, ln 0.32 and ln 0.57 to each "
+    "leg and two of an arm differ by ln 0.45 and ln 0.81 on average, ln 0.32 and ln 0.57 to each "
     "(`tests/coverage/public_models.py`)"};
 inline constexpr Belief kIndependentRows{
     "rows of a trial, 0.22 s each, that count as independent evidence, per joint",
@@ -304,7 +303,7 @@ inline constexpr Belief kUnlikeness{
     0.3,
     logarithm,
     "",
-    "estimator `posterior`, half normal: 1 or more",
+    "estimator `posterior`, of the spreads that are judgments",
     "a standard deviation from n people or cadavers is known to 1/sqrt(2 (n - 1)): 0.16 to 0.35 "
     "for "
     "n of 20 to 5"};

@@ -21,7 +21,7 @@ constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean squar
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
-constexpr double kLeastUnlike = 1.0, kMostUnlike = 4.0;
+constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
 constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
 /// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
@@ -49,6 +49,10 @@ bool is_literature(const Unknown& of) {
 
 }  // namespace
 
+bool spread_is_judgment(const Unknown& of) {
+  return is_literature(of) && of.field->field != kMaxForce && of.field->field != kFiberLength;
+}
+
 double prior_spread(const Unknown& of, double strength_sd) {
   return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd)
                                                               : of.prior.sd;
@@ -58,23 +62,20 @@ Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
                                 double strength_sd,
                                 double unlikeness) {
   const auto p = static_cast<Eigen::Index>(free.size());
-  const double squared = unlikeness * unlikeness, common = strength_sd * strength_sd;
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
   std::vector<Eigen::Index> strengths;
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
-    precision(j, j) = of.prior_precision() / (is_literature(of) ? squared : 1.0);
+    precision(j, j) =
+        of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
     if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
   }
   const auto n = static_cast<Eigen::Index>(strengths.size());
   if (n == 0) return precision;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, common);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double sd =
-        free[static_cast<std::size_t>(strengths[static_cast<std::size_t>(i)])].prior.sd;
-    const double own = std::min(sd, beliefs::kMaxForce.sd);
-    covariance(i, i) += sd * sd + (squared - 1.0) * own * own;
-  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, strength_sd * strength_sd);
+  for (Eigen::Index i = 0; i < n; ++i)
+    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)],
+                                        strengths[static_cast<std::size_t>(i)]);
   const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
   precision(strengths, strengths) = inverse;
   return precision;
@@ -119,7 +120,7 @@ void Density::refer_to(const Eigen::VectorXd& x) {
 
 double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
   const std::vector<Unknown>& free = parameters().free();
-  if (std::none_of(free.begin(), free.end(), is_literature)) return 1.0;
+  if (std::none_of(free.begin(), free.end(), spread_is_judgment)) return 1.0;
   const Eigen::MatrixXd of_data = likelihood_.information(z_of(x), noise_of(x)).information;
   const Eigen::VectorXd known = (of_data + precision_) * (z_of(x) - prior_mean_);
   // A zero diagonal, where there is no prior, would make ln |P| infinite.

@@ -14,14 +14,15 @@ namespace myoid::identification {
 /// own.
 [[nodiscard]] double prior_spread(const Unknown& of, double strength_sd);
 
-/// Returns the inverse covariance of the priors of z. Where a prior's spread is the literature's
-/// and not the study's, `unlikeness` (lambda) multiplies the belief's spread s_i. All ln F_max of a
-/// person share the person's strength, of spread c = `strength_sd`:
+/// Returns true for a number of a muscle whose prior spread is a judgment: all but F_max and l_m0,
+/// of which public models tell the spread, and those of which the study states a prior.
+[[nodiscard]] bool spread_is_judgment(const Unknown& of);
+
+/// Returns the inverse covariance of the priors of z. Where the spread of a muscle's number is a
+/// judgment, `unlikeness` (lambda) multiplies it. All ln F_max of a person share the person's
+/// strength, of spread c = `strength_sd`:
 ///
-///   cov(ln F_i, ln F_j) = c^2,    var(z_i) = prior_spread_i^2 + (lambda^2 - 1) s_i^2,
-///
-/// with s_i at most the muscle's own spread. A missing maximal contraction adds a spread that every
-/// muscle has by itself and that lambda does not change.
+///   cov(ln F_i, ln F_j) = c^2,    i not j.
 [[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
                                               double strength_sd,
                                               double unlikeness = 1.0);
@@ -44,11 +45,9 @@ namespace myoid::identification {
 /// priors of phi stand in beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, s is half
 /// normal.
 ///
-/// The literature's spreads are uncertain themselves: if all muscles of a person deviate by two
-/// spreads, that is one coincidence, not twenty. Their common factor lambda (`unlikeness`), 1 or
-/// more, has a prior. One recording does not make the literature surer than it says: where the
-/// unseen quantities happen to be exact, lambda would come out below 1 without ground. Laplace's
-/// approximation gives the density of lambda, whose maximum is taken,
+/// Spreads that are judgments are uncertain themselves: if all muscles of a person deviate by two
+/// spreads, that is one coincidence, not twenty. Their common factor lambda (`unlikeness`) has a
+/// prior. Laplace's approximation gives the density of lambda, whose maximum is taken,
 ///
 ///   ln p(lambda | y) = 1/2 b' (I + P)^-1 b + 1/2 ln |P| - 1/2 ln |I + P| + ln p(lambda),
 ///   b = (I + P_0) (z - m),    P the prior's precision at lambda, P_0 at the last lambda,

@@ -94,7 +94,7 @@ class Posterior:
         get = lambda key: np.array([u[key] for u in self.unknowns])
         self.lower, self.range = get("lower"), get("upper") - get("lower")
         self.mean, sd = get("mean"), get("sd")
-        sd = np.where(get("literature"), sd * dump["unlikeness"], sd)
+        sd = np.where(get("judgment"), sd * dump["unlikeness"], sd)
         strength = get("name") == "max_isometric_force"
         common = np.outer(strength, strength) * dump["strength_sd"] ** 2
         self.precision = np.linalg.inv(common + np.diag(sd * sd))

@@ -67,10 +67,9 @@ void write(std::uint64_t seed, int draws) {
     const Unknown& u = map.free()[j];
     fmt::print(
         "{}{{\"label\":\"{}\",\"name\":\"{}\",\"owner\":{},\"lower\":{:.17g},"
-        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{},\"literature\":{}}}",
+        "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{},\"judgment\":{}}}",
         j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower,
-        u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic,
-        u.field->scope == Scope::muscle && !u.prior_is_given);
+        u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic, spread_is_judgment(u));
   }
   fmt::print(
       "],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"unlikeness\":{:.17g},"
