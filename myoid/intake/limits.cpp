@@ -54,10 +54,11 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
        fmt::format("longer than {:g} s: the trial is cut there. With `[ik] calibrate` an error. A "
                    "spline bridges shorter pauses, with a warning",
                    l.pause_s)});
-  rows.push_back({"EMG or `external_torque` that does not cover its motion", "error or warning",
-                  fmt::format("it covers less than {:g} % of the motion, or {:g} s; a warning if "
-                              "more than {:g} s of the motion lacks it. Time without EMG is not "
-                              "fitted, time without the torque is left out",
+  rows.push_back({"EMG, `external_torque` or `external_loads` that do not cover their motion",
+                  "error or warning",
+                  fmt::format("they cover less than {:g} % of the motion, or {:g} s; a warning if "
+                              "more than {:g} s of the motion lacks them. Time without EMG is "
+                              "not fitted, time without loads is left out",
                               percent(l.covered), l.shortest_trial_s, l.uncovered_s)});
   rows.push_back(
       {"EMG and motion of unlike length", "error or warning",

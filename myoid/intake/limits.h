@@ -21,7 +21,7 @@ struct PlausibilityLimits {
   double pause_s = 0.5;  ///< A longer pause of a clock is not bridged.
   double slowest_clock_hz = 5.0;
   double shortest_trial_s = 0.5;
-  double covered = 0.5;          ///< Least share of the motion that EMG or torque covers.
+  double covered = 0.5;          ///< Least share of the motion that EMG or loads cover.
   double uncovered_s = 0.1;      ///< The motion may last so much longer, without a word.
   double same_factor = 0.02;     ///< Relative distance from a factor of 2, 3, 4, 5 or 10.
   double ends_together = 0.005;  ///< Relative difference of durations at the corrected rate that

@@ -109,6 +109,18 @@ TimeSeries read_external_torque(const Study& study,
   return result;
 }
 
+/// Returns the part of the motion with measured loads, if more than 0.1 s of it has none: neither
+/// the last value nor a line through the last two is a load of the time after it. Load cells and
+/// force plates refuse such a motion where they are read.
+std::optional<Cover> cover_by_loads(const TrialSpec& trial, const TrialInput& input) {
+  if (trial.external_loads) {
+    const Eigen::Vector2d clock(input.loads->start_s, input.loads->end_s);
+    if (auto cover = check_cover(*trial.external_loads, "force", clock, input)) return cover;
+  }
+  if (!trial.external_torque) return std::nullopt;
+  return check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input);
+}
+
 }  // namespace
 
 TrialInput read_trial_input(const Study& study,
@@ -135,20 +147,16 @@ TrialInput read_trial_input(const Study& study,
     remember(*trial.external_torque);
     input.external_torque = read_external_torque(study, trial, input.remarks);
   }
-  // A torque's last value is no torque of the time after it.
-  if (input.external_torque) {
-    if (const auto cover =
-            check_cover(*trial.external_torque, "torque", input.external_torque->time_s(), input)) {
-      TrialSpec within = trial;
-      within.start_s = cover->begin_s;
-      within.end_s = cover->end_s;
-      TrialInput covered = read_trial_input(study, within, model);
-      warn(covered, RemarkCode::general,
-           cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
-      return covered;
-    }
-  }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
+  if (const auto cover = cover_by_loads(trial, input)) {
+    TrialSpec within = trial;
+    within.start_s = cover->begin_s;
+    within.end_s = cover->end_s;
+    TrialInput covered = read_trial_input(study, within, model);
+    warn(covered, RemarkCode::general,
+         cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
+    return covered;
+  }
   return input;
 }
 

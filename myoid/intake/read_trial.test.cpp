@@ -70,5 +70,29 @@ TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheTorquesFile) {
             std::string::npos);
 }
 
+TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheForcesFile) {
+  WrittenTrial trial(0.01, 4.99);
+  std::string force = "f\nendheader\ntime\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
+  for (int i = 0; i <= 300; ++i)
+    force += fmt::format("{:.2f}\t0\t{:.1f}\t0\t0\t0\t0\n", 1.0 + 0.01 * i, -0.1 * i);
+  recording::write_file(trial.folder / "force.mot", force);
+  recording::write_file(
+      trial.folder / "loads.xml",
+      "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects>"
+      "<ExternalForce name=\"grip\"><applied_to_body>forearm_hand</applied_to_body>"
+      "<force_expressed_in_body>ground</force_expressed_in_body>"
+      "<point_expressed_in_body>forearm_hand</point_expressed_in_body>"
+      "<force_identifier>f_v</force_identifier><point_identifier>f_p</point_identifier>"
+      "</ExternalForce></objects><datafile>force.mot</datafile></ExternalLoads>"
+      "</OpenSimDocument>");
+  trial.spec.external_loads = trial.folder / "loads.xml";
+  const TrialInput input = trial.read(arm_study());
+  EXPECT_NEAR(input.motion->time_s()[0], 1.0, 1e-9);
+  EXPECT_NEAR(input.motion->time_s()[input.motion->sample_count() - 1], 4.0, 1e-9);
+  EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
+    return remark.says.find("loads.xml: the force (1 to 4 s) lacks 1.99 s of the motion") == 0;
+  }));
+}
+
 }  // namespace
 }  // namespace myoid
