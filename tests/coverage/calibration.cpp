@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -237,6 +238,7 @@ int run(const Settings& settings) {
   fmt::print("{} of {} parameters are not uniform at p = {} after Bonferroni\n", wrong, rows.size(),
              settings.limit);
   if (!settings.folder.empty()) {
+    std::filesystem::create_directories(settings.folder);
     write_ranks(settings.folder + "/ranks.csv", names, persons, settings.first);
     write_figure(settings.folder + "/calibration.svg", rows);
     write_figure(settings.folder + "/calibration_kinds.svg", kinds);
