@@ -97,8 +97,7 @@ TEST(PosteriorInformation, AStrongPersonIsStrongInEveryMuscle) {
   ASSERT_EQ(strength.size(), 4U);
   const Eigen::MatrixXd of_strength = known.covariance(strength, strength);
   for (Eigen::Index i = 0; i < 4; ++i) {
-    for (Eigen::Index j = 0; j < i; ++j)
-      EXPECT_NEAR(of_strength(i, j), 0.5 * 0.5, 1e-9);
+    for (Eigen::Index j = 0; j < i; ++j) EXPECT_NEAR(of_strength(i, j), 0.5 * 0.5, 1e-9);
   }
 }
 
