@@ -56,9 +56,8 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
                    l.pause_s)});
   rows.push_back({"EMG, `external_torque` or `external_loads` that do not cover their motion",
                   "error or warning",
-                  fmt::format("they cover less than {:g} % of the motion, or {:g} s; a warning if "
-                              "more than {:g} s of the motion lacks them. Time without EMG is "
-                              "not fitted, time without loads is left out",
+                  fmt::format("less than {:g} % of the motion, or {:g} s; a warning if more than "
+                              "{:g} s lack: not fitted without EMG, left out without loads",
                               percent(l.covered), l.shortest_trial_s, l.uncovered_s)});
   rows.push_back(
       {"EMG and motion of unlike length", "error or warning",
