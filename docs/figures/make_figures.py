@@ -58,7 +58,7 @@ PICTURES = [
             script=MOVE_LENGTH),
     Picture("elbow_quality.webp", "elbow_emg", begin="#quality", height=610),
     Picture("elbow_next.webp", "elbow_emg", begin="#next", height=410, width=800,
-            script="document.querySelector('#next .fold').click()"),
+            script="document.querySelector('#next').closest('.folds').classList.remove('folded')"),
 ]  # fmt: skip
 
 
