@@ -29,8 +29,9 @@ struct Belief {
   std::string_view source;
 };
 
-/// All beliefs of the identification. The estimator uses these constants, the twin draws its
-/// persons' muscles from them, and docs/theory/priors.md prints them.
+/// All beliefs of the identification. The estimator uses these constants, and docs/theory/priors.md
+/// prints them. The twin draws its persons' muscles from them, but F_max, l_m^0 and the slack
+/// length, whose beliefs hold the error of the model, too (virtual_person/draw_truth.h).
 namespace beliefs {
 
 using enum SpreadOf;
@@ -364,8 +365,7 @@ inline constexpr Belief kCrossTalk{
     kPosterior,
     "judgment: surface electrodes over neighboring muscles share 5 to 15 %"};
 inline constexpr Belief kGainDrift{
-    "change of an EMG channel's gain from the maximal contraction to the end of the "
-    "session",
+    "change of an EMG channel's gain from the maximal contraction to the session's end",
     "0",
     0.0,
     0.1,

@@ -148,15 +148,6 @@ TrialInput read_trial_input(const Study& study,
     input.external_torque = read_external_torque(study, trial, input.remarks);
   }
   input.loads = read_trial_loads(study, trial, model, input.markers, remember, input.remarks);
-  if (const auto cover = cover_by_loads(trial, input)) {
-    TrialSpec within = trial;
-    within.start_s = cover->begin_s;
-    within.end_s = cover->end_s;
-    TrialInput covered = read_trial_input(study, within, model);
-    warn(covered, RemarkCode::general,
-         cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
-    return covered;
-  }
   return input;
 }
 
@@ -165,7 +156,19 @@ std::vector<TrialPart> read_trial_parts(const Study& study,
                                         const model::BodyModel& model) {
   std::vector<TrialPart> parts;
   try {
-    parts.push_back({trial, read_trial_input(study, trial, model)});
+    TrialPart whole{trial, read_trial_input(study, trial, model)};
+    const auto cover = cover_by_loads(trial, whole.input);
+    if (!cover) {
+      parts.push_back(std::move(whole));
+      return parts;
+    }
+    TrialSpec within = trial;
+    within.start_s = cover->begin_s;
+    within.end_s = cover->end_s;
+    parts = read_trial_parts(study, within, model);
+    for (TrialPart& part : parts)
+      warn(part.input, RemarkCode::general,
+           cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
     return parts;
   } catch (const ClockPause& pause) {
     if (study.ik.calibrate) throw;

@@ -28,8 +28,10 @@ struct TrialPart {
 
 /// Reads one trial. A trial whose clock pauses for more than kLongestGap_s becomes several,
 /// "name.1", "name.2", ..., with a warning: nothing is filtered or interpolated across the pause.
-/// Parts of less than kShortestPart_s are left out. Throws as `read_trial_input`, also if no part
-/// is left or the study calibrates coordinates in a window, which not every part contains.
+/// Parts of less than kShortestPart_s are left out. Motion that lasts 0.1 s or more beyond the file
+/// of its torques or forces is left out, with a warning. Throws as `read_trial_input`, also if no
+/// part is left, if less than half of the motion has loads, or if the study calibrates coordinates
+/// in a window, which not every part contains.
 [[nodiscard]] std::vector<TrialPart> read_trial_parts(const Study& study,
                                                       const TrialSpec& trial,
                                                       const model::BodyModel& model);

@@ -51,26 +51,31 @@ TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   EXPECT_EQ(read_trial_parts(study, WrittenTrial(0.01, 5.0).spec, arm())[0].spec.name, "t");
 }
 
-TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheTorquesFile) {
+TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
   // 5 s of motion; the torque's file ends after 3 s, as one that was cut off.
   WrittenTrial trial(0.01, 4.99);
   std::string torque = "torque\nendheader\ntime\telbow_flexion_moment\n";
   for (int i = 0; i <= 300; ++i) torque += fmt::format("{:.2f}\t{:.1f}\n", 0.01 * i, -0.1 * i);
   recording::write_file(trial.folder / "torque.sto", torque);
   trial.spec.external_torque = trial.folder / "torque.sto";
-  const TrialInput input = trial.read(arm_study());
+  const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
+  ASSERT_EQ(parts.size(), 1U);
+  const TrialInput& input = parts[0].input;
   EXPECT_NEAR(input.motion->time_s()[input.motion->sample_count() - 1], 3.0, 1e-9);
+  EXPECT_EQ(parts[0].spec.end_s, 3.0);  // as one who gives the trial a window
   EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
     return remark.severity == Severity::warning &&
            remark.says.find("torque.sto: the torque (0 to 3 s) lacks 1.99 s of the motion") == 0;
   }));
 
   recording::write_file(trial.folder / "torque.sto", torque.substr(0, 2000));
-  EXPECT_NE(message_of([&] { (void)trial.read(arm_study()); }).find("less than half"),
+  EXPECT_NE(message_of([&] {
+              (void)read_trial_parts(arm_study(), trial.spec, arm());
+            }).find("less than half"),
             std::string::npos);
 }
 
-TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheForcesFile) {
+TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   WrittenTrial trial(0.01, 4.99);
   std::string force = "f\nendheader\ntime\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
   for (int i = 0; i <= 300; ++i)
@@ -86,7 +91,9 @@ TEST(ReadTrialInput, LeavesOutTheMotionBeyondTheForcesFile) {
       "</ExternalForce></objects><datafile>force.mot</datafile></ExternalLoads>"
       "</OpenSimDocument>");
   trial.spec.external_loads = trial.folder / "loads.xml";
-  const TrialInput input = trial.read(arm_study());
+  const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
+  ASSERT_EQ(parts.size(), 1U);
+  const TrialInput& input = parts[0].input;
   EXPECT_NEAR(input.motion->time_s()[0], 1.0, 1e-9);
   EXPECT_NEAR(input.motion->time_s()[input.motion->sample_count() - 1], 4.0, 1e-9);
   EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {

@@ -33,8 +33,8 @@ TEST(ExchangedElectrodes, AreNoneWhereTheyAreNamedRight) {
 }
 
 TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer) {
-  // Of seeds 1 to 150 with twice the noise: biceps and triceps in 125, biceps and brachioradialis
-  // in 37.
+  // With twice the noise it finds, of seeds 1 to 150, biceps and triceps in 125 persons, and biceps
+  // and brachioradialis in 37.
   int opposed = 0;
   int synergists = 0;
   constexpr int kPersons = 20;

@@ -80,13 +80,17 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
   const Eigen::ArrayXd ratio =
       (gauss_newton_sd(density, mode.x).array() / of_person.array().max(1e-300)).min(1.0);
-  const NoiseValues noise = density.noise_of(mode.x);
+  const std::vector<Unknown>& free = density.parameters().free();
   const auto end = [&](double share) {
-    Eigen::VectorXd z(sample.z.rows());
-    for (Eigen::Index j = 0; j < z.size(); ++j)
-      z[j] = weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
-    const Eigen::ArrayXd beyond = (density.x_of(z, noise) - best.mode.x).array();
-    return density.z_of(mode.x + (ratio * beyond).matrix());
+    Eigen::VectorXd x = mode.x;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto j = static_cast<Eigen::Index>(i);
+      const muscle::Range& bounds = free[i].bounds;
+      const double z = weighted_quantile(sample.z.row(j).transpose(), sample.weight, share);
+      const double beyond = std::log((z - bounds.lower) / (bounds.upper - z)) - best.mode.x[j];
+      if (std::isfinite(beyond)) x[j] += ratio[j] * beyond;
+    }
+    return density.z_of(x);
   };
   return {end(0.025), end(0.975)};
 }

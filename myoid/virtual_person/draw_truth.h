@@ -7,10 +7,10 @@
 namespace myoid::twin {
 
 // Standard deviations between persons, used in draw_muscles and draw_true_arm.
-/// The two parts of the belief about ln F_max, which together give its standard deviation.
+/// The two parts of the spread of ln F_max, which together are 0.25.
 inline constexpr double kSharedStrengthSd = 0.2;  ///< The whole person's.
 inline constexpr double kStrengthSd = 0.15;       ///< The muscle's own.
-/// Of l_m^0 between persons, relative. The estimator's belief holds the error of the model, too.
+/// The relative spread of l_m^0. The estimator's belief is wider: it holds the error of the model.
 inline constexpr double kFiberLengthSd = 0.10;
 
 /// Draws the muscle parameters of a virtual person about `literature` with `spec.spread` times
