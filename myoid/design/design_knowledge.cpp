@@ -10,8 +10,8 @@
 #include "myoid/core/error.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/decompositions.h"
+#include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
-#include "myoid/simulation/random.h"
 
 namespace myoid {
 
@@ -65,7 +65,7 @@ std::vector<Eigen::VectorXd> draw_persons(const std::vector<Unknown>& free,
                                           int count,
                                           std::uint64_t seed) {
   const Eigen::LLT<Eigen::MatrixXd> factor(known.covariance);
-  simulation::Random random(simulation::seed_for(seed, "design persons"));
+  math::Random random(math::seed_for(seed, "design persons"));
   std::vector<Eigen::VectorXd> persons;
   for (int k = 0; k < count; ++k) {
     Eigen::VectorXd z = known.mean;

@@ -16,10 +16,10 @@
 #include "myoid/design/posterior_information.h"
 #include "myoid/identification/residual_model.h"
 #include "myoid/intervals/identifiability.h"
+#include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/fatigue.h"
 #include "myoid/posterior/density.h"
-#include "myoid/simulation/random.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid {
@@ -115,7 +115,7 @@ MovementPerson person_of(const identification::ModelValues& values,
   person.muscles = values.muscles;
   if (!values.channels.empty())
     person.emg_delay_s = values.channels.front()[identification::kDelay];
-  person.seed = simulation::seed_for(seed, fmt::format("person {}", k));
+  person.seed = math::seed_for(seed, fmt::format("person {}", k));
   return person;
 }
 
@@ -239,7 +239,7 @@ Teller teller_of(const StudyData& muscles,
   return {[posterior, seed = options.seed](const TrialData& trial, const Eigen::VectorXd& z,
                                            std::size_t k) {
             return posterior->of(trial, z,
-                                 simulation::seed_for(seed, fmt::format("{} {}", k, trial.name)));
+                                 math::seed_for(seed, fmt::format("{} {}", k, trial.name)));
           },
           posterior->quantities()};
 }

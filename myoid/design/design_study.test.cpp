@@ -10,10 +10,10 @@
 
 #include "myoid/core/error.h"
 #include "myoid/math/butterworth.h"
+#include "myoid/math/random.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/methods/torque.h"
 #include "myoid/muscle/hill_muscle.h"
-#include "myoid/simulation/random.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid {
@@ -137,7 +137,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   double expected_square = 0.0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    simulation::Random random(seed);
+    math::Random random(seed);
     data.trials.clear();
     for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
       trial.torque_nm += options.torque_sd_nm / above_2_hz * random.normals(trial.torque_nm.size());
@@ -178,7 +178,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
 /// noise of EMG of 150 Hz behind a low-pass of 6 Hz.
 identification::TrialData recorded(identification::TrialData trial,
                                    double torque_sd_nm,
-                                   simulation::Random& random) {
+                                   math::Random& random) {
   constexpr double kRate_hz = 50.0;
   const double kept = std::exp(-1.0 / (0.3 * kRate_hz));
   const Eigen::VectorXd steps = random.normals(trial.torque_nm.size());
@@ -217,7 +217,7 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
   const MovementPerson person = typical(data.muscles);
   std::map<std::string, std::vector<double>> ratios;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    simulation::Random random(seed);
+    math::Random random(seed);
     data.trials.clear();
     for (identification::TrialData& trial : performed(study, design, data.muscles, person)) {
       data.trials.push_back(recorded(std::move(trial), options.torque_sd_nm, random));

@@ -11,7 +11,7 @@
 #include "myoid/core/units.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 #include "myoid/study/study_model.h"
 
 namespace myoid {
@@ -100,7 +100,7 @@ struct Share {
   double mean = 0.0, depth = 0.0, frequency_hz = 0.1, phase = 0.0;
 
   Share(const MovementPerson& person, const std::string& purpose) {
-    simulation::Random random(simulation::seed_for(person.seed, purpose));
+    math::Random random(math::seed_for(person.seed, purpose));
     mean = person.synergy * std::numbers::sqrt2 / 2.0 * random.normal();
     depth = person.synergy;  // a sinusoid of this depth has half the variance
     frequency_hz = random.uniform(0.05, 0.25);

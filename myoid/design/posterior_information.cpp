@@ -9,8 +9,8 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/identification/residual_model.h"
+#include "myoid/math/random.h"
 #include "myoid/posterior/density.h"
-#include "myoid/simulation/random.h"
 
 namespace myoid {
 
@@ -35,7 +35,7 @@ TrialData with_emg_noise(TrialData trial,
   Eigen::MatrixXd noisy = trial.activation.values();
   for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
     const std::string& channel = trial.activation.channels()[static_cast<std::size_t>(c)].name;
-    simulation::Random random(simulation::seed_for(seed, "noise of " + channel));
+    math::Random random(math::seed_for(seed, "noise of " + channel));
     const Eigen::VectorXd white = random.normals(noisy.rows() + filter.size() - 1);
     const double sd = factor * identification::envelope_spread(options, channel);
     for (Eigen::Index i = 0; i < noisy.rows(); ++i)

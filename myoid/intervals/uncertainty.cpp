@@ -10,39 +10,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "myoid/core/numbers.h"
-#include "myoid/core/units.h"
 #include "myoid/intervals/score_blocks.h"
 #include "myoid/math/decompositions.h"
+#include "myoid/math/random.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
-
-/// A stream of numbers that depends on the seed and the stream's number alone (SplitMix64).
-class Stream {
- public:
-  Stream(std::uint64_t seed, std::uint64_t number)
-      : state_(seed * 0xD1342543DE82EF95ULL + number * 0x9E3779B97F4A7C15ULL + 1) {
-    for (int i = 0; i < 4; ++i) (void)next();
-  }
-  std::uint64_t next() {
-    std::uint64_t x = (state_ += 0x9E3779B97F4A7C15ULL);
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-  }
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
-  std::size_t below(std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(uniform() * static_cast<double>(count)));
-  }
-  double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(2.0 * kPi * uniform());
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Returns inverse_of(a) * b, by a Cholesky factor if `a` has one.
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
@@ -324,14 +298,16 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
   std::atomic<int> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
     estimator.options().progress.check();
-    Stream random(options.seed, k + 1);
+    math::Random random(options.seed, k + 1);
     Estimator::Variant variant;
     variant.multiplicity = Eigen::VectorXd::Zero(model.sample_count());
     for (std::size_t first = 0; first < blocks.size();) {
       std::size_t end = first;
       while (end < blocks.size() && blocks[end].stratum == blocks[first].stratum) ++end;
       for (std::size_t draw = first; draw < end; ++draw) {
-        const Block& block = blocks[first + random.below(end - first)];
+        const Block& block =
+            blocks[first +
+                   static_cast<std::size_t>(random.below(static_cast<Eigen::Index>(end - first)))];
         for (const auto& [begin, length] : block.rows)
           variant.multiplicity.segment(begin, length).array() += 1.0;
       }

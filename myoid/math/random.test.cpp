@@ -47,6 +47,28 @@ TEST(Random, UniformAndNormalHaveTheirMoments) {
   EXPECT_NEAR(fourth, 3.0, 0.11);
 }
 
+TEST(Random, UniformIsTheEnginesUpper53Bits) {
+  // The standard fixes the engine: its 10000th output from the default seed is this number.
+  Random random(5489);
+  for (int k = 1; k < 10000; ++k) static_cast<void>(random.uniform());
+  EXPECT_EQ(random.uniform(), std::ldexp(static_cast<double>(9981545732273789042U >> 11U), -53));
+}
+
+TEST(Random, NormalNumbersThatFollowEachOtherAreUncorrelated) {
+  // Neighbors are the sine and the cosine of one draw.
+  const double n = 200000.0;
+  Random random(3);
+  const Eigen::VectorXd x = random.normals(200000);
+  const Eigen::Index m = x.size() - 1;
+  EXPECT_NEAR(x.head(m).dot(x.tail(m)) / n, 0.0, 5.0 / std::sqrt(n));
+}
+
+TEST(Random, SeedsDependOnSeedAndPurpose) {
+  EXPECT_NE(seed_for(1, "a"), seed_for(1, "b"));
+  EXPECT_NE(seed_for(1, "a"), seed_for(2, "a"));
+  EXPECT_EQ(seed_for(1, "a"), seed_for(1, "a"));
+}
+
 TEST(Random, IntegersBelowAreUniformByChiSquare) {
   // Chi-square with 6 degrees of freedom exceeds 27.9 with probability 1e-4.
   Random random(5, 9);

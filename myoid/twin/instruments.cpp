@@ -8,7 +8,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/math/butterworth.h"
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 #include "myoid/virtual_person/raw_emg.h"
 
 namespace myoid::twin {
@@ -33,13 +33,11 @@ void quantize(Eigen::MatrixBase<Derived>& values, double per_unit) {
   values = (values * per_unit).array().round().matrix() / per_unit;
 }
 
-simulation::Random stream(std::uint64_t seed,
-                          std::string_view instrument,
-                          const std::string& trial) {
-  return simulation::Random(simulation::seed_for(seed, fmt::format("{}.{}", instrument, trial)));
+math::Random stream(std::uint64_t seed, std::string_view instrument, const std::string& trial) {
+  return math::Random(math::seed_for(seed, fmt::format("{}.{}", instrument, trial)));
 }
 
-Vec3 random_direction(simulation::Random& random) {
+Vec3 random_direction(math::Random& random) {
   Vec3 v = Vec3::Zero();
   do {
     v = Vec3(random.normal(), random.normal(), random.normal());
@@ -49,7 +47,7 @@ Vec3 random_direction(simulation::Random& random) {
 
 std::vector<MarkerError> place_markers(const MarkerNoise& noise,
                                        const VirtualArm& arm,
-                                       simulation::Random random) {
+                                       math::Random random) {
   std::vector<MarkerError> errors;
   for (const MarkerSegment segment : arm.marker_segments()) {
     MarkerError error;
@@ -100,7 +98,7 @@ Eigen::VectorXd signal_of(const Source& source,
                           const Eigen::VectorXd& true_time_s,
                           const EmgNoise& emg,
                           double spectrum,
-                          simulation::Random random) {
+                          math::Random random) {
   constexpr double kAudible = 0.005;  // least relevant change of frequencies
   const auto over_time = [&](const Eigen::VectorXd& values) {
     return stretched(values, first_s, kEnvelopeRate_hz, true_time_s);
@@ -161,7 +159,7 @@ class WanderingDrive {
  public:
   WanderingDrive(Eigen::Index count, const std::string& trial, std::uint64_t seed) {
     if (count == 0) return;
-    simulation::Random random = stream(seed, "wandering emg", trial);
+    math::Random random = stream(seed, "wandering emg", trial);
     for (Eigen::VectorXd& drive : drives_)
       drive = (kMean + kSd * lowpass_noise(kCutoff_hz, kEnvelopeRate_hz, count, random).array())
                   .cwiseMax(0.0)
@@ -183,7 +181,7 @@ class WanderingDrive {
 Eigen::VectorXd disturbance(const EmgNoise& emg,
                             double baseline,
                             const Eigen::VectorXd& speed_radps,
-                            simulation::Random random) {
+                            math::Random random) {
   const Eigen::Index n = speed_radps.size();
   const double phase_rad = random.uniform(0.0, 2.0 * kPi);
   const Eigen::VectorXd artefact = lowpass_noise(kArtefactBand_hz, emg.rate_hz, n, random);
@@ -208,9 +206,9 @@ Instruments attach_instruments(const Protocol& protocol,
                                const VirtualArm& arm,
                                std::uint64_t seed) {
   Instruments result;
-  result.markers = place_markers(
-      protocol.motion, arm, simulation::Random(simulation::seed_for(seed, "marker placement")));
-  simulation::Random random(simulation::seed_for(seed, "electrodes"));
+  result.markers =
+      place_markers(protocol.motion, arm, math::Random(math::seed_for(seed, "marker placement")));
+  math::Random random(math::seed_for(seed, "electrodes"));
   const EmgNoise& emg = protocol.emg;
   for (std::size_t m = 0; m < 4; ++m) {
     result.greatest_v[m] =
@@ -221,7 +219,7 @@ Instruments attach_instruments(const Protocol& protocol,
     const double baseline = random.uniform(2.0 / 3.0, 4.0 / 3.0);
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
   }
-  simulation::Random tissue(simulation::seed_for(seed, "tissue"));
+  math::Random tissue(math::seed_for(seed, "tissue"));
   for (double& factor : result.spectrum)
     factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
   const bool drifts = random.uniform() < 0.5;
@@ -233,7 +231,7 @@ EmgClock emg_clock(const Protocol& protocol,
                    const Instruments& instruments,
                    const std::string& trial,
                    std::uint64_t seed) {
-  simulation::Random random = stream(seed, "trigger", trial);
+  math::Random random = stream(seed, "trigger", trial);
   const double z = std::clamp(random.normal(), -kMostOffsetSd, kMostOffsetSd);
   return {.offset_s = protocol.sync.offset_sd_s * z, .drift = instruments.clock_drift};
 }
@@ -256,8 +254,8 @@ recording::MarkerSeries record_markers(const Protocol& protocol,
   markers.time_s = clock(performance.script().duration_s, noise.rate_hz);
   markers.names = arm.marker_names();
   const Eigen::Index frames = markers.time_s.size();
-  simulation::Random random = stream(seed, "markers", trial.name);
-  simulation::Random shutter = stream(seed, "shutter", trial.name);
+  math::Random random = stream(seed, "markers", trial.name);
+  math::Random shutter = stream(seed, "shutter", trial.name);
   const bool exact = protocol.level == Level::noise_free;
 
   Eigen::VectorXd q_rad(frames);
@@ -279,7 +277,7 @@ recording::MarkerSeries record_markers(const Protocol& protocol,
 
   // Gaps are a Poisson process: independent of each other, at a mean rate per minute.
   if (noise.dropouts_per_min > 0.0) {
-    simulation::Random hidden = stream(seed, "dropouts", trial.name);
+    math::Random hidden = stream(seed, "dropouts", trial.name);
     const double end_s = markers.time_s(frames - 1);
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
       double t = 0.0;
@@ -400,7 +398,7 @@ TimeSeries record_torque(const Protocol& protocol,
   if (sensors.torque_scale != 1.0 || sensors.torque_offset_nm != 0.0)
     shown = (sensors.torque_scale * shown.array() + sensors.torque_offset_nm).matrix();
   if (protocol.level != Level::noise_free && protocol.torque.sd_nm > 0.0) {
-    simulation::Random random = stream(seed, "torque", performance.script().protocol.name);
+    math::Random random = stream(seed, "torque", performance.script().protocol.name);
     shown += protocol.torque.sd_nm * lowpass_noise(protocol.torque.bandwidth_hz,
                                                    protocol.motion.rate_hz, shown.size(), random);
     quantize(shown, kTorqueSteps_pernm);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 #include "myoid/virtual_person/draw_truth.h"
 #include "myoid/virtual_person/effective_delay.h"
 #include "myoid/virtual_person/effective_truth.h"
@@ -155,7 +155,7 @@ Session perform_by_simulation(const Protocol& protocol,
   for (const TrialScript& script : scripts) {
     auto performance = std::make_unique<SimulatedPerformance>(
         *truth.arm, script, truth.effort, protocol.control.motor_noise, tiredness,
-        simulation::seed_for(seed, "nerves." + script.protocol.name));
+        math::seed_for(seed, "nerves." + script.protocol.name));
     if (!performance->failure().empty()) {
       session.too_hard = script.protocol.name;
       session.why = performance->failure();
@@ -217,15 +217,15 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   Truth& truth = recording.truth;
   truth.instruments = attach_instruments(protocol, arm, seed);
   if (!simulated) {
-    truth.beside = draw_beside_muscles(
-        protocol.truth, simulation::Random(simulation::seed_for(seed, "beside muscles")));
+    truth.beside =
+        draw_beside_muscles(protocol.truth, math::Random(math::seed_for(seed, "beside muscles")));
     const bool drawn = protocol.truth.beside_muscles && !protocol.truth.sensors.emg_exponent;
     for (std::size_t m = 0; drawn && m < 4; ++m)
       truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
-    truth.departures = draw_departures(
-        protocol.truth, simulation::Random(simulation::seed_for(seed, "departures")));
+    truth.departures =
+        draw_departures(protocol.truth, math::Random(math::seed_for(seed, "departures")));
   }
-  simulation::Random random(simulation::seed_for(seed, "truth"));
+  math::Random random(math::seed_for(seed, "truth"));
   truth.emg_delay_s =
       random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
   if (protocol.level == Level::noise_free) {
@@ -238,7 +238,7 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
 
   Session session;
   for (truth.draws = 1; truth.draws <= kMostDraws; ++truth.draws) {
-    const std::uint64_t draw_seed = simulation::seed_for(seed, fmt::format("draw {}", truth.draws));
+    const std::uint64_t draw_seed = math::seed_for(seed, fmt::format("draw {}", truth.draws));
     const std::vector<TrialScript> scripts = make_scripts(protocol, brachialis, draw_seed);
     if (simulated) {
       truth.arm = draw_true_arm(protocol.truth, protocol.subject, random);

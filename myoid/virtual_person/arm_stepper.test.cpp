@@ -14,7 +14,7 @@ namespace {
 TrueArm arm_with(const std::string& curves, std::uint64_t seed = 5) {
   TruthSpec spec;
   spec.curves = curves;
-  simulation::Random random(seed);
+  math::Random random(seed);
   return draw_true_arm(spec, VirtualSubject{}, random);
 }
 

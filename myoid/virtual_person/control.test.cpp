@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 
 namespace myoid::twin {
 namespace {
 
 TEST(Control, ActivationsExertTheTorqueAskedForAndArePositive) {
-  simulation::Random random(5);
+  math::Random random(5);
   for (int k = 0; k < 500; ++k) {
     const PerMuscle capacity_nm = {random.uniform(10, 40), random.uniform(10, 30),
                                    random.uniform(5, 20), -random.uniform(20, 60)};

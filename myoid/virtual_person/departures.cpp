@@ -16,7 +16,7 @@ constexpr double kTendonForce = 0.2;
 
 }  // namespace
 
-double bounded_normal(simulation::Random& random) {
+double bounded_normal(math::Random& random) {
   double z = 0.0;
   do {
     z = random.normal();
@@ -32,7 +32,7 @@ bool Departures::has(const muscle::HillField& parameter) const {
          parameter.member == &Hill::tendon_slack_length_m;
 }
 
-Departures draw_departures(const TruthSpec& spec, simulation::Random random) {
+Departures draw_departures(const TruthSpec& spec, math::Random random) {
   Departures drawn;
   const bool coin = random.uniform() < 0.5;
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "myoid/arm/planar_elbow.h"
+#include "myoid/math/random.h"
 #include "myoid/muscle/normalized_curves.h"
-#include "myoid/simulation/random.h"
 #include "myoid/virtual_person/protocol.h"
 #include "myoid/virtual_person/virtual_arm.h"
 
@@ -28,10 +28,10 @@ struct Departures {
 };
 
 /// Returns a normal number within 2.5 standard deviations: people with half a moment arm are rare.
-[[nodiscard]] double bounded_normal(simulation::Random& random);
+[[nodiscard]] double bounded_normal(math::Random& random);
 
 /// Draws scales and slopes, normal within 2.5 standard deviations, and tendon strains, uniform.
-[[nodiscard]] Departures draw_departures(const TruthSpec& spec, simulation::Random random);
+[[nodiscard]] Departures draw_departures(const TruthSpec& spec, math::Random random);
 
 /// Multiplies the moment arm by `factor`, and the change of length, too.
 void scale_moment_arm(model::PlanarMuscle& path, double factor);

@@ -44,8 +44,7 @@ TEST(Departures, FullForceAtTheOptimumAndAtRestIsTheGreatest) {
 
 TEST(Departures, AbsentKeysMakeTheModelsBody) {
   const VirtualArm arm(VirtualSubject{});
-  const Departures none =
-      draw_departures(default_protocol(Level::noisy).truth, simulation::Random(3));
+  const Departures none = draw_departures(default_protocol(Level::noisy).truth, math::Random(3));
   EXPECT_FALSE(none.elastic());
   EXPECT_TRUE(none.paper_curves());
   const Moment q{1.1, 0.7, 0.0};
@@ -56,7 +55,7 @@ TEST(Departures, AbsentKeysMakeTheModelsBody) {
 
 TEST(Departures, MomentArmsAreScaledAndTaperedAndTheLengthsDerivative) {
   const VirtualArm arm(VirtualSubject{});
-  const Departures wrong = draw_departures(wrong_arms(), simulation::Random(3));
+  const Departures wrong = draw_departures(wrong_arms(), math::Random(3));
   const DepartedMuscles muscles(wrong, arm, arm.literature());
   const double h = 1e-5;
   for (std::size_t m = 0; m < 4; ++m) {
@@ -83,7 +82,7 @@ TEST(Departures, ScalesAndSlopesHaveTheirStandardDeviations) {
   double scale2 = 0.0, slope2 = 0.0;
   constexpr int kPersons = 1000;
   for (std::uint64_t seed = 0; seed < kPersons; ++seed) {
-    const Departures drawn = draw_departures(wrong_arms(), simulation::Random(seed));
+    const Departures drawn = draw_departures(wrong_arms(), math::Random(seed));
     for (std::size_t m = 0; m < 4; ++m) {
       scale2 += std::pow(drawn.moment_arm_scale[m] - 1.0, 2) / (4.0 * kPersons);
       slope2 += std::pow(drawn.moment_arm_slope_per_rad[m], 2) / (4.0 * kPersons);
@@ -154,7 +153,7 @@ TEST(Departures, MillardsCurvesTakeThePlaceOfThePapers) {
 
 TEST(Departures, APersonOfL2HasTaperedMomentArmsWithTheSameNumbersBeside) {
   TruthSpec spec;
-  simulation::Random random(5), again(5);
+  math::Random random(5), again(5);
   const TrueArm plain = draw_true_arm(spec, VirtualSubject{}, random);
   spec.moment_arm_slope_sd = 0.2;
   const TrueArm tapered = draw_true_arm(spec, VirtualSubject{}, again);

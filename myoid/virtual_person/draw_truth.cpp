@@ -26,7 +26,7 @@ bool varies(const TruthSpec& spec, std::string_view parameter) {
 Hill draw(const TruthSpec& spec,
           const Hill& literature,
           double shared_strength,
-          simulation::Random& random) {
+          math::Random& random) {
   const auto normal = [&](std::string_view parameter) {
     const double z = random.normal();
     return varies(spec, parameter) ? spec.spread * z + spec.offset : 0.0;
@@ -70,7 +70,7 @@ bool sensible(const Hill& p) {
 
 }  // namespace
 
-BesideMuscles draw_beside_muscles(const TruthSpec& spec, simulation::Random random) {
+BesideMuscles draw_beside_muscles(const TruthSpec& spec, math::Random random) {
   BesideMuscles drawn;
   if (!spec.beside_muscles) return drawn;
   const auto normal = [&] { return spec.spread * random.normal(); };
@@ -83,7 +83,7 @@ BesideMuscles draw_beside_muscles(const TruthSpec& spec, simulation::Random rand
   return drawn;
 }
 
-HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, simulation::Random& random) {
+HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, math::Random& random) {
   const double z = random.normal();
   const double shared_strength = varies(spec, "max_isometric_force") ? spec.spread * z : 0.0;
   HillSet result;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 #include "myoid/virtual_person/protocol.h"
 #include "myoid/virtual_person/virtual_arm.h"
 
@@ -23,7 +23,7 @@ inline constexpr double kFiberLengthSd = 0.10;
 /// repeated.
 [[nodiscard]] HillSet draw_muscles(const TruthSpec& spec,
                                    const HillSet& literature,
-                                   simulation::Random& random);
+                                   math::Random& random);
 
 /// The parameters of a person at L0 and L1 beside the muscles' parameters.
 struct BesideMuscles {
@@ -37,6 +37,6 @@ struct BesideMuscles {
 /// stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2. Gamma and viscosity are
 /// absolute values of normal numbers, because no fit lets them be negative. Without
 /// `spec.beside_muscles` all parameters have no effect.
-[[nodiscard]] BesideMuscles draw_beside_muscles(const TruthSpec& spec, simulation::Random random);
+[[nodiscard]] BesideMuscles draw_beside_muscles(const TruthSpec& spec, math::Random random);
 
 }  // namespace myoid::twin

@@ -11,7 +11,7 @@ namespace {
 
 TEST(DrawBesideMuscles, SpreadsAsAFitExpectsItBeforehandAndOnlyWhereAsked) {
   TruthSpec spec;
-  const BesideMuscles none = draw_beside_muscles(spec, simulation::Random(1));
+  const BesideMuscles none = draw_beside_muscles(spec, math::Random(1));
   EXPECT_EQ(none.length_activation, 0.0);
   EXPECT_EQ(none.joint_stiffness_nm_per_rad, 0.0);
   EXPECT_EQ(none.emg_exponent[2], 1.0);
@@ -20,7 +20,7 @@ TEST(DrawBesideMuscles, SpreadsAsAFitExpectsItBeforehandAndOnlyWhereAsked) {
   double squares[5] = {};
   for (int k = 0; k < n; ++k) {
     const BesideMuscles drawn =
-        draw_beside_muscles(spec, simulation::Random(static_cast<std::uint64_t>(k)));
+        draw_beside_muscles(spec, math::Random(static_cast<std::uint64_t>(k)));
     EXPECT_GE(drawn.length_activation, 0.0);
     EXPECT_GE(drawn.joint_viscosity_nms_per_rad, 0.0);
     squares[0] += std::pow(drawn.length_activation / 0.1, 2) / n;
@@ -34,7 +34,7 @@ TEST(DrawBesideMuscles, SpreadsAsAFitExpectsItBeforehandAndOnlyWhereAsked) {
 
 TEST(DrawMuscles, SpreadsAsThePriorsSay) {
   const HillSet literature = model::arm4_muscles();
-  simulation::Random random(3);
+  math::Random random(3);
   const int n = 4000;
   double strength = 0.0;
   double shared = 0.0;
@@ -61,7 +61,7 @@ TEST(DrawMuscles, SpreadsAsThePriorsSay) {
 
 TEST(DrawMuscles, StaysWithinWhatAMuscleCanBe) {
   const HillSet literature = model::arm4_muscles();
-  simulation::Random random(4);
+  math::Random random(4);
   for (int k = 0; k < 500; ++k) {
     for (const auto& muscle : draw_muscles({.spread = 2.0}, literature, random)) {
       for (const muscle::HillField& field : muscle::kHillFields) {
@@ -74,8 +74,8 @@ TEST(DrawMuscles, StaysWithinWhatAMuscleCanBe) {
 
 TEST(DrawMuscles, WhatDoesNotVaryIsTheLiteratureAndLeavesTheRestAlone) {
   const HillSet literature = model::arm4_muscles();
-  simulation::Random first(5);
-  simulation::Random second(5);
+  math::Random first(5);
+  math::Random second(5);
   const HillSet all = draw_muscles({}, literature, first);
   const HillSet some = draw_muscles({.vary = {"optimal_fiber_length"}}, literature, second);
   EXPECT_EQ(some[0].optimal_fiber_length_m, all[0].optimal_fiber_length_m);
@@ -85,7 +85,7 @@ TEST(DrawMuscles, WhatDoesNotVaryIsTheLiteratureAndLeavesTheRestAlone) {
 }
 
 TEST(DrawMuscles, GivenValuesWin) {
-  simulation::Random random(6);
+  math::Random random(6);
   const HillSet drawn = draw_muscles({.values = {{"TRI", {{"max_isometric_force", 1234.0}}}}},
                                      model::arm4_muscles(), random);
   EXPECT_EQ(drawn[kTriceps].max_isometric_force_n, 1234.0);

@@ -56,7 +56,7 @@ class Held : public Performance {
 };
 
 TrueArm person() {
-  simulation::Random random(3);
+  math::Random random(3);
   return draw_true_arm({}, VirtualSubject{}, random);
 }
 

@@ -12,7 +12,7 @@ namespace {
 TrueArm spread_arm(double spread, std::uint64_t seed) {
   TruthSpec spec;
   spec.spread = spread;
-  simulation::Random random(seed);
+  math::Random random(seed);
   return draw_true_arm(spec, VirtualSubject{}, random);
 }
 

@@ -21,7 +21,7 @@ TrialProtocol swing() {
 }
 
 TrueArm arm_of_seed(std::uint64_t seed) {
-  simulation::Random random(seed);
+  math::Random random(seed);
   return draw_true_arm({}, VirtualSubject{}, random);
 }
 

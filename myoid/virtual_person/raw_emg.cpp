@@ -112,7 +112,7 @@ template <std::size_t N>
 Eigen::VectorXd shaped_noise(const std::array<Section, N>& sections,
                              int settle,
                              Eigen::Index count,
-                             simulation::Random& random) {
+                             math::Random& random) {
   std::array<Section, N> chain = sections;
   const auto next = [&chain](double value) {
     for (Section& section : chain) value = section.next(value);
@@ -175,7 +175,7 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
 Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
                           double rate_hz,
                           Eigen::Index count,
-                          simulation::Random& random) {
+                          math::Random& random) {
   const Eigen::Index lead = emg_lead(spectrum, rate_hz);
   return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
 }
@@ -194,7 +194,7 @@ double discharges_hz(double motor_units, double excitation) {
 
 Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
                                 double rate_hz,
-                                simulation::Random& random) {
+                                math::Random& random) {
   Eigen::VectorXd noise(per_second.size());
   for (Eigen::Index k = 0; k < per_second.size(); ++k) {
     const double mean = per_second(k) / rate_hz;
@@ -216,7 +216,7 @@ Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
 Eigen::VectorXd lowpass_noise(double cutoff_hz,
                               double rate_hz,
                               Eigen::Index count,
-                              simulation::Random& random) {
+                              math::Random& random) {
   if (!(cutoff_hz > 0.0 && cutoff_hz < 0.5 * rate_hz)) {
     throw InvalidInput(
         fmt::format("noise below {} Hz needs samples at more than twice that rate, found {} Hz",

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 
 namespace myoid::twin {
 
@@ -24,7 +24,7 @@ struct EmgSpectrum {
 [[nodiscard]] Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
                                         double rate_hz,
                                         Eigen::Index count,
-                                        simulation::Random& random);
+                                        math::Random& random);
 
 /// Returns the same noise from given white innovations of unit variance. The first `lead`
 /// innovations settle the filter and give no sample; `emg_lead` returns a sufficient number.
@@ -45,13 +45,13 @@ struct EmgSpectrum {
 /// `per_second`: mean number, one value for each sample.
 [[nodiscard]] Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
                                               double rate_hz,
-                                              simulation::Random& random);
+                                              math::Random& random);
 
 /// Returns `count` samples of Gaussian noise of unit variance whose power falls with the fourth
 /// power of frequency above `cutoff_hz` (two equal first-order lags).
 [[nodiscard]] Eigen::VectorXd lowpass_noise(double cutoff_hz,
                                             double rate_hz,
                                             Eigen::Index count,
-                                            simulation::Random& random);
+                                            math::Random& random);
 
 }  // namespace myoid::twin

@@ -52,14 +52,14 @@ double median_hz(const std::vector<double>& shares, double width_hz) {
 TEST(EmgNoise, HasUnitVariance) {
   // 60 s hold about 2 B T = 2 x 150 Hz x 60 s independent values: sqrt(2/18000) = 1 %; four of
   // them.
-  simulation::Random random(11);
+  math::Random random(11);
   const Eigen::VectorXd noise = emg_noise({}, 1000.0, 60000, random);
   EXPECT_NEAR(noise.squaredNorm() / 60000.0, 1.0, 0.042);
   EXPECT_NEAR(noise.mean(), 0.0, 0.01);
 }
 
 TEST(EmgNoise, HasTheSpectrumOfShwedyk) {
-  simulation::Random random(12);
+  math::Random random(12);
   const double rate_hz = 1000.0;
   const double width_hz = 10.0;
   const std::vector<double> found =
@@ -80,14 +80,14 @@ TEST(EmgNoise, HasTheSpectrumOfShwedyk) {
 }
 
 TEST(EmgNoise, RefusesARateThatCannotCarryIt) {
-  simulation::Random random(1);
+  math::Random random(1);
   EXPECT_THROW(static_cast<void>(emg_noise({}, 400.0, 10, random)), InvalidInput);
 }
 
 TEST(DischargeNoise, IsWhiteOfUnitVarianceAndSpikyWhereDischargesAreFew) {
   // Compound Poisson of mean m a sample with normal sizes: kurtosis 3 + 3/m. 400 000 samples; the
   // fourth moment at m = 0.5 (kurtosis 9) has a relative standard error of about 2 %.
-  simulation::Random random(5);
+  math::Random random(5);
   const double rate_hz = 1000.0;
   for (const double mean : {0.5, 5.0}) {
     const Eigen::Index n = 400000;
@@ -113,7 +113,7 @@ TEST(DischargeNoise, HalfOfTheUnitsWorkAtATenthAndAllAtSixTenths) {
 }
 
 TEST(LowpassNoise, HasUnitVarianceAndLittleAboveItsCutoff) {
-  simulation::Random random(13);
+  math::Random random(13);
   const Eigen::VectorXd noise = lowpass_noise(5.0, 200.0, 80000, random);
   // Two lags at f_c have noise bandwidth pi/4 f_c: 400 s hold 2 x 3.9 x 400 values: 2.5 %; four.
   EXPECT_NEAR(noise.squaredNorm() / 80000.0, 1.0, 0.10);

@@ -67,7 +67,7 @@ PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) 
 /// Returns the unintended drive: a factor about 1 for each muscle, on the clock of the samples.
 std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std::uint64_t seed) {
   std::array<Eigen::VectorXd, 4> factor;
-  simulation::Random random(seed);
+  math::Random random(seed);
   for (Eigen::VectorXd& f : factor) {
     const Eigen::VectorXd noise =
         lowpass_noise(kMotorNoiseCutoff_hz, 1.0 / kSample_s, count, random);

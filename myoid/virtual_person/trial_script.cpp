@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "myoid/core/units.h"
-#include "myoid/simulation/random.h"
+#include "myoid/math/random.h"
 
 namespace myoid::twin {
 namespace {
@@ -12,11 +12,8 @@ namespace {
 constexpr double kMarginOfFlexion_s = 0.5;  ///< time at rest before and after
 
 /// Adds a movement of an uneven person: several overlapping submovements.
-void add_uneven_move(double start_s,
-                     double duration_s,
-                     double by_rad,
-                     SmoothMotion& motion,
-                     simulation::Random& random) {
+void add_uneven_move(
+    double start_s, double duration_s, double by_rad, SmoothMotion& motion, math::Random& random) {
   constexpr double kOne_s = 0.9;  // duration of each submovement
   const int count = std::max(1, static_cast<int>(std::lround(duration_s / kOne_s)));
   std::vector<double> share;
@@ -29,7 +26,7 @@ void add_uneven_move(double start_s,
 }
 
 /// Raises and lowers (eccentric, passive), or moves there and back.
-void add_lifts(TrialScript& script, double irregularity, simulation::Random& random) {
+void add_lifts(TrialScript& script, double irregularity, math::Random& random) {
   constexpr double kTimeSd = 0.10;
   constexpr double kReachSd_rad = 2.0 * kDegree;
   constexpr double kMost = 2.0;  // standard deviations
@@ -67,7 +64,7 @@ void add_lifts(TrialScript& script, double irregularity, simulation::Random& ran
   script.duration_s = time_s + p.rest_s;
 }
 
-void add_oscillation(TrialScript& script, simulation::Random& random) {
+void add_oscillation(TrialScript& script, math::Random& random) {
   const TrialProtocol& p = script.protocol;
   SmoothMotion& motion = script.motion;
   motion.start_rad = p.centre_rad - p.amplitude_rad;
@@ -85,7 +82,7 @@ void add_oscillation(TrialScript& script, simulation::Random& random) {
 }
 
 /// Draws the other differences from cycle to cycle.
-void make_uneven(TrialScript& script, double irregularity, simulation::Random& random) {
+void make_uneven(TrialScript& script, double irregularity, math::Random& random) {
   const TrialProtocol& p = script.protocol;
   script.eased = true;
   const double phase_rad = random.uniform(0.0, 2.0 * kPi);
@@ -114,7 +111,7 @@ Coordination lead(const ControlSpec& control, double first_rad, int k, int count
 
 /// Adds effort at the angle where the sweep begins, the sweep, and rest; between sweeps that do not
 /// follow each other the relaxed arm is moved back.
-void add_sweeps(TrialScript& script, const ControlSpec& control, simulation::Random& random) {
+void add_sweeps(TrialScript& script, const ControlSpec& control, math::Random& random) {
   const TrialProtocol& p = script.protocol;
   constexpr double kReturn_s = 2.0;
   constexpr double kMargin_s = 0.1;
@@ -158,7 +155,7 @@ void add_sweeps(TrialScript& script, const ControlSpec& control, simulation::Ran
   script.duration_s = time_s + p.rest_s;
 }
 
-void add_efforts(TrialScript& script, const ControlSpec& control, simulation::Random& random) {
+void add_efforts(TrialScript& script, const ControlSpec& control, math::Random& random) {
   const TrialProtocol& p = script.protocol;
   script.motion.start_rad = p.angle_rad;
   const double first_rad = random.uniform(0.0, 2.0 * kPi);
@@ -231,10 +228,10 @@ bool TrialScript::against_dynamometer() const {
 TrialScript make_script(const TrialProtocol& trial,
                         const ControlSpec& control,
                         std::uint64_t seed) {
-  simulation::Random random(simulation::seed_for(seed, "script." + trial.name));
+  math::Random random(math::seed_for(seed, "script." + trial.name));
   TrialScript script;
   script.protocol = trial;
-  simulation::Random uneven(simulation::seed_for(seed, "uneven." + trial.name));
+  math::Random uneven(math::seed_for(seed, "uneven." + trial.name));
   const bool own_range = !trial.co_contraction.empty();
   script.mean.co_contraction =
       random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,

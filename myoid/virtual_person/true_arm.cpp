@@ -39,7 +39,7 @@ struct MuscleDraw {
 };
 
 /// Returns the strain at which the passive force is F_max.
-double set_curves(const TruthSpec& spec, simulation::Random& random, TrueArm& arm) {
+double set_curves(const TruthSpec& spec, math::Random& random, TrueArm& arm) {
   const bool coin = random.uniform() < 0.5;
   const double eccentric = random.uniform(1.3, 1.5);
   const double passive_strain = random.uniform(kLeastPassiveStrain, kMostPassiveStrain);
@@ -53,9 +53,7 @@ double set_curves(const TruthSpec& spec, simulation::Random& random, TrueArm& ar
 
 }  // namespace
 
-TrueArm draw_true_arm(const TruthSpec& spec,
-                      const VirtualSubject& subject,
-                      simulation::Random& random) {
+TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math::Random& random) {
   const auto z = [&] { return spec.spread * bounded_normal(random); };
   const model::ArmOptions options = arm_options(subject);
   TrueArm arm;

@@ -4,11 +4,11 @@
 #include <string_view>
 
 #include "myoid/arm/planar_elbow.h"
+#include "myoid/math/random.h"
 #include "myoid/muscle/activation.h"
 #include "myoid/muscle/fatigue.h"
 #include "myoid/muscle/joint_passive.h"
 #include "myoid/muscle/musculotendon.h"
-#include "myoid/simulation/random.h"
 #include "myoid/virtual_person/control.h"
 #include "myoid/virtual_person/protocol.h"
 
@@ -55,7 +55,7 @@ struct TrueArm {
 /// to 1.5.
 [[nodiscard]] TrueArm draw_true_arm(const TruthSpec& spec,
                                     const VirtualSubject& subject,
-                                    simulation::Random& random);
+                                    math::Random& random);
 
 /// Returns the torque that the motion requires of muscles, passive joint and dynamometer together
 /// [N m].

@@ -13,7 +13,7 @@ namespace myoid::twin {
 namespace {
 
 TrueArm drawn_from(const TruthSpec& spec, std::uint64_t seed) {
-  simulation::Random random(seed);
+  math::Random random(seed);
   return draw_true_arm(spec, VirtualSubject{}, random);
 }
 
