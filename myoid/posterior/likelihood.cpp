@@ -80,6 +80,7 @@ Likelihood::Likelihood(const StudyData& data,
       runs_(trial_runs(data, options, map_)),
       given_(runs_.size()),
       columns_(runs_.size()),
+      by_slope_(runs_.size()),
       recorded_(session != nullptr ? *session
                                    : identification::recorded(runs_, map_.held().muscles)) {
   for (const TrialRun& run : runs_) {
@@ -120,10 +121,12 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
   for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
-  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at);
+  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at,
+                              steps_from(z, map_, options_.lag, runs_));
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
+    by_slope_[r] = reduction.apply(unseen_.by_slope[r]);
     const Eigen::Index rows = runs_[r].measured_nm.size(), m = reduction.outputs();
     given_[r].setZero(rows, rows);
     for (std::size_t j = 0; j < runs_[r].joints.size(); ++j)
@@ -226,6 +229,7 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
 }
 
 bool Likelihood::fill(std::size_t r,
+                      const Eigen::VectorXd& z,
                       const Eigen::VectorXd& weights,
                       const NoiseValues& noise,
                       Block& block) const {
@@ -240,7 +244,13 @@ bool Likelihood::fill(std::size_t r,
   if (weight < 1.0) block.factor.compute(a / weight);
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
   block.solved = block.factor.solve(residual);
-  block.unseen = columns_[r] * weights.asDiagonal();
+  block.unseen = columns_[r];
+  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
+    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
+    block.unseen.col(quantity) += reach * std::tanh((z[unknown] - reference_[unknown]) / reach) *
+                                  by_slope_[r].col(static_cast<Eigen::Index>(s));
+  }
+  block.unseen = (block.unseen * weights.asDiagonal()).eval();
   block.unseen_half = block.factor.matrixL().solve(block.unseen);
   block.projected = block.unseen.transpose() * block.solved;
   block.gram.setZero(weights.size(), weights.size());
@@ -251,8 +261,7 @@ bool Likelihood::fill(std::size_t r,
 
 void Likelihood::pull_back(std::size_t r,
                            const NoiseValues& noise,
-                           const Eigen::VectorXd& shared,
-                           const Eigen::LLT<Eigen::MatrixXd>& gram,
+                           const AllRuns& all,
                            const Block& block,
                            Gradient& gradient) const {
   const TrialRun& run = runs_[r];
@@ -263,8 +272,8 @@ void Likelihood::pull_back(std::size_t r,
   // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2. A block's A is that of the
   // measurement over the rows' weight, by which the determinant's A^-1 is multiplied.
   const Eigen::VectorXd w =
-      block.solved - block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * shared));
-  const Eigen::MatrixXd v = gram.matrixL().solve(block.unseen_half.transpose());  // V'
+      block.solved - block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * all.shared));
+  const Eigen::MatrixXd v = all.gram.matrixL().solve(block.unseen_half.transpose());  // V'
   Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
   half.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose(), -1.0);
   half.triangularView<Eigen::StrictlyUpper>() = half.transpose();
@@ -307,6 +316,18 @@ void Likelihood::pull_back(std::size_t r,
 
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);
+  // By L S W the gradient is Sigma^-1 r x' of the quadratic form and -A^-1 L S W G^-1 of ln |G|.
+  const Eigen::MatrixXd half_left = all.gram.matrixU().solve(v).transpose();  // C^-1 L S W G^-1
+  const Eigen::MatrixXd by_unseen =
+      w * all.shared.transpose() - Eigen::MatrixXd(block.factor.matrixU().solve(half_left));
+  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
+    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
+    const double near =
+        1.0 / std::pow(std::cosh((all.z[unknown] - reference_[unknown]) / reach), 2);
+    gradient.by_z[unknown] +=
+        near * all.weights[quantity] *
+        by_slope_[r].col(static_cast<Eigen::Index>(s)).dot(by_unseen.col(quantity));
+  }
 }
 
 double Likelihood::value(const Eigen::VectorXd& z,
@@ -315,7 +336,7 @@ double Likelihood::value(const Eigen::VectorXd& z,
   std::vector<ParameterMap::Chain> chains;
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
-  const Eigen::VectorXd w = weights(noise);
+  AllRuns all{.z = z, .weights = weights(noise), .shared = {}, .gram = {}};
   const auto each_run = [&](const auto& one) {
     parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
       for (std::size_t r = range.begin(); r < range.end(); ++r) one(r);
@@ -326,10 +347,10 @@ double Likelihood::value(const Eigen::VectorXd& z,
     Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
                                                        gradient != nullptr ? &by_owner : nullptr);
-    block.positive = fill(r, w, noise, block);
+    block.positive = fill(r, z, all.weights, noise, block);
   });
   constexpr double kNever = -std::numeric_limits<double>::infinity();
-  const Eigen::Index quantities = w.size();
+  const Eigen::Index quantities = all.weights.size();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(quantities, quantities);
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(quantities);
   double result = 0.0;
@@ -341,18 +362,19 @@ double Likelihood::value(const Eigen::VectorXd& z,
   }
   const Eigen::VectorXd factors = grown(z);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
-  const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram),
-      factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());  // lower halves
-  if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
+  all.gram.compute(identity + gram);  // lower halves
+  const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram *
+                                                                factors.asDiagonal());
+  if (all.gram.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
   const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
-  const Eigen::VectorXd shared = factors.cwiseProduct(expected);
-  result += 0.5 * (projected.dot(shared) - log_determinant(factor));
+  all.shared = factors.cwiseProduct(expected);
+  result += 0.5 * (projected.dot(all.shared) - log_determinant(all.gram));
   if (gradient == nullptr || !std::isfinite(result)) return result;
   std::vector<Gradient> parts(runs_.size());
-  each_run([&](std::size_t r) { pull_back(r, noise, shared, factor, blocks[r], parts[r]); });
+  each_run([&](std::size_t r) { pull_back(r, noise, all, blocks[r], parts[r]); });
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
-  const Eigen::VectorXd left = factor.solve(identity).diagonal();  // variances of x, given r
+  const Eigen::VectorXd left = all.gram.solve(identity).diagonal();  // variances of x, given r
   for (Eigen::Index i = 0; i < quantities; ++i) {
     if (unseen_.quantities[static_cast<std::size_t>(i)].of_the_model)
       gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - left[i]);

@@ -20,7 +20,8 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// W x, and the operator L of each run acts on all of these terms,
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
-///   S = S_ref exp(growth (z - z_ref)) in the first term, S_ref in the second,
+///   S = S_z exp(growth (z - z_ref)) in the first term, S_z in the second,
+///   S_z = S_ref + dS/dz (z - z_ref)  (Unseen::slopes),
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
@@ -30,11 +31,11 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 /// (kLeastTorqueError): a torque that never changes would be infinitely exact otherwise. The noise
 /// of an envelope and the error of an angle act on all joints that the muscle crosses. A is one
 /// block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity
-/// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). S and Q
-/// belong to reference values of the unknowns; in the quadratic form alone the columns that
-/// multiply F_max grow with it (Unseen::growth), because a determinant that followed would prefer
-/// muscles whose errors are small. The errors of angle and rate in Q are independent from sample to
-/// sample. The constant -n/2 ln(2 pi) is left out.
+/// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). Q and the
+/// size of S belong to reference values of the unknowns; in the quadratic form alone the columns
+/// that multiply F_max grow with it (Unseen::growth), because a determinant that followed would
+/// prefer muscles whose errors are small. The errors of angle and rate in Q are independent from
+/// sample to sample. The constant -n/2 ln(2 pi) is left out.
 ///
 /// Errors are not independent where a movement is repeated: the drive repeats with the movement,
 /// and so does the error of the model. Of a trial's n rows per joint at most a count: the density
@@ -52,7 +53,7 @@ class Likelihood {
              const EstimatorOptions& options,
              const Recorded* session = nullptr);
 
-  /// Computes S and Q at the reference values z.
+  /// Computes S, its slopes and Q at the reference values z.
   void refer_to(const Eigen::VectorXd& z);
   /// Leaves the quantities that are taken to be exact out of S; none is by default.
   void believe(Believed believed) { believed_ = believed; }
@@ -131,6 +132,7 @@ class Likelihood {
   [[nodiscard]] Residuals residuals(const Eigen::VectorXd& z) const;
 
  private:
+  struct AllRuns;
   struct Block;
   struct Point;
   /// Computes the weight of each run's rows.
@@ -147,13 +149,13 @@ class Likelihood {
                                                     const NoiseValues& noise) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run,
+                          const Eigen::VectorXd& z,
                           const Eigen::VectorXd& weights,
                           const NoiseValues& noise,
                           Block& block) const;
   void pull_back(std::size_t run,
                  const NoiseValues& noise,
-                 const Eigen::VectorXd& shared,
-                 const Eigen::LLT<Eigen::MatrixXd>& gram,
+                 const AllRuns& all,
                  const Block& block,
                  Gradient& gradient) const;
   /// Returns Q_ij of the joints with these first rows, one entry per sample, n.
@@ -180,7 +182,8 @@ class Likelihood {
   Eigen::VectorXd reference_;       ///< z_ref
   Unseen unseen_;
   Believed believed_ = Believed::nothing_exact;
-  std::vector<Eigen::MatrixXd> columns_;  ///< Per run: L S.
+  std::vector<Eigen::MatrixXd> columns_;   ///< Per run: L S_ref.
+  std::vector<Eigen::MatrixXd> by_slope_;  ///< Per run: L dS/dz, by Unseen::slopes.
   Eigen::Index rows_ = 0;
   Recorded recorded_;
 };

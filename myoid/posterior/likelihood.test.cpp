@@ -274,7 +274,13 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
     sigma.block(first, first, m, m) /= weight;
     counted_twice += log_determinant();
     residual.segment(first, m) = run.measured_nm - l * written.torque;
-    shapes.middleRows(first, m) = l * likelihood.unseen().columns[r];
+    Eigen::MatrixXd turned = likelihood.unseen().columns[r];
+    for (std::size_t s = 0; s < likelihood.unseen().slopes.size(); ++s) {
+      const auto& [quantity, unknown, reach] = likelihood.unseen().slopes[s];
+      turned.col(quantity) += reach * std::tanh((z[unknown] - reference[unknown]) / reach) *
+                              likelihood.unseen().by_slope[r].col(static_cast<Eigen::Index>(s));
+    }
+    shapes.middleRows(first, m) = l * turned;
     first += m;
   }
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {

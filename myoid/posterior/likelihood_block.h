@@ -32,4 +32,12 @@ struct Likelihood::Block {
   bool positive = false;
 };
 
+/// Quantities of all runs together, at one point.
+struct Likelihood::AllRuns {
+  const Eigen::VectorXd& z;
+  Eigen::VectorXd weights;           ///< W
+  Eigen::VectorXd shared;            ///< The unseen quantities' expectation, times their growth.
+  Eigen::LLT<Eigen::MatrixXd> gram;  ///< Of G = 1 + W S' L' A^-1 L S W.
+};
+
 }  // namespace myoid::identification

@@ -23,7 +23,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
     Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, w, noise, block)) return result;
+    if (!fill(r, z, w, noise, block)) return result;
     solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
     gram += block.gram;
     cross += block.unseen.transpose() * solved[r];
@@ -62,7 +62,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
     Block block;
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, w, noise, block)) continue;
+    if (!fill(r, z, w, noise, block)) continue;
     Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
     both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
     found.back() += both.transpose() * block.factor.solve(both);
@@ -81,7 +81,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
     Block block;
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, w, noise, block)) continue;
+    if (!fill(r, z, w, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
     cross += block.unseen.transpose() *

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/core/parallel.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/intervals/held_tendon.h"
 
@@ -18,6 +19,8 @@ constexpr double kLeastActivation = 0.02;  // least activation whose logarithm i
 constexpr double kNoneActs = 1e-4;         // least activation that force is divided by
 constexpr double kLeastSpan = 0.5;         // of l0: the range of lengths of a muscle that is held
 constexpr double kLeastSpeed = 0.1;        // of v_max, likewise
+constexpr double kSlopeReach = 0.1;        // of the range of an unknown without a prior
+constexpr double kStep = 1e-5;             // of an unknown's range: a difference for a derivative
 
 bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
   return std::any_of(map.free().begin(), map.free().end(),
@@ -33,7 +36,8 @@ class Collector {
             const Recorded& recorded,
             const std::vector<TrialRun>& runs,
             const ModelValues& values,
-            const std::vector<RunEvaluation>& at)
+            const std::vector<RunEvaluation>& at,
+            const std::vector<Stepped>& steps)
       : data_(data),
         spreads_(spreads),
         map_(map),
@@ -41,7 +45,9 @@ class Collector {
         runs_(runs),
         values_(values),
         at_(at),
-        columns_(runs.size()) {}
+        steps_(steps),
+        columns_(runs.size()),
+        by_slope_(runs.size()) {}
 
   void add_geometry(std::size_t k, bool priors) {
     for (int joint = 0; joint < recorded_.parts.joint_count(); ++joint) {
@@ -128,6 +134,13 @@ class Collector {
           mean += columns[lag] / static_cast<double>(shared.size());
         for (const std::size_t lag : shared) columns[lag] -= mean;
       }
+      // Of the mean's own change the muscle's part alone counts.
+      const double kept = 1.0 - 1.0 / static_cast<double>(shared.size());
+      for (std::size_t s = 0; s < slopes_.size(); ++s) {
+        const auto quantity = static_cast<std::size_t>(slopes_[s].quantity);
+        if (std::find(shared.begin(), shared.end(), quantity) == shared.end()) continue;
+        for (auto& of_run : by_slope_) of_run[s] *= kept;
+      }
     }
   }
 
@@ -154,7 +167,7 @@ class Collector {
   }
 
   Unseen take() {
-    Unseen unseen{std::move(quantities_), {}, {}};
+    Unseen unseen{std::move(quantities_), {}, std::move(slopes_), {}, {}};
     unseen.growth.setZero(static_cast<Eigen::Index>(unseen.quantities.size()), map_.size());
     for (Eigen::Index i = 0; i < unseen.growth.rows(); ++i) {
       const std::vector<std::size_t>& muscles =
@@ -167,10 +180,9 @@ class Collector {
         }
       }
     }
-    for (const auto& columns : columns_) {
-      Eigen::MatrixXd& s = unseen.columns.emplace_back(columns.front().size(), columns.size());
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        s.col(static_cast<Eigen::Index>(i)) = columns[i].matrix();
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      unseen.columns.push_back(joined(columns_[r], runs_[r].row_count()));
+      unseen.by_slope.push_back(joined(by_slope_[r], runs_[r].row_count()));
     }
     return unseen;
   }
@@ -184,6 +196,13 @@ class Collector {
     int joint;
     Eigen::ArrayXd torque, by_length, by_velocity, length, velocity;
   };
+
+  static Eigen::MatrixXd joined(const std::vector<Eigen::ArrayXd>& columns, Eigen::Index rows) {
+    Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      all.col(static_cast<Eigen::Index>(i)) = columns[i].matrix();
+    return all;
+  }
 
   static Eigen::ArrayXd activation_of(const RunEvaluation& at, std::size_t channel) {
     const std::vector<Activation>& a = at.activations()[channel];
@@ -257,25 +276,75 @@ class Collector {
 
   void multiplies_strength_of(std::size_t k) { quantities_.back().strength_of.push_back(k); }
 
+  /// Returns the part of the present quantity's column in one run that the k-th muscle makes.
+  template <typename Fill>
+  [[nodiscard]] Eigen::ArrayXd part_of(std::size_t k,
+                                       const TrialRun& run,
+                                       const RunEvaluation& at,
+                                       const Fill& fill) const {
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::Index n = run.time_s.size();
+    const MuscleRows& rows = at.muscle(k);
+    Eigen::ArrayXd part = Eigen::ArrayXd::Zero(run.row_count());
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      const auto arm = run.arm_m.col(column).segment(run.first_row(j), n).array();
+      const OfMuscle of{run,
+                        at,
+                        run.joints[j],
+                        arm * rows.force_n.array(),
+                        arm * rows.by_length.array(),
+                        arm * rows.by_velocity.array(),
+                        run.length_m.col(column).array(),
+                        run.velocity_mps.col(column).array()};
+      fill(of, Eigen::Ref<Eigen::ArrayXd>(part.segment(run.first_row(j), n)));
+    }
+    return part;
+  }
+
+  /// Returns the index of the unknown of a muscle's field; -1: the field is held.
+  [[nodiscard]] Eigen::Index unknown_of(std::size_t k, int field) const {
+    for (std::size_t j = 0; j < map_.free().size(); ++j)
+      if (map_.free()[j].is(Scope::muscle, field) && map_.free()[j].acts_on(static_cast<int>(k)))
+        return static_cast<Eigen::Index>(j);
+    return -1;
+  }
+
+  /// Returns the place of the present quantity's slope by the unknown, made where it is missing.
+  std::size_t slope_of(Eigen::Index unknown) {
+    const auto quantity = static_cast<Eigen::Index>(quantities_.size()) - 1;
+    for (std::size_t s = slopes_.size(); s > 0 && slopes_[s - 1].quantity == quantity; --s)
+      if (slopes_[s - 1].unknown == unknown) return s - 1;
+    const Unknown& of = map_.free()[static_cast<std::size_t>(unknown)];
+    slopes_.push_back(
+        {quantity, unknown,
+         of.prior.sd > 0.0 ? of.prior.sd : kSlopeReach * (of.bounds.upper - of.bounds.lower)});
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      by_slope_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
+    return slopes_.size() - 1;
+  }
+
   template <typename Fill>
   void for_runs(std::size_t k, const Fill& fill) {
-    const auto column = static_cast<Eigen::Index>(k);
+    std::vector<Eigen::ArrayXd> parts;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const TrialRun& run = runs_[r];
-      const Eigen::Index n = run.time_s.size();
-      const MuscleRows& rows = at_[r].muscle(k);
-      for (std::size_t j = 0; j < run.joints.size(); ++j) {
-        const auto arm = run.arm_m.col(column).segment(run.first_row(j), n).array();
-        const OfMuscle of{run,
-                          at_[r],
-                          run.joints[j],
-                          arm * rows.force_n.array(),
-                          arm * rows.by_length.array(),
-                          arm * rows.by_velocity.array(),
-                          run.length_m.col(column).array(),
-                          run.velocity_mps.col(column).array()};
-        fill(of, Eigen::Ref<Eigen::ArrayXd>(columns_[r].back().segment(run.first_row(j), n)));
+      parts.push_back(part_of(k, runs_[r], at_[r], fill));
+      columns_[r].back() += parts[r];
+    }
+    for (const Stepped& step : steps_) {
+      const Eigen::Index unknown = unknown_of(k, step.field);
+      if (unknown < 0) continue;
+      std::vector<Eigen::ArrayXd> by_unknown;
+      double along = 0.0, size = 0.0;
+      for (std::size_t r = 0; r < runs_.size(); ++r) {
+        by_unknown.push_back((part_of(k, runs_[r], step.at[r], fill) - parts[r]) /
+                             step.step[unknown]);
+        along += (parts[r] * by_unknown[r]).sum();
+        size += parts[r].square().sum();
       }
+      if (!(size > 0.0)) continue;
+      const std::size_t s = slope_of(unknown);
+      for (std::size_t r = 0; r < runs_.size(); ++r)
+        by_slope_[r][s] += by_unknown[r] - along / size * parts[r];
     }
   }
 
@@ -305,9 +374,12 @@ class Collector {
   const std::vector<TrialRun>& runs_;
   const ModelValues& values_;
   const std::vector<RunEvaluation>& at_;
+  const std::vector<Stepped>& steps_;
   std::vector<UnseenQuantity> quantities_;
   std::vector<std::size_t> lags_;                     ///< Per muscle: index of its lag's quantity.
   std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
+  std::vector<Unseen::Slope> slopes_;
+  std::vector<std::vector<Eigen::ArrayXd>> by_slope_;  ///< Per run, one for each slope.
 };
 
 }  // namespace
@@ -385,14 +457,38 @@ Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleVal
   return found;
 }
 
+std::vector<Stepped> steps_from(const Eigen::VectorXd& z,
+                                const ParameterMap& map,
+                                EmgLag lag,
+                                const std::vector<TrialRun>& runs) {
+  std::vector<Stepped> steps;
+  for (std::size_t j = 0; j < map.free().size(); ++j) {
+    const Unknown& of = map.free()[j];
+    if (of.field->scope != Scope::muscle || of.field->field == kMaxForce) continue;
+    auto at = std::find_if(steps.begin(), steps.end(),
+                           [&](const Stepped& s) { return s.field == of.field->field; });
+    if (at == steps.end())
+      at = steps.insert(at, {of.field->field, Eigen::VectorXd::Zero(z.size()), {}});
+    at->step[static_cast<Eigen::Index>(j)] = kStep * (of.bounds.upper - of.bounds.lower);
+  }
+  parallel_ranges(steps.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t s = range.begin(); s < range.end(); ++s) {
+      const ModelValues values = map.values(z + steps[s].step);
+      for (const TrialRun& run : runs) steps[s].at.emplace_back(run, map, lag, values, nullptr);
+    }
+  });
+  return steps;
+}
+
 Unseen unseen_quantities(const StudyData& data,
                          const EstimatorOptions& options,
                          const ParameterMap& map,
                          const Recorded& recorded,
                          const std::vector<TrialRun>& runs,
                          const ModelValues& values,
-                         const std::vector<RunEvaluation>& at) {
-  Collector collector(data, options.unseen, map, recorded, runs, values, at);
+                         const std::vector<RunEvaluation>& at,
+                         const std::vector<Stepped>& steps) {
+  Collector collector(data, options.unseen, map, recorded, runs, values, at, steps);
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);

@@ -40,12 +40,15 @@ struct AtStart {
   }
 
   Unseen unseen() const { return unseen(recorded(runs, map.held().muscles)); }
-  Unseen unseen(const Recorded& of_session) const {
-    const ModelValues values = map.values(map.start());
+  Unseen unseen(const Recorded& of_session) const { return unseen(of_session, map.start(), {}); }
+  Unseen unseen(const Recorded& of_session,
+                const Eigen::VectorXd& z,
+                const std::vector<Stepped>& steps) const {
+    const ModelValues values = map.values(z);
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
     for (const TrialRun& run : runs) at.emplace_back(run, map, EmgLag::delay, values, nullptr);
-    return unseen_quantities(data, options, map, of_session, runs, values, at);
+    return unseen_quantities(data, options, map, of_session, runs, values, at, steps);
   }
 
   /// The column of S of this name, all runs one after the other.
@@ -309,6 +312,59 @@ TEST(Unseen, WhatTheModelErrsByIsMarked) {
     EXPECT_TRUE(!q.of_the_model || q.source == Source::model) << q.name;
     EXPECT_GT(q.weight, 0.0) << q.name;
   }
+}
+
+/// A column of S or of its slopes, all runs one after the other.
+Eigen::VectorXd joined(const std::vector<Eigen::MatrixXd>& runs, Eigen::Index column) {
+  Eigen::VectorXd all(0);
+  for (const Eigen::MatrixXd& run : runs) {
+    all.conservativeResize(all.size() + run.rows());
+    all.tail(run.rows()) = run.col(column);
+  }
+  return all;
+}
+
+TEST(Unseen, ColumnsTurnWithTheNumbersOfTheirMuscleAndKeepTheirSize) {
+  const AtStart at(elbow_study({.trials = 2, .seconds = 6.0, .with_priors = true}).data);
+  const Recorded session = recorded(at.runs, at.map.held().muscles);
+  const Eigen::VectorXd z = at.map.start();
+  const Unseen all = at.unseen(session, z, steps_from(z, at.map, EmgLag::delay, at.runs));
+  EXPECT_TRUE(at.unseen().slopes.empty());
+  std::size_t turning = 0;
+  for (std::size_t j = 0; j < at.map.free().size(); ++j) {
+    const Unknown& of = at.map.free()[j];
+    const double h = 1e-5 * (of.bounds.upper - of.bounds.lower);
+    const Eigen::VectorXd off = h * Eigen::VectorXd::Unit(z.size(), static_cast<Eigen::Index>(j));
+    const Unseen above = at.unseen(session, z + off, {}), below = at.unseen(session, z - off, {});
+    for (std::size_t i = 0; i < all.quantities.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const auto slope = std::find_if(all.slopes.begin(), all.slopes.end(), [&](const auto& s) {
+        return s.quantity == column && s.unknown == static_cast<Eigen::Index>(j);
+      });
+      const std::string& name = all.quantities[i].name;
+      // The torque of all muscles keeps its shape. The lags have their mean taken away.
+      if (of.field->scope != Scope::muscle || of.field->field == kMaxForce ||
+          name == "torque_scale") {
+        EXPECT_EQ(slope, all.slopes.end()) << of.label << " " << name;
+        continue;
+      }
+      if (name.find("error_lag") != std::string::npos) continue;
+      const Eigen::VectorXd c = joined(all.columns, column);
+      Eigen::VectorXd turned =
+          (joined(above.columns, column) - joined(below.columns, column)) / (2.0 * h);
+      if (slope == all.slopes.end()) {
+        EXPECT_LT(turned.norm(), 1e-9) << of.label << " " << name;
+        continue;
+      }
+      turned -= c * c.dot(turned) / c.squaredNorm();
+      const Eigen::VectorXd found = joined(all.by_slope, slope - all.slopes.begin());
+      EXPECT_LT((found - turned).norm(), 1e-3 * (turned.norm() + c.norm()))
+          << of.label << " " << name;
+      EXPECT_LT(std::abs(found.dot(c)), 1e-9 * (1.0 + found.norm() * c.norm()));
+      turning += found.norm() > 0.1 * c.norm();
+    }
+  }
+  EXPECT_GT(turning, 20U);
 }
 
 }  // namespace

@@ -65,11 +65,11 @@ class Run:
     """One run, and all of it that no unknown changes."""
 
     def __init__(self, given):
-        for key in ("time", "length", "velocity", "arm", "measured", "sd", "unseen"):
+        for key in ("time", "length", "velocity", "arm", "measured", "sd", "unseen", "by_slope"):
             setattr(self, key, np.array(given[key]))
         self.trial = given["trial"]
         low = self.low = low_pass({**given, "time": self.time})
-        self.seen = low @ self.unseen
+        self.seen, self.turning = low @ self.unseen, low @ self.by_slope
         n, m = len(self.time), len(self.measured)
         self.drive = [CubicSpline(e["time"], e["value"]) for e in given["envelopes"]]
         self.ends = [(e["time"][0], e["time"][-1]) for e in given["envelopes"]]
@@ -102,6 +102,8 @@ class Posterior:
         self.weight, self.of_model = np.array(dump["weight"]), np.array(dump["of_the_model"]) > 0.5
         self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])
         self.torque_size = dump["torque_size"]
+        slopes = np.array(dump["slopes"]).reshape(-1, 3)
+        self.turned, self.turns_with, self.reach = slopes[:, 0].astype(int), slopes[:, 1].astype(int), slopes[:, 2]
         self.runs = [Run(given) for given in dump["runs"]]
         for run in self.runs:  # of a trial's rows, so many count
             rows = sum(len(other.measured) for other in self.runs if other.trial == run.trial)
@@ -155,6 +157,7 @@ class Posterior:
         width = self.weight * np.where(self.of_model, np.exp(noise[:, MODEL])[:, None], 1.0)
         gram = np.zeros((len(x), len(self.weight), len(self.weight)))
         seen = np.zeros((len(x), len(self.weight)))
+        turn = self.reach * np.tanh((z - self.reference)[:, self.turns_with] / self.reach)
         for run in self.runs:
             torque = self.torques(run, z)
             m = len(run.measured)
@@ -166,7 +169,9 @@ class Posterior:
             root, worse = cholesky(a.reshape(-1, m, m) + (0.002 * self.torque_size) ** 2 * np.eye(m))
             far |= worse
             r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
-            right = np.concatenate([r[:, :, None], run.seen[None] * width[:, None, :]], axis=2)
+            columns = np.repeat(run.seen[None], len(x), axis=0)
+            np.add.at(columns, (slice(None), slice(None), self.turned), turn[:, None, :] * run.turning)
+            right = np.concatenate([r[:, :, None], columns * width[:, None, :]], axis=2)
             both = np.linalg.solve(root, right) * np.sqrt(run.weight)
             result -= 0.5 * (both[:, :, 0] ** 2).sum(axis=1)
             result -= run.weight * np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)

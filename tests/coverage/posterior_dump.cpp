@@ -32,13 +32,15 @@ std::string json(const Eigen::MatrixXd& m) {
   return text + "]";
 }
 
-void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen) {
+void write_run(const TrialRun& run,
+               const Eigen::MatrixXd& unseen,
+               const Eigen::MatrixXd& by_slope) {
   fmt::print(
       "{{\"time\":{},\"length\":{},\"velocity\":{},\"arm\":{},\"measured\":{},\"sd\":{},"
-      "\"unseen\":{},\"trial\":{},\"first\":{},\"stride\":{},\"envelopes\":[",
+      "\"unseen\":{},\"by_slope\":{},\"trial\":{},\"first\":{},\"stride\":{},\"envelopes\":[",
       json(run.time_s), json(run.length_m), json(run.velocity_mps), json(run.arm_m),
-      json(run.measured_nm), json(run.envelope_sd), json(unseen), run.trial, run.reduction.first(0),
-      run.reduction.stride());
+      json(run.measured_nm), json(run.envelope_sd), json(unseen), json(by_slope), run.trial,
+      run.reduction.first(0), run.reduction.stride());
   for (std::size_t c = 0; c < run.envelopes.size(); ++c)
     fmt::print("{}{{\"time\":{},\"value\":{},\"share\":{:.17g},\"filter\":{}}}", c ? "," : "",
                json(run.envelopes[c].time_s()), json(run.envelopes[c].samples()),
@@ -86,14 +88,20 @@ void write(std::uint64_t seed, int draws) {
     weight[i] = unseen.quantities[static_cast<std::size_t>(i)].weight;
     model[i] = unseen.quantities[static_cast<std::size_t>(i)].of_the_model ? 1.0 : 0.0;
   }
+  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(unseen.slopes.size()), 3);
+  for (Eigen::Index s = 0; s < slopes.rows(); ++s) {
+    const Unseen::Slope& of = unseen.slopes[static_cast<std::size_t>(s)];
+    slopes.row(s) << static_cast<double>(of.quantity), static_cast<double>(of.unknown), of.reach;
+  }
   fmt::print(
-      "],\"weight\":{},\"of_the_model\":{},\"growth\":{},\"reference\":{},\"torque_size\":{:.17g},"
+      "],\"weight\":{},\"of_the_model\":{},\"growth\":{},\"slopes\":{},\"reference\":{},"
+      "\"torque_size\":{:.17g},"
       "\"runs\":[",
-      json(weight), json(model), json(unseen.growth), json(likelihood.reference()),
+      json(weight), json(model), json(unseen.growth), json(slopes), json(likelihood.reference()),
       likelihood.torque_size_nm());
   for (std::size_t r = 0; r < likelihood.runs().size(); ++r) {
     fmt::print("{}", r ? "," : "");
-    write_run(likelihood.runs()[r], unseen.columns[r]);
+    write_run(likelihood.runs()[r], unseen.columns[r], unseen.by_slope[r]);
   }
   const Sample& sample = explored.sample;
   Eigen::MatrixXd values(sample.z.rows() + sample.noise.rows(), sample.z.cols());
