@@ -274,16 +274,21 @@ void say_least_squares(const StudyResult& result, const IdentificationResult& to
                           : ""));
 }
 
-void say_posterior(const IdentificationResult& torque, Writer& out) {
+void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque, Writer& out) {
   out.say(fmt::format(
       "All parameters were estimated from {} samples of the torque as the mean of their posterior "
       "density about its mode, with prior distributions from the literature, integrated over "
       "errors of moment arms, tendons, the scale of the torque, cross-talk and electrode drift. "
       "Repetitions of a movement repeat its errors: the samples count as {:.0f} independent ones "
-      "(a "
-      "coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 % "
-      "intervals are those of Laplace's approximation of the posterior.",
-      torque.samples_used, torque.effective_samples));
+      "(a coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 % "
+      "intervals are {}.",
+      torque.samples_used, torque.effective_samples,
+      spec.posterior_draws > 0
+          ? fmt::format("those of {} draws by Hamiltonian Monte Carlo", spec.posterior_draws)
+          : "those of the posterior's marginal densities, which follow the density to two standard "
+            "deviations about the mode and include the volume of the other parameters (a "
+            "simplified Laplace approximation; Rue, Martino and Chopin, J. R. Stat. Soc. B 71, "
+            "319, 2009)"));
 }
 
 void say_fit(const StudyResult& result, Writer& out) {
@@ -291,7 +296,7 @@ void say_fit(const StudyResult& result, Writer& out) {
   const IdentificationResult* torque = method_named(result, "torque");
   if (torque != nullptr) {
     if (spec.estimator == EstimatorKind::posterior)
-      say_posterior(*torque, out);
+      say_posterior(spec, *torque, out);
     else
       say_least_squares(result, *torque, out);
     out.say(
