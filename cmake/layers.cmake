@@ -31,7 +31,7 @@ set(MYOID_LAYER_study core math files muscle recording model osim arm kinematics
 set(MYOID_LAYER_intake core files tables recording signals model osim kinematics dynamics study)
 set(MYOID_LAYER_checks core math files tables recording signals model kinematics dynamics study
     intake)
-set(MYOID_LAYER_design core math muscle arm kinematics dynamics simulation beliefs identification
+set(MYOID_LAYER_design core math muscle arm kinematics dynamics beliefs identification
     intervals posterior methods report study)
 set(MYOID_LAYER_run core math files tables signals model kinematics dynamics forces beliefs
     identification intervals methods report phases study intake checks design)
@@ -44,9 +44,9 @@ set(MYOID_LAYER_identify_files core math files muscle tables recording signals d
     identification methods checks)
 set(MYOID_LAYER_opensim_tools core math files tables recording signals model osim kinematics
     dynamics forces simulation)
-set(MYOID_LAYER_virtual_person core math files muscle model osim arm simulation beliefs
+set(MYOID_LAYER_virtual_person core math files muscle model osim arm beliefs
     identification study)
-set(MYOID_LAYER_twin core math files muscle tables c3d arm simulation intervals study run
+set(MYOID_LAYER_twin core math files muscle tables c3d arm intervals study run
     virtual_person)
 set(MYOID_LAYER_cohort core math files tables recording report study results)
 set(MYOID_LAYER_realtime core files identification kinematics model muscle study)

@@ -316,6 +316,15 @@ void Likelihood::pull_back(std::size_t r,
 
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);
+  add_gradient_of_columns(r, all, w, v, block, gradient.by_z);
+}
+
+void Likelihood::add_gradient_of_columns(std::size_t r,
+                                         const AllRuns& all,
+                                         const Eigen::VectorXd& w,
+                                         const Eigen::MatrixXd& v,
+                                         const Block& block,
+                                         Eigen::VectorXd& by_z) const {
   // By L S W the gradient is Sigma^-1 r x' of the quadratic form and -A^-1 L S W G^-1 of ln |G|.
   const Eigen::MatrixXd half_left = all.gram.matrixU().solve(v).transpose();  // C^-1 L S W G^-1
   const Eigen::MatrixXd by_unseen =
@@ -324,9 +333,8 @@ void Likelihood::pull_back(std::size_t r,
     const auto& [quantity, unknown, reach] = unseen_.slopes[s];
     const double near =
         1.0 / std::pow(std::cosh((all.z[unknown] - reference_[unknown]) / reach), 2);
-    gradient.by_z[unknown] +=
-        near * all.weights[quantity] *
-        by_slope_[r].col(static_cast<Eigen::Index>(s)).dot(by_unseen.col(quantity));
+    by_z[unknown] += near * all.weights[quantity] *
+                     by_slope_[r].col(static_cast<Eigen::Index>(s)).dot(by_unseen.col(quantity));
   }
 }
 

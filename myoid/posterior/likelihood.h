@@ -158,6 +158,14 @@ class Likelihood {
                  const AllRuns& all,
                  const Block& block,
                  Gradient& gradient) const;
+  /// Adds the gradient by which the columns of S turn (Unseen::slopes). `w` is Sigma^-1 r, `v` is
+  /// V' of pull_back.
+  void add_gradient_of_columns(std::size_t run,
+                               const AllRuns& all,
+                               const Eigen::VectorXd& w,
+                               const Eigen::MatrixXd& v,
+                               const Block& block,
+                               Eigen::VectorXd& by_z) const;
   /// Returns Q_ij of the joints with these first rows, one entry per sample, n.
   [[nodiscard]] Eigen::VectorXd motion_variance(const TrialRun& run,
                                                 const RunEvaluation& at,

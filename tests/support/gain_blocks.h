@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "myoid/math/random.h"
@@ -15,8 +16,8 @@ struct GainPart {
   double slope = 0.0;  ///< Of the gain, per cent of it per block.
   double speed = 2.0;
 };
-inline std::vector<Block> gain_blocks(const std::vector<GainPart>& parts) {
-  math::Random random(4, 0);
+inline std::vector<Block> gain_blocks(const std::vector<GainPart>& parts, std::uint64_t seed = 4) {
+  math::Random random(seed, 0);
   std::vector<Block> result;
   for (const GainPart& part : parts) {
     for (int i = 0; i < part.count; ++i) {
