@@ -204,8 +204,8 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
   if (std::string(GetParam()) == "least_squares") {
     EXPECT_LT(sure_high - sure_low, 0.6 * (high - low));
   }
-  // 1 mm hardly shows beside what the recording leaves open. The posterior's approximation knows the
-  // far end of so wide an interval to a fifth only; by its sampler both widths agree to 2 %.
+  // 1 mm hardly shows beside what the recording leaves open. The posterior's approximation knows
+  // the far end of so wide an interval to a fifth only; by its sampler both widths agree to 2 %.
   const double slack = std::string(GetParam()) == "least_squares" ? 0.05 : 0.3;
   const auto [near_low, near_high] = interval(",tendon_slack_length_prior_sd", ",0.001");
   EXPECT_NEAR(near_high - near_low, sure_high - sure_low, slack * (sure_high - sure_low));
