@@ -103,7 +103,8 @@ class Posterior:
         self.growth, self.reference = np.array(dump["growth"]), np.array(dump["reference"])
         self.torque_size = dump["torque_size"]
         slopes = np.array(dump["slopes"]).reshape(-1, 3)
-        self.turned, self.turns_with, self.reach = slopes[:, 0].astype(int), slopes[:, 1].astype(int), slopes[:, 2]
+        self.turned = np.eye(len(self.weight))[slopes[:, 0].astype(int)]  # of which column a slope is
+        self.turns_with, self.reach = slopes[:, 1].astype(int), slopes[:, 2]
         self.runs = [Run(given) for given in dump["runs"]]
         for run in self.runs:  # of a trial's rows, so many count
             rows = sum(len(other.measured) for other in self.runs if other.trial == run.trial)
@@ -169,8 +170,7 @@ class Posterior:
             root, worse = cholesky(a.reshape(-1, m, m) + (0.002 * self.torque_size) ** 2 * np.eye(m))
             far |= worse
             r = run.measured - (torque.sum(axis=0) + self.offset) @ run.low.T
-            columns = np.repeat(run.seen[None], len(x), axis=0)
-            np.add.at(columns, (slice(None), slice(None), self.turned), turn[:, None, :] * run.turning)
+            columns = run.seen + (turn[:, None, :] * run.turning) @ self.turned
             right = np.concatenate([r[:, :, None], columns * width[:, None, :]], axis=2)
             both = np.linalg.solve(root, right) * np.sqrt(run.weight)
             result -= 0.5 * (both[:, :, 0] ** 2).sum(axis=1)
