@@ -88,7 +88,7 @@ TEST(MovingPhases, TiredMusclesStaySoUntilTheirTorqueIsBack) {
 
 TEST(MovingPhases, LessTorqueBeforeFatigueIsItsBeginning) {
   // The frequency has begun to fall, by less than would count alone.
-  // Of so few blocks as 36 the two steps themselves would count as noise.
+  // With 20 blocks before the steps in place of 60, the steps themselves count as noise.
   int seen = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto found =

@@ -325,7 +325,8 @@ void Likelihood::add_gradient_of_columns(std::size_t r,
                                          const Eigen::MatrixXd& v,
                                          const Block& block,
                                          Eigen::VectorXd& by_z) const {
-  // By L S W the gradient is Sigma^-1 r x' of the quadratic form and -A^-1 L S W G^-1 of ln |G|.
+  // The derivative by L S W is Sigma^-1 r x' from the quadratic form and -A^-1 L S W G^-1 from
+  // ln |G|.
   const Eigen::MatrixXd half_left = all.gram.matrixU().solve(v).transpose();  // C^-1 L S W G^-1
   const Eigen::MatrixXd by_unseen =
       w * all.shared.transpose() - Eigen::MatrixXd(block.factor.matrixU().solve(half_left));

@@ -21,7 +21,7 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 ///
 ///   ln p = -1/2 r' Sigma^-1 r - 1/2 ln |Sigma|,   r = L (y - T^),   Sigma = A + L S W^2 S' L',
 ///   S = S_z exp(growth (z - z_ref)) in the first term, S_z in the second,
-///   S_z = S_ref + dS/dz (z - z_ref)  (Unseen::slopes),
+///   S_z = S_ref + dS/dz a tanh((z - z_ref) / a)  (Unseen::slopes),
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
