@@ -275,21 +275,6 @@ TEST(Unseen, BeyondTheRecordedLengthsTheHigherPolynomialsStayAtTheirEnds) {
   EXPECT_GT(farthest, 1.5);
 }
 
-TEST(Unseen, AMuscleThatIsHeldHasARangeOfLengthsAndSpeeds) {
-  AtStart at(two_trials());
-  for (TrialRun& run : at.runs) {
-    run.length_m.setConstant(0.3);
-    run.velocity_mps.setZero();
-  }
-  const Recorded session = recorded(at.runs, at.map.held().muscles);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const muscle::HillParameters<double>& start = at.data.muscles[k].start;
-    EXPECT_NEAR(session.muscles[k].span_m(), 0.5 * start.optimal_fiber_length_m,
-                2e-6);  // a micrometer is the least span
-    EXPECT_NEAR(session.muscles[k].fastest_mps, 0.1 * start.max_shortening_speed_mps, 1e-12);
-  }
-}
-
 TEST(Unseen, ALagIsThatOfOneMuscleAgainstTheMuscles) {
   // Earlier by 150 ms: the sign is that of ln a. Of a common delay the mean of the muscles is
   // taken.
