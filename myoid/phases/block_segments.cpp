@@ -44,6 +44,22 @@ double noise_sd(const Eigen::VectorXd& x) {
   return std::isfinite(long_run) ? std::max(block_sd(x), long_run) : block_sd(x);
 }
 
+/// Returns the noise of each column.
+Eigen::VectorXd noise_sds(const Eigen::MatrixXd& x) {
+  Eigen::VectorXd sd(x.cols());
+  for (Eigen::Index c = 0; c < x.cols(); ++c) sd[c] = noise_sd(x.col(c));
+  return sd;
+}
+
+/// Returns x less the mean of its segment.
+Eigen::MatrixXd about_means(Eigen::MatrixXd x, const math::ChangePoints& changes) {
+  for (const math::Segment& part : changes.segments) {
+    auto rows = x.middleRows(part.begin, part.end - part.begin);
+    rows.rowwise() -= rows.colwise().mean().eval();
+  }
+  return x;
+}
+
 }  // namespace
 
 BlockChanges find_changes(const std::vector<Block>& blocks) {
@@ -52,15 +68,21 @@ BlockChanges find_changes(const std::vector<Block>& blocks) {
   for (Eigen::Index i = 0; i < n; ++i) changes.gain[i] = blocks[static_cast<std::size_t>(i)].gain;
   const bool frequency_known = changes.frequency.size() > 0;
   Eigen::MatrixXd x(n, frequency_known ? 2 : 1);
-  Eigen::VectorXd sd(x.cols());
   x.col(0) = changes.gain;
-  sd[0] = changes.gain_sd = noise_sd(changes.gain);
-  if (frequency_known) {
-    x.col(1) = changes.frequency;
-    sd[1] = changes.frequency_sd = noise_sd(changes.frequency);
+  if (frequency_known) x.col(1) = changes.frequency;
+  Eigen::VectorXd sd = noise_sds(x);
+  const auto segments = [&] {
+    return math::change_points(
+        x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
+  };
+  math::ChangePoints found = segments();
+  // Large steps count as noise until they are known, and hide smaller ones.
+  if (found.segments.size() > 1) {
+    sd = sd.cwiseMin(noise_sds(about_means(x, found)));
+    found = segments();
   }
-  const math::ChangePoints found =
-      math::change_points(x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
+  changes.gain_sd = sd[0];
+  if (frequency_known) changes.frequency_sd = sd[1];
   for (const math::Segment& part : found.segments) {
     Segment segment{.first = static_cast<std::size_t>(part.begin),
                     .last = static_cast<std::size_t>(part.end),

@@ -31,7 +31,8 @@ struct BlockChanges {
 };
 
 /// Searches both together for the blocks at which their means change. The noise of one block is its
-/// spread about its neighbors, or as it counts in a mean of `kBatch`, whichever is more. Where more
+/// spread about its neighbors, or as it counts in a mean of `kBatch`, whichever is more; a second
+/// search takes the noise about the means of the segments that the first one finds. Where more
 /// than a fifth of the frequencies are not known, none is used. Gains must be finite.
 [[nodiscard]] BlockChanges find_changes(const std::vector<Block>& blocks);
 
