@@ -265,6 +265,14 @@ Envelope::Value Envelope::at(double time_s) const {
   return {value, c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))};
 }
 
+std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                          double delay_s) const {
+  std::vector<Value> values;
+  values.reserve(static_cast<std::size_t>(time_s.size()));
+  for (const double t : time_s) values.push_back(at(t - delay_s));
+  return values;
+}
+
 double noise_gain(
     const Envelope& envelope, double from_s, double to_s, double rest, double spread) {
   if (!(rest > 0.0)) return 1.0;
@@ -314,14 +322,11 @@ std::vector<Activation> activation(const Envelope& envelope,
                                    const ChannelValues& channel,
                                    EmgLag lag,
                                    bool with_exponent) {
+  if (lag == EmgLag::delay)
+    return activation(envelope.at(time_s, channel[kDelay]), channel, with_exponent);
   std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
   std::size_t i = 0;
-  if (lag == EmgLag::delay) {
-    for (const double t : time_s) {
-      const Envelope::Value v = envelope.at(t - channel[kDelay]);
-      fill(result[i++], v.value, v.slope, channel, with_exponent);
-    }
-  } else if (lag == EmgLag::shared) {
+  if (lag == EmgLag::shared) {
     constexpr LagShares kShare;
     const ChannelValues c = shared(channel);
     LaggedReader<1> reader(
@@ -342,6 +347,15 @@ std::vector<Activation> activation(const Envelope& envelope,
         a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
     }
   }
+  return result;
+}
+
+std::vector<Activation> activation(const std::vector<Envelope::Value>& delayed,
+                                   const ChannelValues& channel,
+                                   bool with_exponent) {
+  std::vector<Activation> result(delayed.size());
+  for (std::size_t i = 0; i < delayed.size(); ++i)
+    fill(result[i], delayed[i].value, delayed[i].slope, channel, with_exponent);
   return result;
 }
 

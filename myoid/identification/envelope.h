@@ -29,6 +29,9 @@ class Envelope {
   };
   /// Returns value and slope at `time_s`: never negative, and the end value beyond the ends.
   [[nodiscard]] Value at(double time_s) const;
+  /// Returns the values at time_s - delay_s, n.
+  [[nodiscard]] std::vector<Value> at(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                      double delay_s) const;
 
   [[nodiscard]] double first_s() const { return time_s_[0]; }
   [[nodiscard]] double last_s() const { return time_s_[time_s_.size() - 1]; }
@@ -85,6 +88,11 @@ struct Activation {
                                                  const Eigen::Ref<const Eigen::VectorXd>& time_s,
                                                  const ChannelValues& channel,
                                                  EmgLag lag,
+                                                 bool with_exponent = true);
+
+/// Returns the activation without lags, from the envelope env(t - d) at the instants.
+[[nodiscard]] std::vector<Activation> activation(const std::vector<Envelope::Value>& delayed,
+                                                 const ChannelValues& channel,
                                                  bool with_exponent = true);
 
 }  // namespace myoid::identification

@@ -26,6 +26,7 @@ constexpr double kFloor = 0.01;       // of the resting level, over which the dr
 constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
 constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
 constexpr Eigen::Index kBand = 3;     // frequencies that share one power of the drive's error
+constexpr double kRead_hz = 20.0;     // usual rate of the instants at which the drive is read
 constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
 
 Eigen::ArrayXd hann_window(Eigen::Index n) {
@@ -289,9 +290,10 @@ Drive drive_behind(const Envelope& recorded,
       Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
   const Eigen::VectorXd found = math::Spline::interpolate(time, drive).evaluate(fine).value;
   // A corner at zero in place of the fade would give the posterior a kink at each sample there.
-  return {Envelope(fine, found.unaryExpr(
-                             [&](double u) { return 0.5 * (u + std::hypot(u, kFloor * rest)); })),
-          std::move(left)};
+  const Eigen::VectorXd faded =
+      found.unaryExpr([&](double u) { return 0.5 * (u + std::hypot(u, kFloor * rest)); });
+  const double fine_hz = rate_hz * static_cast<double>(kFiner);
+  return {Envelope(fine, faded, std::lround(fine_hz / kRead_hz)), std::move(left)};
 }
 
 std::shared_ptr<const Drive> DriveMemory::behind(const TimeSeries& recorded,

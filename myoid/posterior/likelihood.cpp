@@ -228,9 +228,21 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
   return a;
 }
 
+Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseValues& noise) const {
+  AllRuns all{.weights = weights(noise),
+              .turned = Eigen::VectorXd(static_cast<Eigen::Index>(unseen_.slopes.size())),
+              .shared = {},
+              .variance = {}};
+  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
+    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
+    all.turned[static_cast<Eigen::Index>(s)] =
+        reach * std::tanh((z[unknown] - reference_[unknown]) / reach);
+  }
+  return all;
+}
+
 bool Likelihood::fill(std::size_t r,
-                      const Eigen::VectorXd& z,
-                      const Eigen::VectorXd& weights,
+                      const AllRuns& all,
                       const NoiseValues& noise,
                       Block& block) const {
   const TrialRun& run = runs_[r];
@@ -243,19 +255,20 @@ bool Likelihood::fill(std::size_t r,
   const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
   if (weight < 1.0) block.factor.compute(a / weight);
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
-  block.solved = block.factor.solve(residual);
+  block.whitening =
+      block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
+  const Eigen::VectorXd white = block.whitening * residual;
+  block.solved = block.whitening.transpose() * white;
   block.unseen = columns_[r];
-  for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
-    const auto& [quantity, unknown, reach] = unseen_.slopes[s];
-    block.unseen.col(quantity) += reach * std::tanh((z[unknown] - reference_[unknown]) / reach) *
-                                  by_slope_[r].col(static_cast<Eigen::Index>(s));
-  }
-  block.unseen = (block.unseen * weights.asDiagonal()).eval();
-  block.unseen_half = block.factor.matrixL().solve(block.unseen);
-  block.projected = block.unseen.transpose() * block.solved;
-  block.gram.setZero(weights.size(), weights.size());
+  for (Eigen::Index s = 0; s < all.turned.size(); ++s)
+    block.unseen.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) +=
+        all.turned[s] * by_slope_[r].col(s);
+  block.unseen = (block.unseen * all.weights.asDiagonal()).eval();
+  block.unseen_half.noalias() = block.whitening * block.unseen;
+  block.projected.noalias() = block.unseen_half.transpose() * white;
+  block.gram.setZero(all.weights.size(), all.weights.size());
   block.gram.selfadjointView<Eigen::Lower>().rankUpdate(block.unseen_half.transpose());
-  block.own = -0.5 * (residual.dot(block.solved) + weight * log_of_a);
+  block.own = -0.5 * (white.squaredNorm() + weight * log_of_a);
   return std::isfinite(block.own);
 }
 
@@ -268,18 +281,18 @@ void Likelihood::pull_back(std::size_t r,
   const TorqueSignals& signals = block.evaluation->signals();
   const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
   const Eigen::Index n = run.time_s.size();
-  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C' and G of all runs
-  // Sigma^-1 is C'^-1 (1 - V V') C^-1, V = C^-1 L S W G'^-1/2. A block's A is that of the
-  // measurement over the rows' weight, by which the determinant's A^-1 is multiplied.
+  // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C', U = C^-1 L S W and G
+  // of all runs Sigma^-1 is C'^-1 (1 - U G^-1 U') C^-1. A block's A is that of the measurement over
+  // the rows' weight, by which the determinant's A^-1 is multiplied.
   const Eigen::VectorXd w =
-      block.solved - block.factor.matrixU().solve(Eigen::VectorXd(block.unseen_half * all.shared));
-  const Eigen::MatrixXd v = all.gram.matrixL().solve(block.unseen_half.transpose());  // V'
+      block.solved - block.whitening.transpose() * (block.unseen_half * all.shared);
+  const Eigen::MatrixXd half_left = block.unseen_half * all.variance;
   Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
-  half.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose(), -1.0);
-  half.triangularView<Eigen::StrictlyUpper>() = half.transpose();
-  block.factor.matrixU().solveInPlace(half);
-  block.factor.matrixL().solveInPlace<Eigen::OnTheRight>(half);
-  const Eigen::MatrixXd by_a = 0.5 / row_weight_[r] * (w * w.transpose() - half);
+  half.noalias() -= half_left * block.unseen_half.transpose();
+  const Eigen::MatrixXd half_right = half * block.whitening;
+  Eigen::MatrixXd by_a = w * w.transpose();
+  by_a.noalias() -= block.whitening.transpose() * half_right;
+  by_a *= 0.5 / row_weight_[r];
 
   const double variance = torque_variance(r, noise);
   const TorqueError torque = torque_error(run.reduction, run.interval_s, noise[kTorqueTime]);
@@ -316,26 +329,25 @@ void Likelihood::pull_back(std::size_t r,
 
   gradient.by_z.setZero(map_.size());
   block.evaluation->pull_back(by, gradient.by_z);
-  add_gradient_of_columns(r, all, w, v, block, gradient.by_z);
+  add_gradient_of_columns(r, all, w, half_left, block, gradient.by_z);
 }
 
 void Likelihood::add_gradient_of_columns(std::size_t r,
                                          const AllRuns& all,
                                          const Eigen::VectorXd& w,
-                                         const Eigen::MatrixXd& v,
+                                         const Eigen::MatrixXd& half_left,
                                          const Block& block,
                                          Eigen::VectorXd& by_z) const {
   // The derivative by L S W is Sigma^-1 r x' from the quadratic form and -A^-1 L S W G^-1 from
   // ln |G|.
-  const Eigen::MatrixXd half_left = all.gram.matrixU().solve(v).transpose();  // C^-1 L S W G^-1
-  const Eigen::MatrixXd by_unseen =
-      w * all.shared.transpose() - Eigen::MatrixXd(block.factor.matrixU().solve(half_left));
+  Eigen::MatrixXd by_unseen = w * all.shared.transpose();
+  by_unseen.noalias() -= block.whitening.transpose() * half_left;
   for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
     const auto& [quantity, unknown, reach] = unseen_.slopes[s];
-    const double near =
-        1.0 / std::pow(std::cosh((all.z[unknown] - reference_[unknown]) / reach), 2);
-    by_z[unknown] += near * all.weights[quantity] *
-                     by_slope_[r].col(static_cast<Eigen::Index>(s)).dot(by_unseen.col(quantity));
+    const auto column = static_cast<Eigen::Index>(s);
+    const double near = 1.0 - std::pow(all.turned[column] / reach, 2);  // of tanh
+    by_z[unknown] +=
+        near * all.weights[quantity] * by_slope_[r].col(column).dot(by_unseen.col(quantity));
   }
 }
 
@@ -345,7 +357,7 @@ double Likelihood::value(const Eigen::VectorXd& z,
   std::vector<ParameterMap::Chain> chains;
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
-  AllRuns all{.z = z, .weights = weights(noise), .shared = {}, .gram = {}};
+  AllRuns all = all_runs(z, noise);
   const auto each_run = [&](const auto& one) {
     parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
       for (std::size_t r = range.begin(); r < range.end(); ++r) one(r);
@@ -356,7 +368,7 @@ double Likelihood::value(const Eigen::VectorXd& z,
     Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
                                                        gradient != nullptr ? &by_owner : nullptr);
-    block.positive = fill(r, z, all.weights, noise, block);
+    block.positive = fill(r, all, noise, block);
   });
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const Eigen::Index quantities = all.weights.size();
@@ -371,22 +383,22 @@ double Likelihood::value(const Eigen::VectorXd& z,
   }
   const Eigen::VectorXd factors = grown(z);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
-  all.gram.compute(identity + gram);  // lower halves
+  const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram);  // lower halves
   const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram *
                                                                 factors.asDiagonal());
-  if (all.gram.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
+  if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
   const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
   all.shared = factors.cwiseProduct(expected);
-  result += 0.5 * (projected.dot(all.shared) - log_determinant(all.gram));
+  result += 0.5 * (projected.dot(all.shared) - log_determinant(factor));
   if (gradient == nullptr || !std::isfinite(result)) return result;
+  all.variance = factor.solve(identity);
   std::vector<Gradient> parts(runs_.size());
   each_run([&](std::size_t r) { pull_back(r, noise, all, blocks[r], parts[r]); });
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
-  const Eigen::VectorXd left = all.gram.solve(identity).diagonal();  // variances of x, given r
   for (Eigen::Index i = 0; i < quantities; ++i) {
     if (unseen_.quantities[static_cast<std::size_t>(i)].of_the_model)
-      gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - left[i]);
+      gradient->by_noise[kModelErrorSize] += expected[i] * expected[i] - (1.0 - all.variance(i, i));
   }
   for (const Gradient& part : parts) {
     gradient->by_z += part.by_z;

@@ -138,6 +138,8 @@ class Likelihood {
   /// Computes the weight of each run's rows.
   void weigh_rows();
   [[nodiscard]] Eigen::VectorXd weights(const NoiseValues& noise) const;
+  /// Returns the quantities of all runs that need no run's block.
+  [[nodiscard]] AllRuns all_runs(const Eigen::VectorXd& z, const NoiseValues& noise) const;
   /// Returns the columns' factors exp(growth (z - z_ref)).
   [[nodiscard]] Eigen::VectorXd grown(const Eigen::VectorXd& z) const;
   /// Returns b^2 sigma_T^2 of the run.
@@ -149,8 +151,7 @@ class Likelihood {
                                                     const NoiseValues& noise) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
   [[nodiscard]] bool fill(std::size_t run,
-                          const Eigen::VectorXd& z,
-                          const Eigen::VectorXd& weights,
+                          const AllRuns& all,
                           const NoiseValues& noise,
                           Block& block) const;
   void pull_back(std::size_t run,
@@ -158,12 +159,12 @@ class Likelihood {
                  const AllRuns& all,
                  const Block& block,
                  Gradient& gradient) const;
-  /// Adds the gradient by which the columns of S turn (Unseen::slopes). `w` is Sigma^-1 r, `v` is
-  /// V' of pull_back.
+  /// Adds the gradient by which the columns of S turn (Unseen::slopes). `w` is Sigma^-1 r,
+  /// `half_left` is C^-1 L S W G^-1.
   void add_gradient_of_columns(std::size_t run,
                                const AllRuns& all,
                                const Eigen::VectorXd& w,
-                               const Eigen::MatrixXd& v,
+                               const Eigen::MatrixXd& half_left,
                                const Block& block,
                                Eigen::VectorXd& by_z) const;
   /// Returns Q_ij of the joints with these first rows, one entry per sample, n.

@@ -23,9 +23,10 @@ struct Likelihood::Point {
 struct Likelihood::Block {
   std::unique_ptr<RunEvaluation> evaluation;
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of A.
+  Eigen::MatrixXd whitening;           ///< C^-1, A = C C'
   Eigen::VectorXd solved;              ///< A^-1 r
   Eigen::MatrixXd unseen;              ///< L S W
-  Eigen::MatrixXd unseen_half;         ///< C^-1 L S W, A = C C'
+  Eigen::MatrixXd unseen_half;         ///< C^-1 L S W
   Eigen::VectorXd projected;           ///< (L S W)' A^-1 r
   Eigen::MatrixXd gram;                ///< (L S W)' A^-1 L S W, the lower half
   double own = 0.0;                    ///< -1/2 r' A^-1 r - w/2 ln |w A|
@@ -34,10 +35,10 @@ struct Likelihood::Block {
 
 /// Quantities of all runs together, at one point.
 struct Likelihood::AllRuns {
-  const Eigen::VectorXd& z;
-  Eigen::VectorXd weights;           ///< W
-  Eigen::VectorXd shared;            ///< The unseen quantities' expectation, times their growth.
-  Eigen::LLT<Eigen::MatrixXd> gram;  ///< Of G = 1 + W S' L' A^-1 L S W.
+  Eigen::VectorXd weights;   ///< W
+  Eigen::VectorXd turned;    ///< a tanh((z - z_ref) / a) of each of Unseen::slopes.
+  Eigen::VectorXd shared;    ///< The unseen quantities' expectation, times their growth.
+  Eigen::MatrixXd variance;  ///< G^-1, G = 1 + W S' L' A^-1 L S W: covariance of x, given r.
 };
 
 }  // namespace myoid::identification

@@ -11,7 +11,8 @@ namespace myoid::identification {
 Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
                                                 const NoiseValues& noise) const {
   const Point point(map_, z);
-  const Eigen::VectorXd w = weights(noise);
+  const AllRuns all = all_runs(z, noise);
+  const Eigen::VectorXd& w = all.weights;
   const Eigen::Index p = map_.size(), quantities = w.size();
   std::vector<Block> blocks(runs_.size());
   std::vector<Eigen::MatrixXd> solved(runs_.size());  // A^-1 L J
@@ -23,7 +24,7 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
     Block& block = blocks[r];
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, z, w, noise, block)) return result;
+    if (!fill(r, all, noise, block)) return result;
     solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
     gram += block.gram;
     cross += block.unseen.transpose() * solved[r];
@@ -35,12 +36,12 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
   };
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Eigen::MatrixXd k =
-        solved[r] - blocks[r].factor.matrixU().solve(blocks[r].unseen_half * shared);
+        solved[r] - blocks[r].whitening.transpose() * (blocks[r].unseen_half * shared);
     const Eigen::MatrixXd envelopes =
         envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
-    const Eigen::MatrixXd all = blocks[r].factor.reconstructedMatrix();
+    const Eigen::MatrixXd a = blocks[r].factor.reconstructedMatrix();
     of(Source::electrodes) += k.transpose() * envelopes * k;
-    of(Source::noise) += k.transpose() * (all - envelopes) * k;
+    of(Source::noise) += k.transpose() * (a - envelopes) * k;
   }
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const auto row = shared.row(static_cast<Eigen::Index>(i));
@@ -53,7 +54,8 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
 std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::VectorXd& z,
                                                               const NoiseValues& noise) const {
   const Point point(map_, z);
-  const Eigen::VectorXd w = weights(noise);
+  const AllRuns all = all_runs(z, noise);
+  const Eigen::VectorXd& w = all.weights;
   const Eigen::Index p = map_.size();
   std::vector<Eigen::MatrixXd> found;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
@@ -62,7 +64,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
     Block block;
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, z, w, noise, block)) continue;
+    if (!fill(r, all, noise, block)) continue;
     Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
     both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
     found.back() += both.transpose() * block.factor.solve(both);
@@ -73,7 +75,8 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
 Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
                                                  const NoiseValues& noise) const {
   const Point point(map_, z);
-  const Eigen::VectorXd w = weights(noise);
+  const AllRuns all = all_runs(z, noise);
+  const Eigen::VectorXd& w = all.weights;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(w.size(), w.size());
   Eigen::VectorXd projected = Eigen::VectorXd::Zero(w.size());
   Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
@@ -81,7 +84,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
     Block block;
     block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
                                                        &point.by_owner);
-    if (!fill(r, z, w, noise, block)) continue;
+    if (!fill(r, all, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
     cross += block.unseen.transpose() *

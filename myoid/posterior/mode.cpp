@@ -35,7 +35,8 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
 Mode find_mode(const Density& density,
                const Mode& start,
                const Progress& progress,
-               double least_promise) {
+               double least_promise,
+               const std::function<bool(const Eigen::VectorXd&)>& is_known) {
   Mode mode{.x = start.x, .covariance = start.covariance};
   Eigen::VectorXd gradient;
   mode.log_density = density.value(mode.x, gradient);
@@ -101,6 +102,10 @@ Mode find_mode(const Density& density,
     mode.x += moved;
     mode.log_density = value;
     gradient = at_trial;
+    if (is_known && is_known(mode.x)) {
+      mode.message = "leads to a known mode";
+      break;
+    }
   }
   if (mode.converged) {
     mode.message = "converged";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <Eigen/Core>
@@ -28,11 +29,13 @@ struct Mode {
 /// first inverse of the second derivatives is `start.covariance`, or Gauss and Newton's where this
 /// is empty. Stops where a full step promises less than `promise` of ln density; kFinePromise is
 /// tried with Gauss and Newton's second derivatives, too, which may promise ten times as much.
-/// `covariance` is the search's; `add_curvature` replaces it and adds `log_evidence`.
+/// `covariance` is the search's; `add_curvature` replaces it and adds `log_evidence`. Where
+/// `is_known`(x) the search gives up, not converged.
 [[nodiscard]] Mode find_mode(const Density& density,
                              const Mode& start,
                              const Progress& progress,
-                             double promise = kFinePromise);
+                             double promise = kFinePromise,
+                             const std::function<bool(const Eigen::VectorXd&)>& is_known = {});
 
 /// Adds covariance and evidence from second derivatives: if `exact`, central differences of the
 /// exact gradient over a third of a standard deviation, made symmetric, else Gauss and Newton's. A

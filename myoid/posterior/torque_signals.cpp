@@ -82,14 +82,18 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
   gain_by_delay_.setZero(n, channels);
   for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
+    const std::vector<Envelope::Value> delayed =
+        run.envelopes[c].at(run.time_s, values.channels[c][kDelay]);
     for (Eigen::Index i = 0; i < n && run.rest[column] > 0.0; ++i) {
-      const Envelope::Value u = run.envelopes[c].at(run.time_s[i] - values.channels[c][kDelay]);
+      const Envelope::Value& u = delayed[static_cast<std::size_t>(i)];
       const NoiseOverEnvelope noise =
           noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
       gain_(i, column) = noise.value;
       gain_by_delay_(i, column) = -noise.slope * u.slope;
     }
-    activations_.push_back(activation(run.envelopes[c], run.time_s, values.channels[c], lag));
+    activations_.push_back(lag == EmgLag::delay
+                               ? activation(delayed, values.channels[c])
+                               : activation(run.envelopes[c], run.time_s, values.channels[c], lag));
     exponent_[column] = values.channels[c][kExponent];
   }
   for (std::size_t k = 0; k < muscles_.size(); ++k) {

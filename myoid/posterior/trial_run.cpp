@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/parallel.h"
 #include "myoid/identification/residual_model.h"
 #include "myoid/posterior/drive.h"
 
@@ -162,6 +163,11 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
                                  const ParameterMap& map) {
   const auto trials = std::count_if(data.trials.begin(), data.trials.end(),
                                     [](const TrialData& trial) { return trial.calibration; });
+  std::vector<Drives> drives(data.trials.size());
+  parallel_ranges(data.trials.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      if (data.trials[i].calibration) drives[i] = drives_of(data.trials[i], options, map);
+  });
   std::vector<TrialRun> runs;
   double before = 0.0;
   for (std::size_t i = 0; i < data.trials.size(); ++i) {
@@ -171,12 +177,11 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
     if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
       throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
     const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
-    const Drives drives = drives_of(trial, options, map);
     for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
       if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
       for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
         if (static_cast<Eigen::Index>(rows.size()) < kFewest) continue;
-        TrialRun& run = runs.emplace_back(make_run(trial, rows, drives, options, map));
+        TrialRun& run = runs.emplace_back(make_run(trial, rows, drives[i], options, map));
         run.trial = static_cast<int>(i);
         const double middle = 0.5 * (run.time_s[0] + run.time_s[run.time_s.size() - 1]) - begin;
         run.session = (before + middle / span) / static_cast<double>(trials);
