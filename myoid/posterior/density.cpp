@@ -5,9 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <boost/math/special_functions/erf.hpp>
-#include <boost/math/tools/minima.hpp>
 
 #include "myoid/beliefs/beliefs.h"
 
@@ -21,7 +19,6 @@ constexpr double kStartingTorqueError = 0.3;  // of the torque's root mean squar
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
-constexpr double kLeastUnlike = 0.5, kMostUnlike = 4.0;
 constexpr double kFarthestScore = 30.0;  // beyond, the tail of a normal distribution is nearly 0
 
 /// The size s at the normal score x, over the spread of its half normal prior, and d ln s / dx.
@@ -42,47 +39,10 @@ double score_of(double size) {
   return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * std::erfc(within / std::numbers::sqrt2));
 }
 
-/// Returns true for a number of a muscle whose prior spread is the literature's.
-bool is_literature(const Unknown& of) {
-  return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
-}
-
 }  // namespace
 
-bool spread_is_judgment(const Unknown& of) {
-  return is_literature(of) && of.field->field != kMaxForce && of.field->field != kFiberLength;
-}
-
-double prior_spread(const Unknown& of, double strength_sd) {
-  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd)
-                                                              : of.prior.sd;
-}
-
-Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                double strength_sd,
-                                double unlikeness) {
-  const auto p = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
-  std::vector<Eigen::Index> strengths;
-  for (Eigen::Index j = 0; j < p; ++j) {
-    const Unknown& of = free[static_cast<std::size_t>(j)];
-    precision(j, j) =
-        of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
-    if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
-  }
-  const auto n = static_cast<Eigen::Index>(strengths.size());
-  if (n == 0) return precision;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, strength_sd * strength_sd);
-  for (Eigen::Index i = 0; i < n; ++i)
-    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)],
-                                        strengths[static_cast<std::size_t>(i)]);
-  const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  precision(strengths, strengths) = inverse;
-  return precision;
-}
-
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : strength_sd_(options.unseen.strength), likelihood_(data, options) {
+    : strength_sd_(options.unseen.strength), likelihood_(data, options), unlike_(parameters().free(), strength_sd_) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);
@@ -113,31 +73,23 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
 }
 
 void Density::refer_to(const Eigen::VectorXd& x) {
-  likelihood_.refer_to(z_of(x));
-  unlikeness_ = likeliest_unlikeness(x);
+  const Eigen::VectorXd z = z_of(x);
+  likelihood_.refer_to(z);
+  if (!unlike_.uncertain()) return;
+  const Eigen::MatrixXd of_data = likelihood_.information(z, noise_of(x)).information;
+  unlikeness_ = unlike_.expected(of_data, (of_data + precision_) * (z - prior_mean_));
   precision_ = prior_precision(parameters().free(), strength_sd_, unlikeness_);
 }
 
-double Density::likeliest_unlikeness(const Eigen::VectorXd& x) const {
-  const std::vector<Unknown>& free = parameters().free();
-  if (std::none_of(free.begin(), free.end(), spread_is_judgment)) return 1.0;
-  const Eigen::MatrixXd of_data = likelihood_.information(z_of(x), noise_of(x)).information;
-  const Eigen::VectorXd known = (of_data + precision_) * (z_of(x) - prior_mean_);
-  // A zero diagonal, where there is no prior, would make ln |P| infinite.
-  Eigen::MatrixXd flat = Eigen::MatrixXd::Zero(precision_.rows(), precision_.cols());
-  for (Eigen::Index j = 0; j < flat.rows(); ++j) flat(j, j) = precision_(j, j) > 0.0 ? 0.0 : 1.0;
-  const auto log_density = [&](double log_unlikeness) {
-    const Eigen::MatrixXd prior = prior_precision(free, strength_sd_, std::exp(log_unlikeness));
-    const Eigen::LDLT<Eigen::MatrixXd> all(of_data + prior), alone(prior + flat);
-    const double off = log_unlikeness / beliefs::kUnlikeness.sd;
-    return 0.5 *
-           (known.dot(all.solve(known)) - off * off + alone.vectorD().array().abs().log().sum() -
-            all.vectorD().array().abs().log().sum());
-  };
-  return std::exp(boost::math::tools::brent_find_minima([&](double at) { return -log_density(at); },
-                                                        std::log(kLeastUnlike),
-                                                        std::log(kMostUnlike), 12)
-                      .first);
+double Density::prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) const {
+  gradient = -precision_ * off;
+  double result = 0.5 * off.dot(gradient);
+  if (!integrates_) return result;
+  const Eigen::VectorXd judged = unlike_.judged().cwiseProduct(off);
+  const double squares = off.dot(judged), held = 1.0 / (unlikeness_ * unlikeness_);
+  const Unlikeness::Integrated over = unlike_.integrated(squares);
+  gradient += (held - over.precision) * judged;
+  return result + 0.5 * held * squares + over.log_density;
 }
 
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
@@ -199,15 +151,15 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   if (!std::isfinite(result)) return -std::numeric_limits<double>::infinity();
   if (gradient != nullptr) gradient->setZero(size());
   const Eigen::VectorXd by_x = slope(x);
-  const Eigen::VectorXd off = z - prior_mean_, pull = precision_ * off;
-  result -= 0.5 * off.dot(pull);
+  Eigen::VectorXd pull;
+  result += prior(z - prior_mean_, pull);
   for (Eigen::Index j = 0; j < p; ++j) {
     // ln dz/dx = ln range + ln q + ln (1 - q), where q is the logistic function; its slope is 1 - 2
     // q.
     const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
     result += below;
     if (gradient == nullptr) continue;
-    (*gradient)[j] = by_x[j] * (by.by_z[j] - pull[j]) + 1.0 - 2.0 * logistic(x[j]);
+    (*gradient)[j] = by_x[j] * (by.by_z[j] + pull[j]) + 1.0 - 2.0 * logistic(x[j]);
   }
   for (Eigen::Index field = 0; field < noise.size(); ++field) {
     if (field == kModelErrorSize) continue;

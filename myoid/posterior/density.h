@@ -6,26 +6,9 @@
 #include <Eigen/Core>
 
 #include "myoid/posterior/likelihood.h"
+#include "myoid/posterior/unlikeness.h"
 
 namespace myoid::identification {
-
-/// Returns the standard deviation of an unknown's prior. That of F_max, if it is the literature's
-/// and not the study's, has the person's strength (UnseenSpreads::strength) beside the muscle's
-/// own.
-[[nodiscard]] double prior_spread(const Unknown& of, double strength_sd);
-
-/// Returns true for a number of a muscle whose prior spread is a judgment: all but F_max and l_m0,
-/// of which public models tell the spread, and those of which the study states a prior.
-[[nodiscard]] bool spread_is_judgment(const Unknown& of);
-
-/// Returns the inverse covariance of the priors of z. Where the spread of a muscle's number is a
-/// judgment, `unlikeness` (lambda) multiplies it. All ln F_max of a person share the person's
-/// strength, of spread c = `strength_sd`:
-///
-///   cov(ln F_i, ln F_j) = c^2,    i not j.
-[[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                              double strength_sd,
-                                              double unlikeness = 1.0);
 
 /// The posterior's density over unbounded unknowns x. One entry of x belongs to each entry of the
 /// solver's z,
@@ -45,14 +28,10 @@ namespace myoid::identification {
 /// priors of phi stand in beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, s is half
 /// normal.
 ///
-/// Spreads that are judgments are uncertain themselves: if all muscles of a person deviate by two
-/// spreads, that is one coincidence, not twenty. Their common factor lambda (`unlikeness`) has a
-/// prior. Laplace's approximation gives the density of lambda, whose maximum is taken,
-///
-///   ln p(lambda | y) = 1/2 b' (I + P)^-1 b + 1/2 ln |P| - 1/2 ln |I + P| + ln p(lambda),
-///   b = (I + P_0) (z - m),    P the prior's precision at lambda, P_0 at the last lambda,
-///
-/// where I is the data's information about z at the reference.
+/// Spreads that are judgments are uncertain themselves, by a common factor lambda (Unlikeness). A
+/// search takes their priors at one value of lambda: the density integrated over lambda has its
+/// greatest value where all numbers are the priors' means, far from where the probability is. The
+/// sampler draws from the integrated density.
 class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);
@@ -60,11 +39,13 @@ class Density {
   /// Makes x the reference: takes the unseen quantities (Likelihood) and lambda at x.
   void refer_to(const Eigen::VectorXd& x);
   void believe(Believed believed) { likelihood_.believe(believed); }
+  /// Integrates the priors over lambda from now on.
+  void integrate_unlikeness() { integrates_ = unlike_.uncertain(); }
 
   [[nodiscard]] const Likelihood& likelihood() const { return likelihood_; }
   [[nodiscard]] const ParameterMap& parameters() const { return likelihood_.parameters(); }
   [[nodiscard]] Eigen::Index size() const { return parameters().size() + noise_mean_.size(); }
-  /// This person's deviation from the literature, over the literature's spread (lambda).
+  /// lambda at the reference (Unlikeness::expected).
   [[nodiscard]] double unlikeness() const { return unlikeness_; }
   /// Inverse covariance of the priors of z (prior_precision).
   [[nodiscard]] const Eigen::MatrixXd& precision() const { return precision_; }
@@ -91,10 +72,13 @@ class Density {
 
  private:
   [[nodiscard]] double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const;
-  [[nodiscard]] double likeliest_unlikeness(const Eigen::VectorXd& x) const;
+  /// Returns ln p(z) and its gradient, for the deviations of z from the priors' means.
+  double prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) const;
 
   double strength_sd_ = 0.0, unlikeness_ = 1.0;
+  bool integrates_ = false;
   Likelihood likelihood_;
+  Unlikeness unlike_;
   Eigen::VectorXd lower_, range_, prior_mean_;
   Eigen::MatrixXd precision_;
   NoiseValues noise_mean_, noise_sd_;  ///< Priors of the normal entries of phi.

@@ -26,7 +26,8 @@ TEST(Density, TheGradientIsThatOfDifferences) {
   for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
     EstimatorOptions options = crowded_options();
     options.lag = lag;
-    const Density density(study.data, options);
+    Density density(study.data, options);
+    if (lag == EmgLag::shared) density.integrate_unlikeness();
     Eigen::VectorXd x = density.start();
     for (Eigen::Index j = 0; j < x.size(); ++j)
       x[j] += 0.05 * std::sin(1.0 + 2.0 * static_cast<double>(j));
@@ -42,55 +43,6 @@ TEST(Density, TheGradientIsThatOfDifferences) {
           (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
       EXPECT_NEAR(gradient[j], difference, 1e-4 * (1.0 + std::abs(gradient[j]))) << j;
     }
-  }
-}
-
-/// A muscle's number with the literature's prior of this spread.
-Unknown number_of(const ParameterField& field, double sd) {
-  Unknown of;
-  of.field = &field;
-  of.prior = {.mean = 0.1, .sd = sd, .logarithmic = field.logarithmic};
-  return of;
-}
-
-TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
-  // z_i = mean + c person + own_i, person N(0, 1): the person is integrated over by hand,
-  // -2 ln p = sum off_i^2 / v_i - (sum c off_i / v_i)^2 / (1 + sum c^2 / v_i).
-  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
-  const ParameterMap map(study.data, {});
-  const auto field = [&](int of) -> const ParameterField& {
-    return *std::find_if(map.free().begin(), map.free().end(), [&](const Unknown& u) {
-              return u.is(Scope::muscle, of);
-            })->field;
-  };
-  std::vector<Unknown> free = {
-      number_of(field(kMaxForce), 0.25),    number_of(field(kMaxForce), 0.2),
-      number_of(field(kMaxForce), 0.9),     number_of(field(kMaxForce), 0.3),
-      number_of(field(kFiberLength), 0.02), number_of(field(kWidth), 0.01)};
-  free[3].prior_is_given = true;
-  Eigen::VectorXd off(6);
-  off << 0.3, -0.1, 0.7, 0.2, 0.03, 0.02;
-  const double common = 0.4;
-  const std::array<double, 3> sd = {0.25, 0.2, 0.9};
-  for (const double unlikeness : {1.0, 1.7}) {
-    // A study's prior and a measured spread stay; a judgment is multiplied by lambda.
-    double squares = 0.04 / 0.09 + 0.0009 / 0.0004 + 0.0004 / (unlikeness * unlikeness * 0.0001);
-    double along = 0.0, share = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double own = sd[i] * sd[i];
-      const double o = off[static_cast<Eigen::Index>(i)];
-      squares += o * o / own;
-      along += common * o / own;
-      share += common * common / own;
-    }
-    EXPECT_NEAR(off.dot(prior_precision(free, common, unlikeness) * off),
-                squares - along * along / share, 1e-9);
-  }
-  // The precision's inverse has the spreads that are reported.
-  const Eigen::MatrixXd covariance = prior_precision(free, common).inverse();
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    const auto j = static_cast<Eigen::Index>(i);
-    EXPECT_NEAR(std::sqrt(covariance(j, j)), prior_spread(free[i], common), 1e-12);
   }
 }
 

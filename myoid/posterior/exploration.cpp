@@ -32,11 +32,20 @@ Eigen::VectorXd moved_start(const Density& density, int number) {
   return density.x_of(z, density.noise_of(density.start()));
 }
 
-bool same(const Candidate& a, const Mode& b) {
-  const Eigen::VectorXd off = a.mode.x - b.x;
-  const double squared = off.dot(a.density->gauss_newton(a.mode.x) * off);
-  return squared < kSameMode * kSameMode * static_cast<double>(off.size());
-}
+/// The points that count as one mode.
+class Basin {
+ public:
+  Basin(const Density& density, const Eigen::VectorXd& mode)
+      : mode_(mode), precision_(density.gauss_newton(mode)) {}
+  [[nodiscard]] bool holds(const Eigen::VectorXd& x) const {
+    const Eigen::VectorXd off = x - mode_;
+    return off.dot(precision_ * off) < kSameMode * kSameMode * static_cast<double>(off.size());
+  }
+
+ private:
+  Eigen::VectorXd mode_;
+  Eigen::MatrixXd precision_;
+};
 
 /// Finds a mode, takes the unseen quantities there, and repeats until the mode stays. Gives up
 /// where the first mode lies far below `floor`.
@@ -48,9 +57,9 @@ Mode settle(Density& density,
   if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
     density.refer_to(mode.x);
-    const Candidate before{.density = &density, .mode = mode};
+    const Basin before(density, mode.x);
     mode = find_mode(density, mode, progress, kRoughPromise);
-    if (same(before, mode)) break;
+    if (before.holds(mode.x)) break;
   }
   return find_mode(density, mode, progress);
 }
@@ -64,18 +73,20 @@ std::vector<Candidate> modes_of(Density& density,
   std::vector<Candidate> found{{.density = &density,
                                 .lag = options.lag,
                                 .mode = settle(density, starts.front(), floor, options.progress)}};
-  const auto is_new = [&](const Mode& mode) {
-    return mode.converged && std::none_of(found.begin(), found.end(), [&](const Candidate& other) {
-             return same(other, mode);
-           });
+  std::vector<Basin> basins{Basin(density, found.front().mode.x)};
+  const auto is_known = [&](const Eigen::VectorXd& x) {
+    return std::any_of(basins.begin(), basins.end(), [&](const Basin& b) { return b.holds(x); });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
-    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise);
-    if (!is_new(rough) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
+    const Mode rough =
+        find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise, is_known);
+    if (!rough.converged || is_known(rough.x) ||
+        rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
     Mode mode = find_mode(density, rough, options.progress);
-    if (is_new(mode))
-      found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
+    if (!mode.converged || is_known(mode.x)) continue;
+    basins.emplace_back(density, mode.x);
+    found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
   }
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.mode.log_density > b.mode.log_density;
@@ -113,15 +124,19 @@ Draws draws_about(const Candidate& c,
                   const EstimatorOptions& options,
                   std::uint64_t seed,
                   Sample& sample) {
-  const auto density = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-    return c.density->value(x, gradient);
+  const auto log_density = [](const Density& of) {
+    return [&of](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
+      return of.value(x, gradient);
+    };
   };
   const auto count = [&](Eigen::Index of_all) {
     return std::max<Eigen::Index>(100, std::lround(c.weight * static_cast<double>(of_all)));
   };
   if (options.posterior_draws > 0) {
+    Density integrated = *c.density;
+    integrated.integrate_unlikeness();
     Sampled sampled =
-        sample_density(density, c.mode, count(options.posterior_draws), seed, options.progress);
+        sample_density(log_density(integrated), c.mode, count(options.posterior_draws), seed, options.progress);
     sample.rhat = std::max(sample.rhat, sampled.rhat);
     sample.accepted = std::min(sample.accepted, sampled.accepted);
     sample.approximate = sample.approximate || !sampled.trusted();
@@ -131,7 +146,7 @@ Draws draws_about(const Candidate& c,
     return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
   // Each trial has an ln b, which is not reported.
   const Eigen::Index reported = c.density->parameters().size() + kNoiseFieldCount;
-  return draw_about(c.mode, marginals(density, c.mode, reported, options.progress),
+  return draw_about(c.mode, marginals(log_density(*c.density), c.mode, reported, options.progress),
                     count(kApproximateDraws), seed);
 }
 

@@ -29,7 +29,7 @@ TEST(Explore, TheApproximationAndTheSamplerAgree) {
   EstimatorOptions options;
   options.choose_lag = false;
   const Exploration approximate = explore(data, options);
-  options.posterior_draws = 1600;
+  options.posterior_draws = 2400;
   const Exploration sampled = explore(data, options);
   EXPECT_FALSE(sampled.sample.approximate) << sampled.sample.rhat;
   ASSERT_EQ(approximate.sample.z.rows(), sampled.sample.z.rows());
@@ -37,7 +37,7 @@ TEST(Explore, TheApproximationAndTheSamplerAgree) {
   const Eigen::VectorXd shift =
       (mean_of(approximate.sample) - mean_of(sampled.sample)).cwiseQuotient(sd);
   const Eigen::VectorXd ratio = sd_of(approximate.sample).cwiseQuotient(sd);
-  // 1,600 draws know a mean to 0.05 standard deviations. The farthest is a width with a long tail.
+  // 2,400 draws know a mean to 0.05 standard deviations. The farthest is a width with a long tail.
   EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.9);
   EXPECT_LT(shift.cwiseAbs().mean(), 0.2);
   EXPECT_NEAR(ratio.mean(), 1.0, 0.1);

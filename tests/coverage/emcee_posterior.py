@@ -17,7 +17,7 @@ import sys
 try:
     import numpy as np
     from scipy.interpolate import CubicSpline
-    from scipy.special import erfinv, ndtr
+    from scipy.special import erfinv, logsumexp, ndtr
 except ImportError as missing:
     print(f"skipped: {missing} (Debian: python3-numpy, python3-scipy)")
     sys.exit(77)
@@ -93,8 +93,12 @@ class Posterior:
         self.unknowns, self.muscles = dump["unknowns"], dump["muscles"]
         get = lambda key: np.array([u[key] for u in self.unknowns])
         self.lower, self.range = get("lower"), get("upper") - get("lower")
-        self.mean, sd = get("mean"), get("sd")
-        sd = np.where(get("judgment"), sd * dump["unlikeness"], sd)
+        self.mean, sd, self.judged = get("mean"), get("sd"), get("judgment")
+        self.log_lambda = 0.3 * np.linspace(-4.0, 5.0, 451)
+        end = [(bound - self.mean)[self.judged] / sd[self.judged] for bound in (self.lower, get("upper"))]
+        low, high = (ndtr(e / np.exp(self.log_lambda)[:, None]) for e in end)
+        self.log_prior = -0.5 * (self.log_lambda / 0.3) ** 2 - np.log(high - low).sum(axis=1)
+        self.judged_sd = sd[self.judged]
         strength = get("name") == "max_isometric_force"
         common = np.outer(strength, strength) * dump["strength_sd"] ** 2
         self.precision = np.linalg.inv(common + np.diag(sd * sd))
@@ -151,7 +155,12 @@ class Posterior:
         q = 1.0 / (1.0 + np.exp(-x[:, :p]))
         z, noise = self.z(x), self.noise(x)
         off = z - self.mean
+        judged = ((off[:, self.judged] / self.judged_sd) ** 2).sum(axis=1)[:, None]
+        off = np.where(self.judged, 0.0, off)
         result = -0.5 * np.einsum("wi,ij,wj->w", off, self.precision, off) + np.log(q * (1.0 - q)).sum(axis=1)
+        # The spreads that are judgments share a factor lambda, over which the prior is integrated.
+        over = self.log_prior - len(self.judged_sd) * self.log_lambda - 0.5 * judged * np.exp(-2.0 * self.log_lambda)
+        result += logsumexp(over, axis=1) + np.log(self.log_lambda[1] - self.log_lambda[0])
         result -= 0.5 * ((noise[:, SD] - np.log(0.05 * self.torque_size)) / 1.5) ** 2
         result -= 0.5 * (noise[:, TIME] - np.log(0.3)) ** 2 + 0.5 * (noise[:, KAPPA] / 0.3) ** 2
         result -= 0.5 * x[:, p + MODEL] ** 2 + 0.5 * (noise[:, SHARE:] ** 2).sum(axis=1)

@@ -60,7 +60,8 @@ void write(std::uint64_t seed, int draws) {
   options.choose_lag = false;
   const Exploration explored = explore(person.data, options);
   const Mode& best = explored.modes.front().mode;
-  const Density& density = *explored.modes.front().density;
+  Density density = *explored.modes.front().density;
+  density.integrate_unlikeness();
   const Likelihood& likelihood = density.likelihood();
   const ParameterMap& map = likelihood.parameters();
   fmt::print("{{\"modes\":{},\"rhat\":{:.17g},\"approximate\":{},\"unknowns\":[",
@@ -74,9 +75,8 @@ void write(std::uint64_t seed, int draws) {
         u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic, spread_is_judgment(u));
   }
   fmt::print(
-      "],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"unlikeness\":{:.17g},"
-      "\"muscles\":[",
-      options.unseen.strength, options.unseen.independent_rows, density.unlikeness());
+      "],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"muscles\":[",
+      options.unseen.strength, options.unseen.independent_rows);
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
     fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}",
