@@ -187,16 +187,6 @@ muscle::HillParameters<double> hill_parameters(const MuscleValues& values) {
   return hill;
 }
 
-MuscleExtras muscle_extras(const MuscleValues& values) {
-  return {.pennation_angle_rad = values[kPennation],
-          .passive_force = values[kPassiveForce],
-          .passive_strain = values[kPassiveStrain],
-          .passive_shape = values[kPassiveShape],
-          .length_activation = values[kLengthActivation],
-          .tendon_strain = values[kTendonStrain],
-          .activation_share = values[kShare]};
-}
-
 Tension tension(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
   const double a = p[kShare] * activation;
   const double greatest = p[kMaxForce];

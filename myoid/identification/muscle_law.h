@@ -44,7 +44,6 @@ using MuscleValues = std::array<double, kMuscleFieldCount>;
 [[nodiscard]] MuscleValues muscle_values(const muscle::HillParameters<double>& hill,
                                          const MuscleExtras& extras = {});
 [[nodiscard]] muscle::HillParameters<double> hill_parameters(const MuscleValues& values);
-[[nodiscard]] MuscleExtras muscle_extras(const MuscleValues& values);
 
 /// Tension of a muscle-tendon unit and its partial derivatives.
 struct Tension {

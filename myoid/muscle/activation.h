@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Core>
-
 #include "myoid/muscle/scalar.h"
 
 namespace myoid::muscle {
@@ -104,22 +102,5 @@ template <typename T>
 [[nodiscard]] ActivationPoint<T> settled_activation(const T& excitation) {
   return {excitation, excitation};
 }
-
-/// Returns the state `interval_s` later under a constant excitation: exact to round-off for any
-/// interval, in closed form (the switch of `two_lags` is located; the rise of `thelen` solves one
-/// scalar equation). Only `de_groote` has no closed form and takes Runge-Kutta steps of at most a
-/// twentieth of its shortest time constant, to 1e-7 of the activation's change.
-[[nodiscard]] ActivationPoint<double> step_activation(const ActivationDynamics<double>& dynamics,
-                                                      double excitation,
-                                                      const ActivationPoint<double>& state,
-                                                      double interval_s);
-
-/// Returns activation over time from excitation on a uniform clock, each sample held to the next,
-/// from the steady state of the first. Throws InvalidInput unless the rate is positive and the
-/// dynamics are valid.
-[[nodiscard]] Eigen::VectorXd activation_from_excitation(
-    const Eigen::Ref<const Eigen::VectorXd>& excitation,
-    double rate_hz,
-    const ActivationDynamics<double>& dynamics);
 
 }  // namespace myoid::muscle

@@ -8,8 +8,12 @@
 
 #include "myoid/core/error.h"
 
+#include "tests/support/activation_steps.h"
+
 namespace myoid::muscle {
 namespace {
+
+using test::step_activation;
 
 using Dynamics = ActivationDynamics<double>;
 using Point = ActivationPoint<double>;
@@ -138,17 +142,14 @@ TEST(Activation, StaysWithinZeroAndOneAtAnyRate) {
 }
 
 TEST(Activation, AConstantExcitationIsTheActivation) {
-  const Eigen::VectorXd u = Eigen::VectorXd::Constant(50, 0.3);
   for (const ActivationLaw law : kLaws) {
-    const Eigen::VectorXd a = activation_from_excitation(u, 100.0, {.law = law});
-    EXPECT_NEAR((a - u).cwiseAbs().maxCoeff(), 0.0, 1e-15) << static_cast<int>(law);
+    const Point settled = settled_activation(0.3);
+    EXPECT_EQ(settled.activation, 0.3);
+    if (state_size(law) == 0) continue;
+    const Point rate = activation_rate(Dynamics{.law = law}, 0.3, settled);
+    EXPECT_NEAR(rate.activation, 0.0, 1e-13) << static_cast<int>(law);
+    EXPECT_NEAR(rate.filtered_excitation, 0.0, 1e-13) << static_cast<int>(law);
   }
-}
-
-TEST(Activation, TheEnvelopeIsTheActivationSampleBySample) {
-  Eigen::VectorXd u(4);
-  u << 0.1, 0.7, 0.2, 0.4;
-  EXPECT_EQ(activation_from_excitation(u, 100.0, {.law = ActivationLaw::envelope}), u);
 }
 
 TEST(Activation, RatesOfTheOtherLawsHaveTheirPublishedTimeConstants) {
@@ -195,8 +196,6 @@ TEST(Activation, DerivativesByTheTimeConstantsAreExact) {
 TEST(Activation, RefusesTimesThatAreNotPositive) {
   EXPECT_THROW(validate(Dynamics{.activation_time_s = 0.0}), InvalidInput);
   EXPECT_THROW(validate(Dynamics{.steepness = -1.0}), InvalidInput);
-  EXPECT_THROW(static_cast<void>(activation_from_excitation(Eigen::VectorXd::Ones(3), 0.0, {})),
-               InvalidInput);
 }
 
 }  // namespace

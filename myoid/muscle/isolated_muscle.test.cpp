@@ -13,10 +13,13 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 
+#include "tests/support/activation_steps.h"
 #include "tests/support/places.h"
 
 namespace myoid::muscle {
 namespace {
+
+using test::step_activation;
 
 namespace fs = std::filesystem;
 

@@ -5,8 +5,12 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/activation_steps.h"
+
 namespace myoid::simulation {
 namespace {
+
+using test::step_activation;
 
 using muscle::ActivationDynamics;
 using muscle::ActivationLaw;

@@ -334,8 +334,4 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   return channels_of_table(table, *layout, path);
 }
 
-CsvSeries read_emg_table(const std::filesystem::path& path) {
-  return parse_emg_table(read_text_file(path), path);
-}
-
 }  // namespace myoid::recording

@@ -23,7 +23,6 @@ namespace myoid::recording {
 ///   - channels that end early: all channels of their clock are cut to the shortest.
 ///
 /// Throws ReadError with the line if there is no such table, no clock, or a cell is no number.
-[[nodiscard]] CsvSeries read_emg_table(const std::filesystem::path& path);
 [[nodiscard]] CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace myoid::recording
