@@ -72,8 +72,8 @@ BlockChanges find_changes(const std::vector<Block>& blocks) {
   if (frequency_known) x.col(1) = changes.frequency;
   Eigen::VectorXd sd = noise_sds(x);
   const auto segments = [&] {
-    return math::change_points(
-        x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
+    return math::change_points(x,
+                               {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
   };
   math::ChangePoints found = segments();
   // Large steps count as noise until they are known, and hide smaller ones.

@@ -42,7 +42,9 @@ double score_of(double size) {
 }  // namespace
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : strength_sd_(options.unseen.strength), likelihood_(data, options), unlike_(parameters().free(), strength_sd_) {
+    : strength_sd_(options.unseen.strength),
+      likelihood_(data, options),
+      unlike_(parameters().free(), strength_sd_) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);

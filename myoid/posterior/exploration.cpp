@@ -135,8 +135,8 @@ Draws draws_about(const Candidate& c,
   if (options.posterior_draws > 0) {
     Density integrated = *c.density;
     integrated.integrate_unlikeness();
-    Sampled sampled =
-        sample_density(log_density(integrated), c.mode, count(options.posterior_draws), seed, options.progress);
+    Sampled sampled = sample_density(log_density(integrated), c.mode,
+                                     count(options.posterior_draws), seed, options.progress);
     sample.rhat = std::max(sample.rhat, sampled.rhat);
     sample.accepted = std::min(sample.accepted, sampled.accepted);
     sample.approximate = sample.approximate || !sampled.trusted();

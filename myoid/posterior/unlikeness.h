@@ -55,7 +55,7 @@ class Unlikeness {
     /// ln of the integral of lambda^-N exp(-Q / (2 lambda^2) - (ln lambda / sd)^2 / 2) / B over
     /// ln lambda.
     double log_density = 0.0;
-    double precision = 1.0;    ///< Expectation of 1 / lambda^2, given Q.
+    double precision = 1.0;  ///< Expectation of 1 / lambda^2, given Q.
   };
   /// Q = `squares` is the sum of squares of the judged numbers' deviations over their spreads.
   [[nodiscard]] Integrated integrated(double squares) const;

@@ -94,21 +94,20 @@ TEST(Unlikeness, TheIntegratedPriorIsThatOfAQuadrature) {
       const auto density = [&](double log_lambda) {
         const double lambda = std::exp(log_lambda);
         const double within = std::erf(farthest / lambda / std::sqrt(2.0));
-        return std::pow(lambda * within, -5.0) *
-               std::exp(-0.5 * squares / (lambda * lambda) -
-                        0.5 * std::pow(log_lambda / kSpread, 2));
+        return std::pow(lambda * within, -5.0) * std::exp(-0.5 * squares / (lambda * lambda) -
+                                                          0.5 * std::pow(log_lambda / kSpread, 2));
       };
       const double sum = over_log_lambda(density);
-      const double precision = over_log_lambda([&](double at) {
-                                 return std::exp(-2.0 * at) * density(at);
-                               }) / sum;
+      const double precision =
+          over_log_lambda([&](double at) { return std::exp(-2.0 * at) * density(at); }) / sum;
       const Unlikeness::Integrated found = unlike.integrated(squares);
       EXPECT_NEAR(found.log_density, std::log(sum), 5e-3) << farthest << " " << squares;
       EXPECT_NEAR(found.precision / precision, 1.0, 5e-3) << farthest << " " << squares;
       const double h = 1e-4;  // the precision is the slope, and must fit the value exactly
-      EXPECT_NEAR(-(unlike.integrated(squares + h).log_density -
-                    unlike.integrated(squares).log_density) * 2.0 / h,
-                  unlike.integrated(squares + 0.5 * h).precision, 1e-7);
+      EXPECT_NEAR(
+          -(unlike.integrated(squares + h).log_density - unlike.integrated(squares).log_density) *
+              2.0 / h,
+          unlike.integrated(squares + 0.5 * h).precision, 1e-7);
     }
   }
 }
@@ -128,9 +127,9 @@ TEST(Unlikeness, OfNumbersThatAreKnownItIsThatOfTheirSquares) {
     return std::exp(-5.0 * log_lambda - 0.5 * squares * std::exp(-2.0 * log_lambda) -
                     0.5 * std::pow(log_lambda / kSpread, 2));
   };
-  const double square = over_log_lambda([&](double at) {
-                          return std::exp(2.0 * at) * density(at);
-                        }) / over_log_lambda(density);
+  const double square =
+      over_log_lambda([&](double at) { return std::exp(2.0 * at) * density(at); }) /
+      over_log_lambda(density);
   EXPECT_GT(square, 1.5);
   EXPECT_NEAR(Unlikeness(judged_numbers(50.0), 0.4)
                   .expected(exact * Eigen::MatrixXd::Identity(5, 5), (exact + 100.0) * off),
