@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
@@ -73,6 +74,28 @@ TEST(IdentifyData, ColumnsComeBackByNameOnTheClockOfTheLengths) {
   EXPECT_EQ(trial.moment_arm_m, truth.moment_arm_m);
   EXPECT_EQ(trial.torque_nm, truth.torque_nm);
   EXPECT_TRUE(files.remarks.empty());
+}
+
+TEST(IdentifyData, ABrokenChannelThatNoMuscleTakesIsNoFault) {
+  Written files;
+  const TimeSeries& emg = files.study.data.trials[0].activation;
+  const auto with = [&](const std::string& broken) {
+    // CSV, because the writer of storage files refuses numbers that are none.
+    std::string text = "time," + broken;
+    for (const Channel& channel : emg.channels()) text += "," + channel.name;
+    for (Eigen::Index i = 0; i < emg.sample_count(); ++i) {
+      text += fmt::format("\n{:.17g},{}", emg.time_s()[i], i == 7 ? "NaN" : "0.1");
+      for (Eigen::Index c = 0; c < emg.channel_count(); ++c)
+        text += fmt::format(",{:.17g}", emg.values()(i, c));
+    }
+    recording::write_file(files.folder / "a.csv", text + "\n");
+    files.sources.activations = {files.path("a.csv")};
+  };
+  with("glutmax");
+  EXPECT_EQ(files.read().activation.channel_count(), emg.channel_count());
+  files.table.muscles[0].emg_channel = "glutmax";
+  EXPECT_NE(files.message().find("channel 'glutmax' is not a number"), std::string::npos)
+      << files.message();
 }
 
 TEST(IdentifyData, WithoutVelocitiesTheyAreTheRatesOfTheLengths) {

@@ -104,14 +104,8 @@ class TrialReader {
     trial.velocity_mps = files.velocities.empty()
                              ? rates_of(muscle_series(files.lengths), trial.time_s)
                              : columns_of(files.velocities, trial.time_s);
-    trial.activation = series(files.activations);
+    trial.activation = emg_series(files.activations);
     require_finite(trial.activation, files.activations);
-    for (const MuscleSetup& m : muscles_) {
-      if (!trial.activation.find(m.emg_channel))
-        throw ReadError(files.activations, 0,
-                        fmt::format("no column '{}'; found {}", m.emg_channel,
-                                    channel_names(trial.activation)));
-    }
     trial.torque_nm = Eigen::VectorXd::Zero(trial.time_s.size());
     trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
     if (!forces.empty()) trial.force_n = columns_of(forces, trial.time_s);
@@ -151,6 +145,20 @@ class TrialReader {
         throw ReadError(path, 0,
                         fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
       names.push_back(m.name);
+    }
+    return all.select(names);
+  }
+
+  /// Returns the channels of the muscles' EMG, each once.
+  TimeSeries emg_series(const std::string& path) {
+    const TimeSeries& all = series(path);
+    std::vector<std::string> names;
+    for (const MuscleSetup& m : muscles_) {
+      if (!all.find(m.emg_channel))
+        throw ReadError(path, 0,
+                        fmt::format("no column '{}'; found {}", m.emg_channel, channel_names(all)));
+      if (std::find(names.begin(), names.end(), m.emg_channel) == names.end())
+        names.push_back(m.emg_channel);
     }
     return all.select(names);
   }

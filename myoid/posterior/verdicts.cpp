@@ -26,8 +26,9 @@ bool is_far(const PosteriorFacts& facts) {
 }
 
 std::string size_text(double half, bool is_delay) {
-  return is_delay ? fmt::format("± {:.0f} ms", 1000.0 * half)
-                  : fmt::format("± {:.2g} %", 100.0 * half);
+  if (is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
+  return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half)
+                      : fmt::format("± {:.0f} %", 100.0 * half);
 }
 
 std::string sources_text(const SourceShares& shares) {

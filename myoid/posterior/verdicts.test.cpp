@@ -34,6 +34,12 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
 }
 
+TEST(PosteriorVerdict, AWidthBeyondTheValueHasNoPowerOfTen) {
+  PosteriorFacts facts = good();
+  facts.high = 2.234 * facts.value;
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("± 123 % of the person"));
+}
+
 TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
   PosteriorFacts facts = good();
   facts.model_error = 0.19;
