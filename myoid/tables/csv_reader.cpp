@@ -109,9 +109,14 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
     std::vector<std::string> cells = cells_of(whole.lines[n], table.separator);
     while (cells.size() > table.names.size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.names.size()) {
-      throw ReadError(path, n + 1,
-                      fmt::format("expected {} cells as in the header ({}), found {}",
-                                  table.names.size(), fmt::join(table.names, ", "), cells.size()));
+      const bool too_many = cells.size() > table.names.size() && table.separator == ',';
+      throw ReadError(
+          path, n + 1,
+          fmt::format("expected {} cells as in the header ({}), found {}{}", table.names.size(),
+                      fmt::join(table.names, ", "), cells.size(),
+                      too_many
+                          ? "; a cell too many, or decimal commas in a table separated by commas"
+                          : ""));
     }
     table.rows.push_back(std::move(cells));
     table.lines.push_back(n + 1);

@@ -45,6 +45,13 @@ TEST(CsvTable, ARowOfAnotherWidthIsRefusedWithItsLine) {
     FAIL();
   } catch (const ReadError& error) {
     EXPECT_EQ(error.line(), 3U);
+    EXPECT_EQ(std::string(error.what()).find("decimal commas"), std::string::npos);
+  }
+  try {
+    (void)parse_csv_table("a,b\n0,5,0,1\n", "e.csv");
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_NE(std::string(error.what()).find("decimal commas"), std::string::npos);
   }
 }
 
