@@ -61,6 +61,7 @@ Finding finding(const PosteriorFacts& facts) {
   if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width))
     return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
+  if (is_far(facts)) return Finding::narrow_and_far;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage)
     return Finding::half_the_prior;
   return Finding::narrow;
@@ -78,9 +79,10 @@ Verdict verdict_of(Finding finding) {
     case Finding::one_length:
     case Finding::as_the_prior:
       return Verdict::prior_dominated;
-    case Finding::wrong_model:
-    case Finding::half_the_prior:
     case Finding::wide:
+    case Finding::wrong_model:
+    case Finding::narrow_and_far:
+    case Finding::half_the_prior:
       return Verdict::weak;
     case Finding::narrow:
       break;
@@ -107,6 +109,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
+  if (finding == Finding::narrow_and_far)
+    text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
   if (finding == Finding::wrong_model)
     text = fmt::format(
         "the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",

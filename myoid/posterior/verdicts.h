@@ -39,13 +39,14 @@ enum class Finding {
   as_the_prior,    ///< Contraction below VerdictRules::least_shrinkage.
   far_from_prior,  ///< So, and farther from the prior than VerdictRules::prior_conflict.
   too_wide,        ///< Beyond VerdictRules::weak_half_width.
-  wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
-  half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   wide,            ///< Beyond VerdictRules::identified_half_width.
+  wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
+  narrow_and_far,  ///< Narrow enough, but farther than VerdictRules::prior_conflict.
+  half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   narrow
 };
 
-/// Returns the first finding that holds; `wide` is asked ahead of `half_the_prior`.
+/// Returns the first finding that holds.
 [[nodiscard]] Finding finding(const PosteriorFacts& facts);
 [[nodiscard]] Verdict verdict_of(Finding finding);
 /// Returns a sentence with the finding, its numbers, and the sources that contribute a tenth or

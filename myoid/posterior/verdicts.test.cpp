@@ -6,6 +6,7 @@
 namespace myoid::identification {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -71,11 +72,14 @@ TEST(PosteriorVerdict, WhatThePriorSaysIsNotIdentified) {
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::prior_dominated);
 }
 
-TEST(PosteriorVerdict, AValueThatIsFarFromAPriorThatItDoesNotNarrowIsNotTheLiterature) {
+TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
   PosteriorFacts facts = good();
   facts.prior_distance = 4.9;
-  EXPECT_EQ(finding(facts), Finding::narrow);
-  EXPECT_THAT(reason_of(Finding::narrow, facts), HasSubstr("4.9 standard deviations away"));
+  EXPECT_EQ(finding(facts), Finding::narrow_and_far);
+  EXPECT_EQ(verdict_of(Finding::narrow_and_far), Verdict::weak);
+  EXPECT_THAT(
+      reason_of(Finding::narrow_and_far, facts),
+      AllOf(HasSubstr("a simplification of the model"), HasSubstr("4.9 standard deviations away")));
   facts.contraction = 0.1;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
   facts.prior_distance = 2.9;
