@@ -331,9 +331,13 @@ TEST_F(WorkbenchPage, SavesAFilmOfTheBodyThatPlays) {
          " return pen.getImageData(0, 0, v.videoWidth, v.videoHeight).data; };"
          " const seek = (t) => new Promise((done) => { v.onseeked = done; v.currentTime = t; });"
          " const first = picture(); await seek(1e9); const length = v.currentTime;"
-         " const last = picture(); let different = 0;"
+         // A busy browser says that it has found the place before it shows the picture there.
+         " let different = 0;"
+         " for (let tries = 0; tries < 60 && different <= 100; ++tries) {"
+         " await new Promise((done) => setTimeout(done, 50));"
+         " const last = picture(); different = 0;"
          " for (let i = 0; i < first.length; i += 4)"
-         " if (Math.abs(first[i] - last[i]) > 40) ++different;"
+         " if (Math.abs(first[i] - last[i]) > 40) ++different; }"
          " return [v.videoWidth / v.videoHeight, length, different]; })()");
   const double shape = js("myoid.canvas.clientWidth / myoid.canvas.clientHeight");
   EXPECT_NEAR(film[0].get<double>(), shape, 0.01);
@@ -525,6 +529,7 @@ TEST_F(WorkbenchPage, TheFirstPictureComesWithinASecondAndAHalf) {
   double best_s = 1e9;
   for (int i = 0; i < 3; ++i) {  // other programs may hold up one of them
     open();
+    browser_->wait_for("performance.getEntriesByName('first-contentful-paint').length > 0");
     best_s = std::min(
         best_s, js("performance.getEntriesByName('first-contentful-paint')[0].startTime / 1000")
                     .get<double>());
