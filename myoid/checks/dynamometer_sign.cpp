@@ -18,9 +18,6 @@
 namespace myoid {
 namespace {
 
-constexpr double kActive = 0.1;   ///< Share of a channel's largest value.
-constexpr double kLargest = 0.5;  ///< Share of a trial's largest torque.
-
 /// Returns F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
 Eigen::VectorXd strengths_nm(const Study& study,
                              const model::BodyModel& model,
@@ -93,7 +90,7 @@ std::optional<Products> compare(const Study& study,
   const TimeSeries a = signals::resample(trial.envelopes, t);
   const double from_s = trial.envelopes.time_s()[0];
   const double to_s = trial.envelopes.time_s()[trial.envelopes.sample_count() - 1];
-  const double enough = kLargest * usual_peak(torque_nm);
+  const double enough = kLimits.dynamometer_torque * usual_peak(torque_nm);
   Products sums;
   double most = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
@@ -108,7 +105,7 @@ std::optional<Products> compare(const Study& study,
     }
     sums.add({-pull * torque_nm[i], pull * pull, torque_nm[i] * torque_nm[i]});
   }
-  if (most < kActive) return std::nullopt;
+  if (most < kLimits.active) return std::nullopt;
   return sums;
 }
 

@@ -16,13 +16,6 @@
 namespace myoid {
 namespace {
 
-constexpr double kLeast_n = 20.0;
-constexpr double kMergedContact_s = 0.025;  ///< longest pause within a contact
-/// Greatest height difference of two feet that both stand on the ground.
-constexpr double kLevel_m = 0.04;
-constexpr double kStill_m_per_s = 0.25;
-constexpr double kFloorPush = 0.5;   ///< cosine of 60 degrees, as `recording::is_floor`
-constexpr double kTwoSteps_m = 0.5;  ///< the other foot may be two steps of stairs lower
 constexpr Eigen::Index kContactFrames = 1500;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 
@@ -117,9 +110,9 @@ class GroundContacts {
       double largest = 0.0;
       for (Eigen::Index i = 0; i < n; i += step_)
         largest = std::max(largest, force.force->at(data_time(i)).norm());
-      if (largest < kLeast_n) continue;
+      if (largest < kLimits.contact_n) continue;
       forces_.push_back(&force);
-      threshold_n_.push_back(std::max(kLeast_n, kLimits.contact_share * largest));
+      threshold_n_.push_back(std::max(kLimits.contact_n, kLimits.contact_share * largest));
     }
     of_force_.resize(forces_.size());
     walk();
@@ -141,8 +134,8 @@ class GroundContacts {
         above.push_back(m.above_m);
       }
     }
-    return !above.empty() && sum_n.dot(up_) >= kFloorPush * sum_n.norm() &&
-           math::median(std::move(above)) <= kTwoSteps_m;
+    return !above.empty() && sum_n.dot(up_) >= kLimits.floor_cosine * sum_n.norm() &&
+           math::median(std::move(above)) <= kLimits.two_steps_m;
   }
 
  private:
@@ -161,7 +154,7 @@ class GroundContacts {
       const auto centers = centers_at(data_time(i));
       for (std::size_t k = 0; k < forces_.size(); ++k) {
         if (!centers[k]) continue;
-        if (now_s - last_s[k] > std::max(kMergedContact_s, 1.5 * (now_s - before_s)))
+        if (now_s - last_s[k] > std::max(kLimits.contact_pause_s, 1.5 * (now_s - before_s)))
           of_force_[k].emplace_back();
         last_s[k] = now_s;
         of_force_[k].back().frames.push_back(frame_of(k, now_s, centers, lowest));
@@ -222,8 +215,8 @@ class GroundContacts {
   /// Returns true for a body that does not move and is as low as the body of the force.
   [[nodiscard]] bool stands(std::size_t body, model::BodyIndex own, const Lowest& lowest) const {
     const auto& mine = lowest.point_m[static_cast<std::size_t>(own)];
-    return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kStill_m_per_s &&
-           std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLevel_m;
+    return mine && lowest.point_m[body] && lowest.speed_m_per_s[body] < kLimits.still_mps &&
+           std::abs((*lowest.point_m[body] - *mine).dot(up_)) < kLimits.level_m;
   }
 
   /// Returns true if another force acts on the body, or under it.

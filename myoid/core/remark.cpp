@@ -66,7 +66,7 @@ constexpr std::array kNames = {
     "body_unsupported",
     "resting_torque",
 };
-static_assert(kNames.size() == static_cast<std::size_t>(RemarkCode::resting_torque) + 1);
+static_assert(kNames.size() == static_cast<std::size_t>(RemarkCode::count_of_codes));
 
 bool are_alike(const Remark& a, const Remark& b) {
   return a.code == b.code && a.severity == b.severity && a.about == b.about;

@@ -79,6 +79,7 @@ enum class RemarkCode {
   unloaded_time,
   body_unsupported,
   resting_torque,
+  count_of_codes,  ///< No code: the number of codes.
 };
 /// Returns "marker_gap", as in the documentation and --json.
 [[nodiscard]] std::string_view name(RemarkCode code);

@@ -87,14 +87,13 @@ Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s
 }
 
 std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input) {
-  constexpr double kSameBegin_s = 0.5;
   const Eigen::VectorXd* clock = motion_clock(input);
   if (clock == nullptr || !input.emg || trial.start_s || trial.end_s || input.emg_clock) return {};
   if (trial.use == Use::mvc || trial.use == Use::static_pose) return {};
   if (trial.emg == trial.markers || trial.emg == trial.motion) return {};
   const Eigen::VectorXd& emg = input.emg->time_s();
   const double begin_s = (*clock)[0];
-  if (std::abs(emg[0] - begin_s) > kSameBegin_s) return {};
+  if (std::abs(emg[0] - begin_s) > kLimits.same_begin_s) return {};
   return {{.trial = trial.name,
            .emg_s = emg[emg.size() - 1] - begin_s,
            .motion_s = length_s(*clock),

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/signals/motion_jumps.h"
 
 namespace myoid {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 double percent(double share) { return 100.0 * share; }
 double degrees_of(double cosine) { return std::acos(cosine) / kDegree; }
 
-void add_recordings(std::vector<PlausibilityRow>& rows) {
-  const PlausibilityLimits& l = kLimits;
+void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back({"one EMG recording in two trials", "error",
                   fmt::format("{:g} % of the samples or more are equal, in any file, clock or "
                               "window. Windows of one file "
@@ -47,6 +47,9 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
   rows.push_back({"activations in volts", "warning",
                   fmt::format("`kind = \"activation\"`, and no activation of any trial above {:g}",
                               l.flat_activation)});
+}
+
+void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back({"a clock that is not in seconds", "error",
                   fmt::format("fewer than {:g} samples a second", l.slowest_clock_hz)});
   rows.push_back(
@@ -61,20 +64,22 @@ void add_recordings(std::vector<PlausibilityRow>& rows) {
                               percent(l.covered), l.shortest_trial_s, l.uncovered_s)});
   rows.push_back(
       {"EMG and motion of unlike length", "error or warning",
-       fmt::format("the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An "
-                   "error if the "
-                   "EMG is the shorter one, or if both end within {:g} % of each other at the "
-                   "corrected rate; "
-                   "else a warning. Also a warning: one ratio in every trial, with differences of "
-                   "{:g} s or "
-                   "more; in a single trial, EMG that is {:g} times as long. Maximal contractions "
-                   "and trials "
-                   "with their own window or clock are not checked",
-                   percent(l.same_factor), percent(l.ends_together), l.by_hand_s, l.alone_longer)});
+       fmt::format(
+           "the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An "
+           "error if the "
+           "EMG is the shorter one, or if both end within {:g} % of each other at the "
+           "corrected rate; "
+           "else a warning. Also a warning: one ratio in every trial, with differences of "
+           "{:g} s or "
+           "more; in a single trial, EMG that is {:g} times as long. Maximal contractions, "
+           "trials with their own window or clock, and beginnings more than {:g} s apart are "
+           "not checked",
+           percent(l.same_factor), percent(l.ends_together), l.by_hand_s, l.alone_longer,
+           l.same_begin_s)});
 }
 
-void add_motion(std::vector<PlausibilityRow>& rows) {
-  const PlausibilityLimits& l = kLimits;
+void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
+  constexpr signals::MotionJumpLimits kJump;
   rows.push_back(
       {"external torque beyond any joint", "error",
        "more than 2.5 × 1.5 × the torque of all muscles of the model at F_max (the strongest "
@@ -88,13 +93,15 @@ void add_motion(std::vector<PlausibilityRow>& rows) {
        fmt::format("{:g} degrees beyond, where muscle paths mean nothing. Sign, zero or another "
                    "coordinate?",
                    l.angle_beyond_deg)});
-  rows.push_back(
-      {"an angle that jumps", "warning",
-       "moves faster than 143 deg/s (a length: 0.5 m/s) and three times as fast as 95 % of the "
-       "time, for less than 0.08 s above half of that peak. Joints speed up and slow down over a "
-       "tenth "
-       "of a second; the jump's acceleration would mean a torque that does not exist. `id`, `so`, "
-       "`paths` and `identify` warn of jumps, too"});
+  rows.push_back({"an angle that jumps", "warning",
+                  fmt::format("moves faster than {:.0f} deg/s (a length: {:g} m/s) and {:g} times "
+                              "as fast as 95 % of the "
+                              "time, for less than {:g} s above half of that peak. Joints speed up "
+                              "and slow down over a "
+                              "tenth of a second; the jump's acceleration would mean a torque that "
+                              "does not exist. `id`, `so`, "
+                              "`paths` and `identify` warn of jumps, too",
+                              kJump.radps / kDegree, kJump.mps, kJump.ratio, kJump.for_s)});
   rows.push_back(
       {"a dynamometer that pushes with the active muscles",
        "error if in all trials, warning if in some",
@@ -104,10 +111,21 @@ void add_motion(std::vector<PlausibilityRow>& rows) {
            "compared with minus `external_torque` where that is largest: cosine below {:g} over "
            "all, "
            "below {:g} in a trial. Then the sign is reversed: the torque must be that of the "
-           "surroundings on the body. Not checked: torques below {:g} % of the muscles' strength "
-           "or "
-           "below {:g} times the limb's weight, and passive trials",
-           l.certainly_reversed, l.reversed, percent(l.dynamometer_share), l.dynamometer_weights)});
+           "surroundings on the body. Not checked: torques below {:g} % of the trial's largest, "
+           "{:g} % of "
+           "the muscles' strength or {:g} times the limb's weight; EMG below {:g} % of its "
+           "largest; "
+           "passive trials",
+           l.certainly_reversed, l.reversed, percent(l.dynamometer_torque),
+           percent(l.dynamometer_share), l.dynamometer_weights, percent(l.active))});
+  rows.push_back(
+      {"a passive trial that is not at rest", "warning: not taken for the resting torque",
+       fmt::format("a channel is above {:g} % of its maximal contraction on average (without "
+                   "maximal contractions "
+                   "{:g} % of its largest value), or the torque is above {:g} % of the muscles' "
+                   "strength, beside "
+                   "the weight of limb and instrument",
+                   percent(l.relaxed), percent(l.relaxed_without_mvc), percent(l.resting_share))});
   rows.push_back(
       {"a held mass beyond the muscles", "warning; error if it is more than the person weighs",
        fmt::format("its greatest moment is more than all muscles of the model can hold or, in a "
@@ -121,8 +139,7 @@ void add_motion(std::vector<PlausibilityRow>& rows) {
        "more"});
 }
 
-void add_markers_and_loads(std::vector<PlausibilityRow>& rows) {
-  const PlausibilityLimits& l = kLimits;
+void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back(
       {"left and right exchanged", "error",
        fmt::format("in the frame with most markers, the distance from the model is more than {0:g} "
@@ -131,6 +148,15 @@ void add_markers_and_loads(std::vector<PlausibilityRow>& rows) {
                    "that and less "
                    "than {0:g} mm (at least {2} pairs: `R.Knee`, `RASI`, `knee_r`, `RightHeel`)",
                    1000.0 * l.sides_m, percent(l.sides_better), l.sides_pairs)});
+  rows.push_back(
+      {"the vertical lies across the trunk", "warning",
+       fmt::format(
+           "markers of the body on the ground joint are more than {:.0f} degrees from upright "
+           "by `[markers] up`, and less than {:.0f} by another axis",
+           degrees_of(l.trunk_across), degrees_of(l.trunk_upright))});
+}
+
+void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back(
       {"a center of pressure that is not under its foot", "error or warning",
        fmt::format(
@@ -142,23 +168,34 @@ void add_markers_and_loads(std::vector<PlausibilityRow>& rows) {
            "nearer to another body",
            l.off_body_m, percent(l.much_nearer), l.elsewhere_m)});
   rows.push_back(
+      {"a force plate under nobody", "error",
+       fmt::format("no marker is within {:g} m of the center of pressure of a contact, and "
+                   "`force_plates` names no body",
+                   l.plate_far_m)});
+  rows.push_back(
       {"a foreign foot on a plate", "warning",
        fmt::format(
-           "in a contact ({:g} ms and more above {:g} % of the largest force), the center of "
-           "pressure is "
-           "more than {:g} m from the body of the force and {:g} % as far from another body, or "
+           "in a contact ({:g} ms and more above {:g} % of the largest force and {:g} N; pauses up "
+           "to {:g} ms belong to it), the center of "
+           "pressure is more than {:g} m from the body of the force and {:g} % as far from another "
+           "body, or "
            "{:g} m "
            "from the body while it is under the body in other contacts. The message has the times, "
            "their share of the loaded time and the distances",
-           1000.0 * l.contact_s, percent(l.contact_share), l.off_body_m, percent(l.much_nearer),
-           l.far_from_foot_m)});
-  rows.push_back({"a second foot on a plate", "warning",
-                  fmt::format("for {:g} ms or more, the center of pressure is more than {:g} m "
-                              "from its body, while another "
-                              "foot without a force of its own stands still at the same height "
-                              "within {:g} m. One force "
-                              "cannot be divided between two feet",
-                              1000.0 * l.contact_s, l.between_feet_m, l.second_foot_m)});
+           1000.0 * l.contact_s, percent(l.contact_share), l.contact_n, 1000.0 * l.contact_pause_s,
+           l.off_body_m, percent(l.much_nearer), l.far_from_foot_m)});
+  rows.push_back(
+      {"a second foot on a plate", "warning",
+       fmt::format(
+           "for {:g} ms or more, the center of pressure is more than {:g} m "
+           "from its body, while another "
+           "foot without a force of its own stands (slower than {:g} m/s) at the same height (to "
+           "{:g} m) "
+           "within {:g} m. One force "
+           "cannot be divided between two feet. Only plates in the floor: the mean force is within "
+           "{:.0f} degrees of the vertical, and the lowest body is at most {:g} m below",
+           1000.0 * l.contact_s, l.between_feet_m, l.still_mps, l.level_m, l.second_foot_m,
+           degrees_of(l.floor_cosine), l.two_steps_m)});
   rows.push_back(
       {"a foot beside the plates", "warning",
        fmt::format(
@@ -173,26 +210,21 @@ void add_markers_and_loads(std::vector<PlausibilityRow>& rows) {
                   "the model is a whole person on a free joint, the study concerns a leg's joint, "
                   "and no force is "
                   "measured"});
-  rows.push_back(
-      {"the vertical lies across the trunk", "warning",
-       fmt::format(
-           "markers of the body on the ground joint are more than {:.0f} degrees from upright "
-           "by `[markers] up`, and less than {:.0f} by another axis",
-           degrees_of(l.trunk_across), degrees_of(l.trunk_upright))});
 }
 
 }  // namespace
 
-std::vector<PlausibilityRow> plausibility_rows() {
+std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits) {
   std::vector<PlausibilityRow> rows;
-  add_recordings(rows);
-  add_motion(rows);
-  add_markers_and_loads(rows);
+  add_recordings(limits, rows);
+  add_clocks(limits, rows);
+  add_motion(limits, rows);
+  add_markers(limits, rows);
+  add_loads(limits, rows);
   return rows;
 }
 
-std::vector<PlausibilityRow> gate_rows() {
-  const GateLimits& l = kGateLimits;
+std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
   return {
       {"frames without a pose", "warning; fails",
        fmt::format("any; more than {:g} %", percent(l.lost_frames))},

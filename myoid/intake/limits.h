@@ -24,6 +24,7 @@ struct PlausibilityLimits {
   double covered = 0.5;          ///< Least share of the motion that EMG or loads cover.
   double uncovered_s = 0.1;      ///< The motion may last so much longer, without a word.
   double same_factor = 0.02;     ///< Relative distance from a factor of 2, 3, 4, 5 or 10.
+  double same_begin_s = 0.5;     ///< Recordings that begin farther apart are not compared.
   double ends_together = 0.005;  ///< Relative difference of durations at the corrected rate that
                                  ///< makes a wrong rate certain.
   double by_hand_s = 1.0;        ///< Recordings stopped by hand differ by this in duration.
@@ -40,6 +41,11 @@ struct PlausibilityLimits {
   double dynamometer_share = 0.1;
   /// A torque below this multiple of the limb's weight is not checked.
   double dynamometer_weights = 4.0;
+  double dynamometer_torque = 0.5;  ///< Share of a trial's largest torque.
+  double active = 0.1;              ///< Share of a channel's largest value.
+  // Passive trials: share of the maximal contraction or, without one, of the largest value.
+  double relaxed = 0.02, relaxed_without_mvc = 0.05;
+  double resting_share = 0.25;  ///< Share of the muscles' strength that no relaxed joint resists.
   // Markers.
   double trunk_across = 0.5;   ///< Cosine between trunk and vertical, 60 degrees.
   double trunk_upright = 0.8;  ///< Cosine of 37 degrees.
@@ -47,17 +53,23 @@ struct PlausibilityLimits {
   double sides_better = 0.5;   ///< Ratio of this distance with left and right exchanged.
   int sides_pairs = 3;
   // Loads.
-  double plate_far_m = 0.3;      ///< A marker farther from a contact does not stand on it.
-  double off_body_m = 0.2;       ///< A foot is 0.27 m long: half of it, and the error of markers.
-  double elsewhere_m = 2.0;      ///< Distance beyond any body.
-  double much_nearer = 0.5;      ///< Ratio to the distance from the own body.
-  double contact_share = 0.05;   ///< Share of the largest force.
-  double contact_s = 0.05;       ///< A shorter contact is a knock.
-  double far_from_foot_m = 0.3;  ///< Distance from the foot that is too far in any case.
-  double between_feet_m = 0.1;   ///< The center of pressure leaves the foot's outline.
-  double second_foot_m = 0.4;    ///< Reach of a plate from its center of pressure.
-  double bears = 0.5;            ///< Share of the weight that the forces under the body carry.
-  double bears_nothing = 0.05;   ///< Share of the weight below which the forces carry nothing.
+  double plate_far_m = 0.3;        ///< A marker farther from a contact does not stand on it.
+  double off_body_m = 0.2;         ///< A foot is 0.27 m long: half of it, and the error of markers.
+  double elsewhere_m = 2.0;        ///< Distance beyond any body.
+  double much_nearer = 0.5;        ///< Ratio to the distance from the own body.
+  double contact_share = 0.05;     ///< Share of the largest force.
+  double contact_n = 20.0;         ///< A smaller force is no contact.
+  double contact_s = 0.05;         ///< A shorter contact is a knock.
+  double contact_pause_s = 0.025;  ///< A longer pause ends a contact.
+  double far_from_foot_m = 0.3;    ///< Distance from the foot that is too far in any case.
+  double between_feet_m = 0.1;     ///< The center of pressure leaves the foot's outline.
+  double second_foot_m = 0.4;      ///< Reach of a plate from its center of pressure.
+  double level_m = 0.04;           ///< Feet on one floor differ by less in height.
+  double still_mps = 0.25;         ///< A foot that stands moves slower.
+  double floor_cosine = 0.5;       ///< A floor pushes within 60 degrees of the vertical.
+  double two_steps_m = 0.5;        ///< The lower foot is two steps of stairs below the plate.
+  double bears = 0.5;              ///< Share of the weight that the forces under the body carry.
+  double bears_nothing = 0.05;     ///< Share of the weight below which the forces carry nothing.
   double unloaded_s = 0.1;
   /// Share of gravity: a body that accelerates faster downwards is in the air.
   double falls = 0.5;
@@ -82,8 +94,8 @@ inline constexpr GateLimits kGateLimits;
 struct PlausibilityRow {
   std::string what, level, limit;
 };
-[[nodiscard]] std::vector<PlausibilityRow> plausibility_rows();
-[[nodiscard]] std::vector<PlausibilityRow> gate_rows();
+[[nodiscard]] std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits = {});
+[[nodiscard]] std::vector<PlausibilityRow> gate_rows(const GateLimits& limits = {});
 
 /// Returns the rows as Markdown.
 [[nodiscard]] std::string markdown(const std::vector<PlausibilityRow>& rows);

@@ -16,8 +16,7 @@
 namespace myoid {
 namespace {
 
-constexpr double kBriefest_s = 0.05;  ///< a shorter contact is a knock on the plate
-constexpr double kMerged_s = 0.02;    ///< longest pause within a contact
+constexpr double kMerged_s = 0.02;  ///< longest pause within a contact
 
 /// Samples of a plate in the model's ground.
 struct Wrench {
@@ -59,7 +58,7 @@ std::vector<Contact> contacts_of(const Wrench& w, const Eigen::VectorXd& time_s)
     contacts.back().end = i + 1;
   }
   std::erase_if(contacts, [&](const Contact& c) {
-    return time_s[c.end - 1] - time_s[c.first] < kBriefest_s;
+    return time_s[c.end - 1] - time_s[c.first] < kLimits.contact_s;
   });
   return contacts;
 }

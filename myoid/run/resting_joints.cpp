@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/intake/limits.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/study/study_model.h"
 
@@ -13,9 +14,6 @@ namespace myoid {
 using identification::RestingJoint;
 
 namespace {
-
-constexpr double kRelaxed = 0.02, kRelaxedWithoutMvc = 0.05;
-constexpr double kLargestShare = 0.25;
 
 /// Returns the torque of all the joint's muscles together: sum of the largest |r| times F_max.
 double strength_nm(const Study& study,
@@ -45,13 +43,14 @@ std::string too_strong(const Study& study,
     const double beside =
         identification::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
     const double strength = strength_nm(study, model, trial, name);
-    const double limit = kLargestShare * strength;
+    const double limit = kLimits.resting_share * strength;
     if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
     return fmt::format(
-        "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than a quarter of what its "
-        "muscles could exert ({:.0f} N m) and {:g} N m of weight: no relaxed joint resists that "
+        "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its "
+        "muscles' strength ({:.0f} N m) and {:g} N m of weight: no relaxed joint resists that "
         "much; N mm, or the instrument's offset?",
-        name, largest, beside, strength, identification::kLargestWeight_nm);
+        name, largest, beside, 100.0 * kLimits.resting_share, strength,
+        identification::kLargestWeight_nm);
   }
   return {};
 }
@@ -61,7 +60,7 @@ std::string not_at_rest(const Study& study,
                         const model::BodyModel& model,
                         const RelaxedTrial& trial) {
   const bool mvc = study.emg.has_mvc;
-  const double limit = mvc ? kRelaxed : kRelaxedWithoutMvc;
+  const double limit = mvc ? kLimits.relaxed : kLimits.relaxed_without_mvc;
   for (const Channel& channel : trial.activation->channels()) {
     const double mean = trial.activation->column(channel.name).mean();
     if (mean > limit) {

@@ -151,7 +151,7 @@ TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   ASSERT_FALSE(result.trials[0].remarks.empty());
   EXPECT_EQ(result.trials[0].remarks.back().severity, Severity::warning);
   EXPECT_THAT(result.trials[0].remarks.back().says,
-              HasSubstr("more than a quarter of what its muscles"));
+              HasSubstr("more than 25 % of its muscles' strength"));
 }
 
 TEST(RestingJoints, WithoutAMeasuredTorqueNothingIsKnown) {

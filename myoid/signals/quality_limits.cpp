@@ -30,8 +30,8 @@ std::vector<LimitRow> limit_rows(const QualityLimits& l) {
       {plate_offset, fmt::format("{:g} N", l.plate_offset_n)},
       {plate_sign, "any"},
       {plate_pressure_outside,
-       fmt::format("{:g} mm, {:g} % of the loaded time", 1000.0 * l.plate_margin_m,
-                   100.0 * l.plate_outside_share)},
+       fmt::format("{:g} mm, {:g} % of the time above {:g} N", 1000.0 * l.plate_margin_m,
+                   100.0 * l.plate_outside_share, l.plate_loaded_n)},
   };
 }
 

@@ -9,6 +9,7 @@
 #include "myoid/core/remark.h"
 
 #include "tests/support/places.h"
+#include "tests/support/printed_page.h"
 
 namespace myoid::signals {
 namespace {
@@ -25,6 +26,14 @@ TEST(QualityLimits, AreTheOnesThatTheDocumentationLists) {
   }
   // The last kind has the last row.
   EXPECT_EQ(rows.back().code, RemarkCode::plate_pressure_outside);
+}
+
+TEST(QualityLimits, EveryOneIsInARow) {
+  test::expect_all_printed<QualityLimits>([](const QualityLimits& limits) {
+    std::string text;
+    for (const LimitRow& row : limit_rows(limits)) text += row.limit + "\n";
+    return text;
+  });
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +38,27 @@ inline void expect_printed(const std::string& page,
   }
   EXPECT_EQ(text.substr(first, to - first), printed)
       << page << " differs from the program; run this test with MYOID_PRINT_PAGES=1 to print it";
+}
+
+/// Expects that the text of `print(limits)` tells every number of a struct of numbers: it changes
+/// each 8 bytes of the struct in turn, a number by its factor and an integer by one.
+template <typename Limits, typename Print>
+void expect_all_printed(const Print& print) {
+  static_assert(std::is_trivially_copyable_v<Limits> && sizeof(Limits) % sizeof(double) == 0);
+  const std::string usual = print(Limits{});
+  for (std::size_t at = 0; at < sizeof(Limits); at += sizeof(double)) {
+    Limits limits;
+    char* const place = reinterpret_cast<char*>(&limits) + at;
+    double value = 0.0;
+    std::memcpy(&value, place, sizeof value);
+    if (std::abs(value) > 1e-100) {
+      value *= 0.83;
+      std::memcpy(place, &value, sizeof value);
+    } else {
+      ++*place;
+    }
+    EXPECT_NE(print(limits), usual) << "the text does not tell number " << at / sizeof(double);
+  }
 }
 
 }  // namespace myoid::test
