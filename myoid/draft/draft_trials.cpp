@@ -92,7 +92,7 @@ class TrialWriter {
     FoundRecording* emg = emg_of(f, found_);
     std::string use = guessed_use(f.stem);
     const bool without_emg = emg == nullptr && use != "static";
-    if (without_emg) use = use == "mvc" ? "static" : "passive";
+    if (without_emg && use != "passive") use = "static";
     if (emg != nullptr) emg->emg_taken = true;
     out_.line("[[trial]]");
     out_.line("name = " + in_quotes(unique(f.stem)));
