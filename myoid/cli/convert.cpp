@@ -7,6 +7,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/json_text.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::cli {
 namespace {
@@ -38,10 +39,9 @@ void add_convert(CLI::App& app, Context& context) {
       "Example: myoid convert walk.c3d walk/ --body calcn_r --body calcn_l");
   const auto o = std::make_shared<commands::ConvertOptions>();
   command
-      .add_option(
-          "in", o->in,
-          ".c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto, .mot, BIDS _motion.tsv, or "
-          "the folder of a finished run")
+      .add_option("in", o->in, recording::endings_text([](const recording::FormatEntry& entry) {
+                                 return recording::is_recording(entry.format);
+                               }) + ", or the folder of a finished run")
       ->required();
   command
       .add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")

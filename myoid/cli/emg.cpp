@@ -12,6 +12,7 @@
 #include "myoid/cli/context.h"
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/files/file_format.h"
 
 namespace myoid::cli {
 namespace {
@@ -89,8 +90,8 @@ void add_emg(CLI::App& app, Context& context) {
   const auto asked = std::make_shared<EmgFlags>();
   command
       .add_option("in", o->in,
-                  "EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot); of several files each is "
-                  "normalized by the largest effort of all")
+                  "EMG (" + recording::emg_endings_text() +
+                      "); of several files each is normalized by the largest effort of all")
       ->required();
   command
       .add_option("--out", asked->out,

@@ -86,10 +86,7 @@ void add_info(CLI::App& app, Context& context) {
                    "coordinate");
   add_model_page_options(command, *page, *html);
   add_compat_option(command, context);
-  command
-      .add_option("files", *files,
-                  ".c3d, .trc, .mot, .sto, .csv, .edf, .bdf, .anc, .osim or study.toml; or arm4")
-      ->required();
+  command.add_option("files", *files, commands::known_endings() + "; or arm4")->required();
   add_common_options(command, context);
   command.callback([&context, files, o, page, html] {
     if (!html->empty()) return write_page(*files, *page, *html, context);

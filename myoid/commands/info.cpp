@@ -49,17 +49,19 @@ ordered_json contents_of(const InfoOptions& o) {
   const auto format = recording::format_of(o.file);
   if (format == recording::FileFormat::toml) return study_contents(o.file);
   (void)recording::read_text_file(o.file);  // reports a missing or empty file
-  throw ReadError(
-      o.file, 0,
-      fmt::format("files of kind '{}' are not known; known are {}", recording::extension_of(o.file),
-                  recording::endings_text([](const recording::FormatEntry& entry) {
-                    return recording::is_recording(entry.format) ||
-                           entry.format == recording::FileFormat::model ||
-                           entry.format == recording::FileFormat::toml;
-                  })));
+  throw ReadError(o.file, 0,
+                  fmt::format("files of kind '{}' are not known; known are {}",
+                              recording::extension_of(o.file), known_endings()));
 }
 
 }  // namespace
+
+std::string known_endings() {
+  return recording::endings_text([](const recording::FormatEntry& entry) {
+    return recording::is_recording(entry.format) || entry.format == recording::FileFormat::model ||
+           entry.format == recording::FileFormat::toml;
+  });
+}
 
 bool is_model(const std::string& file) {
   return recording::format_of(file) == recording::FileFormat::model ||

@@ -22,6 +22,9 @@ struct InfoOptions {
 /// `contents_text` formats the content as text. Throws ReadError for a file of no known kind.
 [[nodiscard]] nlohmann::ordered_json info(const InfoOptions& options);
 
+/// Returns the endings of the files that `info` knows.
+[[nodiscard]] std::string known_endings();
+
 /// Returns true if the name is that of a model: an .osim file, or the built-in "arm4".
 [[nodiscard]] bool is_model(const std::string& file);
 

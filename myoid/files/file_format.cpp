@@ -68,7 +68,8 @@ const std::vector<FormatEntry>& file_formats() {
        .reader = "c3d/c3d_reader",
        .writer = "c3d/c3d_writer",
        .markers = true,
-       .channels = true},
+       .channels = true,
+       .emg = true},
       {.format = F::trc,
        .endings = {".trc"},
        .written = {".trc"},
@@ -84,7 +85,8 @@ const std::vector<FormatEntry>& file_formats() {
        .holds = "angles, torques, EMG, activations: anything over time",
        .reader = "tables/storage_reader",
        .writer = "tables/storage_writer",
-       .channels = true},
+       .channels = true,
+       .emg = true},
       {.format = F::text_table,
        .endings = {".csv", ".tsv", ".txt", ".emt"},
        .written = {".csv"},
@@ -93,7 +95,8 @@ const std::vector<FormatEntry>& file_formats() {
        .reader = "tables/text_table",
        .writer = "tables/table_writer",
        .markers = true,
-       .channels = true},
+       .channels = true,
+       .emg = true},
       {.format = F::bids_motion,
        .endings = {"_motion.tsv"},
        .kind = "a motion of BIDS",
@@ -106,13 +109,15 @@ const std::vector<FormatEntry>& file_formats() {
        .kind = "a recording",
        .holds = "EMG, events",
        .reader = "recording/edf_reader",
-       .channels = true},
+       .channels = true,
+       .emg = true},
       {.format = F::anc,
        .endings = {".anc"},
        .kind = "analog channels",
        .holds = "analog channels",
        .reader = "recording/anc_reader",
-       .channels = true},
+       .channels = true,
+       .emg = true},
       mesh(F::mesh_vtp, ".vtp"),
       mesh(F::mesh_stl, ".stl"),
       mesh(F::mesh_obj, ".obj"),
@@ -165,6 +170,10 @@ std::string endings_text(bool (*accepts)(const FormatEntry&)) {
     if (accepts(entry)) endings.insert(endings.end(), entry.endings.begin(), entry.endings.end());
   }
   return listed(endings);
+}
+
+std::string emg_endings_text() {
+  return endings_text([](const FormatEntry& entry) { return entry.emg; });
 }
 
 std::string written_endings_text() { return listed(written_endings()); }

@@ -37,6 +37,7 @@ struct FormatEntry {
   std::string_view writer;                ///< The unit that writes the format, or empty.
   bool markers = false;                   ///< A file may hold markers.
   bool channels = false;                  ///< A file may hold channels over time.
+  bool emg = false;                       ///< `read_emg` reads EMG of the format.
 };
 
 /// Returns all formats, one row each.
@@ -58,6 +59,9 @@ struct FormatEntry {
 /// Returns the endings of all formats that `listed` accepts, in the order of the table: ".c3d, .trc
 /// and .sto".
 [[nodiscard]] std::string endings_text(bool (*listed)(const FormatEntry&));
+
+/// Returns the endings of all formats of which EMG is read.
+[[nodiscard]] std::string emg_endings_text();
 
 /// Returns the endings of recordings that Myoid writes: ".c3d, .trc, .sto, .mot and .csv".
 [[nodiscard]] std::string written_endings_text();

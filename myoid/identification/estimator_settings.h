@@ -13,7 +13,8 @@ namespace myoid::identification {
 
 /// A person's choice of how muscles follow their EMG.
 enum class LagChoice {
-  automatic,   ///< Method `torque`: the lag that fits the data best; other methods: `delay`.
+  automatic,   ///< Method `torque`: the lag that fits best (least squares), or both lags by their
+               ///< evidence (posterior); other methods: `delay`.
   delay,       ///< EmgLag::delay
   shared,      ///< EmgLag::shared
   equation_1,  ///< EmgLag::equation_1: the delay is the time beside the lags.

@@ -83,7 +83,6 @@ struct EstimatorOptions {
   std::optional<double> delay_s;  ///< Fixed delay; empty: estimated, with a prior.
   double delay_prior_mean_s = beliefs::kEmgDelay.value;
   double delay_prior_sd_s = beliefs::kEmgDelay.sd;
-  double delay_limit_s = 0.15;
   bool delay_per_channel = false;  ///< One delay for each EMG channel; false: one for all.
   /// EMG channels whose gain is a nuisance about 1, with the standard deviation of its logarithm:
   /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.

@@ -95,7 +95,6 @@ void decide_muscle(ParameterSlot& slot,
 /// has its own.
 void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels) {
   slot.free = !options.delay_s;
-  slot.bounds.upper = options.delay_limit_s;
   slot.prior = Prior{.mean = options.delay_prior_mean_s, .sd = options.delay_prior_sd_s};
   if (options.delay_per_channel) return;
   slot.follows = slot.owner > 0;

@@ -25,8 +25,8 @@ struct EmgFile {
 /// Returns "uV" for 1e-6.
 [[nodiscard]] std::string voltage_name(double to_volt);
 
-/// Reads EMG from .c3d, .edf, .bdf, .anc, .sto, .mot or a table (.csv, .tsv, .txt; see
-/// `read_emg_table`). Raw EMG must have a unit: of its channel ("name [mV]"), of the file
+/// Reads EMG of the formats that `file_formats` marks. Raw EMG must have a unit: of its channel
+/// ("name [mV]"), of the file
 /// (`stated_voltage`), or else `unit` ("uV"). Without one, ReadError says how to give it. Left out
 /// with a note are channels in newtons or the like, channels of force plates
 /// (FORCE_PLATFORM:CHANNEL) and channels named like another instrument's (`named_as_no_emg`). With

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/files/file_format.h"
+
 namespace myoid {
 
 void visit(SyncSpec& sync, SettingVisitor& v) {
@@ -97,6 +99,8 @@ void visit_name(TrialSpec& trial, SettingVisitor& v) {
 
 /// Visits the recordings of a trial.
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
+  static const std::string kEmgFiles =
+      recording::emg_endings_text() + ". A C3D file may be that of the markers.";
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
                   "`_motion.tsv`.",
@@ -105,9 +109,7 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
   v.must(!trial.markers || !trial.motion, "motion",
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg,
-         {.says = "`.c3d` (may be that of the markers), `.edf`, `.bdf`, `.anc`, `.csv`, `.tsv`, "
-                  "`.txt`, `.sto`, `.mot`.",
-          .otherwise = "required, but for `static` and `passive`"});
+         {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
   v.path(
       "external_torque", trial.external_torque,
       {.says =

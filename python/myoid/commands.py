@@ -282,7 +282,7 @@ def emg(inputs: Files, *, out: File | None = None, mvc: Files | None = None, cha
     """Raw EMG to activation: high-pass, rectify, low-pass, resting level, normalized to the largest effort.
 
     Args:
-        inputs: EMG (.c3d, .edf, .bdf, .anc, .csv, .sto, .mot); each is normalized by the largest effort of all.
+        inputs: Files with EMG; each is normalized by the largest effort of all.
         out: Activation (.sto, .mot, .csv); of several inputs a folder.
         mvc: Maximal contractions to normalize by.
         channel: Only these.

@@ -120,7 +120,7 @@ class Recording:
 
 
 def read(path: str | os.PathLike[str]) -> Recording:
-    """Reads a recording: .c3d, .trc, .edf, .bdf, .anc, .csv, .tsv, .txt, .sto, .mot or BIDS _motion.tsv.
+    """Reads a recording of any format that docs/guide/file-formats.md lists.
 
     Args:
         path: The file; the ending of its name decides the format.
