@@ -1,8 +1,9 @@
 # Everything comes from Debian 12's packages; nothing is fetched.
 find_program(MYOID_CCACHE ccache)
 if(MYOID_CCACHE)
-  # Without these two permissions ccache passes by what uses precompiled headers (its manual, "Precompiled headers").
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${MYOID_CCACHE})
+  # A second checkout finds the first one's objects.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+                                  ${MYOID_CCACHE})
 endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

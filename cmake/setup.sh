@@ -4,7 +4,6 @@
 
 MYOID_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 MYOID_BUILD="$MYOID_ROOT/build/release"
-export CCACHE_BASEDIR="$MYOID_ROOT" CCACHE_NOHASHDIR=1  # a second checkout finds the first one's objects
 
 # package: why it is needed
 MYOID_PACKAGES=(
