@@ -20,6 +20,9 @@ namespace {
 constexpr double kSpectrumSegment_s = 0.25;
 constexpr double kUsualBandwidth_hz = 150.0;  ///< Of surface EMG whose raw signal is not available.
 constexpr double kRest_s = 1.0;
+/// Spreads of a mean over a pause by which a pause is quieter than the quietest second, so that the
+/// muscle was not at rest in that second.
+constexpr double kQuieter = 3.0;
 /// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
 /// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
@@ -63,6 +66,7 @@ double bandwidth_of(const TrialEnvelope& trial, const std::string& channel) {
 /// Moving means of one channel over all trials.
 struct Means {
   std::vector<double> of_a_second;  ///< Means over a second, for the resting level.
+  std::vector<double> of_a_pause;   ///< Means over a pause, for that of a cyclic movement.
   std::vector<double> of_a_window;  ///< Means over the window, for the greatest level.
   double samples_per_window = 0.0;
 };
@@ -78,6 +82,8 @@ Means moving_means(std::span<const TrialEnvelope> trials,
     const Eigen::VectorXd x = trial.envelope->column(n.channel);
     const Eigen::VectorXd second = math::moving_mean(x, window_samples(*trial.envelope, kRest_s));
     result.of_a_second.insert(result.of_a_second.end(), second.begin(), second.end());
+    const Eigen::VectorXd pause = math::moving_mean(x, window_samples(*trial.envelope, kPause_s));
+    result.of_a_pause.insert(result.of_a_pause.end(), pause.begin(), pause.end());
     const Eigen::VectorXd& clock = trial.envelope->time_s();
     const double length_s = clock[clock.size() - 1] - clock[0] + trial.envelope->mean_interval_s();
     longest_s = std::max(longest_s, length_s);
@@ -230,8 +236,11 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
     };
     const double spread = spread_over(options.window_s);
-    const double quiet =
+    const double second =
         extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
+    const double of_pauses = spread_over(kPause_s);
+    const double pause = extreme_level(std::move(means.of_a_pause), 2.0 * of_pauses, 1.0).level;
+    const double quiet = pause < (1.0 - kQuieter * of_pauses) * second ? pause : second;
     const Extreme greatest = extreme_level(std::move(means.of_a_window), 1.5 * spread, -1.0);
     n.relative_sd =
         spread /

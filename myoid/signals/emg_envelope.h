@@ -71,12 +71,16 @@ struct TrialEnvelope {
   Eigen::VectorXd bandwidth_hz;  ///< Bandwidth of each channel's raw EMG; empty if unknown.
 };
 
+/// A pause between the bursts of a cyclic movement; shorter than a burst of walking.
+inline constexpr double kPause_s = 0.2;
+
 /// Resting level and reference of one EMG channel.
 struct ChannelNormalisation {
   std::string channel;
   /// Noise of the electrode: the mean of the study's quiet seconds, those at most two spreads of a
   /// 1 s mean above it. The lowest of many noisy means would be 5 to 10 % below, and at rest a
-  /// hundredth of the maximum would be left. 0 if the muscle never rests.
+  /// hundredth of the maximum would be left. Where no second is quiet, as in walking, the pauses
+  /// (`kPause_s`) take their place. 0 if the muscle never rests.
   double resting_level_v = 0.0;
   bool rests = true;  ///< False if the greatest level is below 1.5 times the quietest second, as in
                       ///< an effort sustained from the first sample to the last.

@@ -10,8 +10,7 @@
 namespace myoid::signals {
 namespace {
 
-/// Extreme means of an envelope: smallest and largest over 0.2 s, shorter than a burst of walking,
-/// and largest over 0.5 s.
+/// Extreme means of an envelope: smallest and largest over a pause, and largest over 0.5 s.
 struct Levels {
   double least = std::numeric_limits<double>::infinity();
   double peak = 0.0;
@@ -31,7 +30,7 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
     return std::clamp<Eigen::Index>(
         static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1, x.size());
   };
-  const Eigen::Index narrow = width(0.2);
+  const Eigen::Index narrow = width(kPause_s);
   for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
     const double mean = (sum[i + narrow] - sum[i]) / static_cast<double>(narrow);
     result.least = std::min(result.least, mean);

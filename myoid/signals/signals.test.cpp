@@ -180,6 +180,24 @@ TEST(Normalisation, TheLowestOfManyNoisySecondsIsNotTaken) {
   EXPECT_LT(activation.segment(1000, 198000).mean(), 0.2 * 0.03);
 }
 
+TEST(Normalisation, BetweenTheBurstsOfAWalkTheMuscleRests) {
+  // Bursts of 0.3 s every 1.1 s for a minute: no second is without one. Noise of 5 uV between them;
+  // a pause's mean of white noise from 20 to 500 Hz spreads by 0.7555 / sqrt(2 x 480 Hz x 0.2 s)
+  // = 5.5 %, and the mean of the lowest pauses lies a few per cent below the noise's.
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd x(60000, 1);
+  for (Eigen::Index k = 0; k < x.rows(); ++k)
+    x(k, 0) = (k % 1100 < 300 ? 1e-4 : 5e-6) * normal(engine);
+  const EmgStages emg = process_emg(
+      TimeSeries(Eigen::VectorXd::LinSpaced(x.rows(), 0.0, 59.999), {{"m", Unit::volt}}, x),
+      {.whitening = false});
+  const std::vector<TrialEnvelope> trials{{"walk", false, &emg.envelope, emg.bandwidth_hz}};
+  const ChannelNormalisation n = find_normalisation(trials)[0];
+  EXPECT_TRUE(n.rests);
+  EXPECT_NEAR(n.resting_level_v / (5e-6 * std::sqrt(2.0 / kPi) * std::sqrt(0.96)), 1.0, 0.1);
+}
+
 TEST(Normalisation, AWindowLongerThanEveryRecordingIsRefused) {
   const TimeSeries task = steps({1e-6, 2e-5, 1e-6});  // 6 s
   const TimeSeries mvc = steps({1e-6, 1.01e-4});      // 4 s
