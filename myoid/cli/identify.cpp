@@ -83,9 +83,9 @@ void print_samples(const identification::IdentificationResult& result,
 void print_fit(const identification::IdentificationResult& result,
                const StudyData& data,
                bool torque) {
-  fmt::print("\n{:<34}{:>12}{:>8}\n", "fitted", torque ? "RMSE [N m]" : "RMSE [N]", "R2");
+  fmt::print("\n{:<34}{:>12}{:>10}\n", "fitted", torque ? "RMSE [N m]" : "RMSE [N]", "R2");
   const auto row = [](const std::string& name, double rmse, double r2) {
-    fmt::print("{:<34}{:>12.4g}{:>8.3f}\n", name, rmse, r2);
+    fmt::print("{:<34}{:>12.4g}{:>10}\n", name, rmse, identification::r2_text(r2));
   };
   for (const identification::TrialFit& t : result.trials) {
     if (torque) {
@@ -102,9 +102,9 @@ void print_fit(const identification::IdentificationResult& result,
       row(t.trial + ", " + data.muscles[k].name, s.rmse_nm(), s.r2());
     }
   }
-  fmt::print("{:<34}{:>12}{:>8.3f}\n",
+  fmt::print("{:<34}{:>12}{:>10}\n",
              result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least",
-             "", result.r2);
+             "", identification::r2_text(result.r2));
 }
 
 void print_folds(const std::vector<identification::Fold>& folds,
@@ -114,14 +114,16 @@ void print_folds(const std::vector<identification::Fold>& folds,
     fmt::print("\nNothing was left out of the fit to be predicted: {}.\n", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
-  fmt::print("\n{:<34}{:>12}{:>14}{:>8}{:>10}   {}\n", "left out of the fit, then predicted",
+  fmt::print("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
              o.method == "force" ? "RMSE [N]" : "RMSE [N m]", "of range [%]", "R2", "smoothed",
              "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
-    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>8.3f}{:>10.3f}   {:.3f}\n",
+    fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
                several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
                fold.identified.rmse_nm(), 100.0 * fold.identified.nrmse_range(),
-               fold.identified.r2(), fold.smooth.r2(), fold.literature.r2());
+               identification::r2_text(fold.identified.r2()),
+               identification::r2_text(fold.smooth.r2()),
+               identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);

@@ -148,7 +148,8 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   });
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty())
     remarks.warn(doubt);
-  for (const signals::MotionJump& jump : signals::find_motion_jumps(q))
+  const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
+  for (const signals::MotionJump& jump : signals::find_motion_jumps(q, asked))
     remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     remarks.warn(

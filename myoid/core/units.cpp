@@ -65,7 +65,8 @@ constexpr std::array kLongWords = {
     UnitWord{"degrees", {Unit::radian, kDegree}}, UnitWord{"degree", {Unit::radian, kDegree}},
     UnitWord{"radians", {Unit::radian, 1.0}},     UnitWord{"volts", {Unit::volt, 1.0}},
     UnitWord{"volt", {Unit::volt, 1.0}},          UnitWord{"millivolts", {Unit::volt, 1e-3}},
-    UnitWord{"microvolts", {Unit::volt, 1e-6}},   UnitWord{"newtons", {Unit::newton, 1.0}},
+    UnitWord{"millivolt", {Unit::volt, 1e-3}},    UnitWord{"microvolts", {Unit::volt, 1e-6}},
+    UnitWord{"microvolt", {Unit::volt, 1e-6}},    UnitWord{"newtons", {Unit::newton, 1.0}},
     UnitWord{"seconds", {Unit::second, 1.0}},     UnitWord{"hz", {Unit::hertz, 1.0}},
 };
 

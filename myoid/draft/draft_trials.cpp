@@ -57,7 +57,7 @@ class TrialWriter {
     }
     for (FoundRecording& f : found_) {
       if (f.markers.frame_count() == 0 || f.motion_taken) continue;
-      if (has_angles_of_its_name(f)) {
+      if (!starts_from_markers(f, found_)) {
         notes_.push_back(
             fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
                         in_quotes(around_.relative(f.path))));
@@ -75,12 +75,6 @@ class TrialWriter {
   }
 
  private:
-  [[nodiscard]] bool has_angles_of_its_name(const FoundRecording& f) const {
-    return std::any_of(found_.begin(), found_.end(), [&](const FoundRecording& g) {
-      return !g.angles.empty() && g.motion_taken && g.stem == f.stem;
-    });
-  }
-
   [[nodiscard]] std::string unique(std::string name) {
     while (!names_.insert(name).second) name += "_2";
     return name;
@@ -152,6 +146,14 @@ class TrialWriter {
 };
 
 }  // namespace
+
+bool starts_from_markers(const FoundRecording& recording,
+                         const std::vector<FoundRecording>& found) {
+  return recording.markers.frame_count() > 0 &&
+         std::none_of(found.begin(), found.end(), [&](const FoundRecording& other) {
+           return !other.angles.empty() && other.stem == recording.stem;
+         });
+}
 
 void draft_trials(std::vector<FoundRecording>& found,
                   const TrialSurroundings& around,

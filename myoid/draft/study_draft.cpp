@@ -217,7 +217,7 @@ class Draft {
 
   void markers_table() {
     if (std::none_of(found_.begin(), found_.end(),
-                     [](const FoundRecording& f) { return f.markers.frame_count() > 0; }))
+                     [&](const FoundRecording& f) { return starts_from_markers(f, found_); }))
       return;
     line("[markers]");
     vertical();

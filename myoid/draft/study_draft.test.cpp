@@ -118,6 +118,13 @@ TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
   const Study study = parse_study(draft.toml, folder / "study.toml");
   EXPECT_EQ(study.trials.size(), 6U);
   EXPECT_EQ(study.muscles.size(), 3U);
+  // Every trial starts from its joint angles: nothing is asked about the markers beside them.
+  EXPECT_NE(draft.toml.find("# Not used: markers"), std::string::npos);
+  EXPECT_EQ(draft.toml.find("[markers]"), std::string::npos);
+  for (const std::string& question : draft.todo) {
+    EXPECT_EQ(question.find("marker"), std::string::npos) << question;
+    EXPECT_EQ(question.find("vertical"), std::string::npos) << question;
+  }
   for (const Remark& f : check_study(study)) EXPECT_NE(f.severity, Severity::error) << f.says;
 }
 

@@ -1,6 +1,7 @@
 #include "myoid/files/toml_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -155,12 +156,41 @@ bool TomlTable::is_table(std::string_view key) const {
   return node != nullptr && node->is_table();
 }
 
+namespace {
+
+/// Returns a key without '_' and without a unit at its end: "high_pass" and "highpass_hz" agree.
+std::string plain_key(std::string_view key) {
+  static constexpr std::array<std::string_view, 16> kUnits{"hz",  "s",     "ms",  "m",  "mm", "cm",
+                                                           "kg",  "n",     "nm",  "v",  "mv", "uv",
+                                                           "deg", "degps", "rad", "ppm"};
+  const std::size_t last = key.rfind('_');
+  if (last != std::string_view::npos && last > 0 &&
+      std::find(kUnits.begin(), kUnits.end(), key.substr(last + 1)) != kUnits.end())
+    key = key.substr(0, last);
+  std::string plain(key);
+  std::erase(plain, '_');
+  return plain;
+}
+
+/// Returns the known key that resembles an unknown one.
+std::optional<std::string> nearest_key(std::string_view key,
+                                       const std::vector<std::string>& known) {
+  std::vector<std::string> plain;
+  for (const std::string& k : known) plain.push_back(plain_key(k));
+  const auto near = nearest_word(plain_key(key), plain);
+  if (!near) return nearest_word(key, known);
+  return known[static_cast<std::size_t>(std::find(plain.begin(), plain.end(), *near) -
+                                        plain.begin())];
+}
+
+}  // namespace
+
 void TomlTable::finish() const {
   for (const auto& entry : *table_) {
     const std::string key(entry.first.str());
     if (asked_.contains(key)) continue;
     const std::vector<std::string> known(asked_.begin(), asked_.end());
-    const auto near = nearest_word(key, known);
+    const auto near = nearest_key(key, known);
     fail(key, near ? fmt::format("unknown key; did you mean '{}'?", *near)
                    : fmt::format("unknown key; known are {}", fmt::join(known, ", ")));
   }

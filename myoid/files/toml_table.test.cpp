@@ -58,6 +58,21 @@ TEST(TomlTable, ANumberOutsideItsRangeIsRefusedWithTheRangeAndItsLimitsAreTaken)
             "s.toml:3: [motion] beyond: found 2000.5 Hz, expected 10 to 2000 Hz");
 }
 
+TEST(TomlTable, AnUnknownKeyNamesTheNearestBesideUnderscoresAndUnits) {
+  for (const auto& [written, meant] : {std::pair{"high_pass", "highpass_hz"},
+                                       {"lowpass", "lowpass_hz"},
+                                       {"heldmass", "held_mass_kg"},
+                                       {"highpas_hz", "highpass_hz"}}) {
+    const toml::table root = parse_toml(std::string(written) + " = 20\n", "s.toml");
+    TomlTable table(root, "s.toml", "[emg]");
+    for (const char* known : {"highpass_hz", "lowpass_hz", "held_mass_kg", "kind"})
+      (void)table.number(known);
+    EXPECT_NE(message_of([&] { table.finish(); }).find(std::string("did you mean '") + meant + "'"),
+              std::string::npos)
+        << written;
+  }
+}
+
 TEST(TomlTable, ZeroIsNoPositiveNumber) {
   const toml::table root = parse_toml("mass = 0\n", "s.toml");
   TomlTable table(root, "s.toml", "[subject]");

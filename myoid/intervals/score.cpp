@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "myoid/core/time_series.h"
 #include "myoid/signals/filter.h"
 
@@ -32,6 +34,11 @@ Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
           .mean_nm = measured.mean(),
           .range_nm = measured.maxCoeff() - measured.minCoeff(),
           .error_spread_nm2 = (error.array() - error.mean()).square().sum()};
+}
+
+std::string r2_text(double r2) {
+  if (r2 < -9999.0) return fmt::format("{:.1e}", r2);
+  return fmt::format("{:.{}f}", r2, r2 < -99.0 ? 0 : 3);
 }
 
 Eigen::VectorXd below(const Eigen::VectorXd& time_s,

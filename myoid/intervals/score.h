@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 namespace myoid::identification {
@@ -23,6 +25,9 @@ struct Score {
   [[nodiscard]] double vaf() const;  ///< 1 - var(error)/var(torque)
 };
 [[nodiscard]] Score score(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted);
+
+/// Returns R2 in at most 8 characters: "0.931", "-150", "-1.5e+04".
+[[nodiscard]] std::string r2_text(double r2);
 
 /// Returns 1 - SSE/SST; 0 if the reference is constant.
 [[nodiscard]] double coefficient_of_determination(const Eigen::VectorXd& reference,

@@ -19,6 +19,13 @@ TEST(Score, OfAKnownErrorIsWhatTheDefinitionsSay) {
   EXPECT_DOUBLE_EQ(score(measured, Eigen::Vector4d::Constant(1.5)).r2(), 0.0);
 }
 
+TEST(R2Text, IsShortHoweverFarBelowZero) {
+  EXPECT_EQ(r2_text(0.9312), "0.931");
+  EXPECT_EQ(r2_text(-98.9), "-98.900");
+  EXPECT_EQ(r2_text(-150.478), "-150");
+  EXPECT_EQ(r2_text(-123456.0), "-1.2e+05");
+}
+
 TEST(Below, KeepsWhatIsSlowAndTakesOutWhatIsFast) {
   // Two passes: |H|^2 = 1 / (1 + (f/fd)^4) with fd = 1.5 Hz / 0.8022; 0.25 Hz keeps 0.9998, 6 Hz
   // 0.011.

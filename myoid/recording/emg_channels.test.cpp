@@ -28,6 +28,9 @@ TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
                            "Sync",
                            "Trigger 1",
                            "Footswitch L",
+                           "LeftFootSwitch",
+                           "Right Footswitch",
+                           "RightGonio",
                            "Sensor 1: ACC.X 1",
                            "EMG 01 (5471) GYRO Y",
                            "FSR adapter 9: FSR.A 9",
@@ -35,8 +38,9 @@ TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
                            "ECG"})
     EXPECT_TRUE(named_as_no_emg(name)) << name;
   for (const char* name :
-       {"SOL", "TA", "BIC", "Flexor carpi", "MG", "M1", "F8", "Max", "FDS", "PL", "Voltage.1",
-        "Soleus_R", "Mylohyoid", "EMG 3", "Temporalis", "Acc. flexor", ""})
+       {"SOL",        "TA",          "BIC",      "Flexor carpi", "MG",       "M1",        "F8",
+        "Max",        "FDS",         "PL",       "Voltage.1",    "Soleus_R", "Mylohyoid", "EMG 3",
+        "Temporalis", "Acc. flexor", "LeftFoot", "LeftTA",       "right",    ""})
     EXPECT_FALSE(named_as_no_emg(name)) << name;
 }
 

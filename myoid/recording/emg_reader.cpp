@@ -47,6 +47,38 @@ std::optional<double> voltage_in(std::string_view text) {
   return std::nullopt;
 }
 
+/// Returns the word in brackets at the end of a channel's name, and the name before it: "BIC [mv]".
+std::optional<std::pair<std::string, std::string>> unit_in_name(const std::string& label) {
+  const std::size_t open = label.rfind('[');
+  if (open == std::string::npos || !label.ends_with(']') || open + 2 >= label.size())
+    return std::nullopt;
+  return std::pair(std::string(trim(std::string_view(label).substr(0, open))),
+                   label.substr(open + 1, label.size() - open - 2));
+}
+
+/// Says which channel's unit is unknown; empty if no channel without a unit states one.
+std::string unknown_unit(const CsvSeries& series, const std::map<std::string, std::string>& units) {
+  for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
+    const std::string& label = series.data.channels()[c].name;
+    if (series.has_unit[c] || named_as_no_emg(label)) continue;
+    auto found = unit_in_name(label);
+    if (const auto row = units.find(label); row != units.end()) found = {label, row->second};
+    if (found)
+      return fmt::format("unit '{}' of channel {} is not known; known are V, mV, uV", found->second,
+                         found->first);
+  }
+  return {};
+}
+
+[[noreturn]] void throw_without_unit(const std::filesystem::path& path,
+                                     const std::string& unknown) {
+  throw ReadError(
+      path, 0,
+      fmt::format("{}; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or "
+                  "kind = \"envelope\" if this is no raw EMG",
+                  unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown));
+}
+
 TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   std::vector<Channel> channels = series.channels();
   for (Channel& channel : channels) channel.unit = unit;
@@ -314,6 +346,7 @@ EmgFile read_emg(const std::filesystem::path& path,
     to_volt = parsed->to_si;
   }
   EmgFile file;
+  std::string unknown;
   std::optional<TimeSeries> series;
   if (std::optional<CsvSeries> table = read_channels(path, !dimensionless)) {
     apply_bids(path, *table, file);
@@ -322,6 +355,7 @@ EmgFile read_emg(const std::filesystem::path& path,
     file.repairs = std::move(table->repairs);
     series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
                            : volts_of(*table, to_volt, file.repairs);
+    unknown = unknown_unit(*table, {});
   } else {
     Storage storage = read_storage(path);
     file.repairs = std::move(storage.repairs);
@@ -340,17 +374,15 @@ EmgFile read_emg(const std::filesystem::path& path,
     if (dimensionless) {
       series = std::move(storage.data);
     } else if (!stated && !storage.units.empty()) {
-      series = volts_of(with_named_units(std::move(storage)), to_volt, file.repairs);
+      const std::map<std::string, std::string> units = storage.units;
+      const CsvSeries named = with_named_units(std::move(storage));
+      unknown = unknown_unit(named, units);
+      series = volts_of(named, to_volt, file.repairs);
     } else if (to_volt) {
       series = with_unit(storage.data, Unit::volt, *to_volt);
     }
   }
-  if (!series) {
-    throw ReadError(
-        path, 0,
-        "the unit of the EMG is not stated in the file; give it as --unit uV (or mV, V), "
-        "in a study as [emg] unit = \"uV\", or kind = \"envelope\" if this is no raw EMG");
-  }
+  if (!series) throw_without_unit(path, unknown);
   if (series->channel_count() == 0)
     throw ReadError(path, 0, "there is no EMG channel beside the time");
   file.data = std::move(*series);

@@ -323,6 +323,22 @@ TEST(ReadEmg, AUnitIsAppliedOnceWhoeverStatesIt) {
             std::string::npos);
 }
 
+TEST(ReadEmg, AnUnknownUnitIsNamedWithItsChannel) {
+  const test::TemporaryFolder folder;
+  for (const std::string unit : {"mv", "MV", "kV"}) {
+    write_file(folder / "e.csv", fmt::format("time,TRI [V],BIC [{}]\n0,1,2\n0.001,1,3\n", unit));
+    const std::string said = refusal([&] { (void)read_emg(folder / "e.csv", "", false); });
+    EXPECT_NE(said.find(fmt::format(
+                  "unit '{}' of channel BIC is not known; known are V, mV, uV; give it", unit)),
+              std::string::npos)
+        << said;
+  }
+  for (const std::string unit : {"millivolt", "millivolts", "Millivolt"}) {
+    write_file(folder / "e.csv", fmt::format("time,BIC [{}]\n0,2\n0.001,3\n", unit));
+    EXPECT_DOUBLE_EQ(read_emg(folder / "e.csv", "", false).data.column("BIC")[0], 2e-3) << unit;
+  }
+}
+
 TEST(ReadTextFile, TellsTextFromWhatIsNone) {
   const test::TemporaryFolder folder;
   // An odd byte and half of a surrogate pair: no UTF-16.

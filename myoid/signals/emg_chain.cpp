@@ -95,13 +95,16 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
       "(envelope squared less rest squared) over the reference; rest is the mean of the quiet "
       "seconds, the reference that of the greatest moving means of {:g} s, less rest likewise",
       options.window_s));
+  const auto level = [](const ChannelNormalisation& n, double value) {
+    return fmt::format("{:.6g}{}{}", value, n.unit == Unit::dimensionless ? "" : " ",
+                       n.unit == Unit::dimensionless ? "" : symbol(n.unit));
+  };
   for (const ChannelNormalisation& n : normalisation) {
     chain.steps.push_back(fmt::format(
-        "channel {}: reference {:.6g} V, from {} at {:.6g} s ({}); rest {}", n.channel,
-        n.reference_v, n.source_trial, n.source_time_s,
+        "channel {}: reference {}, from {} at {:.6g} s ({}); rest {}{}", n.channel,
+        level(n, n.reference_v), n.source_trial, n.source_time_s,
         n.from_mvc ? "maximal contraction" : "no maximal contraction: largest effort recorded",
-        n.rests ? fmt::format("{:.6g} V", n.resting_level_v)
-                : std::string("0 V: the muscle does not rest in any trial")));
+        level(n, n.resting_level_v), n.rests ? "" : ": the muscle does not rest in any trial"));
   }
   const bool mvc = std::all_of(normalisation.begin(), normalisation.end(),
                                [](const ChannelNormalisation& n) { return n.from_mvc; });

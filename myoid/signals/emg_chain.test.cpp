@@ -67,6 +67,24 @@ TEST(EmgChain, SaysThatAStepIsLeftOut) {
   EXPECT_THAT(published, Contains(HasSubstr("-3 dB of one pass")));
 }
 
+TEST(EmgChain, EnvelopesWithoutAUnitAreNoVolts) {
+  const TimeSeries volts = clean_emg(recording_with_hum(), {}).filtered;
+  for (const Unit unit : {Unit::volt, Unit::dimensionless}) {
+    std::vector<Channel> channels = volts.channels();
+    for (Channel& c : channels) c.unit = unit;
+    const TimeSeries envelope(volts.time_s(), channels, volts.values().cwiseAbs());
+    const std::vector<TrialEnvelope> trials{{"walk", false, &envelope, {}}};
+    EmgChain chain;
+    add_normalisation(find_normalisation(trials), {}, chain);
+    const auto with_volts = testing::ContainsRegex("reference [^ ]+ V, .*; rest [^ ]+ V");
+    if (unit == Unit::volt) {
+      EXPECT_THAT(chain.steps, Contains(with_volts));
+    } else {
+      EXPECT_THAT(chain.steps, Not(Contains(HasSubstr(" V")))) << chain.steps.back();
+    }
+  }
+}
+
 TEST(EmgChain, AskedForWhitensAllChannels) {
   const Processed one = processed({.whitening = true}, true);
   EXPECT_THAT(one.lines, Contains(HasSubstr("whitening of all channels and trials: asked for")));

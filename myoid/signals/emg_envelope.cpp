@@ -224,6 +224,7 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
   for (const Channel& channel : trials.front().envelope->channels()) {
     ChannelNormalisation n;
     n.channel = channel.name;
+    n.unit = channel.unit;
     Means means = moving_means(trials, options.window_s, n);
     if (is_flat(means)) {
       throw InvalidInput(fmt::format(

@@ -77,6 +77,7 @@ inline constexpr double kPause_s = 0.2;
 /// Resting level and reference of one EMG channel.
 struct ChannelNormalisation {
   std::string channel;
+  Unit unit = Unit::volt;  ///< Of the envelopes: dimensionless where their file states no unit.
   /// Noise of the electrode: the mean of the study's quiet seconds, those at most two spreads of a
   /// 1 s mean above it. The lowest of many noisy means would be 5 to 10 % below, and at rest a
   /// hundredth of the maximum would be left. Where no second is quiet, as in walking, the pauses

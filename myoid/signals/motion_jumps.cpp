@@ -24,6 +24,7 @@ Eigen::VectorXd speeds(const Eigen::VectorXd& time_s, const Eigen::VectorXd& x) 
 std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
                               const Eigen::VectorXd& speed,
                               double least,
+                              const Stretch& within,
                               const MotionJumpLimits& limits) {
   constexpr double kUsual = 0.95;
   std::vector<double> sorted(speed.begin(), speed.end());
@@ -45,7 +46,8 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
     Eigen::Index first = peak, last = peak;
     while (first > 0 && speed[first - 1] > 0.5 * speed[peak]) --first;
     while (last + 1 < speed.size() && speed[last + 1] > 0.5 * speed[peak]) ++last;
-    if (time_s[last + 1] - time_s[first] < limits.for_s) {
+    const bool inside = time_s[peak + 1] >= within.begin_s && time_s[peak] <= within.end_s;
+    if (inside && time_s[last + 1] - time_s[first] < limits.for_s) {
       if (!found) found = Jump{peak, 0};
       if (speed[peak] > speed[found->at]) found->at = peak;
       ++found->count;
@@ -69,6 +71,7 @@ std::string MotionJump::sentence() const {
 }
 
 std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
+                                          const Stretch& within,
                                           const MotionJumpLimits& limits) {
   constexpr Eigen::Index kLeastSamples = 20;
   std::vector<MotionJump> jumps;
@@ -80,7 +83,7 @@ std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
     const Eigen::VectorXd x = motion.values().col(c);
     if ((!angle && channel.unit != Unit::meter) || !x.allFinite()) continue;
     const Eigen::VectorXd speed = speeds(t, x);
-    if (const auto jump = find_jump(t, speed, angle ? limits.radps : limits.mps, limits))
+    if (const auto jump = find_jump(t, speed, angle ? limits.radps : limits.mps, within, limits))
       jumps.push_back({channel.name, channel.unit, t[jump->at], speed[jump->at], jump->count});
   }
   return jumps;

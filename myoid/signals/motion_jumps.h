@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/stretch.h"
 #include "myoid/core/time_series.h"
 
 namespace myoid::signals {
@@ -32,8 +33,10 @@ struct MotionJumpLimits {
 /// quantile, and stays above half of that peak for less than `for_s` (joints speed up and slow down
 /// over a tenth of a second). A wrong sample, a step, and both after smoothing have this pattern;
 /// repeated fast movements raise the quantile and do not. One entry a channel, at its greatest such
-/// speed. Channels of other units are skipped.
+/// speed within the stretch; the quantile is that of the whole motion. Channels of other units are
+/// skipped.
 [[nodiscard]] std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
+                                                        const Stretch& within = {-1e300, 1e300},
                                                         const MotionJumpLimits& limits = {});
 
 }  // namespace myoid::signals

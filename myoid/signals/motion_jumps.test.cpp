@@ -42,6 +42,20 @@ TEST(MotionJumps, AStepAndAGlitchThatWasSmoothedAreOnesToo) {
             1U);
 }
 
+TEST(MotionJumps, OnlyThoseOfTheStretchAreTold) {
+  const TimeSeries motion = swing([](double t) {
+    return std::abs(t - 4.0) < 1e-6   ? 8.0 * kDegree
+           : std::abs(t - 8.0) < 1e-6 ? 12.0 * kDegree
+                                      : 0.0;
+  });
+  EXPECT_NEAR(find_motion_jumps(motion).at(0).time_s, 7.995, 0.006);
+  EXPECT_TRUE(find_motion_jumps(motion, {5.0, 7.0}).empty());
+  const auto earlier = find_motion_jumps(motion, {3.5, 4.5});
+  ASSERT_EQ(earlier.size(), 1U);
+  EXPECT_NEAR(earlier[0].time_s, 3.995, 0.006);
+  EXPECT_EQ(earlier[0].count, 1);
+}
+
 TEST(MotionJumps, FastMovementsAreNone) {
   // A single reach of 90 degrees within 0.3 s, with the bell of a minimum jerk: 560 deg/s.
   const auto reach = [](double t) {

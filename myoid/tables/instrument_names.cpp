@@ -52,9 +52,13 @@ bool named_as_no_emg(std::string_view name) {
   static constexpr std::array<std::string_view, 8> kInstruments{
       "sync", "trig", "footsw", "heelsw", "gonio", "accel", "gyro", "loadcell"};
   const std::string plain = plain_label(name);
+  std::string_view without_side = plain;
+  for (const std::string_view side : {"left", "right"}) {
+    if (plain.starts_with(side)) without_side.remove_prefix(side.size());
+  }
   return std::regex_match(plain, kForce) ||
          std::any_of(kInstruments.begin(), kInstruments.end(),
-                     [&](std::string_view word) { return plain.starts_with(word); });
+                     [&](std::string_view word) { return without_side.starts_with(word); });
 }
 
 bool named_as_input(std::string_view name) {
