@@ -26,6 +26,12 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
   rows.push_back({"a muscle of the model in two `[[muscle]]` tables", "error",
                   "its force would count twice. One EMG channel in two tables is a warning unless "
                   "`same_as` says so"});
+  rows.push_back(
+      {"a muscle that moves none of the study's joints", "error",
+       fmt::format("its moment arms about all coordinates of the study are below {:g} mm over "
+                   "their whole range: the other side's? A warning if only some of the `osim` list "
+                   "are such muscles",
+                   1000.0 * l.least_arm_m)});
   rows.push_back({"envelopes that are called raw EMG", "error",
                   "every used channel is an envelope by the limit of `emg_envelope` above"});
   rows.push_back({"raw EMG that is called an envelope or an activation", "error",

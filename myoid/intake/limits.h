@@ -10,6 +10,7 @@ namespace myoid {
 struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
+  double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
