@@ -108,6 +108,9 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                               "does not exist. `id`, `so`, "
                               "`paths` and `identify` warn of jumps, too",
                               kJump.radps / kDegree, kJump.mps, kJump.ratio, kJump.for_s)});
+}
+
+void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back(
       {"a dynamometer that pushes with the active muscles",
        "error if in all trials, warning if in some",
@@ -132,6 +135,8 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                    "strength, beside "
                    "the weight of limb and instrument",
                    percent(l.relaxed), percent(l.relaxed_without_mvc), percent(l.resting_share))});
+  rows.push_back({"a passive trial without a measured torque", "warning",
+                  "neither `external_torque` nor `load_cell`: it tells no resting torque"});
   rows.push_back(
       {"a held mass beyond the muscles", "warning; error if it is more than the person weighs",
        fmt::format("its greatest moment is more than all muscles of the model can hold or, in a "
@@ -225,6 +230,7 @@ std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits)
   add_recordings(limits, rows);
   add_clocks(limits, rows);
   add_motion(limits, rows);
+  add_efforts(limits, rows);
   add_markers(limits, rows);
   add_loads(limits, rows);
   return rows;
