@@ -86,6 +86,7 @@ struct GateLimits {
   double reserve_percent = 5.0;   ///< Share of the frames in which a reserve acts.
   double explains = 0.5;          ///< R2 of a good prediction.
   double unrelated = -1.0;        ///< R2 of a prediction unrelated to the torque.
+  double unrelated_share = 0.5;   ///< Share of the torque that its errors must exceed, too.
   double far_fold = 3.0;          ///< Robust deviations of an error from the other folds' errors.
   double larger_fold = 1.5;       ///< Ratio of an error to the other folds' median.
 };
