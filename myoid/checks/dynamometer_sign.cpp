@@ -11,7 +11,7 @@
 #include "myoid/core/units.h"
 #include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/muscle_path.h"
+#include "myoid/model/path_survey.h"
 #include "myoid/signals/resample.h"
 #include "myoid/study/study_model.h"
 
@@ -24,23 +24,14 @@ Eigen::VectorXd strengths_nm(const Study& study,
                              const std::string& coordinate) {
   constexpr int kSteps = 8;
   const int index = model.coordinate_index(coordinate);
-  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(index)];
-  const double from = std::max(c.lower, c.default_value - kPi);
-  const double to = std::max(from, std::min(c.upper, c.default_value + kPi));
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
   Eigen::VectorXd strength = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(groups.size()));
-  model::BodyState state = model::make_state(model);
-  Eigen::VectorXd q = model.default_q();
-  for (int step = 0; step <= kSteps; ++step) {
-    q[index] = from + (to - from) * step / kSteps;
-    model::compute_poses(model, q, state);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-      for (const int m : groups[k].members) {
-        const double r = model::compute_path(model, m, state).moment_arm_m[index];
-        if (!std::isfinite(r)) continue;
-        strength[static_cast<Eigen::Index>(k)] +=
-            r * model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n /
-            (kSteps + 1);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (const int m : groups[k].members) {
+      const double f_max_n =
+          model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+      for (const double r : model::arms_over_range_m(model, m, index, kSteps)) {
+        if (std::isfinite(r)) strength[static_cast<Eigen::Index>(k)] += r * f_max_n / (kSteps + 1);
       }
     }
   }

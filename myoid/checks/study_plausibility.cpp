@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/foreign_contacts.h"
+#include "myoid/checks/idle_muscles.h"
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
 #include "myoid/checks/shared_muscles.h"
@@ -94,8 +95,8 @@ std::vector<Remark> StudyPlausibility::findings() const {
                largest_emg_)});
     }
   }
-  for (std::vector<Remark> more :
-       {shared_muscles(*study_), same, grouped(unlike_lengths(lengths_))})
+  for (std::vector<Remark> more : {shared_muscles(*study_), idle_muscles(*study_, *model_), same,
+                                   grouped(unlike_lengths(lengths_))})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
 }

@@ -78,6 +78,21 @@ TEST(StudyPlausibility, WhatSeveralTrialsHaveAlikeIsSaidOnce) {
   EXPECT_EQ(found[0].likewise, std::vector<std::string>{"second"});
 }
 
+TEST(RequirePlausible, RefusesAMuscleThatMovesNoneOfTheCoordinates) {
+  TwoTrials two;
+  two.study.muscles = {{.name = "BIC", .osim = {"BIC"}, .emg = "BIC"}};
+  require_plausible(two.study, two.model, two.inputs);
+  two.study.model.coordinate = "shoulder_flexion";
+  try {
+    require_plausible(two.study, two.model, two.inputs);
+    FAIL() << "not refused";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("no moment arm about shoulder_flexion"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(RequirePlausible, VoltsThatAreCalledActivationsAreWarnedOf) {
   for (const bool volts : {true, false}) {
     TwoTrials two;

@@ -233,6 +233,14 @@ std::vector<Remark> implausible(const Study& study,
                           .where = trial.name,
                           .says = jump.sentence()});
   }
+  if (trial.use == Use::passive && !trial.external_torque && !trial.load_cell)
+    findings.push_back({.code = RemarkCode::resting_torque,
+                        .severity = Severity::warning,
+                        .where = trial.name,
+                        .about = "passive",
+                        .says = "use = \"passive\" tells the joint's resting torque, and this "
+                                "trial has no measured torque to tell it from: it gives nothing",
+                        .remedy = "give external_torque (or load_cell), or another use"});
   check_held_mass(study, model, capacities, trial, findings);
   check_vertical(study, model, input, trial.name, findings);
   return findings;

@@ -20,7 +20,8 @@ using Capacities = std::map<std::string, dynamics::JointCapacity>;
 
 /// Finds impossible inputs: an external torque beyond any joint's capacity (N mm?), a held mass
 /// beyond the muscles' strength, angles far outside the model's range (sign or convention?), the
-/// laboratory's vertical across the trunk. Each finding has numbers and a remedy.
+/// laboratory's vertical across the trunk, a passive trial without a measured torque. Each finding
+/// has numbers and a remedy.
 [[nodiscard]] std::vector<Remark> implausible(const Study& study,
                                               const model::BodyModel& model,
                                               const Capacities& capacities,

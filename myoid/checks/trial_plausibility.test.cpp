@@ -225,5 +225,19 @@ TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
   EXPECT_TRUE(of_a_trunk_along(leaning(90.0), "shoulder").empty());
 }
 
+TEST(Implausible, APassiveTrialWithoutAMeasuredTorqueGivesNothingAndIsSaid) {
+  Elbow elbow;
+  elbow.input.motion = angle(20.0, 90.0);
+  EXPECT_TRUE(elbow.findings().empty());
+  elbow.trial.use = Use::passive;
+  const std::vector<Remark> found = elbow.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NE(sentence(found[0]).find("give external_torque"), std::string::npos)
+      << sentence(found[0]);
+  elbow.trial.load_cell = "cell.csv";
+  EXPECT_TRUE(elbow.findings().empty());
+}
+
 }  // namespace
 }  // namespace myoid

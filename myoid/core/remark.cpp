@@ -52,6 +52,7 @@ constexpr std::array kNames = {
     "model_unsupported",
     "shared_muscle",
     "shared_channel",
+    "idle_muscle",
     "same_recording",
     "angle_outside_range",
     "angle_jump",

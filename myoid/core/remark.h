@@ -65,6 +65,7 @@ enum class RemarkCode {
   model_unsupported,
   shared_muscle,
   shared_channel,
+  idle_muscle,
   same_recording,
   // Motion and loads.
   angle_outside_range,

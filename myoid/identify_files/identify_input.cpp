@@ -66,6 +66,7 @@ class TrialCheck {
       : data_(data), trial_(trial), files_(files) {}
 
   std::vector<std::string> run() {
+    exchanged();
     lengths();
     activations();
     velocities();
@@ -82,6 +83,28 @@ class TrialCheck {
   }
   void remark(const std::string& file, const std::string& what) {
     remarks_.push_back(fmt::format("{}: {}", file, what));
+  }
+
+  /// Refuses moment arms that are longer than their muscle with its tendon. Fibers alone may be
+  /// shorter than a moment arm (those of the soleus are), which is a remark.
+  void exchanged() {
+    for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
+      for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
+        const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
+        const double length = trial_.length_m.col(k).maxCoeff();
+        const double tendon =
+            data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
+        if (length <= 0.0 || length >= arm || arm > kCertainlyLargeArm_m) continue;
+        const std::string found = fmt::format(
+            "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m; are the "
+            "files of --lengths and --moment-arms exchanged?",
+            muscle(k), arm, files_.lengths, length);
+        if (arm > tendon && tendon > 0.0)
+          fail(files_.moment_arms[j], found + " A moment arm is shorter than the muscle");
+        if (tendon == 0.0)
+          remark(files_.moment_arms[j], found + " Fibers are seldom shorter than a moment arm");
+      }
+    }
   }
 
   void lengths() {

@@ -92,6 +92,27 @@ TEST(IdentifyInput, SwappedLengthsAndVelocitiesAreNamed) {
   expect_in(swapped.error(), {"l.sto", "--velocities"});
 }
 
+TEST(IdentifyInput, ExchangedLengthsAndMomentArmsAreNamed) {
+  Spoiled swapped;
+  std::swap(swapped.trial().length_m, swapped.trial().moment_arm_m);
+  swapped.trial().length_m = swapped.trial().length_m.cwiseAbs();
+  expect_in(swapped.error(), {"r.sto", "BIC", "--lengths and --moment-arms exchanged?"});
+  // Of fibers alone it is a question: those of the soleus are shorter than its arm.
+  Spoiled fibers;
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    auto& start = fibers.study.data.muscles[static_cast<std::size_t>(k)].start;
+    fibers.trial().length_m.col(k).setConstant(start.optimal_fiber_length_m);
+    fibers.trial().moment_arm_m.col(k).setConstant(1.2 * start.optimal_fiber_length_m);
+    start.tendon_slack_length_m = 0.0;
+  }
+  fibers.files.velocities.clear();
+  fibers.files.torques.clear();
+  EXPECT_EQ(fibers.error(), "");
+  const std::vector<std::string> remarks = fibers.check();
+  ASSERT_FALSE(remarks.empty());
+  expect_in(remarks[0], {"r.sto", "exchanged?", "Fibers"});
+}
+
 TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
   Spoiled percent, raw, beyond, volts;
   const auto scale = [](Spoiled& s, double factor, double offset) {

@@ -26,6 +26,12 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
   rows.push_back({"a muscle of the model in two `[[muscle]]` tables", "error",
                   "its force would count twice. One EMG channel in two tables is a warning unless "
                   "`same_as` says so"});
+  rows.push_back(
+      {"a muscle that moves none of the study's joints", "error",
+       fmt::format("its moment arms about all coordinates of the study are below {:g} mm over "
+                   "their whole range: the other side's? A warning if only some of the `osim` list "
+                   "are such muscles",
+                   1000.0 * l.least_arm_m)});
   rows.push_back({"envelopes that are called raw EMG", "error",
                   "every used channel is an envelope by the limit of `emg_envelope` above"});
   rows.push_back({"raw EMG that is called an envelope or an activation", "error",
@@ -102,6 +108,9 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                               "does not exist. `id`, `so`, "
                               "`paths` and `identify` warn of jumps, too",
                               kJump.radps / kDegree, kJump.mps, kJump.ratio, kJump.for_s)});
+}
+
+void add_efforts(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
   rows.push_back(
       {"a dynamometer that pushes with the active muscles",
        "error if in all trials, warning if in some",
@@ -126,6 +135,8 @@ void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
                    "strength, beside "
                    "the weight of limb and instrument",
                    percent(l.relaxed), percent(l.relaxed_without_mvc), percent(l.resting_share))});
+  rows.push_back({"a passive trial without a measured torque", "warning",
+                  "neither `external_torque` nor `load_cell`: it tells no resting torque"});
   rows.push_back(
       {"a held mass beyond the muscles", "warning; error if it is more than the person weighs",
        fmt::format("its greatest moment is more than all muscles of the model can hold or, in a "
@@ -219,6 +230,7 @@ std::vector<PlausibilityRow> plausibility_rows(const PlausibilityLimits& limits)
   add_recordings(limits, rows);
   add_clocks(limits, rows);
   add_motion(limits, rows);
+  add_efforts(limits, rows);
   add_markers(limits, rows);
   add_loads(limits, rows);
   return rows;
@@ -238,8 +250,10 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"muscles too weak for the torque", "warning",
        fmt::format("a reserve acts in {:g} % of the frames or more", l.reserve_percent)},
       {"a torque that is not explained", "warning; fails",
-       fmt::format("R² below {:g}; below {:g}, or errors larger than the torque", l.explains,
-                   l.unrelated)},
+       fmt::format(
+           "R² below {:g}; errors larger than the torque, or larger than {:g} % of it at an R² "
+           "below {:g}",
+           l.explains, percent(l.unrelated_share), l.unrelated)},
       {"a reservation of the fit", "warning",
        "any: several minima, a wrong model, or motion that tells the torque without EMG"},
       {"an outlier among the trials left out", "warning",

@@ -10,6 +10,7 @@ namespace myoid {
 struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
+  double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
@@ -85,6 +86,7 @@ struct GateLimits {
   double reserve_percent = 5.0;   ///< Share of the frames in which a reserve acts.
   double explains = 0.5;          ///< R2 of a good prediction.
   double unrelated = -1.0;        ///< R2 of a prediction unrelated to the torque.
+  double unrelated_share = 0.5;   ///< Share of the torque that its errors must exceed, too.
   double far_fold = 3.0;          ///< Robust deviations of an error from the other folds' errors.
   double larger_fold = 1.5;       ///< Ratio of an error to the other folds' median.
 };

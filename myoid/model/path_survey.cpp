@@ -34,18 +34,30 @@ class Sweep {
     double q = 0.0, length_m = 0.0, arm_m = 0.0;
   };
   Point at(double value) {
+    move_to(value);
+    // Along the line dependent coordinates move too.
+    return {value, result_.length_m,
+            model_.couplers.empty() ? result_.moment_arm_m[coordinate_] : bound_arm_m()};
+  }
+
+  /// Returns the arm with all that the constraints bind to the coordinate, closed loops included.
+  double bound_arm_at(double value) {
+    move_to(value);
+    return bound_arm_m();
+  }
+
+ private:
+  void move_to(double value) {
     q_[coordinate_] = value;
     apply_couplers(model_, q_);
     compute_poses(model_, q_, state_);
     compute_path(model_, path_, state_, workspace_, result_);
-    // Along the line dependent coordinates move too.
-    double arm = result_.moment_arm_m[coordinate_];
-    if (!model_.couplers.empty())
-      arm = coupling_matrix(model_, state_).col(coordinate_).dot(result_.moment_arm_m);
-    return {value, result_.length_m, arm};
   }
 
- private:
+  [[nodiscard]] double bound_arm_m() const {
+    return coupling_matrix(model_, state_).col(coordinate_).dot(result_.moment_arm_m);
+  }
+
   const BodyModel& model_;
   const MusclePath& path_;
   int coordinate_;
@@ -168,6 +180,16 @@ std::vector<PathJump> find_jumps(const BodyModel& model,
     }
   }
   return jumps;
+}
+
+Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
+  const CoordinateRange range =
+      usual_range(model.coordinates[static_cast<std::size_t>(coordinate)]);
+  Sweep sweep(model, muscle, coordinate);
+  Eigen::VectorXd arms(steps + 1);
+  for (int step = 0; step <= steps; ++step)
+    arms[step] = sweep.bound_arm_at(range.lower + (range.upper - range.lower) * step / steps);
+  return arms;
 }
 
 std::string describe(const BodyModel& model, const PathJump& jump) {

@@ -58,6 +58,14 @@ struct PathJump {
                                                double length_tolerance_m = 1e-5,
                                                double arm_tolerance_m = 1e-3);
 
+/// Returns the muscle's moment arms by the coordinate at steps + 1 places from end to end of its
+/// range. Other coordinates have their default values; those that couplers or constraints bind to
+/// it move along, as in OpenSim (coupling_matrix in constraints.h).
+[[nodiscard]] Eigen::VectorXd arms_over_range_m(const BodyModel& model,
+                                                int muscle,
+                                                int coordinate,
+                                                int steps);
+
 /// Describes the jump in a sentence: muscle, coordinate, place and size.
 [[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);
 

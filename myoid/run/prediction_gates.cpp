@@ -58,6 +58,13 @@ class Pool {
   double errors_ = 0.0;
 };
 
+/// Returns the limits of `is_wrong` in words.
+std::string when_wrong() {
+  return fmt::format(
+      "fails if the errors are larger than the torque, or than {:g} % of it at an R2 below {:g}",
+      100.0 * kGateLimits.unrelated_share, kGateLimits.unrelated);
+}
+
 Gate distance_gate(const IdentificationResult& fit) {
   constexpr double kFar = identification::VerdictRules{}.prior_conflict;
   std::vector<std::string> far;
@@ -88,12 +95,15 @@ double Explained::r2() const {
 }
 
 bool Explained::is_wrong() const {
-  return rms_nm > torque_rms_nm || (r2() < kGateLimits.unrelated && rms_nm > 0.5 * torque_rms_nm);
+  return rms_nm > torque_rms_nm ||
+         (r2() < kGateLimits.unrelated && rms_nm > kGateLimits.unrelated_share * torque_rms_nm);
 }
 
 std::string Explained::text() const {
-  return fmt::format("R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque varies by {:.2f}",
-                     r2(), rms_nm, spread_nm);
+  return fmt::format(
+      "R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque is {:.2f} rms and varies by "
+      "{:.2f}",
+      r2(), rms_nm, torque_rms_nm, spread_nm);
 }
 
 identification::Score smoothed_score(const identification::TrialFit& fit) {
@@ -158,9 +168,7 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
                      own.is_wrong()                    ? GateStatus::fail
                      : own.r2() > kGateLimits.explains ? GateStatus::pass
                                                        : GateStatus::warn,
-                     own.text(),
-                     "R2 above 0.5; fails where no torque at all would be nearer, or one that has "
-                     "nothing to do with it (R2 below -1)",
+                     own.text(), "R2 above 0.5; " + when_wrong(),
                      "Muscles that do not even make the torque they were fitted to are none."});
   }
   if (const Explained held = explained(fit, false); held.samples > 0) {
@@ -168,7 +176,7 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
                      held.is_wrong()                    ? GateStatus::fail
                      : held.r2() > kGateLimits.explains ? GateStatus::pass
                                                         : GateStatus::warn,
-                     held.text(), "R2 above 0.5; fails below -1",
+                     held.text(), "R2 above 0.5; " + when_wrong(),
                      "Below 0 their mean torque predicts them better, below -1 an unrelated torque "
                      "of the same size."});
   }
@@ -215,8 +223,8 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
        fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m",
                    all.text(), std::sqrt(identified / std::max(count, 1.0)),
                    std::sqrt(literature / std::max(count, 1.0))),
-       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; "
-       "fails below -1",
+       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; " +
+           when_wrong(),
        std::move(hint)});
   const std::vector<OutlyingFold> outlying = outlying_folds(folds);
   if (!outlying.empty()) {

@@ -28,7 +28,8 @@ struct Explained {
   /// the same size. The second condition spares nearly constant torques, whose R2 is easily
   /// negative.
   [[nodiscard]] bool is_wrong() const;
-  /// Returns "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque varies by 2.80".
+  /// Returns "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque is 4.10 rms and varies
+  /// by 2.80".
   [[nodiscard]] std::string text() const;
 };
 

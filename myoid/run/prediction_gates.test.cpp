@@ -153,6 +153,26 @@ TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByAnUnrelatedTorque) 
             GateStatus::fail);
 }
 
+TEST(FoldGates, NameTheLimitThatFailedThem) {
+  // R2 -0.95 of a torque about zero: the errors are larger than the torque.
+  std::vector<Fold> folds{fold("a", 1.0, 0.0), fold("b", 1.0, 0.0)};
+  for (Fold& f : folds) {
+    const Eigen::VectorXd measured = f.measured_nm.array() - f.measured_nm.mean();
+    f.band = identification::score(measured, measured.array() + 0.9874);
+  }
+  const Gate gate = fold_gates(folds)[0];
+  EXPECT_EQ(gate.status, GateStatus::fail);
+  EXPECT_NE(
+      gate.threshold.find("fails if the errors are larger than the torque, or than 50 % of it "
+                          "at an R2 below -1"),
+      std::string::npos)
+      << gate.threshold;
+  EXPECT_NE(gate.value.find("R2 -0.95: 0.99 N m rms below 1.5 Hz, where the torque is 0.71 rms and "
+                            "varies by 0.71"),
+            std::string::npos)
+      << gate.value;
+}
+
 TEST(FoldGates, DoNotPassWhereTheLiteraturePredictsBetterOverAll) {
   const char* name = "Predicts torque it has not seen";
   // A little better in two trials, much worse in the third.

@@ -52,10 +52,14 @@ class Stages {
   std::vector<StageTime> times_;
 };
 
-/// Returns the findings. Throws InvalidInput if the sign of every dynamometer is reversed.
+/// Returns the findings. Throws InvalidInput if the sign of every dynamometer is reversed, or a
+/// trial's EMG is in another unit than the maximal contraction.
 RecordingFindings findings_of(const StudyInputs& inputs, const StudyActivation& activation) {
   RecordingFindings found =
       recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
+  for (const Remark& f : found.levels) {
+    if (f.severity == Severity::error) throw InvalidInput(sentence(f));
+  }
   for (const Remark& f : found.dynamometers) {
     if (f.severity == Severity::error)
       throw InvalidInput(fmt::format("{} (trial '{}')", sentence(f), f.where));

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,6 +49,79 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   return result;
 }
 
+using LevelsByChannel = std::map<std::string, Levels>;
+
+LevelsByChannel levels_of(const TrialEnvelope& trial) {
+  LevelsByChannel found;
+  for (Eigen::Index c = 0; c < trial.envelope->channel_count(); ++c)
+    found[trial.envelope->channels()[static_cast<std::size_t>(c)].name] =
+        levels(*trial.envelope, c);
+  return found;
+}
+
+/// Finds a trial whose channels all exceed the maximal contractions by more than effort can. A
+/// contraction that was not maximal leaves rest and the other channels as they are; another unit
+/// scales everything.
+std::optional<Remark> other_unit(const TrialEnvelope& trial,
+                                 const LevelsByChannel& own,
+                                 const LevelsByChannel& maximal,
+                                 const QualityLimits& limits) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const auto& [channel, mvc] : maximal) {
+    const auto found = own.find(channel);
+    if (found == own.end()) continue;
+    const Levels& here = found->second;
+    if (!(here.greatest > limits.other_unit * mvc.greatest) ||
+        !(here.least > limits.other_unit * mvc.least))
+      return std::nullopt;
+    least = std::min(least, here.greatest / mvc.greatest);
+    most = std::max(most, here.greatest / mvc.greatest);
+  }
+  if (trial.is_mvc || !(most > 0.0)) return std::nullopt;
+  return Remark{
+      .code = RemarkCode::emg_over_reference,
+      .severity = Severity::error,
+      .about = trial.trial,
+      .value = most,
+      .says = fmt::format("the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal "
+                          "contractions in all channels, and is as much larger at rest: is it in "
+                          "another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
+                          trial.trial, least, most),
+      .remedy = "correct the unit in the files, or the numbers of that trial"};
+}
+
+/// Returns the levels of the maximal contractions, each channel's from its greatest one.
+LevelsByChannel maximal_levels(std::span<const TrialEnvelope> trials) {
+  LevelsByChannel maximal;
+  for (const TrialEnvelope& trial : trials) {
+    if (!trial.is_mvc) continue;
+    for (const auto& [channel, here] : levels_of(trial)) {
+      Levels& most = maximal[channel];
+      if (here.greatest > most.greatest) most = here;
+    }
+  }
+  return maximal;
+}
+
+Remark above_reference(const std::string& channel,
+                       const Levels& movement,
+                       const std::string& movement_trial,
+                       const Levels& mvc,
+                       const std::string& mvc_trial) {
+  return {.code = RemarkCode::emg_over_reference,
+          .severity = Severity::warning,
+          .about = channel,
+          .when = Stretch{movement.greatest_s, movement.greatest_s},
+          .value = movement.greatest / mvc.greatest,
+          .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
+                              "{} at {:.6g} s",
+                              channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial,
+                              movement.greatest_s),
+          .remedy =
+              "the contraction was not maximal: the larger effort counts as 1, and F_max "
+              "means the force there"};
+}
+
 }  // namespace
 
 double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
@@ -59,7 +135,15 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
                                      const QualityLimits& limits) {
   std::vector<Remark> faults;
   std::vector<std::string> names;
+  const LevelsByChannel maximal = maximal_levels(trials);
+  std::vector<std::pair<const TrialEnvelope*, LevelsByChannel>> of_trials;
   for (const TrialEnvelope& trial : trials) {
+    LevelsByChannel own = levels_of(trial);
+    if (auto unit = other_unit(trial, own, maximal, limits)) {
+      faults.push_back(std::move(*unit));
+      continue;
+    }
+    of_trials.emplace_back(&trial, std::move(own));
     for (const Channel& channel : trial.envelope->channels()) {
       if (std::find(names.begin(), names.end(), channel.name) == names.end())
         names.push_back(channel.name);
@@ -72,16 +156,16 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
     Levels movement;
     std::string mvc_trial;
     std::string movement_trial;
-    for (const TrialEnvelope& trial : trials) {
-      const auto column = trial.envelope->find(channel);
-      if (!column) continue;
-      const Levels here = levels(*trial.envelope, *column);
+    for (const auto& [trial, own] : of_trials) {
+      const auto found = own.find(channel);
+      if (found == own.end()) continue;
+      const Levels& here = found->second;
       rest = std::min(rest, here.least);
       peak = std::max(peak, here.peak);
-      Levels& most_here = trial.is_mvc ? mvc : movement;
+      Levels& most_here = trial->is_mvc ? mvc : movement;
       if (here.greatest <= most_here.greatest) continue;
       most_here = here;
-      (trial.is_mvc ? mvc_trial : movement_trial) = trial.trial;
+      (trial->is_mvc ? mvc_trial : movement_trial) = trial->trial;
     }
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
     if (peak < limits.signal_to_rest * rest) {
@@ -98,20 +182,8 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
                "noise, or a muscle that neither rests nor works here: record a second of rest "
                "and a strong effort, and check the electrode"});
     }
-    if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest) {
-      faults.push_back(
-          {.code = RemarkCode::emg_over_reference,
-           .severity = Severity::warning,
-           .about = channel,
-           .when = Stretch{movement.greatest_s, movement.greatest_s},
-           .value = movement.greatest / mvc.greatest,
-           .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
-                               "{} at {:.6g} s",
-                               channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial,
-                               movement.greatest_s),
-           .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max "
-                     "means the force there"});
-    }
+    if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest)
+      faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));
   }
   return faults;
 }

@@ -59,6 +59,33 @@ TEST(EmgLevels, AMovementAboveTheMaximalContractionIsNamedWithTrialAndTime) {
   EXPECT_NE(faults[0].says.find("(mvc) in move at "), std::string::npos) << faults[0].says;
 }
 
+TEST(EmgLevels, ATrialInAnotherUnitIsAnErrorAndAContractionThatWasNoneIsNot) {
+  const auto two = [](const TimeSeries& biceps, double triceps) {
+    Eigen::MatrixXd both(biceps.sample_count(), 2);
+    both << biceps.values(), triceps * biceps.values();
+    return TimeSeries(biceps.time_s(), {{"BIC", Unit::volt}, {"TRI", Unit::volt}}, both);
+  };
+  const TimeSeries mvc = two(envelope({1e-6, 1e-4}), 1.0);
+  const TimeSeries plain = two(envelope({1e-6, 5e-5, 1e-6}), 1.0);
+  const TimeSeries thousandfold = two(envelope({1e-3, 4.5e-2, 1e-3}), 2.0);
+  const std::vector<TrialEnvelope> trials{
+      {"move", false, &plain}, {"swing", false, &thousandfold}, {"mvc", true, &mvc}};
+  const auto faults = check_emg_levels(trials);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].severity, Severity::error);
+  for (const char* part : {"'swing'", "450 to 900 times", "another unit", "mV for V"})
+    EXPECT_NE(faults[0].says.find(part), std::string::npos) << faults[0].says;
+  // The rest is the same, or another channel is: nobody contracted this muscle fully.
+  const TimeSeries strong = two(envelope({1e-6, 4.5e-2, 1e-6}), 1.0);
+  const TimeSeries one = two(envelope({1e-3, 4.5e-2, 1e-3}), 1e-3);
+  for (const TimeSeries* movement : {&strong, &one}) {
+    const std::vector<TrialEnvelope> pair{{"swing", false, movement}, {"mvc", true, &mvc}};
+    for (const Remark& fault : check_emg_levels(pair))
+      EXPECT_EQ(fault.severity, Severity::warning) << fault.says;
+    EXPECT_FALSE(check_emg_levels(pair).empty());
+  }
+}
+
 TEST(EmgLevels, ASpikeIsShortAndPercentAreNot) {
   Eigen::VectorXd a = Eigen::VectorXd::Constant(1000, 0.4);
   a[500] = 50.0;

@@ -32,6 +32,9 @@ struct QualityLimits {
   double artifact_over_rms =
       3.0;                      ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
   double over_reference = 1.1;  ///< A movement's effort over that of the maximal contraction.
+  /// The same ratio in all channels, of efforts and of quietest levels, that only another unit
+  /// makes.
+  double other_unit = 10.0;
   // Clocks.
   double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.
   /// Least lead of EMG over motion; in people the lead is 10 to 150 ms.
