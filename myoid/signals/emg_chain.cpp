@@ -96,8 +96,8 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
       "seconds, the reference that of the greatest moving means of {:g} s, less rest likewise",
       options.window_s));
   const auto level = [](const ChannelNormalisation& n, double value) {
-    return fmt::format("{:.6g}{}{}", value, n.unit == Unit::dimensionless ? "" : " ",
-                       n.unit == Unit::dimensionless ? "" : symbol(n.unit));
+    const bool volts = n.unit != Unit::dimensionless;
+    return fmt::format("{:.6g}{}", value, volts ? fmt::format(" {}", symbol(n.unit)) : "");
   };
   for (const ChannelNormalisation& n : normalisation) {
     chain.steps.push_back(fmt::format(
