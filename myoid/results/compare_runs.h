@@ -39,7 +39,7 @@ struct RunComparison {
   std::filesystem::path first, second;
   std::vector<ComparedParameter> parameters;
   std::vector<ComparedTrial> trials;
-  std::vector<std::string> unlike;   ///< Differences of model, person or muscles (run_identity.h).
+  std::vector<std::string> unlike;   ///< Differences of model, person, muscles or estimator.
   std::vector<std::string> remarks;  ///< Numbers that only one session has.
 };
 

@@ -194,5 +194,28 @@ TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {
   EXPECT_NE(comparison_report(other).headline.find("arm7"), std::string::npos);
 }
 
+TEST(CompareRuns, SaysWhenTheEstimatorsDiffer) {
+  const test::TemporaryFolder folder;
+  const auto write = [&](const char* name, const char* estimator) {
+    std::filesystem::create_directories(folder / name);
+    recording::write_file(folder / name / "parameters.json",
+                          fmt::format(R"({{"provenance": {{"options": {{"model": {{}},
+                                         "identify": {{"estimator": "{}"}}}}}}, "methods": []}})",
+                                      estimator));
+    return folder / name;
+  };
+  const auto first = write("a", "least_squares");
+  EXPECT_TRUE(compare_runs(first, write("b", "least_squares")).unlike.empty());
+  const RunComparison other = compare_runs(first, write("c", "posterior"));
+  ASSERT_EQ(other.unlike.size(), 1U);
+  EXPECT_NE(other.unlike[0].find("least_squares here, posterior there"), std::string::npos)
+      << other.unlike[0];
+  // A result of `identify` does not state its estimator; its intervals tell.
+  const auto identified = run(folder / "d", {{"BIC", 600, 30, "identified"}}, 1.0);
+  EXPECT_TRUE(compare_runs(first, identified).unlike.empty());
+  const RunComparison posterior = compare_runs(identified, session(folder / "e", 1.0, 11));
+  EXPECT_EQ(posterior.unlike.size(), 1U);
+}
+
 }  // namespace
 }  // namespace myoid

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
@@ -141,7 +142,7 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
     if (!changes[i].comparison.unlike.empty())
       section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.",
                                                changes[i].person,
-                                               changes[i].comparison.unlike.front()));
+                                               fmt::join(changes[i].comparison.unlike, "; ")));
   }
   report::Table table{
       .id = "changes",

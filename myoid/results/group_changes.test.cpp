@@ -44,10 +44,11 @@ TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
 
 TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
   PersonChange unlike = person("A", {compared("torque", 1.0, Change::no_change)});
-  unlike.comparison.unlike = {"the model"};
+  unlike.comparison.unlike = {"the model", "the estimator"};
   const report::Section section = change_section({unlike});
   ASSERT_EQ(section.paragraphs.size(), 1U);
-  EXPECT_NE(section.paragraphs[0].find("A: "), std::string::npos);
+  EXPECT_EQ(section.paragraphs[0],
+            "A: the sessions are not of one kind: the model; the estimator.");
 }
 
 }  // namespace
