@@ -245,11 +245,11 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
   const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
                                 motion.time_s()[motion.sample_count() - 1]);
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
-  // An offset as uncertain as the expected range says nothing.
-  const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
   const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
                      offset->lead_s + unsure_s < limits.earliest_offset_s;
-  if (tells)
+  // An offset as uncertain as the expected range says nothing.
+  const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
+  if (grave || tells)
     faults.push_back(
         {.code = RemarkCode::clock_offset,
          .severity = grave ? Severity::warning : Severity::note,

@@ -36,9 +36,8 @@ struct ClockOffset {
                                                                const TimeSeries& motion,
                                                                double reach_s = 0.6);
 
-/// Reports an offset whose `sd_s` is below half of the expected range (200 ms) as a remark, or as a
-/// warning if it is outside the limits by more than `phase_s` plus two standard deviations of the
-/// scatter. Recordings of 30 s or more are also
+/// Reports the offset as a remark, or as a warning if it is outside the limits by more than
+/// `phase_s` plus two standard deviations of the scatter. Recordings of 30 s or more are also
 /// tested for a drift between the first and the last third.
 [[nodiscard]] std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
                                                      const TimeSeries& motion,

@@ -13,7 +13,6 @@ namespace {
 /// An irregular swing: angle and the torque that it needs, I q'' + m g l sin q, in closed form.
 struct Swing {
   std::uint64_t seed = 1;
-  double faster = 1.0;
   [[nodiscard]] double angle(double t) const { return sum(t, 0); }
   [[nodiscard]] double torque(double t) const {
     return 0.06 * sum(t, 2) + 2.0 * std::sin(angle(t));
@@ -24,7 +23,7 @@ struct Swing {
     math::Random random(seed);
     double value = derivative == 0 ? 1.0 : 0.0;
     for (int k = 0; k < 6; ++k) {
-      const double w = 2.0 * kPi * faster * (0.4 + 1.0 * random.uniform());
+      const double w = 2.0 * kPi * (0.4 + 1.0 * random.uniform());
       const double phase = 2.0 * kPi * random.uniform();
       const double amplitude = 0.6 / (1.0 + 0.3 * w);
       value += derivative == 0 ? amplitude * std::sin(w * t + phase)
@@ -106,22 +105,13 @@ TEST(ClockOffset, OfASlowOrATinyMovementNothingIsSaid) {
 }
 
 TEST(ClockOffset, OutsideWhatABodyCanDoItIsAWarning) {
-  const Swing swing{.seed = 2, .faster = 2.0};
+  const Swing swing{2};
+  // Within the usual range and uncertain by a quarter of a second, an offset says nothing.
+  EXPECT_TRUE(check_clock_offset(effort(swing, 20.0, 0.08), motion(swing, 20.0)).empty());
   const auto late = check_clock_offset(effort(swing, 20.0, -0.55), motion(swing, 20.0));
   ASSERT_EQ(late.size(), 1U);
   EXPECT_EQ(late[0].severity, Severity::warning);
   EXPECT_NE(late[0].says.find("behind the motion"), std::string::npos);
-}
-
-TEST(ClockOffset, KnownWorseThanTheUsualRangeItIsNotReported) {
-  const Swing swing{2};
-  for (const double lead_s : {0.08, -0.55}) {
-    const TimeSeries drive = effort(swing, 20.0, lead_s);
-    const auto offset = estimate_clock_offset(drive, motion(swing, 20.0));
-    ASSERT_TRUE(offset);
-    EXPECT_GT(offset->sd_s, 0.2);
-    EXPECT_TRUE(check_clock_offset(drive, motion(swing, 20.0)).empty()) << lead_s;
-  }
 }
 
 TEST(ClockOffset, AClockThatRunsFastIsADrift) {
