@@ -41,7 +41,7 @@ using Key = std::tuple<std::string, std::string, std::string, std::string>;
 using MethodAndTrial = std::pair<std::string, std::string>;
 
 struct Run {
-  std::string estimator;
+  bool posterior = false;  ///< By that estimator.
   std::vector<Key> order;
   std::map<Key, ParameterEstimate> estimates;
   std::map<Key, std::vector<std::string>> sharers;  ///< Further muscles of the same unknown.
@@ -49,42 +49,13 @@ struct Run {
   std::map<MethodAndTrial, std::optional<double>> rmse_nm;
 };
 
-/// A number in one session, and its standard error between sessions.
-struct OfSession {
-  double value = 0.0, sd = 0.0;
-};
-
-/// Returns the number with exact geometry and sensors; empty without this route.
-std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
-  for (const identification::RouteInterval& route : e.routes) {
-    if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
-    const double low = *route.low, high = *route.high;
-    const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
-    const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
-                       .sd = (high - low) / (2.0 * kNormal95)};
-    if (of.sd > 0.0) return of;
-  }
-  return std::nullopt;
-}
-
-/// Returns the name of the estimator that a run's settings state. A result of `identify` states
-/// none: its intervals with exact geometry are those of the posterior alone.
-std::string estimator_of(const json& content, const Run& run) {
-  const json::json_pointer stated("/provenance/options/identify/estimator");
-  if (content.contains(stated)) return content.at(stated).get<std::string>();
-  const bool posterior =
-      std::any_of(run.estimates.begin(), run.estimates.end(),
-                  [](const auto& entry) { return given_geometry(entry.second).has_value(); });
-  return std::string(choice_name(posterior ? identification::EstimatorKind::posterior
-                                           : identification::EstimatorKind::least_squares));
-}
-
 Run read_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "parameters.json";
   Run run;
   try {
     const json content = parse_json(recording::read_text_file(path));
     for (const json& method : content.at("methods")) {
+      run.posterior |= !method.value("noise", json::array()).empty();
       for (const json& row : method.at("estimates")) {
         std::optional<ParameterEstimate> e = identification::estimate_of_json(row);
         if (!e) continue;
@@ -109,7 +80,6 @@ Run read_run(const std::filesystem::path& folder) {
         run.rmse_nm[key] = number(trial, "rmse_nm");
       }
     }
-    run.estimator = estimator_of(content, run);
   } catch (const json::exception& error) {
     throw ReadError(path, 0,
                     fmt::format("is not the result of a run: {}; run the study (myoid run) and "
@@ -136,6 +106,24 @@ double repeat_error(const ParameterEstimate& e) {
       own -= (*e.variance_shares)[static_cast<std::size_t>(same)];
   }
   return *e.std_error * std::sqrt(std::max(own, 0.0));
+}
+
+/// A number in one session, and its standard error between sessions.
+struct OfSession {
+  double value = 0.0, sd = 0.0;
+};
+
+/// Returns the number with exact geometry and sensors; empty without this route.
+std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
+  for (const identification::RouteInterval& route : e.routes) {
+    if (route.route != "geometry_and_sensors_exact" || !route.low || !route.high) continue;
+    const double low = *route.low, high = *route.high;
+    const bool ratio = identification::parameter_field(e.parameter).logarithmic && low > 0.0;
+    const OfSession of{.value = ratio ? std::sqrt(low * high) : 0.5 * (low + high),
+                       .sd = (high - low) / (2.0 * kNormal95)};
+    if (of.sd > 0.0) return of;
+  }
+  return std::nullopt;
 }
 
 /// Returns a number of both sessions by one route: given geometry and sensors, or the person's.
@@ -361,11 +349,10 @@ RunComparison compare_runs(const std::filesystem::path& first,
   IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
   std::move(unlike.other.begin(), unlike.other.end(), std::back_inserter(comparison.unlike));
-  if (a.estimator != b.estimator)
+  if (a.posterior != b.posterior)
     comparison.unlike.push_back(
-        fmt::format("the estimator is {} here, {} there, whose F_max and intervals do not mean the "
-                    "same: run both sessions with one",
-                    a.estimator, b.estimator));
+        "one is by the posterior, the other by least squares, whose F_max and intervals do not "
+        "mean the same: run both sessions with one estimator");
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
     if (other == b.estimates.end()) {
