@@ -10,7 +10,8 @@ if(MYOID_UNITY)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(--param=ggc-min-heapsize=2000000)
   endif()
-  # Objects do not know the folder of their checkout, so that the compiler cache serves every checkout (setup.sh).
+  # Objects do not know the folder of their checkout, so that the compiler cache serves every
+  # checkout (dependencies.cmake).
   add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}=.)
 endif()
 

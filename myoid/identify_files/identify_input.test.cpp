@@ -97,7 +97,7 @@ TEST(IdentifyInput, ExchangedLengthsAndMomentArmsAreNamed) {
   std::swap(swapped.trial().length_m, swapped.trial().moment_arm_m);
   swapped.trial().length_m = swapped.trial().length_m.cwiseAbs();
   expect_in(swapped.error(), {"r.sto", "BIC", "--lengths and --moment-arms exchanged?"});
-  // Of fibers alone it is a question: those of the soleus are shorter than its arm.
+  // Fibers without a tendon may be shorter than a moment arm, as those of the soleus are.
   Spoiled fibers;
   for (Eigen::Index k = 0; k < 4; ++k) {
     auto& start = fibers.study.data.muscles[static_cast<std::size_t>(k)].start;

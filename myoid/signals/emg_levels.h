@@ -15,8 +15,8 @@ namespace myoid::signals {
                                   double rate_hz,
                                   double level);
 
-/// Checks each channel over all trials: the signal must rise from rest (largest 0.5 s mean over
-/// smallest 1 s mean), and no movement may exceed the maximal contractions. A channel that some
+/// Checks each channel over all trials: the signal must rise from rest (largest over smallest
+/// mean of `kPause_s`), and no movement may exceed the maximal contractions. A channel that some
 /// trials lack is checked in the others. A trial whose channels all exceed the maximal contractions
 /// tenfold, at rest too, is in another unit: an error, and it takes no part in the other checks.
 [[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
