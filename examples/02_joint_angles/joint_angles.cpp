@@ -21,8 +21,7 @@ void find_angles(const char* model, const char* markers, const char* motion) {
   std::printf("greatest flexion: %.4f deg\n", elbow_deg.maxCoeff());
 }
 
-// Inverse dynamics: the torque that this motion takes. Two differentiations amplify noise, so the
-// angles are smoothed.
+// Inverse dynamics: the torque that this motion takes. Two differentiations amplify noise, so the angles are smoothed.
 void find_torque(const char* model, const char* motion, double held_mass_kg) {
   const myoid::commands::IdResult id = myoid::commands::id({.model = model,
                                                             .motion = motion,

@@ -22,8 +22,8 @@ void tell_forces(const char* muscle, const char* lengths) {
   const Eigen::VectorXd speed_mps = series.column("fiber_velocity");
   const Eigen::VectorXd force_n = series.column("tendon_force");
   for (Eigen::Index k = 0; k < series.sample_count(); ++k) {
-    std::printf("at %.1f s, fiber %.4f m, %.4f m/s: %.4f N\n", series.time_s()(k), length_m(k),
-                speed_mps(k), force_n(k));
+    std::printf("at %.1f s, fiber %.4f m, %.4f m/s: %.4f N\n", series.time_s()(k), length_m(k), speed_mps(k),
+                force_n(k));
   }
 }
 

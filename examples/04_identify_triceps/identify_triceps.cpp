@@ -1,5 +1,4 @@
-// Problem: how strong is the triceps of the person who was recorded, and at which length is it
-// strongest?
+// Problem: how strong is the triceps of the person who was recorded, and at which length is it strongest?
 //
 //   identify_triceps STUDY.toml MVC_EMG TRIAL_EMG
 #include <cstdio>
@@ -32,8 +31,8 @@ void tell_triceps(const char* study) {
   if (fit == nullptr) throw myoid::InvalidInput("the study does not ask for the method torque");
   for (const auto& number : fit->estimates) {
     if (number.muscle != "TRI" || !number.std_error) continue;
-    std::printf("%s: %.6g, standard error %.6g, %s\n", number.parameter.c_str(), number.estimate,
-                *number.std_error, std::string(name(number.verdict)).c_str());
+    std::printf("%s: %.6g, standard error %.6g, %s\n", number.parameter.c_str(), number.estimate, *number.std_error,
+                std::string(name(number.verdict)).c_str());
   }
 }
 

@@ -16,9 +16,8 @@ using myoid::identification::ParameterEstimate;
 // A row of the table: the estimate with its 95 % interval, which may be open on a side.
 void tell_strength(const ParameterEstimate& number) {
   if (!number.ci_low || !number.ci_high) return;
-  std::printf("strength of %s: %.6g N, 95 %% interval %.6g to %.6g N, %s\n", number.muscle.c_str(),
-              number.estimate, *number.ci_low, *number.ci_high,
-              std::string(name(number.verdict)).c_str());
+  std::printf("strength of %s: %.6g N, 95 %% interval %.6g to %.6g N, %s\n", number.muscle.c_str(), number.estimate,
+              *number.ci_low, *number.ci_high, std::string(name(number.verdict)).c_str());
 }
 
 // Every number has a verdict, and every verdict but the best a reason.

@@ -29,21 +29,19 @@ void recover(const char* protocol, const std::filesystem::path& out) {
   const myoid::twin::Truth truth = record(protocol, out / "recording");
 
   // The study of the recording, with the muscles of the literature as a start.
-  const commands::RunResult run =
-      commands::run({.study = (out / "recording" / "study.toml").string()});
+  const commands::RunResult run = commands::run({.study = (out / "recording" / "study.toml").string()});
   commands::write_run(run, out / "results");
   const auto* fit = myoid::torque_of(run.study.fit);
   if (fit == nullptr) throw myoid::InvalidInput("the study does not ask for the method torque");
   for (std::size_t m = 0; m < truth.muscles.size(); ++m) {
-    std::printf("strength of %s: %.1f N found, %.1f N true\n",
-                run.study.source.study.muscles[m].name.c_str(),
+    std::printf("strength of %s: %.1f N found, %.1f N true\n", run.study.source.study.muscles[m].name.c_str(),
                 fit->muscles[m].max_isometric_force_n, truth.muscles[m].max_isometric_force_n);
   }
 
   // The trials of the use `validation` took no part.
   for (const auto& trial : commands::predict({.folder = (out / "results").string()}).trials) {
-    std::printf("torque of %s: R2 %.4f, error %.4f N m rms\n", trial.trial.c_str(),
-                trial.score.r2(), trial.score.rmse_nm());
+    std::printf("torque of %s: R2 %.4f, error %.4f N m rms\n", trial.trial.c_str(), trial.score.r2(),
+                trial.score.rmse_nm());
   }
 }
 

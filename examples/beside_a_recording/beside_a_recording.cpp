@@ -39,9 +39,8 @@ struct Muscle {
   std::string_view name;
   std::array<std::string_view, 2> channels;  ///< What a channel's name may begin with.
 };
-constexpr std::array<Muscle, 3> kMuscles = {{{"biceps", {"BIC", "biceps"}},
-                                             {"brachioradialis", {"BRD", "brachiorad"}},
-                                             {"triceps", {"TRI", "triceps"}}}};
+constexpr std::array<Muscle, 3> kMuscles = {
+    {{"biceps", {"BIC", "biceps"}}, {"brachioradialis", {"BRD", "brachiorad"}}, {"triceps", {"TRI", "triceps"}}}};
 
 /// One side of the figure.
 struct Side {
@@ -68,8 +67,7 @@ Side read_side(std::string title, const char* angle, const char* emg, const char
   const myoid::recording::Storage storage = myoid::recording::read_storage(angle);
   side.angle = myoid::recording::to_si(storage, [](const std::string&) { return true; });
   side.emg = signals::process_emg(myoid::recording::read_emg(emg, "", false).data);
-  for (std::size_t m = 0; m < kMuscles.size(); ++m)
-    side.channel[m] = channel_of(side.emg.raw, kMuscles[m]);
+  for (std::size_t m = 0; m < kMuscles.size(); ++m) side.channel[m] = channel_of(side.emg.raw, kMuscles[m]);
   return side;
 }
 
@@ -92,10 +90,8 @@ report::Series window(const TimeSeries& series,
 
 /// The window's EMG itself, as the amplifier gave it.
 Eigen::VectorXd raw_window(const Side& side, std::size_t muscle) {
-  const report::Series curve =
-      window(side.emg.raw, side.channel[muscle], side.from_s, 1.0, "", report::Role::raw);
-  return Eigen::Map<const Eigen::VectorXd>(curve.y.data(),
-                                           static_cast<Eigen::Index>(curve.y.size()));
+  const report::Series curve = window(side.emg.raw, side.channel[muscle], side.from_s, 1.0, "", report::Role::raw);
+  return Eigen::Map<const Eigen::VectorXd>(curve.y.data(), static_cast<Eigen::Index>(curve.y.size()));
 }
 
 void add_row(report::Figure& figure,
@@ -111,29 +107,25 @@ void add_row(report::Figure& figure,
 }
 
 report::Figure figure_of(const std::array<Side, 2>& sides) {
-  report::Figure figure{.id = "beside_a_recording",
-                        .title = "Ten seconds of a person and of a virtual one",
-                        .columns = 2};
+  report::Figure figure{
+      .id = "beside_a_recording", .title = "Ten seconds of a person and of a virtual one", .columns = 2};
   const report::Axis time{.label = "time", .unit = "s", .lower = 0.0, .upper = kWindow_s};
   add_row(figure, sides, time, {.label = "elbow flexion", .unit = "deg"}, [](const Side& side) {
-    return std::vector{
-        window(side.angle, 0, side.from_s, 1.0 / myoid::kDegree, "", report::Role::reference)};
+    return std::vector{window(side.angle, 0, side.from_s, 1.0 / myoid::kDegree, "", report::Role::reference)};
   });
   for (std::size_t m = 0; m < kMuscles.size(); ++m) {
-    add_row(figure, sides, time,
-            {.label = fmt::format("raw EMG, {}", kMuscles[m].name), .unit = "µV"},
-            [m](const Side& side) {
-              return std::vector{window(side.emg.raw, side.channel[m], side.from_s, kMicrovolt, "",
-                                        report::Role::truth)};
-            });
+    add_row(
+        figure, sides, time, {.label = fmt::format("raw EMG, {}", kMuscles[m].name), .unit = "µV"},
+        [m](const Side& side) {
+          return std::vector{window(side.emg.raw, side.channel[m], side.from_s, kMicrovolt, "", report::Role::truth)};
+        });
   }
   constexpr std::array<report::Role, 3> kRoles = {report::Role::reference, report::Role::identified,
                                                   report::Role::literature};
   add_row(figure, sides, time, {.label = "envelope over its maximum"}, [&](const Side& side) {
     std::vector<report::Series> curves;
     for (std::size_t m = 0; m < kMuscles.size(); ++m) {
-      const double most =
-          side.emg.envelope.values().col(static_cast<Eigen::Index>(side.channel[m])).maxCoeff();
+      const double most = side.emg.envelope.values().col(static_cast<Eigen::Index>(side.channel[m])).maxCoeff();
       curves.push_back(window(side.emg.envelope, side.channel[m], side.from_s, 1.0 / most,
                               std::string(kMuscles[m].name), kRoles[m]));
     }
@@ -165,9 +157,8 @@ std::string counted(const Side& side, std::size_t m) {
   const Eigen::VectorXd raw = raw_window(side, m);
   const signals::PowerSpectrum spectrum = signals::power_spectrum(raw, rate_hz, 0.5);
   const double all = signals::band_power(spectrum, 0.0, 1e4);
-  std::vector<double> envelope = window(side.emg.envelope, side.channel[m], side.from_s, kMicrovolt,
-                                        "", report::Role::reference)
-                                     .y;
+  std::vector<double> envelope =
+      window(side.emg.envelope, side.channel[m], side.from_s, kMicrovolt, "", report::Role::reference).y;
   const report::Series filtered =
       window(side.emg.filtered, side.channel[m], side.from_s, kMicrovolt, "", report::Role::raw);
   // Kurtosis of the EMG over its envelope, where the muscle is at work.
@@ -184,13 +175,11 @@ std::string counted(const Side& side, std::size_t m) {
     fourth += z2 * z2;
     count += 1.0;
   }
-  return fmt::format("| {} | {} | {:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.1f} |\n",
-                     side.title, kMuscles[m].name, at(0.99), 100.0 * at(0.05) / at(0.99),
-                     signals::median_frequency_hz(spectrum, 20.0, 400.0),
-                     100.0 * signals::band_power(spectrum, 0.0, 15.0) / all,
-                     100.0 * signals::band_power(spectrum, 150.0, 1e4) / all,
-                     1e4 * signals::band_power(spectrum, 500.0, 1e4) / all,
-                     fourth * count / (second * second) - 3.0);
+  return fmt::format(
+      "| {} | {} | {:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.1f} |\n", side.title, kMuscles[m].name,
+      at(0.99), 100.0 * at(0.05) / at(0.99), signals::median_frequency_hz(spectrum, 20.0, 400.0),
+      100.0 * signals::band_power(spectrum, 0.0, 15.0) / all, 100.0 * signals::band_power(spectrum, 150.0, 1e4) / all,
+      1e4 * signals::band_power(spectrum, 500.0, 1e4) / all, fourth * count / (second * second) - 3.0);
 }
 
 void run(char** argv) {

@@ -54,8 +54,7 @@ std::string joint(std::string_view name,
         const CoordinateText& c = list[k];
         axis = c.axis;
         use = fmt::format("<coordinates>{}</coordinates>", c.name);
-        function =
-            "<LinearFunction name=\"function\"><coefficients>1 0</coefficients></LinearFunction>";
+        function = "<LinearFunction name=\"function\"><coefficients>1 0</coefficients></LinearFunction>";
         coordinates += fmt::format(
             "            <Coordinate name=\"{}\"><default_value>{}</default_value>"
             "<range>{} {}</range><clamped>true</clamped><locked>{}</locked></Coordinate>\n",
@@ -65,9 +64,8 @@ std::string joint(std::string_view name,
         axis = Vec3(last_axis.z(), last_axis.x(), last_axis.y());
       }
       last_axis = axis;
-      axes += fmt::format(
-          "            <TransformAxis name=\"{}{}\">{}<axis>{}</axis>{}</TransformAxis>\n", kind,
-          k + 1, use, triple(axis), function);
+      axes += fmt::format("            <TransformAxis name=\"{}{}\">{}<axis>{}</axis>{}</TransformAxis>\n", kind, k + 1,
+                          use, triple(axis), function);
     }
   };
   add(rotations, "rotation");
@@ -87,8 +85,7 @@ std::string joint(std::string_view name,
       "          <SpatialTransform>\n{6}          </SpatialTransform>\n"
       "        </CustomJoint>\n",
       name, parent, child, coordinates,
-      parent == "ground" ? std::string("/ground") : fmt::format("/bodyset/{}", parent),
-      triple(p_PF_m), axes);
+      parent == "ground" ? std::string("/ground") : fmt::format("/bodyset/{}", parent), triple(p_PF_m), axes);
 }
 
 std::string point(std::string_view name, std::string_view on, const Vec3& at_m) {
@@ -106,22 +103,18 @@ std::string sliding_point(std::string_view name, const Vec3& at_m, double slope_
         "<{0}_location>{1}</{0}_location>",
         letter, function);
   };
-  const auto constant = [](double value) {
-    return fmt::format("<Constant><value>{}</value></Constant>", value);
-  };
+  const auto constant = [](double value) { return fmt::format("<Constant><value>{}</value></Constant>", value); };
   return fmt::format(
       "                <MovingPathPoint name=\"{}\"><socket_parent_frame>/bodyset/upper_arm"
       "</socket_parent_frame>{}{}{}</MovingPathPoint>\n",
       name, axis('x', constant(at_m.x())),
-      axis('y', fmt::format("<LinearFunction><coefficients>{} {}</coefficients></LinearFunction>",
-                            slope_mprad, at_m.y())),
+      axis('y',
+           fmt::format("<LinearFunction><coefficients>{} {}</coefficients></LinearFunction>", slope_mprad, at_m.y())),
       axis('z', constant(at_m.z())));
 }
 
 /// Points whose polygon has exactly the length of the planar muscle.
-std::string path_points(const PlanarMuscle& muscle,
-                        double upper_arm_m,
-                        std::string_view insertion_body) {
+std::string path_points(const PlanarMuscle& muscle, double upper_arm_m, std::string_view insertion_body) {
   const std::string name(muscle.name);
   if (muscle.above_m == 0.0) {  // the triceps, behind the bone
     const double x_m = -muscle.pulley_m;
@@ -148,9 +141,7 @@ std::string path_points(const PlanarMuscle& muscle,
   return points;
 }
 
-std::string muscle_text(const MuscleText& muscle,
-                        double upper_arm_m,
-                        std::string_view insertion_body) {
+std::string muscle_text(const MuscleText& muscle, double upper_arm_m, std::string_view insertion_body) {
   const PlanarMuscle& path = muscle.path;
   const muscle::HillParameters<double>& p = muscle.hill;
   // Thelen's numbers of the same curves: gamma = (l_sh / l0)^2, A_f = V_sh, F_len = V_ml.
@@ -169,10 +160,9 @@ std::string muscle_text(const MuscleText& muscle,
       "          <Af>{}</Af>\n"
       "          <Flen>{}</Flen>\n"
       "        </Thelen2003Muscle>\n",
-      path.name, path_points(path, upper_arm_m, insertion_body), p.max_isometric_force_n,
-      p.optimal_fiber_length_m, p.tendon_slack_length_m, muscle.pennation_at_optimal_rad,
-      p.max_shortening_speed_mps / p.optimal_fiber_length_m, width * width, p.concentric_curvature,
-      p.eccentric_plateau);
+      path.name, path_points(path, upper_arm_m, insertion_body), p.max_isometric_force_n, p.optimal_fiber_length_m,
+      p.tendon_slack_length_m, muscle.pennation_at_optimal_rad, p.max_shortening_speed_mps / p.optimal_fiber_length_m,
+      width * width, p.concentric_curvature, p.eccentric_plateau);
 }
 
 std::string marker(std::string_view name, std::string_view on, const Vec3& at_m) {
@@ -219,9 +209,7 @@ std::array<muscle::HillParameters<double>, 4> arm4_muscles(const ArmOptions& opt
   return result;
 }
 
-Vec3 arm4_shoulder_rad(bool horizontal) {
-  return horizontal ? Vec3(0.5 * kPi, 0.0, 0.5 * kPi) : Vec3(Vec3::Zero());
-}
+Vec3 arm4_shoulder_rad(bool horizontal) { return horizontal ? Vec3(0.5 * kPi, 0.0, 0.5 * kPi) : Vec3(Vec3::Zero()); }
 
 Vec3 arm4_held_at_m(const ArmOptions& options) { return {0.0, -held_at_m(options), 0.0}; }
 
@@ -229,32 +217,26 @@ std::string arm4_osim(const Arm4Options& options) {
   const PlanarElbow elbow = planar_elbow(options.person);
   const std::array<muscle::HillParameters<double>, 4> parameters = arm4_muscles(options.person);
   std::vector<MuscleText> muscles;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    muscles.push_back({elbow.muscles[i], parameters[i]});
+  for (std::size_t i = 0; i < parameters.size(); ++i) muscles.push_back({elbow.muscles[i], parameters[i]});
   return arm_osim(options, "arm4", muscles);
 }
 
-std::string arm_osim(const Arm4Options& options,
-                     std::string_view name,
-                     const std::vector<MuscleText>& muscles) {
+std::string arm_osim(const Arm4Options& options, std::string_view name, const std::vector<MuscleText>& muscles) {
   const SegmentInertia upper = upper_arm(options.person);
   const SegmentInertia forearm = forearm_with_hand(options.person);
   const double upper_m = options.person.upper_arm_length_m;
   const Vec3 shoulder_rad = arm4_shoulder_rad(options.horizontal);
   const bool rotations = options.forearm_rotations;
 
-  std::string bodies =
-      body("trunk", 0.5 * options.person.mass_kg, Vec3(0.0, -0.25, 0.0), Vec3(1.0, 0.5, 1.0));
+  std::string bodies = body("trunk", 0.5 * options.person.mass_kg, Vec3(0.0, -0.25, 0.0), Vec3(1.0, 0.5, 1.0));
   bodies += body("upper_arm", upper.mass_kg, Vec3(0.0, -upper.center_m, 0.0), upper.I_cm_kgm2);
   if (rotations) bodies += body("ulna", 1e-6, Vec3::Zero(), Vec3::Constant(1e-9));
-  bodies +=
-      body("forearm_hand", forearm.mass_kg, Vec3(0.0, -forearm.center_m, 0.0), forearm.I_cm_kgm2);
+  bodies += body("forearm_hand", forearm.mass_kg, Vec3(0.0, -forearm.center_m, 0.0), forearm.I_cm_kgm2);
 
   const Vec3 base_m(0.0, kTrunkHeight_m, 0.0);
   std::string joints;
   if (rotations) {
-    joints += joint("base", "ground", "trunk", base_m,
-                    {{"base_heading", Vec3::UnitY(), 0.0, -kPi, kPi, true}},
+    joints += joint("base", "ground", "trunk", base_m, {{"base_heading", Vec3::UnitY(), 0.0, -kPi, kPi, true}},
                     {{"base_tx", Vec3::UnitX(), 0.0, -10.0, 10.0, true},
                      {"base_ty", Vec3::UnitY(), 0.0, -10.0, 10.0, true},
                      {"base_tz", Vec3::UnitZ(), 0.0, -10.0, 10.0, true}});
@@ -288,8 +270,7 @@ std::string arm_osim(const Arm4Options& options,
   }
 
   std::string forces;
-  for (const MuscleText& muscle : muscles)
-    forces += muscle_text(muscle, upper_m, rotations ? "ulna" : "forearm_hand");
+  for (const MuscleText& muscle : muscles) forces += muscle_text(muscle, upper_m, rotations ? "ulna" : "forearm_hand");
 
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

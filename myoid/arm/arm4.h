@@ -21,18 +21,16 @@ struct Arm4Options {
   bool forearm_rotations = false;
 };
 
-/// Returns the built-in right arm as an OpenSim model file (version 40000): bodies trunk, upper_arm
-/// and forearm_hand (frame at the elbow, long axis -y, x forward when the arm hangs, z to the
-/// right); coordinates shoulder_flexion (z), shoulder_adduction (x), shoulder_rotation (y),
-/// elbow_flexion; muscles BIC, BRA, BRD, TRI (Thelen2003Muscle) with the lengths of `planar_elbow`
-/// and the numbers of `arm4_muscles`; markers. The numbers read back to the bit.
+/// Returns the built-in right arm as an OpenSim model file (version 40000): bodies trunk, upper_arm and forearm_hand
+/// (frame at the elbow, long axis -y, x forward when the arm hangs, z to the right); coordinates shoulder_flexion (z),
+/// shoulder_adduction (x), shoulder_rotation (y), elbow_flexion; muscles BIC, BRA, BRD, TRI (Thelen2003Muscle) with the
+/// lengths of `planar_elbow` and the numbers of `arm4_muscles`; markers. The numbers read back to the bit.
 [[nodiscard]] std::string arm4_osim(const Arm4Options& options = {});
 
 /// Returns the literature's parameters for BIC, BRA, BRD and TRI (l_sh = 0.45 l0, V_sh 0.28, V_ml
 /// 1.4), with tendon lengths that make the fibers optimal at 85, 75, 95 and 60 degrees of elbow
 /// flexion: the published slack lengths belong to other paths.
-[[nodiscard]] std::array<muscle::HillParameters<double>, 4> arm4_muscles(
-    const ArmOptions& options = {});
+[[nodiscard]] std::array<muscle::HillParameters<double>, 4> arm4_muscles(const ArmOptions& options = {});
 
 /// Returns the shoulder coordinates (flexion, adduction, rotation) [rad] of a plane of movement.
 [[nodiscard]] Vec3 arm4_shoulder_rad(bool horizontal);

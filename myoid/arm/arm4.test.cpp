@@ -65,8 +65,7 @@ TEST(Arm4, MusclePathsHaveTheLengthsOfTheClosedForm) {
       for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(arm.muscles[i].name, elbow.muscles[i].name);
         // Round-off of lengths of a few tenths of a meter seen from meters away.
-        EXPECT_NEAR(polygon_m(arm, state, arm.muscles[i].path),
-                    travel(elbow.muscles[i], q_rad).length_m, 5e-15)
+        EXPECT_NEAR(polygon_m(arm, state, arm.muscles[i].path), travel(elbow.muscles[i], q_rad).length_m, 5e-15)
             << elbow.muscles[i].name << " at " << q_rad;
       }
     }
@@ -78,12 +77,10 @@ TEST(Arm4, InverseDynamicsIsTheClosedFormInBothPlanes) {
   const PlanarElbow elbow = planar_elbow(person);
   for (const bool horizontal : {false, true}) {
     for (const bool rotations : {false, true}) {
-      const BodyModel arm =
-          read({.person = person, .horizontal = horizontal, .forearm_rotations = rotations});
+      const BodyModel arm = read({.person = person, .horizontal = horizontal, .forearm_rotations = rotations});
       BodyState state = make_state(arm);
       const int coordinate = arm.coordinate_index("elbow_flexion");
-      const Eigen::VectorXd zero =
-          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(arm.coordinates.size()));
+      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(arm.coordinates.size()));
       for (double q_rad = 0.1; q_rad < 2.5; q_rad += 0.3) {
         Eigen::VectorXd q = arm.default_q();
         Eigen::VectorXd qdot = zero;
@@ -93,9 +90,7 @@ TEST(Arm4, InverseDynamicsIsTheClosedFormInBothPlanes) {
         qddot(coordinate) = 7.0 * q_rad - 5.0;
         const double tau_nm = inverse_dynamics(arm, q, qdot, qddot, {}, state)(coordinate);
         // Round-off; the ulna of the variant adds 1e-9 kg m2.
-        EXPECT_NEAR(tau_nm,
-                    required_torque_nm(elbow, q_rad, qddot(coordinate),
-                                       horizontal ? 0.0 : kStandardGravity),
+        EXPECT_NEAR(tau_nm, required_torque_nm(elbow, q_rad, qddot(coordinate), horizontal ? 0.0 : kStandardGravity),
                     rotations ? 2e-8 : 1e-13);
       }
     }
@@ -111,8 +106,7 @@ TEST(Arm4, MusclesCarryTheNumbersOfTheLiterature) {
     EXPECT_EQ(p.max_isometric_force_n, expected[i].max_isometric_force_n);
     EXPECT_EQ(p.optimal_fiber_length_m, expected[i].optimal_fiber_length_m);
     EXPECT_EQ(p.tendon_slack_length_m, expected[i].tendon_slack_length_m);
-    EXPECT_DOUBLE_EQ(std::sqrt(p.active_shape) * p.optimal_fiber_length_m,
-                     expected[i].force_length_width_m);
+    EXPECT_DOUBLE_EQ(std::sqrt(p.active_shape) * p.optimal_fiber_length_m, expected[i].force_length_width_m);
     EXPECT_EQ(p.eccentric_plateau, expected[i].eccentric_plateau);
     EXPECT_EQ(p.concentric_shape, expected[i].concentric_curvature);
     EXPECT_NEAR(p.max_contraction_velocity, 10.0, 1e-14);
@@ -124,14 +118,12 @@ TEST(Arm4, FibersAreOptimalAtTheAnglesPromised) {
   const auto muscles = arm4_muscles();
   const std::array<double, 4> angle_deg = {85.0, 75.0, 95.0, 60.0};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(travel(elbow.muscles[i], angle_deg[i] * kDegree).length_m -
-                    muscles[i].tendon_slack_length_m,
+    EXPECT_NEAR(travel(elbow.muscles[i], angle_deg[i] * kDegree).length_m - muscles[i].tendon_slack_length_m,
                 muscles[i].optimal_fiber_length_m, 1e-15);
     // And live: between 0.4 and 1.7 optimal lengths over the whole range.
     for (const double q_deg : {0.0, 150.0}) {
-      const double ratio =
-          (travel(elbow.muscles[i], q_deg * kDegree).length_m - muscles[i].tendon_slack_length_m) /
-          muscles[i].optimal_fiber_length_m;
+      const double ratio = (travel(elbow.muscles[i], q_deg * kDegree).length_m - muscles[i].tendon_slack_length_m) /
+                           muscles[i].optimal_fiber_length_m;
       EXPECT_GT(ratio, 0.4);
       EXPECT_LT(ratio, 1.7);
     }

@@ -37,15 +37,15 @@ std::array<ArmHead, 7> arm7_heads(const ArmOptions& options) {
     heads[i].name = kArm7Heads[i];
     heads[i].lump = published.lump;
     heads[i].pennation_at_optimal_rad = published.pennation_rad;
-    heads[i].hill = muscle::literature_parameters(
-        {kArm7Heads[i], published.max_isometric_force_n, published.optimal_fiber_length_m,
-         published.tendon_slack_length_m, published.pennation_rad});
+    heads[i].hill =
+        muscle::literature_parameters({kArm7Heads[i], published.max_isometric_force_n, published.optimal_fiber_length_m,
+                                       published.tendon_slack_length_m, published.pennation_rad});
     heads[i].hill.tendon_slack_length_m = published.tendon_slack_length_m;
     heads[i].path = elbow.muscles[lump];
     heads[i].path.name = kArm7Heads[i];
     const double reach_m = published.optimal_fiber_length_m * std::cos(published.pennation_rad);
-    heads[i].path.constant_m += published.tendon_slack_length_m + reach_m -
-                                travel(heads[i].path, kArmOptimalAt_rad[lump]).length_m;
+    heads[i].path.constant_m +=
+        published.tendon_slack_length_m + reach_m - travel(heads[i].path, kArmOptimalAt_rad[lump]).length_m;
   }
   return heads;
 }

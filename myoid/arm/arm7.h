@@ -19,13 +19,12 @@ struct ArmHead {
   double pennation_at_optimal_rad = 0.0;
 };
 
-inline constexpr std::array<std::string_view, 7> kArm7Heads = {
-    "BIClong", "BICshort", "BRA", "BRD", "TRIlong", "TRIlat", "TRImed"};
+inline constexpr std::array<std::string_view, 7> kArm7Heads = {"BIClong", "BICshort", "BRA",   "BRD",
+                                                               "TRIlong", "TRIlat",   "TRImed"};
 
-/// Returns the seven heads: Holzbaur, Murray & Delp (2005) as OpenSim's models carry them, other
-/// numbers as `muscle::literature_parameters`. Slack lengths are the published ones; the paths'
-/// constant parts are such that with a rigid tendon every fiber is optimal at the angle of its lump
-/// (85, 75, 95 and 60 degrees of elbow flexion).
+/// Returns the seven heads: Holzbaur, Murray & Delp (2005) as OpenSim's models carry them, other numbers as
+/// `muscle::literature_parameters`. Slack lengths are the published ones; the paths' constant parts are such that with
+/// a rigid tendon every fiber is optimal at the angle of its lump (85, 75, 95 and 60 degrees of elbow flexion).
 [[nodiscard]] std::array<ArmHead, 7> arm7_heads(const ArmOptions& options = {});
 
 /// Returns `arm4_osim` with these seven muscles instead of the four.

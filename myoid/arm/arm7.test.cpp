@@ -23,18 +23,15 @@ TEST(Arm7, HeadsOfALumpAddUpToItAndTurnTheElbowAlike) {
     for (const double q : {0.2, 1.0, 2.2})
       EXPECT_EQ(travel(head.path, q).moment_arm_m, travel(elbow.muscles[lump], q).moment_arm_m);
   }
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_NEAR(strength_n[i], lumped[i].max_isometric_force_n, 1e-9);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(strength_n[i], lumped[i].max_isometric_force_n, 1e-9);
 }
 
 TEST(Arm7, RigidTendonsLeaveEveryFiberOptimalAtTheAngleOfItsLump) {
   for (const ArmHead& head : arm7_heads()) {
     const double q = kArmOptimalAt_rad[static_cast<std::size_t>(head.lump)];
     const double along_m = travel(head.path, q).length_m - head.hill.tendon_slack_length_m;
-    const double height_m =
-        head.hill.optimal_fiber_length_m * std::sin(head.pennation_at_optimal_rad);
-    EXPECT_NEAR(std::hypot(along_m, height_m), head.hill.optimal_fiber_length_m, 1e-15)
-        << head.name;
+    const double height_m = head.hill.optimal_fiber_length_m * std::sin(head.pennation_at_optimal_rad);
+    EXPECT_NEAR(std::hypot(along_m, height_m), head.hill.optimal_fiber_length_m, 1e-15) << head.name;
   }
 }
 

@@ -10,8 +10,8 @@
 namespace myoid::model {
 
 /// Elbow flexion at which the fibers of BIC, BRA, BRD and TRI are optimal.
-inline constexpr std::array<double, 4> kArmOptimalAt_rad = {85.0 * kDegree, 75.0 * kDegree,
-                                                            95.0 * kDegree, 60.0 * kDegree};
+inline constexpr std::array<double, 4> kArmOptimalAt_rad = {85.0 * kDegree, 75.0 * kDegree, 95.0 * kDegree,
+                                                            60.0 * kDegree};
 
 /// A muscle of the built-in arm in its model file.
 struct MuscleText {

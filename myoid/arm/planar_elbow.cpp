@@ -37,8 +37,7 @@ constexpr double kHandPerForearm = 0.0862 / 0.2689;  ///< Length of the hand, as
 const ArmFractions& fractions(const ArmOptions& options) {
   const auto check = [](double value, const char* what) {
     if (!(value > 0.0) || !std::isfinite(value)) {
-      throw InvalidInput(
-          fmt::format("{} of the arm is {}, expected a positive number (SI)", what, value));
+      throw InvalidInput(fmt::format("{} of the arm is {}, expected a positive number (SI)", what, value));
     }
   };
   check(options.mass_kg, "mass_kg");
@@ -68,12 +67,10 @@ SegmentInertia forearm_with_hand(const ArmOptions& options) {
 
   SegmentInertia both;
   both.mass_kg = forearm.mass_kg + hand.mass_kg;
-  both.center_m =
-      (forearm.mass_kg * forearm.center_m + hand.mass_kg * hand.center_m) / both.mass_kg;
+  both.center_m = (forearm.mass_kg * forearm.center_m + hand.mass_kg * hand.center_m) / both.mass_kg;
   const double apart_m = hand.center_m - forearm.center_m;
   const double reduced_kg = forearm.mass_kg * hand.mass_kg / both.mass_kg;
-  both.I_cm_kgm2 =
-      forearm.I_cm_kgm2 + hand.I_cm_kgm2 + reduced_kg * apart_m * apart_m * Vec3(1.0, 0.0, 1.0);
+  both.I_cm_kgm2 = forearm.I_cm_kgm2 + hand.I_cm_kgm2 + reduced_kg * apart_m * apart_m * Vec3(1.0, 0.0, 1.0);
   return both;
 }
 
@@ -84,15 +81,13 @@ double held_at_m(const ArmOptions& options) {
 MuscleTravel travel(const PlanarMuscle& muscle, double elbow_flexion_rad) {
   const double from_rad = elbow_flexion_rad - muscle.taper_about_rad;
   const double taper_m = muscle.taper_mprad * from_rad;
-  MuscleTravel result{
-      muscle.constant_m + muscle.pulley_m * elbow_flexion_rad - 0.5 * taper_m * from_rad,
-      -muscle.pulley_m + taper_m, muscle.taper_mprad};
+  MuscleTravel result{muscle.constant_m + muscle.pulley_m * elbow_flexion_rad - 0.5 * taper_m * from_rad,
+                      -muscle.pulley_m + taper_m, muscle.taper_mprad};
   if (muscle.above_m == 0.0) return result;
   const double psi = muscle.straight_rad - elbow_flexion_rad;
   const double product_m2 = muscle.above_m * muscle.below_m;
   const double across_m =
-      std::sqrt(muscle.above_m * muscle.above_m + muscle.below_m * muscle.below_m -
-                2.0 * product_m2 * std::cos(psi));
+      std::sqrt(muscle.above_m * muscle.above_m + muscle.below_m * muscle.below_m - 2.0 * product_m2 * std::cos(psi));
   const double arm_m = product_m2 * std::sin(psi) / across_m;
   result.length_m += across_m;
   result.moment_arm_m += arm_m;
@@ -111,8 +106,7 @@ PlanarElbow planar_elbow(const ArmOptions& options) {
                     {"BRA", 0.5 * upper_arm_m - 0.050, 0.050, 0.030, 165.0 * kDegree, 0.0},
                     {"BRD", options.forearm_length_m - 0.076, 0.070, 0.076, 170.0 * kDegree, 0.0},
                     {"TRI", 0.8 * upper_arm_m, 0.0, 0.0, 0.0, 0.021}}};
-  elbow.inertia_kgm2 =
-      forearm.I_cm_kgm2.z() + forearm.mass_kg * forearm.center_m * forearm.center_m;
+  elbow.inertia_kgm2 = forearm.I_cm_kgm2.z() + forearm.mass_kg * forearm.center_m * forearm.center_m;
   elbow.static_moment_kgm = forearm.mass_kg * forearm.center_m;
   elbow.held_at_m = held_at_m(options);
   return elbow;
@@ -125,8 +119,7 @@ double required_torque_nm(const PlanarElbow& elbow,
                           double held_mass_kg) {
   const double d_m = elbow.held_at_m;
   return (elbow.inertia_kgm2 + held_mass_kg * d_m * d_m) * acceleration_radps2 +
-         (elbow.static_moment_kgm + held_mass_kg * d_m) * gravity_mps2 *
-             std::sin(elbow_flexion_rad);
+         (elbow.static_moment_kgm + held_mass_kg * d_m) * gravity_mps2 * std::sin(elbow_flexion_rad);
 }
 
 }  // namespace myoid::model

@@ -18,9 +18,8 @@ struct ArmOptions {
 /// Mass, center and inertia of a segment whose long axis is -y from its proximal joint.
 struct SegmentInertia {
   double mass_kg = 0.0;
-  double center_m = 0.0;  ///< Distance of the mass center from the proximal joint.
-  Vec3 I_cm_kgm2 =
-      Vec3::Zero();  ///< About x (sagittal), y (long) and z (transverse) axes through it.
+  double center_m = 0.0;          ///< Distance of the mass center from the proximal joint.
+  Vec3 I_cm_kgm2 = Vec3::Zero();  ///< About x (sagittal), y (long) and z (transverse) axes through it.
 };
 
 /// Returns the upper arm, or forearm with hand as one body, after de Leva (1996). Throws

@@ -18,18 +18,17 @@ double pigeon_m(const std::array<double, 6>& c, double x) {
 }
 
 TEST(PlanarElbow, MomentArmsAreThosePublishedWithinTheErrorOfTheFit) {
-  const std::array<std::array<double, 6>, 4> published = {
-      {{1.963, -1.44, 3.031, 0.887, -1.418, 0.285},
-       {1.554, 0.0813, -1.689, 3.523, -1.811, 0.276},
-       {2.015, -0.458, 3.058, -1.081, 0.159, -0.0187},
-       {-2.365, -1.015, 1.92, -1.035, 0.257, -0.0262}}};
+  const std::array<std::array<double, 6>, 4> published = {{{1.963, -1.44, 3.031, 0.887, -1.418, 0.285},
+                                                           {1.554, 0.0813, -1.689, 3.523, -1.811, 0.276},
+                                                           {2.015, -0.458, 3.058, -1.081, 0.159, -0.0187},
+                                                           {-2.365, -1.015, 1.92, -1.035, 0.257, -0.0262}}};
   const PlanarElbow elbow = planar_elbow();
   for (std::size_t i = 0; i < 4; ++i) {
     double sum_m2 = 0.0;
     int count = 0;
     for (double q_deg = 10.0; q_deg <= 130.0; q_deg += 5.0, ++count) {
-      const double error_m = travel(elbow.muscles[i], q_deg * kDegree).moment_arm_m -
-                             pigeon_m(published[i], q_deg * kDegree);
+      const double error_m =
+          travel(elbow.muscles[i], q_deg * kDegree).moment_arm_m - pigeon_m(published[i], q_deg * kDegree);
       sum_m2 += error_m * error_m;
     }
     // The fits' own rms: 2.2, 2.6, 3.3 and 3.2 mm; their constants are rounded to a millimeter.
@@ -46,8 +45,7 @@ TEST(PlanarElbow, MomentArmIsMinusTheSlopeOfTheLength) {
       const MuscleTravel after = travel(muscle, q + h);
       const MuscleTravel here = travel(muscle, q);
       EXPECT_NEAR((before.length_m - after.length_m) / (2 * h), here.moment_arm_m, 1e-10);
-      EXPECT_NEAR((after.moment_arm_m - before.moment_arm_m) / (2 * h), here.moment_arm_slope_mprad,
-                  1e-10);
+      EXPECT_NEAR((after.moment_arm_m - before.moment_arm_m) / (2 * h), here.moment_arm_slope_mprad, 1e-10);
     }
   }
 }
@@ -67,8 +65,7 @@ TEST(PlanarElbow, InertiaIsThatOfTheLiterature) {
 }
 
 TEST(PlanarElbow, ForearmAndHandTogetherAreThePointMassesOfBoth) {
-  // Independent of the parallel-axis algebra in the code: each segment as point masses at its
-  // center
+  // Independent of the parallel-axis algebra in the code: each segment as point masses at its center
   // +- its radius of gyration on the long axis.
   const double f_kg = 0.0162 * 73.0;
   const double h_kg = 0.0061 * 73.0;

@@ -38,10 +38,8 @@ using enum SpreadOf;
 inline constexpr std::string_view kModels = "the model's";
 inline constexpr std::string_view kAlways = "always";
 inline constexpr std::string_view kWhenFree = "where a study frees it without a prior of its own";
-inline constexpr std::string_view kPublished =
-    "judgment from the spread between published sets of parameters";
-inline constexpr std::string_view kNuisance =
-    "judgment; left out, the fit takes it for a property of the muscles";
+inline constexpr std::string_view kPublished = "judgment from the spread between published sets of parameters";
+inline constexpr std::string_view kNuisance = "judgment; left out, the fit takes it for a property of the muscles";
 
 // A muscle's parameters, about the starting values.
 inline constexpr Belief kMaxForce{
@@ -64,8 +62,7 @@ inline constexpr Belief kFiberLength{
     kAlways,
     "two public models of a leg and two of an arm differ by ln 0.22 and ln 0.20 about their mean "
     "ratio, 0.15 and 0.14 to each (`tests/coverage/public_models.py`)"};
-inline constexpr Belief kWidth{"force_length_width", kModels, 0.0,     0.12,
-                               fiber_length,         "m",     kAlways, kPublished};
+inline constexpr Belief kWidth{"force_length_width", kModels, 0.0, 0.12, fiber_length, "m", kAlways, kPublished};
 inline constexpr Belief kCurvature{
     "concentric_curvature",
     kModels,
@@ -84,19 +81,11 @@ inline constexpr Belief kProduct{"eccentric_curvature_product",
                                  "",
                                  "`eccentric = \"product\"`",
                                  "the spreads of V_ml, V_sh and of the slope ratio together"};
-inline constexpr Belief kSlopeRatio{
-    "eccentric_slope_ratio",           kModels,   0.0, 0.5, logarithm, "",
-    "always, in place of the product", kPublished};
-inline constexpr Belief kPlateau{"eccentric_plateau", kModels, 0.0, 0.15, value, "", kAlways,
-                                 kPublished};
-inline constexpr Belief kSpeed{"max_shortening_speed",
-                               kModels,
-                               0.0,
-                               0.20,
-                               logarithm,
-                               "m/s",
-                               "unless a study states it as known",
-                               kPublished};
+inline constexpr Belief kSlopeRatio{"eccentric_slope_ratio",           kModels,   0.0, 0.5, logarithm, "",
+                                    "always, in place of the product", kPublished};
+inline constexpr Belief kPlateau{"eccentric_plateau", kModels, 0.0, 0.15, value, "", kAlways, kPublished};
+inline constexpr Belief kSpeed{
+    "max_shortening_speed", kModels, 0.0, 0.20, logarithm, "m/s", "unless a study states it as known", kPublished};
 inline constexpr Belief kTendonSlack{
     "tendon_slack_length",
     kModels,
@@ -108,14 +97,10 @@ inline constexpr Belief kTendonSlack{
     "as measured",
     "of 25 leg muscles with tendons above 0.1 m, gait2392 (Delp 1990) and Rajagopal (2016) differ "
     "by a robust ln 0.13, 0.09 to each"};
-inline constexpr Belief kPennation{"pennation_angle", kModels,   0.0, 0.05, value, "rad",
-                                   kWhenFree,         "judgment"};
-inline constexpr Belief kPassiveForce{"passive_force", kModels, 0.0,       0.5,
-                                      value,           "",      kWhenFree, "judgment"};
-inline constexpr Belief kPassiveStrain{"passive_strain", kModels, 0.0,       0.2,
-                                       logarithm,        "",      kWhenFree, "judgment"};
-inline constexpr Belief kPassiveShape{"passive_shape", kModels, 0.0,       0.3,
-                                      logarithm,       "",      kWhenFree, "judgment"};
+inline constexpr Belief kPennation{"pennation_angle", kModels, 0.0, 0.05, value, "rad", kWhenFree, "judgment"};
+inline constexpr Belief kPassiveForce{"passive_force", kModels, 0.0, 0.5, value, "", kWhenFree, "judgment"};
+inline constexpr Belief kPassiveStrain{"passive_strain", kModels, 0.0, 0.2, logarithm, "", kWhenFree, "judgment"};
+inline constexpr Belief kPassiveShape{"passive_shape", kModels, 0.0, 0.3, logarithm, "", kWhenFree, "judgment"};
 inline constexpr Belief kLengthActivation{
     "length_activation",
     "0",
@@ -125,25 +110,15 @@ inline constexpr Belief kLengthActivation{
     "",
     "always, one for all muscles",
     "fibers that are little active are at their best when longer, by 15 % (Lloyd and Besier 2003)"};
-inline constexpr Belief kTendonStrain{"tendon_strain", kModels, 0.0,       0.4,
-                                      logarithm,       "",      kWhenFree, "judgment"};
-inline constexpr Belief kActivationShare{"activation_share", "1", 1.0,       0.3,
-                                         logarithm,          "",  kWhenFree, "judgment"};
+inline constexpr Belief kTendonStrain{"tendon_strain", kModels, 0.0, 0.4, logarithm, "", kWhenFree, "judgment"};
+inline constexpr Belief kActivationShare{"activation_share", "1", 1.0, 0.3, logarithm, "", kWhenFree, "judgment"};
 
 // An EMG channel's numbers. `emg_delay` is the electromechanical delay.
 inline constexpr Belief kEmgDelay{
-    "emg_delay", "0.06",
-    0.060,       0.020,
-    value,       "s",
-    kAlways,     "delays between EMG envelope and force in the literature, 30 to 100 ms"};
+    "emg_delay", "0.06", 0.060,   0.020,
+    value,       "s",    kAlways, "delays between EMG envelope and force in the literature, 30 to 100 ms"};
 inline constexpr Belief kEmgDelayBesideLags{
-    "emg_delay",
-    "0.01",
-    0.010,
-    0.010,
-    value,
-    "s",
-    "`dynamics = true`: the delay left beside the lags of equation (1)",
+    "emg_delay", "0.01", 0.010, 0.010, value, "s", "`dynamics = true`: the delay left beside the lags of equation (1)",
     "judgment"};
 inline constexpr Belief kEmgGain{
     "emg_gain",
@@ -157,13 +132,7 @@ inline constexpr Belief kEmgGain{
     "signals/emg_envelope.h"};
 inline constexpr Belief kEmgShape{"emg_shape", "0", 0.0, 0.8, value, "", kWhenFree, "judgment"};
 inline constexpr Belief kEmgExponent{
-    "emg_exponent",
-    "1",
-    1.0,
-    0.2,
-    logarithm,
-    "",
-    "EMG with a maximal contraction, of channels that reach half of it",
+    "emg_exponent", "1", 1.0, 0.2, logarithm, "", "EMG with a maximal contraction, of channels that reach half of it",
     kNuisance};
 inline constexpr Belief kExcitationTime{"excitation_time", "the start", 0.0,       0.25,
                                         logarithm,         "s",         kWhenFree, "judgment"};
@@ -172,11 +141,9 @@ inline constexpr Belief kActivationTime{"activation_time", "the start", 0.0,    
 inline constexpr Belief kDeactivationTime{"deactivation_time", "the start", 0.0,       0.25,
                                           logarithm,           "s",         kWhenFree, "judgment"};
 
-// A joint's own torque beside the muscles', relative to the greatest torque of its muscles together
-// (`run`), and as numbers of an elbow (for a study that frees one without a prior, and in the
-// twin).
-inline constexpr std::string_view kJointSource =
-    "a relaxed elbow's own torque: 1 N m/rad, 1 N m, 0.2 N m s/rad";
+// A joint's own torque beside the muscles', relative to the greatest torque of its muscles together (`run`), and as
+// numbers of an elbow (for a study that frees one without a prior, and in the twin).
+inline constexpr std::string_view kJointSource = "a relaxed elbow's own torque: 1 N m/rad, 1 N m, 0.2 N m s/rad";
 inline constexpr std::string_view kKnownMotion = "always, of joints whose motion is known";
 inline constexpr Belief kStiffnessShare{"joint_stiffness", "0",       0.0,          0.008,
                                         joint_strength,    "N m/rad", kKnownMotion, kJointSource};
@@ -184,14 +151,10 @@ inline constexpr Belief kOffsetShare{"joint_torque_offset", "0",   0.0,         
                                      joint_strength,        "N m", kKnownMotion, kJointSource};
 inline constexpr Belief kViscosityShare{"joint_viscosity", "0",         0.0,          0.0016,
                                         joint_strength,    "N m s/rad", kKnownMotion, kJointSource};
-inline constexpr Belief kStiffness{"joint_stiffness", "0",       0.0,         1.0, value,
-                                   "N m/rad",         kWhenFree, kJointSource};
-inline constexpr Belief kOffset{"joint_torque_offset", "0", 0.0, 1.0, value, "N m", kWhenFree,
-                                kJointSource};
-inline constexpr Belief kViscosity{"joint_viscosity", "0",       0.0,         0.2, value,
-                                   "N m s/rad",       kWhenFree, kJointSource};
-inline constexpr Belief kInertia{"joint_inertia", "0",     0.0,       0.01,
-                                 value,           "kg m²", kWhenFree, "judgment"};
+inline constexpr Belief kStiffness{"joint_stiffness", "0", 0.0, 1.0, value, "N m/rad", kWhenFree, kJointSource};
+inline constexpr Belief kOffset{"joint_torque_offset", "0", 0.0, 1.0, value, "N m", kWhenFree, kJointSource};
+inline constexpr Belief kViscosity{"joint_viscosity", "0", 0.0, 0.2, value, "N m s/rad", kWhenFree, kJointSource};
+inline constexpr Belief kInertia{"joint_inertia", "0", 0.0, 0.01, value, "kg m²", kWhenFree, "judgment"};
 
 // Quantities other than parameters.
 inline constexpr Belief kLeastEffort{
@@ -230,14 +193,8 @@ inline constexpr Belief kModelError{"relative size of a systematic error of the 
                                     "",
                                     "half normal in the other cases",
                                     "judgment"};
-inline constexpr Belief kRestingWeight{"weight of limb and instrument in a passive trial",
-                                       "0",
-                                       0.0,
-                                       10.0,
-                                       value,
-                                       "N m",
-                                       "passive trials",
-                                       "judgment"};
+inline constexpr Belief kRestingWeight{
+    "weight of limb and instrument in a passive trial", "0", 0.0, 10.0, value, "N m", "passive trials", "judgment"};
 inline constexpr Belief kRestingTissue{"departure of a passive torque from the sine of a weight",
                                        "0",
                                        0.0,
@@ -246,34 +203,21 @@ inline constexpr Belief kRestingTissue{"departure of a passive torque from the s
                                        "N m",
                                        "passive trials",
                                        "judgment"};
-inline constexpr Belief kStrengthRatio{
-    "ratio of two muscles' F_max",
-    kModels,
-    0.0,
-    0.42,
-    value,
-    "",
-    "by more than this an exchange of two electrodes must improve the fit",
-    "each differs by 30 % between published sets"};
+inline constexpr Belief kStrengthRatio{"ratio of two muscles' F_max",
+                                       kModels,
+                                       0.0,
+                                       0.42,
+                                       value,
+                                       "",
+                                       "by more than this an exchange of two electrodes must improve the fit",
+                                       "each differs by 30 % between published sets"};
 
 // Quantities that residuals hardly determine: estimator `posterior`.
 inline constexpr std::string_view kPosterior = "estimator `posterior`";
-inline constexpr Belief kTorqueNoise{"error of the torque, over its root mean square",
-                                     "0.05",
-                                     0.05,
-                                     1.5,
-                                     logarithm,
-                                     "",
-                                     kPosterior,
-                                     "judgment"};
-inline constexpr Belief kTorqueNoiseTime{"time after which the error of the torque is another",
-                                         "0.3",
-                                         0.3,
-                                         1.0,
-                                         logarithm,
-                                         "s",
-                                         kPosterior,
-                                         "judgment"};
+inline constexpr Belief kTorqueNoise{
+    "error of the torque, over its root mean square", "0.05", 0.05, 1.5, logarithm, "", kPosterior, "judgment"};
+inline constexpr Belief kTorqueNoiseTime{
+    "time after which the error of the torque is another", "0.3", 0.3, 1.0, logarithm, "s", kPosterior, "judgment"};
 inline constexpr Belief kTrialTorqueNoise{
     "torque error of a trial over all", "1", 1.0, 1.0, logarithm, "", kPosterior, "judgment"};
 inline constexpr Belief kStrength{
@@ -308,27 +252,20 @@ inline constexpr Belief kUnlikeness{
     "a standard deviation from n people or cadavers is known to 1/sqrt(2 (n - 1)): 0.16 to 0.35 "
     "for "
     "n of 20 to 5"};
-inline constexpr Belief kRiseAndFall{
-    "half of the difference between the times in which activation falls and rises",
-    "0",
-    0.0,
-    0.018,
-    value,
-    "s",
-    "estimator `posterior`, about none: the root mean square is the spread",
-    "15 ms rising, 50 ms falling (Thelen 2003)"};
+inline constexpr Belief kRiseAndFall{"half of the difference between the times in which activation falls and rises",
+                                     "0",
+                                     0.0,
+                                     0.018,
+                                     value,
+                                     "s",
+                                     "estimator `posterior`, about none: the root mean square is the spread",
+                                     "15 ms rising, 50 ms falling (Thelen 2003)"};
 inline constexpr std::string_view kMomentArmSource =
     "of 40 moment arms, two public models differ by ln 0.13 in size and by 0.17 in this slope "
     "(robust), by 0.26 and 0.25 (root mean square): 0.09 to 0.18 and 0.12 to 0.18 to each "
     "(`tests/coverage/public_models.py`)";
-inline constexpr Belief kMomentArm{"size of a muscle's moment arms, over the model's",
-                                   "1",
-                                   1.0,
-                                   0.15,
-                                   logarithm,
-                                   "",
-                                   kPosterior,
-                                   kMomentArmSource};
+inline constexpr Belief kMomentArm{
+    "size of a muscle's moment arms, over the model's", "1", 1.0, 0.15, logarithm, "", kPosterior, kMomentArmSource};
 inline constexpr Belief kMomentArmSlope{"change of that over half of the recorded range of lengths",
                                         "0",
                                         0.0,
@@ -337,15 +274,14 @@ inline constexpr Belief kMomentArmSlope{"change of that over half of the recorde
                                         "",
                                         kPosterior,
                                         kMomentArmSource};
-inline constexpr Belief kTorqueScale{
-    "scale of the torque, over the true one",
-    "1",
-    1.0,
-    0.03,
-    logarithm,
-    "",
-    kPosterior,
-    "judgment: calibration of a dynamometer, inertia of the segments"};
+inline constexpr Belief kTorqueScale{"scale of the torque, over the true one",
+                                     "1",
+                                     1.0,
+                                     0.03,
+                                     logarithm,
+                                     "",
+                                     kPosterior,
+                                     "judgment: calibration of a dynamometer, inertia of the segments"};
 inline constexpr Belief kTendonStretch{
     "strain at F_max of a tendon that the study takes to be rigid",
     "0.049",
@@ -355,24 +291,22 @@ inline constexpr Belief kTendonStretch{
     "",
     "estimator `posterior`, about no strain: the root mean square, 0.053, is the spread",
     "4.9 % is the strain of Millard's tendon (2013); the spread is judgment"};
-inline constexpr Belief kCrossTalk{
-    "share of another electrode's envelope in an envelope",
-    "0",
-    0.0,
-    0.1,
-    value,
-    "",
-    kPosterior,
-    "judgment: surface electrodes over neighboring muscles share 5 to 15 %"};
-inline constexpr Belief kGainDrift{
-    "change of an EMG channel's gain from the maximal contraction to the session's end",
-    "0",
-    0.0,
-    0.1,
-    value,
-    "",
-    kPosterior,
-    "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
+inline constexpr Belief kCrossTalk{"share of another electrode's envelope in an envelope",
+                                   "0",
+                                   0.0,
+                                   0.1,
+                                   value,
+                                   "",
+                                   kPosterior,
+                                   "judgment: surface electrodes over neighboring muscles share 5 to 15 %"};
+inline constexpr Belief kGainDrift{"change of an EMG channel's gain from the maximal contraction to the session's end",
+                                   "0",
+                                   0.0,
+                                   0.1,
+                                   value,
+                                   "",
+                                   kPosterior,
+                                   "judgment: fatigue and sweat change amplitudes by 10 to 20 %"};
 inline constexpr Belief kVoluntaryEffort{
     "force of a maximal voluntary contraction, over that of a completely active muscle",
     "1",
@@ -383,15 +317,14 @@ inline constexpr Belief kVoluntaryEffort{
     "estimator `posterior`, about 1: the root mean square is the spread; not where a study states "
     "`mvc_effort_sd`",
     "voluntary activation of healthy people is 0.9 to 1 (Gandevia 2001)"};
-inline constexpr Belief kUnknownEmgNoise{
-    "noise of an EMG envelope, over that of a bandwidth of 150 Hz",
-    "1",
-    1.0,
-    1.0,
-    logarithm,
-    "",
-    "estimator `posterior` where no bandwidth is known",
-    "judgment"};
+inline constexpr Belief kUnknownEmgNoise{"noise of an EMG envelope, over that of a bandwidth of 150 Hz",
+                                         "1",
+                                         1.0,
+                                         1.0,
+                                         logarithm,
+                                         "",
+                                         "estimator `posterior` where no bandwidth is known",
+                                         "judgment"};
 
 }  // namespace beliefs
 

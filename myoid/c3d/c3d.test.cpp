@@ -146,8 +146,7 @@ TEST(C3d, EveryFileOfTheCollectionGivesDataAndSurvivesWriting) {
     // A position that is no number becomes a missing one: the only change.
     for (Eigen::Index k = 0; k < file.points.rows(); ++k) {
       for (Eigen::Index p = 0; p < file.points.cols(); p += 4) {
-        if (!file.points.block<1, 3>(k, p).allFinite())
-          file.points.block<1, 4>(k, p) << 0.0F, 0.0F, 0.0F, -1.0F;
+        if (!file.points.block<1, 3>(k, p).allFinite()) file.points.block<1, 4>(k, p) << 0.0F, 0.0F, 0.0F, -1.0F;
       }
     }
     expect_same(back, file);
@@ -188,8 +187,7 @@ TEST(C3d, MoreThan255NamesAndMoreThan65535FramesComeBack) {
   file.point_rate_hz = 119.88;  // no whole number, and no float either
   file.point_unit = "m";
   const Eigen::Index frames = 70000;
-  for (int c = 0; c < 300; ++c)
-    file.channels.push_back({"channel " + std::to_string(c), "V", 0.0, 1.0});
+  for (int c = 0; c < 300; ++c) file.channels.push_back({"channel " + std::to_string(c), "V", 0.0, 1.0});
   file.points.resize(frames, 4);
   file.point_labels = {"only"};
   file.analog.resize(frames, 300);
@@ -210,8 +208,8 @@ TEST(C3d, AnyNumberOfEventsComesBack) {
     C3dFile file = small_file();
     file.events.clear();
     for (std::size_t i = 0; i < count; ++i)
-      file.events.push_back({0.25 * static_cast<double>(i), "Strike " + std::to_string(i % 7),
-                             i % 2 == 0 ? "Left" : "Right", "S1"});
+      file.events.push_back(
+          {0.25 * static_cast<double>(i), "Strike " + std::to_string(i % 7), i % 2 == 0 ? "Left" : "Right", "S1"});
     const C3dFile back = parse_c3d(format_c3d(file), "events.c3d");
     ASSERT_EQ(back.events.size(), count);
     EXPECT_EQ(back.events, file.events);
@@ -250,13 +248,8 @@ TEST(C3d, CountsThatDisagreeAreSettledByTheSizeOfTheFile) {
     return bytes;
   };
   // Points, analog samples, last frame, first data block, analog samples a channel.
-  for (const auto& [word, value] : {std::pair<std::size_t, unsigned>{2, 30},
-                                    {3, 70},
-                                    {5, 900},
-                                    {9, 0},
-                                    {9, 9999},
-                                    {10, 7},
-                                    {10, 0}}) {
+  for (const auto& [word, value] :
+       {std::pair<std::size_t, unsigned>{2, 30}, {3, 70}, {5, 900}, {9, 0}, {9, 9999}, {10, 7}, {10, 0}}) {
     SCOPED_TRACE(word);
     const C3dFile back = parse_c3d(with_word(word, value), "counts.c3d");
     expect_same(back, small_file());
@@ -327,8 +320,7 @@ TEST(C3d, AByteSourceGivesTheBytesOfTheFile) {
   ASSERT_EQ(source.size(), bytes.size());
   const auto part = source.view(500, 20);
   EXPECT_TRUE(std::equal(part.begin(), part.end(), bytes.begin() + 500));
-  EXPECT_EQ(read_bytes(folder / "small.c3d"),
-            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  EXPECT_EQ(read_bytes(folder / "small.c3d"), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 TEST(C3d, TheHeaderAloneTellsTheProcessor) {
@@ -342,36 +334,24 @@ TEST(C3d, TheHeaderAloneTellsTheProcessor) {
 TEST(C3d, ParametersComeBackAndDamageCostsNoneThatCanBeRead) {
   C3dGroup group{.id = 5, .name = "MANUFACTURER", .description = "who made it", .locked = true};
   group.parameters = {
-      {.name = "COMPANY",
-       .description = "name",
-       .type = C3dType::text,
-       .dimensions = {4},
-       .text = "Acme"},
-      {.name = "VERSION",
-       .locked = true,
-       .type = C3dType::real,
-       .dimensions = {2, 1},
-       .numbers = {1.5, -2.25}},
+      {.name = "COMPANY", .description = "name", .type = C3dType::text, .dimensions = {4}, .text = "Acme"},
+      {.name = "VERSION", .locked = true, .type = C3dType::real, .dimensions = {2, 1}, .numbers = {1.5, -2.25}},
       {.name = "YEAR", .type = C3dType::integer, .numbers = {-7}},
       {.name = "FLAGS", .type = C3dType::byte, .dimensions = {3}, .numbers = {0, 128, 255}}};
   for (const auto processor : {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::sgi}) {
     const auto bytes = format_c3d_parameters({group}, {processor});
     std::vector<Repair> repairs;
-    EXPECT_EQ(parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs),
-              std::vector{group});
+    EXPECT_EQ(parse_c3d_parameters(bytes, 4, bytes.size(), {processor}, repairs), std::vector{group});
     EXPECT_TRUE(repairs.empty());
     std::size_t year = 0;
-    while (static_cast<char>(bytes[year]) != 'Y' || static_cast<char>(bytes[year + 1]) != 'E')
-      ++year;
+    while (static_cast<char>(bytes[year]) != 'Y' || static_cast<char>(bytes[year + 1]) != 'E') ++year;
     // The distance behind YEAR swapped, leading out of the section, into a value, to the begin of
     // its own values; 0 says that YEAR is the last record.
     for (const unsigned distance : {0x0700U, 0xFFFFU, 0x20U, 2U, 0U}) {
       auto changed = bytes;
       C3dBytes{processor}.put_u16(&changed[year + 4], static_cast<std::uint16_t>(distance));
       repairs.clear();
-      EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs),
-                std::vector{group})
-          << distance;
+      EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs), std::vector{group}) << distance;
       EXPECT_TRUE(noted(repairs, "damaged at byte")) << distance;
     }
     // A name that is no text: only YEAR is lost.
@@ -380,8 +360,7 @@ TEST(C3d, ParametersComeBackAndDamageCostsNoneThatCanBeRead) {
     repairs.clear();
     C3dGroup rest = group;
     rest.parameters.erase(rest.parameters.begin() + 2);
-    EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs),
-              std::vector{rest});
+    EXPECT_EQ(parse_c3d_parameters(changed, 4, changed.size(), {processor}, repairs), std::vector{rest});
     EXPECT_TRUE(noted(repairs, "left out, up to the next record"));
   }
 }
@@ -394,8 +373,7 @@ TEST(C3d, AUnitThatItsFieldCutsShortIsCompleted) {
     const C3dFile back = parse_c3d(format_c3d(file), "cut.c3d");
     EXPECT_TRUE(noted(back.repairs, "cut short")) << text;
     std::vector<Repair> repairs;
-    EXPECT_DOUBLE_EQ(c3d_markers(back, repairs).positions_m(0, 0),
-                     to_m * static_cast<double>(file.points(0, 0)))
+    EXPECT_DOUBLE_EQ(c3d_markers(back, repairs).positions_m(0, 0), to_m * static_cast<double>(file.points(0, 0)))
         << text;
   }
   C3dFile file = small_file();
@@ -466,8 +444,8 @@ TEST(C3d, MarkersAndAnalogMadeIntoAFileComeBackInSi) {
   markers.positions_m.setConstant(0.5);
   markers.positions_m.row(2).setConstant(std::nan(""));
   Eigen::MatrixXd values = Eigen::MatrixXd::Constant(50, 2, 0.25);
-  const TimeSeries analog(Eigen::VectorXd::LinSpaced(50, 1.0, 1.049),
-                          {{"EMG", Unit::volt}, {"M", Unit::newton_meter}}, values);
+  const TimeSeries analog(Eigen::VectorXd::LinSpaced(50, 1.0, 1.049), {{"EMG", Unit::volt}, {"M", Unit::newton_meter}},
+                          values);
   const C3dFile back = parse_c3d(format_c3d(make_c3d(markers, analog)), "made.c3d");
   std::vector<Repair> repairs;
   const MarkerSeries m = c3d_markers(back, repairs);

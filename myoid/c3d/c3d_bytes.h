@@ -13,13 +13,11 @@ namespace myoid::recording {
 /// Bytes per block; header, parameters and data each begin with a block.
 inline constexpr std::size_t kC3dBlock = 512;
 
-/// Reads and writes the numbers of a C3D file in the byte order and the kind of real of its
-/// processor.
+/// Reads and writes the numbers of a C3D file in the byte order and the kind of real of its processor.
 ///
-/// A DEC (VAX F) real has the sign, 8 bits of exponent with bias 128 and the fraction 0.1f, with
-/// its two 16-bit words swapped. Once they are swapped back, the same bits as IEEE mean a quarter
-/// of IEEE's value. Exponent 0 is zero. Every IEEE number below 2^127 can be written; numbers below
-/// 2^-126 become 0.
+/// A DEC (VAX F) real has the sign, 8 bits of exponent with bias 128 and the fraction 0.1f, with its two 16-bit words
+/// swapped. Once they are swapped back, the same bits as IEEE mean a quarter of IEEE's value. Exponent 0 is zero. Every
+/// IEEE number below 2^127 can be written; numbers below 2^-126 become 0.
 struct C3dBytes {
   C3dProcessor processor = C3dProcessor::intel;
 
@@ -30,9 +28,7 @@ struct C3dBytes {
                                           : static_cast<std::uint16_t>((b << 8U) | a);
   }
 
-  [[nodiscard]] std::int16_t i16(const std::byte* p) const {
-    return static_cast<std::int16_t>(u16(p));
-  }
+  [[nodiscard]] std::int16_t i16(const std::byte* p) const { return static_cast<std::int16_t>(u16(p)); }
 
   [[nodiscard]] float real(const std::byte* p) const {
     std::uint32_t bits = 0;
@@ -49,8 +45,7 @@ struct C3dBytes {
     p[1] = processor == C3dProcessor::sgi ? low : high;
   }
 
-  /// Returns false if this kind of real cannot hold the value (DEC: NaN, infinity, 2^127 and
-  /// above).
+  /// Returns false if this kind of real cannot hold the value (DEC: NaN, infinity, 2^127 and above).
   [[nodiscard]] bool put_real(std::byte* p, float value) const {
     auto bits = std::bit_cast<std::uint32_t>(value);
     if (processor == C3dProcessor::dec) {

@@ -22,8 +22,7 @@ TEST(C3dBytes, DecRealsAreThoseOfTheVaxArchitectureHandbook) {
   EXPECT_EQ(dec.real(four(0x60, 0x41, 0, 0).data()), 3.5F);
   EXPECT_EQ(dec.real(four(0x49, 0x41, 0xD0, 0x0F).data()), 3.14159012F);
   EXPECT_EQ(dec.real(four(0, 0, 0, 0).data()), 0.0F);
-  EXPECT_EQ(dec.real(four(0xFF, 0x7F, 0xFF, 0xFF).data()),
-            std::ldexp(16777215.0F, 103));  // largest
+  EXPECT_EQ(dec.real(four(0xFF, 0x7F, 0xFF, 0xFF).data()), std::ldexp(16777215.0F, 103));  // largest
 }
 
 TEST(C3dBytes, WhatIsWrittenIsReadForEveryProcessor) {

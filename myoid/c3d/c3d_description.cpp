@@ -27,8 +27,7 @@ C3dGroup& group_named(std::vector<C3dGroup>& groups, const std::string& name) {
 }
 
 void erase(C3dGroup& group, const std::string& name) {
-  std::erase_if(group.parameters,
-                [&](const C3dParameter& p) { return equal_ignoring_case(p.name, name); });
+  std::erase_if(group.parameters, [&](const C3dParameter& p) { return equal_ignoring_case(p.name, name); });
 }
 
 C3dParameter& parameter_named(C3dGroup& group, const std::string& name) {
@@ -74,18 +73,13 @@ void set_texts(C3dGroup& group,
   }
 }
 
-/// Splits more than 255 elements or 65535 bytes over NAME, NAME2, ...; earlier parameters of these
-/// names are removed.
-void set_long_texts(C3dGroup& group,
-                    const std::string& name,
-                    const std::vector<std::string>& list) {
+/// Splits more than 255 elements or 65535 bytes over NAME, NAME2, ...; earlier parameters of these names are removed.
+void set_long_texts(C3dGroup& group, const std::string& name, const std::vector<std::string>& list) {
   std::size_t width = 1;
   for (const std::string& text : list) width = std::max(width, text.size());
-  if (width > 255)
-    throw InvalidInput(fmt::format("C3D {}: a name of {} bytes; at most 255", name, width));
+  if (width > 255) throw InvalidInput(fmt::format("C3D {}: a name of {} bytes; at most 255", name, width));
   const std::size_t most = std::min<std::size_t>(255, 65000 / width);
-  for (int block = 1; block < 1000; ++block)
-    erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
+  for (int block = 1; block < 1000; ++block) erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
   int block = 1;
   for (std::size_t first = 0; first < list.size() || block == 1; first += most, ++block) {
     set_texts(group, block == 1 ? name : fmt::format("{}{}", name, block), list, first,
@@ -94,13 +88,9 @@ void set_long_texts(C3dGroup& group,
 }
 
 /// Splits numbers over NAME, NAME2, ... likewise; each element has `rows` numbers.
-void set_long_numbers(C3dGroup& group,
-                      const std::string& name,
-                      C3dType type,
-                      const std::vector<double>& numbers,
-                      std::uint8_t rows = 1) {
-  for (int block = 1; block < 1000; ++block)
-    erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
+void set_long_numbers(
+    C3dGroup& group, const std::string& name, C3dType type, const std::vector<double>& numbers, std::uint8_t rows = 1) {
+  for (int block = 1; block < 1000; ++block) erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
   int block = 1;
   const std::size_t elements = numbers.size() / rows;
   for (std::size_t first = 0; first < elements || block == 1; first += 255, ++block) {
@@ -122,11 +112,9 @@ void describe_points(std::vector<C3dGroup>& groups, const C3dFile& file, double 
   set_number(group, "SCALE", C3dType::real, scale);
   set_number(group, "RATE", C3dType::real, file.point_rate_hz);
   set_long_texts(group, "LABELS", file.point_labels);
-  const bool described = std::any_of(
-      group.parameters.begin(), group.parameters.end(),
-      [](const C3dParameter& p) { return equal_ignoring_case(p.name, "DESCRIPTIONS"); });
-  if (!described)
-    set_long_texts(group, "DESCRIPTIONS", std::vector<std::string>(file.point_labels.size(), " "));
+  const bool described = std::any_of(group.parameters.begin(), group.parameters.end(),
+                                     [](const C3dParameter& p) { return equal_ignoring_case(p.name, "DESCRIPTIONS"); });
+  if (!described) set_long_texts(group, "DESCRIPTIONS", std::vector<std::string>(file.point_labels.size(), " "));
   set_texts(group, "UNITS", {file.point_unit.empty() ? "mm" : file.point_unit}, 0, 1,
             std::max<std::size_t>(1, file.point_unit.empty() ? 2 : file.point_unit.size()));
   const std::int64_t last = file.first_frame + file.frame_count() - 1;
@@ -135,8 +123,7 @@ void describe_points(std::vector<C3dGroup>& groups, const C3dFile& file, double 
   if (last > 65535 || file.find("TRIAL", "ACTUAL_START_FIELD") != nullptr) {
     C3dGroup& trial = group_named(groups, "TRIAL");
     const auto words = [](std::int64_t value) {
-      return std::vector<double>{static_cast<double>(value % 65536),
-                                 static_cast<double>(value / 65536)};
+      return std::vector<double>{static_cast<double>(value % 65536), static_cast<double>(value / 65536)};
     };
     set_numbers(trial, "ACTUAL_START_FIELD", C3dType::integer, words(file.first_frame), {2});
     set_numbers(trial, "ACTUAL_END_FIELD", C3dType::integer, words(last), {2});
@@ -161,8 +148,8 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
     units.push_back(channel.unit_text);
     const auto scale = static_cast<float>(channel.scale / divide);
     if (static_cast<double>(scale) * divide != channel.scale && !std::isnan(channel.scale)) {
-      throw InvalidInput(fmt::format("C3D channel '{}': the scale {} does not fit into 32 bits",
-                                     channel.name, channel.scale));
+      throw InvalidInput(
+          fmt::format("C3D channel '{}': the scale {} does not fit into 32 bits", channel.name, channel.scale));
     }
     scales.push_back(static_cast<double>(scale));
     offsets.push_back(channel.offset);
@@ -172,8 +159,7 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
   const C3dParameter* said = file.find("ANALOG", "FORMAT");
   if (is_unsigned) {
     set_texts(group, "FORMAT", {"UNSIGNED"}, 0, 1, 8);
-  } else if (said != nullptr && !texts(*said).empty() &&
-             equal_ignoring_case(texts(*said)[0], "UNSIGNED") &&
+  } else if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED") &&
              std::any_of(offsets.begin(), offsets.end(), [](double o) { return o < 0.0; })) {
     set_texts(group, "FORMAT", {"SIGNED"}, 0, 1, 6);
   }
@@ -191,8 +177,7 @@ void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
   C3dGroup& group = group_named(groups, "EVENT");
   constexpr std::size_t kMost = 65535;  // USED has 16 bits
   if (file.events.size() > kMost)
-    throw InvalidInput(
-        fmt::format("{} events; a C3D file holds at most {}", file.events.size(), kMost));
+    throw InvalidInput(fmt::format("{} events; a C3D file holds at most {}", file.events.size(), kMost));
   std::vector<std::string> labels;
   std::vector<std::string> contexts;
   std::vector<std::string> subjects;
@@ -235,8 +220,7 @@ std::vector<C3dGroup> c3d_description(const C3dFile& file, double scale) {
 }
 
 void set_data_start(std::vector<C3dGroup>& groups, std::size_t block) {
-  set_number(group_named(groups, "POINT"), "DATA_START", C3dType::integer,
-             static_cast<double>(block));
+  set_number(group_named(groups, "POINT"), "DATA_START", C3dType::integer, static_cast<double>(block));
 }
 
 }  // namespace myoid::recording

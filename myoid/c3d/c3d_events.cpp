@@ -21,9 +21,8 @@ std::vector<const C3dParameter*> blocks_of(const C3dGroup& group, std::string_vi
   std::vector<const C3dParameter*> list;
   for (int block = 1;; ++block) {
     const std::string wanted = block == 1 ? std::string(name) : fmt::format("{}{}", name, block);
-    const auto it = std::find_if(
-        group.parameters.begin(), group.parameters.end(),
-        [&](const C3dParameter& p) { return equal_ignoring_case(trim(p.name), wanted); });
+    const auto it = std::find_if(group.parameters.begin(), group.parameters.end(),
+                                 [&](const C3dParameter& p) { return equal_ignoring_case(trim(p.name), wanted); });
     if (it == group.parameters.end()) return list;
     list.push_back(&*it);
   }
@@ -31,8 +30,7 @@ std::vector<const C3dParameter*> blocks_of(const C3dGroup& group, std::string_vi
 
 std::vector<double> numbers_of(const C3dGroup& group, std::string_view name) {
   std::vector<double> list;
-  for (const C3dParameter* p : blocks_of(group, name))
-    list.insert(list.end(), p->numbers.begin(), p->numbers.end());
+  for (const C3dParameter* p : blocks_of(group, name)) list.insert(list.end(), p->numbers.begin(), p->numbers.end());
   return list;
 }
 
@@ -53,8 +51,8 @@ class EventList {
     if (std::isfinite(event.time_s) && std::abs(event.time_s) <= 1e7) {
       events_.push_back(std::move(event));
     } else {
-      file_.repairs.push_back({0, fmt::format("{}: event {} is at {} s, which is no time; left out",
-                                              place_, count_, event.time_s)});
+      file_.repairs.push_back(
+          {0, fmt::format("{}: event {} is at {} s, which is no time; left out", place_, count_, event.time_s)});
     }
   }
 
@@ -78,8 +76,7 @@ class EventList {
   std::size_t count_ = 0;
 };
 
-/// Returns the number of events in USED, an unsigned 16-bit number; without it, the number of
-/// times.
+/// Returns the number of events in USED, an unsigned 16-bit number; without it, the number of times.
 std::size_t used_events(const C3dGroup& group, std::size_t times) {
   const auto used = numbers_of(group, "USED");
   if (used.empty()) return times / 2;
@@ -113,10 +110,7 @@ void read_group(C3dFile& file, const C3dGroup& group, bool of_kinarm) {
 
 /// Reads the section behind the data, which may hold any number of events: a key, counts and widths
 /// of labels, and for each event its label, its time as a real, a switch and four further bytes.
-void read_new_events(C3dFile& file,
-                     ByteSource& source,
-                     std::span<const std::byte> head,
-                     const C3dBytes& number) {
+void read_new_events(C3dFile& file, ByteSource& source, std::span<const std::byte> head, const C3dBytes& number) {
   constexpr std::size_t kSectionHead = 11;
   constexpr std::size_t kBehindLabel = 9;
   constexpr std::byte kKey{90};
@@ -139,8 +133,7 @@ void read_new_events(C3dFile& file,
     const auto bytes = source.view(at + kSectionHead + i * record, record);
     std::string label;
     for (const std::byte b : bytes.first(width)) label += static_cast<char>(b);
-    list.add({static_cast<double>(number.real(&bytes[width])),
-              to_utf8(label.substr(0, label.find('\0'))), "", ""});
+    list.add({static_cast<double>(number.real(&bytes[width])), to_utf8(label.substr(0, label.find('\0'))), "", ""});
   }
   list.merge();
 }
@@ -161,14 +154,10 @@ void read_header_events(C3dFile& file, std::span<const std::byte> head, const C3
 
 }  // namespace
 
-void read_c3d_events(C3dFile& file,
-                     ByteSource& source,
-                     std::span<const std::byte> head,
-                     const C3dBytes& number) {
+void read_c3d_events(C3dFile& file, ByteSource& source, std::span<const std::byte> head, const C3dBytes& number) {
   for (const char* name : {"EVENT", "EVENTS"}) {
     for (const C3dGroup& group : file.groups) {
-      if (equal_ignoring_case(trim(group.name), name))
-        read_group(file, group, std::string_view(name) == "EVENTS");
+      if (equal_ignoring_case(trim(group.name), name)) read_group(file, group, std::string_view(name) == "EVENTS");
     }
   }
   read_new_events(file, source, head, number);

@@ -21,9 +21,6 @@ namespace myoid::recording {
 /// Two events are the same if their labels agree and their times differ by less than 0.1 ms. Times
 /// that are no numbers are left out, with a note in `file.repairs`. `head` is the header's block.
 /// Sources: the C3D user guide; the MATLAB reader that BKIN publishes for Dexterit-E (2012).
-void read_c3d_events(C3dFile& file,
-                     ByteSource& source,
-                     std::span<const std::byte> head,
-                     const C3dBytes& number);
+void read_c3d_events(C3dFile& file, ByteSource& source, std::span<const std::byte> head, const C3dBytes& number);
 
 }  // namespace myoid::recording

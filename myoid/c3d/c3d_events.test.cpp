@@ -27,10 +27,9 @@ TEST(C3dEvents, EventsOfEveryPlaceAreReadOnce) {
   // KINARM: a group EVENTS, whose first number of a pair is not used.
   C3dFile file = one_point();
   C3dGroup events{.id = 41, .name = "EVENTS"};
-  events.parameters = {
-      {.name = "USED", .type = C3dType::integer, .numbers = {2}},
-      test::c3d_texts("LABELS", 9, {"TARGET_ON", "GO"}),
-      {.name = "TIMES", .type = C3dType::real, .dimensions = {2, 2}, .numbers = {7, 0.25, 7, 1.5}}};
+  events.parameters = {{.name = "USED", .type = C3dType::integer, .numbers = {2}},
+                       test::c3d_texts("LABELS", 9, {"TARGET_ON", "GO"}),
+                       {.name = "TIMES", .type = C3dType::real, .dimensions = {2, 2}, .numbers = {7, 0.25, 7, 1.5}}};
   file.groups.push_back(events);
   const std::vector<Event> kinarm{{0.25, "TARGET_ON", "", ""}, {1.5, "GO", "", ""}};
   const C3dFile alone = parse_c3d(format_c3d(file), "kinarm.c3d");
@@ -66,9 +65,8 @@ TEST(C3dEvents, TheSectionBehindTheDataIsRead) {
   EXPECT_EQ(back.events, (std::vector<Event>{{0.5, "GO", "", ""}, {0.75, "STOP", "", ""}}));
   number.put_u16(&bytes[at + 3], 999);
   const auto repairs = parse_c3d(bytes, "section.c3d").repairs;
-  EXPECT_TRUE(std::any_of(repairs.begin(), repairs.end(), [](const Repair& r) {
-    return r.message.find("says 999 events") != std::string::npos;
-  }));
+  EXPECT_TRUE(std::any_of(repairs.begin(), repairs.end(),
+                          [](const Repair& r) { return r.message.find("says 999 events") != std::string::npos; }));
 }
 
 }  // namespace

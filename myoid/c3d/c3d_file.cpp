@@ -13,8 +13,7 @@ namespace {
 bool same_name(std::string_view stored, std::string_view wanted) {
   if (equal_ignoring_case(trim(stored), wanted)) return true;
   if (wanted == "FORCE_PLATFORM") {
-    return equal_ignoring_case(stored, "FORCE_PLATEFORM") ||
-           equal_ignoring_case(stored, "FORCE_PLATFORMS") ||
+    return equal_ignoring_case(stored, "FORCE_PLATEFORM") || equal_ignoring_case(stored, "FORCE_PLATFORMS") ||
            equal_ignoring_case(stored, "FORCE PLATFORM");
   }
   if (wanted == "OFFSET") return equal_ignoring_case(stored, "OFFSETS");
@@ -39,8 +38,7 @@ const C3dParameter* C3dFile::find(std::string_view group, std::string_view name)
 std::vector<std::string> texts(const C3dParameter& parameter) {
   std::vector<std::string> list;
   if (parameter.type != C3dType::text) return list;
-  const std::size_t width =
-      parameter.dimensions.empty() ? 1 : std::size_t{parameter.dimensions.front()};
+  const std::size_t width = parameter.dimensions.empty() ? 1 : std::size_t{parameter.dimensions.front()};
   std::size_t count = 1;
   for (std::size_t d = 1; d < parameter.dimensions.size(); ++d) count *= parameter.dimensions[d];
   count = std::min<std::size_t>(count, 65535);  // texts of length 0 may state any count
@@ -54,8 +52,7 @@ std::vector<std::string> texts(const C3dParameter& parameter) {
 }
 
 std::optional<double> number_at(const C3dParameter* parameter, std::size_t index) {
-  if (parameter == nullptr || index >= parameter->numbers.size() ||
-      !std::isfinite(parameter->numbers[index]))
+  if (parameter == nullptr || index >= parameter->numbers.size() || !std::isfinite(parameter->numbers[index]))
     return std::nullopt;
   return parameter->numbers[index];
 }

@@ -18,8 +18,7 @@ namespace myoid::recording {
 /// The processor a C3D file was written for: it decides byte order and kind of real.
 enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, sgi = 86 };
 
-/// The four kinds of parameter with their code in the file. The code's size is the bytes per
-/// element.
+/// The four kinds of parameter with their code in the file. The code's size is the bytes per element.
 enum class C3dType : std::int8_t { text = -1, byte = 1, integer = 2, real = 4 };
 
 /// A parameter as stored; a single value has no `dimensions`.
@@ -70,7 +69,7 @@ struct C3dFile {
   std::int64_t first_frame = 1;
   std::vector<std::string> point_labels;  ///< Unique, UTF-8.
   std::string point_unit;                 ///< As written: "mm".
-  Rows points;  ///< Frames x (4 points): x, y, z [point_unit] and a fourth word, -1 for "not
+  Rows points;                            ///< Frames x (4 points): x, y, z [point_unit] and a fourth word, -1 for "not
                 ///< measured", else 256 * cameras + residual / scale. Has a row for each frame even
                 ///< without points.
 
@@ -82,9 +81,7 @@ struct C3dFile {
   std::vector<Repair> repairs;
 
   [[nodiscard]] Eigen::Index frame_count() const { return points.rows(); }
-  [[nodiscard]] double start_s() const {
-    return static_cast<double>(first_frame - 1) / point_rate_hz;
-  }
+  [[nodiscard]] double start_s() const { return static_cast<double>(first_frame - 1) / point_rate_hz; }
   [[nodiscard]] double analog_rate_hz() const { return point_rate_hz * analog_per_frame; }
 
   /// Finds the parameter of this group and name, ignoring case and known misspellings of old
@@ -92,8 +89,7 @@ struct C3dFile {
   [[nodiscard]] const C3dParameter* find(std::string_view group, std::string_view name) const;
 };
 
-/// Splits a text parameter into its texts, as UTF-8 and without blanks and zero bytes at their
-/// ends.
+/// Splits a text parameter into its texts, as UTF-8 and without blanks and zero bytes at their ends.
 [[nodiscard]] std::vector<std::string> texts(const C3dParameter& parameter);
 
 /// Returns the number at `index` if the parameter exists and this number is finite.

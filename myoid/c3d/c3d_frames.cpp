@@ -12,9 +12,8 @@ constexpr std::size_t kRows = 64;  ///< Turned into columns at once, so that the
 
 }  // namespace
 
-void C3dFrames::each_part(
-    ByteSource& source,
-    const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const {
+void C3dFrames::each_part(ByteSource& source,
+                          const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const {
   const std::uint64_t bytes = layout_.frame_bytes();
   const auto most = static_cast<std::int64_t>(std::max<std::uint64_t>(1, kPartBytes / bytes));
   for (std::int64_t frame = 0; frame < layout_.frames; frame += most) {
@@ -65,8 +64,7 @@ void C3dFrames::analog(const std::byte* frame, float* out) const {
   const std::byte* p = frame + 4 * layout_.points * word_bytes();
   const std::size_t count = layout_.channels * layout_.analog_per_frame;
   if (!layout_.integer) return reals(p, out, count);
-  if (number_.processor == C3dProcessor::sgi)
-    return integers<C3dProcessor::sgi>(p, count, is_unsigned_, out);
+  if (number_.processor == C3dProcessor::sgi) return integers<C3dProcessor::sgi>(p, count, is_unsigned_, out);
   integers<C3dProcessor::intel>(p, count, is_unsigned_, out);
 }
 
@@ -119,16 +117,12 @@ void C3dFrames::transpose(const std::byte* bytes,
   }
 }
 
-void C3dFrames::counts(const std::byte* bytes,
-                       std::int64_t first,
-                       std::int64_t count,
-                       AnalogCounts& columns) const {
+void C3dFrames::counts(const std::byte* bytes, std::int64_t first, std::int64_t count, AnalogCounts& columns) const {
   // The byte order is a template parameter, so that the loops do not test it.
   const auto in_order = [&]<C3dProcessor kProcessor>() {
     constexpr C3dBytes number{kProcessor};
     if (auto* reals = std::get_if<AnalogCounts::Columns<float>>(&columns.values)) {
-      transpose(bytes, first, count, *reals,
-                [number](const std::byte* p) { return number.real(p); });
+      transpose(bytes, first, count, *reals, [number](const std::byte* p) { return number.real(p); });
     } else if (auto* some = std::get_if<AnalogCounts::Columns<std::int16_t>>(&columns.values)) {
       transpose(bytes, first, count, *some, [number](const std::byte* p) { return number.i16(p); });
     } else {

@@ -20,24 +20,19 @@ class C3dFrames {
 
   /// Calls `part(first, count, bytes)` for consecutive frames [first, first + count) of the data.
   /// Throws ReadError if reading fails.
-  void each_part(
-      ByteSource& source,
-      const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const;
+  void each_part(ByteSource& source,
+                 const std::function<void(std::int64_t, std::int64_t, const std::byte*)>& part) const;
 
   /// Returns the points of the frame at `frame`: x, y, z [POINT:UNITS] and the fourth word of each.
   /// An integer times the scale is rounded as in a file of reals of the same data.
   void points(const std::byte* frame, float* out) const;
-  /// Returns the frame's analog samples as stored: the first sample of all channels, then the
-  /// second of all, ....
+  /// Returns the frame's analog samples as stored: the first sample of all channels, then the second of all, ....
   void analog(const std::byte* frame, float* out) const;
 
   /// Returns columns with room for all samples, in the file's own kind of number.
   [[nodiscard]] AnalogCounts empty_counts() const;
   /// Writes the samples of `count` frames into such columns, from frame `first` of the data on.
-  void counts(const std::byte* bytes,
-              std::int64_t first,
-              std::int64_t count,
-              AnalogCounts& columns) const;
+  void counts(const std::byte* bytes, std::int64_t first, std::int64_t count, AnalogCounts& columns) const;
 
  private:
   void reals(const std::byte* p, float* out, std::size_t count) const;

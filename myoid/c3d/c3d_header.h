@@ -26,9 +26,7 @@ struct C3dHeader {
 /// Returns true for a rate in Hz that a recording can have.
 [[nodiscard]] bool is_c3d_rate(double rate_hz);
 
-/// Returns the processor under which the header makes sense, for a file without a parameter
-/// section.
-[[nodiscard]] std::optional<C3dProcessor> guess_processor(std::span<const std::byte> head,
-                                                          std::uint64_t file_size);
+/// Returns the processor under which the header makes sense, for a file without a parameter section.
+[[nodiscard]] std::optional<C3dProcessor> guess_processor(std::span<const std::byte> head, std::uint64_t file_size);
 
 }  // namespace myoid::recording

@@ -27,9 +27,7 @@ std::optional<std::int64_t> long_count(const C3dParameter* parameter) {
   const auto low = number_at(parameter, 0);
   const auto high = number_at(parameter, 1);
   if (!low || !high) return std::nullopt;
-  const auto word = [](double value) {
-    return static_cast<std::int64_t>(value < 0.0 ? value + 65536.0 : value);
-  };
+  const auto word = [](double value) { return static_cast<std::int64_t>(value < 0.0 ? value + 65536.0 : value); };
   if (std::abs(*low) > 65535.0 || std::abs(*high) > 65535.0) return std::nullopt;
   return word(*low) + 65536 * word(*high);
 }
@@ -56,8 +54,7 @@ std::vector<std::size_t> point_counts(const C3dHeader& header, const C3dFile& fi
   return list;
 }
 
-/// Collects every number of channels and samples that header and parameters state, the header's
-/// first.
+/// Collects every number of channels and samples that header and parameters state, the header's first.
 std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
   std::vector<Shape> list;
   const std::size_t total = header.analog_total;
@@ -72,8 +69,7 @@ std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
     if (ratio > 0) add_new(list, Shape{*used, ratio});
     const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
     const double point = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
-    if (is_c3d_rate(analog) && is_c3d_rate(point) && analog / point < 65536.0 &&
-        analog >= 0.5 * point)
+    if (is_c3d_rate(analog) && is_c3d_rate(point) && analog / point < 65536.0 && analog >= 0.5 * point)
       add_new(list, Shape{*used, static_cast<std::size_t>(std::lround(analog / point))});
     if (*used == 0) add_new(list, Shape{0, 1});
   }
@@ -85,19 +81,16 @@ std::vector<Shape> analog_shapes(const C3dHeader& header, const C3dFile& file) {
 std::vector<Frames> frame_counts(const C3dHeader& header, const C3dFile& file) {
   std::vector<Frames> list;
   const auto add = [&](std::int64_t count, std::int64_t first, const char* source) {
-    if (count > 0 &&
-        std::none_of(list.begin(), list.end(), [&](const Frames& f) { return f.count == count; }))
+    if (count > 0 && std::none_of(list.begin(), list.end(), [&](const Frames& f) { return f.count == count; }))
       list.push_back({count, first, source});
   };
   const auto start = long_count(file.find("TRIAL", "ACTUAL_START_FIELD"));
   const auto end = long_count(file.find("TRIAL", "ACTUAL_END_FIELD"));
   const auto add_actual = [&] {
-    if (start && end)
-      add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
+    if (start && end) add(*end - *start + 1, *start, "TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD");
   };
   // The header has 16 bits for a frame: a larger number stands there as 65535 or modulo 65536.
-  if (end && *end >= 65535 && (header.last_frame >= 65535 || header.last_frame == *end % 65536))
-    add_actual();
+  if (end && *end >= 65535 && (header.last_frame >= 65535 || header.last_frame == *end % 65536)) add_actual();
   add(header.last_frame - header.first_frame + 1, header.first_frame, "the header");
   add_actual();
   if (const auto count = count_in(file.find("POINT", "LONG_FRAMES")))
@@ -115,33 +108,28 @@ void say_other_frame_counts(const C3dHeader& header,
                             std::vector<Repair>& repairs) {
   const std::int64_t in_header = header.last_frame - header.first_frame + 1;
   if (in_header <= 0) {
-    repairs.push_back(
-        {0, fmt::format("the header says frames {} to {}, which is no range; {} says "
-                        "{} frames. If the first one is wrong, so is the time of all",
-                        header.first_frame, header.last_frame, chosen.source, chosen.count)});
+    repairs.push_back({0, fmt::format("the header says frames {} to {}, which is no range; {} says "
+                                      "{} frames. If the first one is wrong, so is the time of all",
+                                      header.first_frame, header.last_frame, chosen.source, chosen.count)});
   } else if (&chosen != frames.data()) {
-    repairs.push_back(
-        {0, fmt::format("{} says {} frames, {} says {}; the file's size confirms the "
-                        "latter",
-                        frames[0].source, frames[0].count, chosen.source, chosen.count)});
+    repairs.push_back({0, fmt::format("{} says {} frames, {} says {}; the file's size confirms the "
+                                      "latter",
+                                      frames[0].source, frames[0].count, chosen.source, chosen.count)});
   } else if (const auto said = count_in(file.find("POINT", "FRAMES"));
-             said && *said > 0 && *said < 65535 &&
-             static_cast<std::int64_t>(*said) != chosen.count % 65536) {
+             said && *said > 0 && *said < 65535 && static_cast<std::int64_t>(*said) != chosen.count % 65536) {
     repairs.push_back({0, fmt::format("POINT:FRAMES says {} frames, the header {} ({} to {}); the "
                                       "header is taken",
                                       *said, in_header, header.first_frame, header.last_frame)});
   }
 }
 
-/// Describes poses of segments, which Theia3D, Visual3D and others write as 4 x 4 matrices, and the
-/// remedy.
+/// Describes poses of segments, which Theia3D, Visual3D and others write as 4 x 4 matrices, and the remedy.
 std::string rotations_text(const C3dFile& file, std::size_t count) {
   constexpr std::size_t kMost = 6;
   std::string names;
   if (const C3dParameter* labels = file.find("ROTATION", "LABELS")) {
     const auto list = texts(*labels);
-    for (std::size_t i = 0; i < std::min(list.size(), kMost); ++i)
-      names += (i == 0 ? ": " : ", ") + list[i];
+    for (std::size_t i = 0; i < std::min(list.size(), kMost); ++i) names += (i == 0 ? ": " : ", ") + list[i];
     if (list.size() > kMost) names += ", ...";
   }
   return fmt::format(
@@ -219,13 +207,12 @@ Scale point_scale(const C3dHeader& header,
                                 "POINT:SCALE either: neither the kind nor the size of the "
                                 "samples is known",
                                 header.scale));
-  repairs.push_back({0, fmt::format("the header's scale is {}; taken from POINT:SCALE = {}",
-                                    header.scale, scale.in_parameters)});
+  repairs.push_back(
+      {0, fmt::format("the header's scale is {}; taken from POINT:SCALE = {}", header.scale, scale.in_parameters)});
   return scale;
 }
 
-/// All statements of header and parameters about the samples. The size of the file decides between
-/// them.
+/// All statements of header and parameters about the samples. The size of the file decides between them.
 struct Claims {
   std::vector<bool> integer;
   std::vector<std::size_t> points;
@@ -246,25 +233,17 @@ struct Story {
   }
 };
 
-Claims claims_of(const C3dHeader& header,
-                 const C3dFile& file,
-                 const Scale& scale,
-                 const std::filesystem::path& path) {
-  Claims claims{{scale.taken > 0.0},
-                point_counts(header, file),
-                analog_shapes(header, file),
-                frame_counts(header, file)};
+Claims claims_of(const C3dHeader& header, const C3dFile& file, const Scale& scale, const std::filesystem::path& path) {
+  Claims claims{
+      {scale.taken > 0.0}, point_counts(header, file), analog_shapes(header, file), frame_counts(header, file)};
   if (scale.in_parameters != 0.0 && (scale.in_parameters > 0.0) != (scale.taken > 0.0))
     claims.integer.push_back(!claims.integer[0]);
-  if (claims.frames.empty())
-    throw ReadError(path, 0, "the file holds no frames; record or export it again");
+  if (claims.frames.empty()) throw ReadError(path, 0, "the file holds no frames; record or export it again");
   return claims;
 }
 
 /// Returns the first choice that fills the `available` bytes up to a rest of less than `padding`.
-std::optional<Story> story_with_padding(const Claims& claims,
-                                        std::uint64_t available,
-                                        std::uint64_t padding) {
+std::optional<Story> story_with_padding(const Claims& claims, std::uint64_t available, std::uint64_t padding) {
   for (const bool integer : claims.integer) {
     for (const Shape& shape : claims.shapes) {
       for (const std::size_t points : claims.points) {
@@ -303,12 +282,10 @@ Story unconfirmed_story(const Claims& claims,
         fmt::format("header and parameters disagree ({} or {} points, {} analog samples a frame "
                     "or {} channels) and the file's size of {} bytes confirms neither; export "
                     "the file again",
-                    claims.points.front(), claims.points.back(), header.analog_total,
-                    used.value_or(0), file_size));
+                    claims.points.front(), claims.points.back(), header.analog_total, used.value_or(0), file_size));
   }
   Story best{claims.integer[0], claims.points[0], claims.shapes[0], claims.frames.data()};
-  // A count that wrapped at 65536 is too small by a multiple of 65536; a count that fits into the
-  // file is preferred.
+  // A count that wrapped at 65536 is too small by a multiple of 65536; a count that fits into the file is preferred.
   for (const Frames& frames : claims.frames) {
     Story other = best;
     other.frames = &frames;
@@ -334,8 +311,7 @@ void say_other_claims(const C3dHeader& header,
     repairs.push_back({0, fmt::format("the header says {} points and {} analog samples in a frame; "
                                       "the file's size confirms {} points, {} channels, {} samples "
                                       "a frame, as the parameters say",
-                                      header.points, header.analog_total, story.points, channels,
-                                      analog_per_frame)});
+                                      header.points, header.analog_total, story.points, channels, analog_per_frame)});
   } else if (claims.points.size() > 1) {
     repairs.push_back({0, fmt::format("POINT:USED says {} points, the header {}; the file's size "
                                       "confirms the header",
@@ -346,10 +322,10 @@ void say_other_claims(const C3dHeader& header,
                                       *used, channels)});
   }
   if (story.integer != claims.integer[0])
-    repairs.push_back({0, fmt::format("the header's scale {} says the samples are {}, the file's "
-                                      "size that they are {}, as POINT:SCALE does",
-                                      header.scale, claims.integer[0] ? "integers" : "reals",
-                                      story.integer ? "integers" : "reals")});
+    repairs.push_back(
+        {0, fmt::format("the header's scale {} says the samples are {}, the file's "
+                        "size that they are {}, as POINT:SCALE does",
+                        header.scale, claims.integer[0] ? "integers" : "reals", story.integer ? "integers" : "reals")});
 }
 
 /// Returns the number of frames that the bytes hold, at most `said`.
@@ -359,10 +335,9 @@ std::int64_t whole_frames(std::int64_t said,
                           std::uint64_t file_size,
                           const std::filesystem::path& path,
                           std::vector<Repair>& repairs) {
-  if (frame_bytes == 0)
-    throw ReadError(path, 0, "the file holds neither points nor analog channels");
-  const auto whole = static_cast<std::int64_t>(
-      std::min<std::uint64_t>(available / frame_bytes, std::uint64_t{1} << 40U));
+  if (frame_bytes == 0) throw ReadError(path, 0, "the file holds neither points nor analog channels");
+  const auto whole =
+      static_cast<std::int64_t>(std::min<std::uint64_t>(available / frame_bytes, std::uint64_t{1} << 40U));
   if (whole >= said) return said;
   if (whole == 0)
     throw ReadError(path, 0,
@@ -389,8 +364,7 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   layout.data_offset = (block - 1) * kC3dBlock;
   std::uint64_t available = file_size - layout.data_offset;
   if (rotations > 0) {
-    repairs.push_back(
-        {0, rotations_text(file, rotations) + "; export landmarks of them to use them as markers"});
+    repairs.push_back({0, rotations_text(file, rotations) + "; export landmarks of them to use them as markers"});
     const auto at = count_in(file.find("ROTATION", "DATA_START"));
     if (at && is_block_inside(*at, file_size) && *at > block) available = (*at - block) * kC3dBlock;
   }
@@ -398,8 +372,7 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   const Claims claims = claims_of(header, file, scale, path);
   const std::optional<Story> confirmed = confirmed_story(claims, available);
   if (confirmed) say_other_claims(header, file, claims, *confirmed, repairs);
-  const Story story =
-      confirmed ? *confirmed : unconfirmed_story(claims, header, file, available, file_size, path);
+  const Story story = confirmed ? *confirmed : unconfirmed_story(claims, header, file, available, file_size, path);
   say_other_frame_counts(header, file, claims.frames, *story.frames, repairs);
   layout.integer = story.integer;
   layout.points = story.points;
@@ -408,19 +381,15 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   layout.first_frame = story.frames->first;
   layout.scale = std::abs(static_cast<float>(scale.taken));
   if (layout.integer && scale.header_is_good && scale.in_parameters != 0.0 &&
-      std::abs(std::abs(scale.in_parameters) - std::abs(scale.taken)) >
-          1e-6 * std::abs(scale.taken)) {
+      std::abs(std::abs(scale.in_parameters) - std::abs(scale.taken)) > 1e-6 * std::abs(scale.taken)) {
     repairs.push_back({0, fmt::format("POINT:SCALE = {:.6g}, the header says {:.6g}; the header is "
                                       "taken: compare a known distance",
                                       scale.in_parameters, scale.taken)});
   }
-  layout.frames =
-      whole_frames(story.frames->count, layout.frame_bytes(), available, file_size, path, repairs);
+  layout.frames = whole_frames(story.frames->count, layout.frame_bytes(), available, file_size, path, repairs);
   if (layout.frames == story.frames->count && !confirmed && rotations == 0) {
-    repairs.push_back(
-        {0, fmt::format(
-                "{} bytes behind the last frame are not understood and left out",
-                available - static_cast<std::uint64_t>(layout.frames) * layout.frame_bytes())});
+    repairs.push_back({0, fmt::format("{} bytes behind the last frame are not understood and left out",
+                                      available - static_cast<std::uint64_t>(layout.frames) * layout.frame_bytes())});
   }
   return layout;
 }

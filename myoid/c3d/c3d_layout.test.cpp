@@ -58,11 +58,9 @@ C3dLayout layout_of(std::int64_t header_last,
   header.first_frame = 65534;
   header.last_frame = header_last;
   header.scale = -1.0F;
-  header.data_block =
-      static_cast<std::size_t>(number_at(file.find("POINT", "DATA_START"), 0).value_or(3.0));
+  header.data_block = static_cast<std::size_t>(number_at(file.find("POINT", "DATA_START"), 0).value_or(3.0));
   header.rate_hz = 100.0F;
-  return find_c3d_layout(header, file, (header.data_block - 1) * 512 + data_bytes, "f.c3d",
-                         repairs);
+  return find_c3d_layout(header, file, (header.data_block - 1) * 512 + data_bytes, "f.c3d", repairs);
 }
 
 TEST(C3dLayout, TheSizeOfTheFileHasTheLastWordAndTheNoteNamesWhoIsBelieved) {
@@ -71,8 +69,7 @@ TEST(C3dLayout, TheSizeOfTheFileHasTheLastWordAndTheNoteNamesWhoIsBelieved) {
   const C3dLayout small = layout_of(65535, 65600, 512, repairs);
   EXPECT_EQ(small.frames, 2);
   ASSERT_FALSE(repairs.empty());
-  EXPECT_THAT(repairs[0].message,
-              testing::HasSubstr("ACTUAL_END_FIELD says 67 frames, the header says 2"));
+  EXPECT_THAT(repairs[0].message, testing::HasSubstr("ACTUAL_END_FIELD says 67 frames, the header says 2"));
   repairs.clear();
   EXPECT_EQ(layout_of(65535, 65600, 1536, repairs).frames, 67);
 }

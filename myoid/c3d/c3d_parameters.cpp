@@ -19,15 +19,13 @@ namespace {
 
 std::string chars(std::span<const std::byte> bytes) {
   std::string text(bytes.size(), '\0');
-  std::transform(bytes.begin(), bytes.end(), text.begin(),
-                 [](std::byte b) { return static_cast<char>(b); });
+  std::transform(bytes.begin(), bytes.end(), text.begin(), [](std::byte b) { return static_cast<char>(b); });
   return text;
 }
 
 bool printable(std::string_view name) {
-  return std::none_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 && c != '\0' && c != '\t';
-  });
+  return std::none_of(name.begin(), name.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\0' && c != '\t'; });
 }
 
 std::size_t element_count(const std::vector<std::uint8_t>& dimensions) {
@@ -36,9 +34,7 @@ std::size_t element_count(const std::vector<std::uint8_t>& dimensions) {
   return count;
 }
 
-std::size_t size_of(C3dType type) {
-  return type == C3dType::real ? 4 : type == C3dType::integer ? 2 : 1;
-}
+std::size_t size_of(C3dType type) { return type == C3dType::real ? 4 : type == C3dType::integer ? 2 : 1; }
 
 /// Reads a length and as many bytes of text; returns the number of bytes read.
 std::size_t read_description(std::span<const std::byte> body, std::string& description) {
@@ -50,9 +46,7 @@ std::size_t read_description(std::span<const std::byte> body, std::string& descr
 
 /// Reads kind, dimensions, values and description of a parameter and returns their bytes; 0 if they
 /// do not fit into `body`. A description that does not fit is cut.
-std::size_t read_value(std::span<const std::byte> body,
-                       const C3dBytes& number,
-                       C3dParameter& parameter) {
+std::size_t read_value(std::span<const std::byte> body, const C3dBytes& number, C3dParameter& parameter) {
   const std::size_t whole = body.size();
   if (body.size() < 2) return 0;
   const auto code = static_cast<std::int8_t>(body[0]);
@@ -60,8 +54,7 @@ std::size_t read_value(std::span<const std::byte> body,
   parameter.type = static_cast<C3dType>(code);
   const auto rank = static_cast<std::size_t>(body[1]);
   if (rank > 7 || body.size() < 2 + rank) return 0;
-  for (std::size_t d = 0; d < rank; ++d)
-    parameter.dimensions.push_back(static_cast<std::uint8_t>(body[2 + d]));
+  for (std::size_t d = 0; d < rank; ++d) parameter.dimensions.push_back(static_cast<std::uint8_t>(body[2 + d]));
   const std::size_t count = element_count(parameter.dimensions);
   const std::size_t width = size_of(parameter.type);
   body = body.subspan(2 + rank);
@@ -72,27 +65,23 @@ std::size_t read_value(std::span<const std::byte> body,
   } else {
     parameter.numbers.reserve(count);
     for (std::size_t i = 0; i < count; ++i, p += width) {
-      parameter.numbers.push_back(parameter.type == C3dType::real
-                                      ? static_cast<double>(number.real(p))
+      parameter.numbers.push_back(parameter.type == C3dType::real ? static_cast<double>(number.real(p))
                                   : parameter.type == C3dType::integer
                                       ? static_cast<double>(number.i16(p))
                                       : static_cast<double>(static_cast<std::uint8_t>(*p)));
     }
   }
-  return whole - body.size() + count * width +
-         read_description(body.subspan(count * width), parameter.description);
+  return whole - body.size() + count * width + read_description(body.subspan(count * width), parameter.description);
 }
 
 void put_text(std::vector<std::byte>& out, std::string_view text) {
   for (const char c : text) out.push_back(static_cast<std::byte>(c));
 }
 
-/// Writes the head of a record and returns the index of its distance, which is filled in at the
-/// record's end.
+/// Writes the head of a record and returns the index of its distance, which is filled in at the record's end.
 std::size_t put_head(std::vector<std::byte>& out, std::string_view name, bool locked, int id) {
   if (name.empty() || name.size() > 127) {
-    throw InvalidInput(
-        fmt::format("C3D name '{}': found {} bytes, expected 1 to 127", name, name.size()));
+    throw InvalidInput(fmt::format("C3D name '{}': found {} bytes, expected 1 to 127", name, name.size()));
   }
   const int length = static_cast<int>(name.size());
   out.push_back(static_cast<std::byte>(static_cast<std::int8_t>(locked ? -length : length)));
@@ -104,17 +93,13 @@ std::size_t put_head(std::vector<std::byte>& out, std::string_view name, bool lo
 
 void put_description(std::vector<std::byte>& out, std::string_view name, std::string_view text) {
   if (text.size() > 255) {
-    throw InvalidInput(
-        fmt::format("description of C3D parameter '{}': {} bytes; at most 255", name, text.size()));
+    throw InvalidInput(fmt::format("description of C3D parameter '{}': {} bytes; at most 255", name, text.size()));
   }
   out.push_back(static_cast<std::byte>(text.size()));
   put_text(out, text);
 }
 
-void close_record(std::vector<std::byte>& out,
-                  std::size_t distance_at,
-                  std::string_view name,
-                  const C3dBytes& number) {
+void close_record(std::vector<std::byte>& out, std::size_t distance_at, std::string_view name, const C3dBytes& number) {
   const std::size_t distance = out.size() - distance_at;
   if (distance > 65535) {
     throw InvalidInput(fmt::format("C3D parameter '{}': {} bytes; at most 65535", name, distance));
@@ -173,8 +158,7 @@ class ParameterReader {
     return head;
   }
 
-  /// Returns the byte behind the record by its own values, whatever its distance says; 0 if these
-  /// are no values.
+  /// Returns the byte behind the record by its own values, whatever its distance says; 0 if these are no values.
   std::size_t own_end(const RecordHead& head) const {
     const auto body = bytes_.subspan(head.body, limit_ - head.body);
     std::string description;
@@ -211,12 +195,10 @@ class ParameterReader {
     const std::size_t own = own_end(head);
     std::size_t next = head.next == 0 ? limit_ : head.next;
     const bool inside = next >= head.body && next <= limit_;
-    if (!inside && own == 0)
-      return behind_damage(at, fmt::format("the record '{}' reaches behind its end", head.name));
+    if (!inside && own == 0) return behind_damage(at, fmt::format("the record '{}' reaches behind its end", head.name));
     const bool own_is_better =
         own != 0 && own != next &&
-        (!inside ||
-         (surely_begins(own) ? !surely_begins(next) : may_begin(own) && !may_begin(next)));
+        (!inside || (surely_begins(own) ? !surely_begins(next) : may_begin(own) && !may_begin(next)));
     if (own_is_better) {
       repairs_.push_back({0, fmt::format("the parameter section is damaged at byte {}: '{}' says "
                                          "that the next record begins at byte {}; by its own "
@@ -237,14 +219,13 @@ class ParameterReader {
   std::size_t behind_damage(std::size_t at, const std::string& reason) {
     std::size_t next = at + 1;
     while (next < limit_ && !surely_begins(next)) ++next;
-    repairs_.push_back(
-        {0, next < limit_
-                ? fmt::format("the parameter section is damaged at byte {} ({}); {} bytes of it "
-                              "are left out, up to the next record that can be read",
-                              at, reason, next - at)
-                : fmt::format("the parameter section is damaged at byte {} ({}); what follows in "
-                              "it is left out",
-                              at, reason)});
+    repairs_.push_back({0, next < limit_
+                               ? fmt::format("the parameter section is damaged at byte {} ({}); {} bytes of it "
+                                             "are left out, up to the next record that can be read",
+                                             at, reason, next - at)
+                               : fmt::format("the parameter section is damaged at byte {} ({}); what follows in "
+                                             "it is left out",
+                                             at, reason)});
     return next;
   }
 
@@ -260,9 +241,8 @@ class ParameterReader {
   void take_group(std::size_t at, const RecordHead& head, std::span<const std::byte> body) {
     C3dGroup& group = group_of(head.id == -128 ? 128 : -head.id);
     if (!group.name.empty())
-      repairs_.push_back(
-          {0, fmt::format("two groups have the number {}: '{}' and '{}' (byte {}); read as one",
-                          -head.id, group.name, head.name, at)});
+      repairs_.push_back({0, fmt::format("two groups have the number {}: '{}' and '{}' (byte {}); read as one",
+                                         -head.id, group.name, head.name, at)});
     if (group.name.empty()) group.name = head.name;
     group.locked = head.locked;
     read_description(body, group.description);
@@ -279,9 +259,8 @@ class ParameterReader {
       return;
     }
     C3dGroup& group = group_of(head.id);
-    const bool twice = std::any_of(
-        group.parameters.begin(), group.parameters.end(),
-        [&](const C3dParameter& p) { return equal_ignoring_case(p.name, parameter.name); });
+    const bool twice = std::any_of(group.parameters.begin(), group.parameters.end(),
+                                   [&](const C3dParameter& p) { return equal_ignoring_case(p.name, parameter.name); });
     if (twice) {
       repairs_.push_back({0, fmt::format("parameter '{}:{}' stands twice (byte {}); the first is "
                                          "taken",
@@ -298,8 +277,8 @@ class ParameterReader {
       C3dGroup& group = groups_[id];
       if (group.name.empty()) {
         group.name = fmt::format("GROUP_{}", id);
-        repairs_.push_back({0, fmt::format("{} parameters belong to group {}, which has no name",
-                                           group.parameters.size(), id)});
+        repairs_.push_back(
+            {0, fmt::format("{} parameters belong to group {}, which has no name", group.parameters.size(), id)});
       }
       list.push_back(std::move(group));
     }
@@ -331,27 +310,23 @@ bool put_number(std::vector<std::byte>& out, double value, C3dType type, const C
   return true;
 }
 
-void put_parameter(std::vector<std::byte>& out,
-                   const C3dGroup& group,
-                   const C3dParameter& p,
-                   const C3dBytes& number) {
+void put_parameter(std::vector<std::byte>& out, const C3dGroup& group, const C3dParameter& p, const C3dBytes& number) {
   const std::size_t distance_at = put_head(out, p.name, p.locked, group.id);
   out.push_back(static_cast<std::byte>(p.type));
-  if (p.dimensions.size() > 7)
-    throw InvalidInput(fmt::format("C3D parameter '{}': more than 7 dimensions", p.name));
+  if (p.dimensions.size() > 7) throw InvalidInput(fmt::format("C3D parameter '{}': more than 7 dimensions", p.name));
   out.push_back(static_cast<std::byte>(p.dimensions.size()));
   for (const std::uint8_t d : p.dimensions) out.push_back(static_cast<std::byte>(d));
   const std::size_t count = element_count(p.dimensions);
   const std::size_t have = p.type == C3dType::text ? p.text.size() : p.numbers.size();
   if (have != count) {
-    throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} elements, its dimensions say {}",
-                                   group.name, p.name, have, count));
+    throw InvalidInput(
+        fmt::format("C3D parameter '{}:{}': {} elements, its dimensions say {}", group.name, p.name, have, count));
   }
   if (p.type == C3dType::text) put_text(out, p.text);
   for (std::size_t i = 0; p.type != C3dType::text && i < count; ++i) {
     if (!put_number(out, p.numbers[i], p.type, number))
-      throw InvalidInput(fmt::format("C3D parameter '{}:{}': {} does not fit its kind", group.name,
-                                     p.name, p.numbers[i]));
+      throw InvalidInput(
+          fmt::format("C3D parameter '{}:{}': {} does not fit its kind", group.name, p.name, p.numbers[i]));
   }
   put_description(out, p.name, p.description);
   close_record(out, distance_at, p.name, number);
@@ -367,26 +342,22 @@ std::vector<C3dGroup> parse_c3d_parameters(std::span<const std::byte> bytes,
   return ParameterReader(bytes, limit, number, repairs).read(begin);
 }
 
-std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups,
-                                             const C3dBytes& number) {
+std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups, const C3dBytes& number) {
   std::vector<std::byte> out(4);
   out[0] = std::byte{1};
   out[1] = std::byte{0x50};
   out[3] = static_cast<std::byte>(number.processor);
   for (const C3dGroup& group : groups) {
     if (group.id < 1 || group.id > 127)
-      throw InvalidInput(
-          fmt::format("C3D group '{}': number {}, expected 1 to 127", group.name, group.id));
+      throw InvalidInput(fmt::format("C3D group '{}': number {}, expected 1 to 127", group.name, group.id));
     const std::size_t at = put_head(out, group.name, group.locked, -group.id);
     put_description(out, group.name, group.description);
     close_record(out, at, group.name, number);
     for (const C3dParameter& p : group.parameters) put_parameter(out, group, p, number);
   }
-  out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock *
-             kC3dBlock);  // the section ends with a zero length
+  out.resize((out.size() + 2 + kC3dBlock - 1) / kC3dBlock * kC3dBlock);  // the section ends with a zero length
   const std::size_t blocks = out.size() / kC3dBlock;
-  if (blocks > 32000)
-    throw InvalidInput("the C3D parameters are too many: at most 16 million bytes");
+  if (blocks > 32000) throw InvalidInput("the C3D parameters are too many: at most 16 million bytes");
   // The number of blocks has one byte; readers follow the records where it does not suffice.
   out[2] = static_cast<std::byte>(std::min<std::size_t>(blocks, 255));
   return out;

@@ -61,8 +61,7 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
     }
     if (used.contains(name)) {
       const std::string base = name;
-      for (int k = 2;
-           used.contains(name) || (seen.contains(name) && name != names[i]) || name == base; ++k)
+      for (int k = 2; used.contains(name) || (seen.contains(name) && name != names[i]) || name == base; ++k)
         name = fmt::format("{}_{}", base, k);
       renamed.push_back(name);
     }
@@ -74,32 +73,27 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
                                       "'{}_{}' and so on",
                                       parameter, given, count, stem, given + 1)});
   } else if (empty > 0) {
-    repairs.push_back({0, fmt::format("{}: {} names are empty; called '{}_N' by their place",
-                                      parameter, empty, stem)});
+    repairs.push_back({0, fmt::format("{}: {} names are empty; called '{}_N' by their place", parameter, empty, stem)});
   }
   if (!renamed.empty()) {
     const std::size_t shown = std::min<std::size_t>(renamed.size(), 8);
     repairs.push_back(
-        {0,
-         fmt::format(
-             "{}: {} names stand twice; the later ones are called {}{}", parameter, renamed.size(),
-             fmt::join(renamed.begin(), renamed.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-             shown < renamed.size() ? ", ..." : "")});
+        {0, fmt::format("{}: {} names stand twice; the later ones are called {}{}", parameter, renamed.size(),
+                        fmt::join(renamed.begin(), renamed.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                        shown < renamed.size() ? ", ..." : "")});
   }
   return names;
 }
 
 bool is_unsigned(const C3dFile& file) {
   const C3dParameter* format = file.find("ANALOG", "FORMAT");
-  return format != nullptr && !texts(*format).empty() &&
-         equal_ignoring_case(texts(*format)[0], "UNSIGNED");
+  return format != nullptr && !texts(*format).empty() && equal_ignoring_case(texts(*format)[0], "UNSIGNED");
 }
 
 void read_channels(C3dFile& file, const C3dLayout& layout) {
   const std::size_t count = layout.channels;
   if (count == 0) return;
-  const auto names = unique_names(all_texts(file, "ANALOG", "LABELS"), count, "ANALOG:LABELS",
-                                  "analog", file.repairs);
+  const auto names = unique_names(all_texts(file, "ANALOG", "LABELS"), count, "ANALOG:LABELS", "analog", file.repairs);
   const auto units = all_texts(file, "ANALOG", "UNITS");
   const auto scales = all_numbers(file, "ANALOG", "SCALE");
   auto offsets = all_numbers(file, "ANALOG", "OFFSET");
@@ -146,9 +140,8 @@ double usual_extent(const C3dFrames& frames, const C3dLayout& layout, ByteSource
   std::vector<double> extents;
   for (std::int64_t k = 0; k < count; ++k) {
     const std::int64_t frame = k * layout.frames / count;
-    const auto bytes =
-        source.view(layout.data_offset + static_cast<std::uint64_t>(frame) * layout.frame_bytes(),
-                    layout.frame_bytes());
+    const auto bytes = source.view(layout.data_offset + static_cast<std::uint64_t>(frame) * layout.frame_bytes(),
+                                   layout.frame_bytes());
     frames.points(bytes.data(), points.data());
     double extent = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -186,13 +179,9 @@ std::optional<std::string> length_unit_of_prefix(std::string_view text) {
 
 /// Reads POINT:UNITS and completes a word that its field cuts short. "m" may be a cut "mm": then
 /// the points of a frame seem farther apart than a laboratory is long.
-void read_point_unit(C3dFile& file,
-                     const C3dFrames& frames,
-                     const C3dLayout& layout,
-                     ByteSource& source) {
+void read_point_unit(C3dFile& file, const C3dFrames& frames, const C3dLayout& layout, ByteSource& source) {
   constexpr double kLongest_m = 50.0;
-  if (const C3dParameter* unit = file.find("POINT", "UNITS");
-      unit != nullptr && !texts(*unit).empty())
+  if (const C3dParameter* unit = file.find("POINT", "UNITS"); unit != nullptr && !texts(*unit).empty())
     file.point_unit = texts(*unit)[0];
   const auto take = [&](const std::string& unit, const std::string& note) {
     file.point_unit = unit;
@@ -202,8 +191,7 @@ void read_point_unit(C3dFile& file,
     take("mm", "POINT:UNITS is missing; mm is assumed: compare a known distance");
   } else if (!parse_file_unit(file.point_unit)) {
     if (const auto whole = length_unit_of_prefix(file.point_unit))
-      take(*whole, fmt::format("POINT:UNITS '{}' is a word cut short; read as {}", file.point_unit,
-                               *whole));
+      take(*whole, fmt::format("POINT:UNITS '{}' is a word cut short; read as {}", file.point_unit, *whole));
   } else if (equal_ignoring_case(file.point_unit, "m")) {
     const double extent = usual_extent(frames, layout, source);
     if (extent > kLongest_m)
@@ -213,10 +201,7 @@ void read_point_unit(C3dFile& file,
   }
 }
 
-void read_rates(C3dFile& file,
-                const C3dHeader& header,
-                const C3dLayout& layout,
-                const std::filesystem::path& path) {
+void read_rates(C3dFile& file, const C3dHeader& header, const C3dLayout& layout, const std::filesystem::path& path) {
   const auto good = [](double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; };
   const double said = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
   const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
@@ -225,29 +210,24 @@ void read_rates(C3dFile& file,
   file.point_rate_hz = good(said) ? said : in_header;
   if (!good(file.point_rate_hz)) {
     if (layout.channels == 0 || !good(analog)) {
-      throw ReadError(
-          path, 0,
-          fmt::format("the frame rate is {} in the header and {} in POINT:RATE; correct "
-                      "one of them",
-                      in_header, said));
+      throw ReadError(path, 0,
+                      fmt::format("the frame rate is {} in the header and {} in POINT:RATE; correct "
+                                  "one of them",
+                                  in_header, said));
     }
     file.point_rate_hz = analog / ratio;
-    file.repairs.push_back(
-        {0, fmt::format("no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz)});
+    file.repairs.push_back({0, fmt::format("no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz)});
   } else if (good(said) && good(in_header) && std::abs(said - in_header) > 1e-3 * said) {
     file.repairs.push_back({0, fmt::format("the frame rate is {} Hz in POINT:RATE and {} Hz in the "
                                            "header; the parameter is taken",
                                            said, in_header)});
   } else if (!good(said)) {
-    file.repairs.push_back(
-        {0, fmt::format("POINT:RATE is missing; {} Hz from the header", in_header)});
+    file.repairs.push_back({0, fmt::format("POINT:RATE is missing; {} Hz from the header", in_header)});
   }
-  if (layout.channels > 0 && good(analog) &&
-      std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
-    file.repairs.push_back(
-        {0, fmt::format("ANALOG:RATE says {} Hz, but {} samples stand in each "
-                        "frame: {} Hz is taken",
-                        analog, layout.analog_per_frame, file.point_rate_hz * ratio)});
+  if (layout.channels > 0 && good(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
+    file.repairs.push_back({0, fmt::format("ANALOG:RATE says {} Hz, but {} samples stand in each "
+                                           "frame: {} Hz is taken",
+                                           analog, layout.analog_per_frame, file.point_rate_hz * ratio)});
   }
 }
 
@@ -274,11 +254,8 @@ struct ParameterSection {
   C3dProcessor processor = C3dProcessor::intel;
 };
 
-/// Finds the section at the block that the header names, else at block 2; empty if neither block
-/// begins one.
-std::optional<ParameterSection> find_parameters(std::size_t block,
-                                                ByteSource& source,
-                                                std::vector<Repair>& repairs) {
+/// Finds the section at the block that the header names, else at block 2; empty if neither block begins one.
+std::optional<ParameterSection> find_parameters(std::size_t block, ByteSource& source, std::vector<Repair>& repairs) {
   const std::size_t named = block == 0 ? 0 : (block - 1) * kC3dBlock;
   for (const std::size_t begin : {named, kC3dBlock}) {
     if (begin < kC3dBlock || begin + 4 > source.size()) continue;
@@ -305,13 +282,12 @@ C3dProcessor processor_of_header(std::span<const std::byte> head,
                     fmt::format("no parameter section at block {}, and the header makes no sense "
                                 "for any of the three processors; the file is damaged",
                                 block));
-  repairs.push_back(
-      {0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
-                      "as {}'s, and points and channels have no names, units or scales",
-                      block,
-                      *guess == C3dProcessor::intel ? "Intel"
-                      : *guess == C3dProcessor::sgi ? "SGI"
-                                                    : "DEC")});
+  repairs.push_back({0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
+                                    "as {}'s, and points and channels have no names, units or scales",
+                                    block,
+                                    *guess == C3dProcessor::intel ? "Intel"
+                                    : *guess == C3dProcessor::sgi ? "SGI"
+                                                                  : "DEC")});
   return *guess;
 }
 
@@ -321,12 +297,10 @@ std::vector<C3dGroup> read_groups(const ParameterSection& section,
                                   ByteSource& source,
                                   std::vector<Repair>& repairs) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 25U;
-  const std::uint64_t data =
-      header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kC3dBlock};
+  const std::uint64_t data = header.data_block == 0 ? 0 : (header.data_block - 1) * std::uint64_t{kC3dBlock};
   const std::uint64_t end = data > section.begin ? std::min(data, source.size()) : source.size();
   const auto limit = static_cast<std::size_t>(std::min(end, section.begin + kMost));
-  return parse_c3d_parameters(source.view(0, limit), section.begin + 4, limit,
-                              C3dBytes{section.processor}, repairs);
+  return parse_c3d_parameters(source.view(0, limit), section.begin + 4, limit, C3dBytes{section.processor}, repairs);
 }
 
 }  // namespace
@@ -336,8 +310,7 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   const auto block = static_cast<std::size_t>(head[0]);
   C3dFile file;
   const auto section = find_parameters(block, source, file.repairs);
-  file.processor = section ? section->processor
-                           : processor_of_header(head, block, source.size(), path, file.repairs);
+  file.processor = section ? section->processor : processor_of_header(head, block, source.size(), path, file.repairs);
   const C3dBytes number{file.processor};
   const C3dHeader header = read_c3d_header(head, number);
   if (section) file.groups = read_groups(*section, header, source, file.repairs);
@@ -348,8 +321,8 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   file.first_frame = layout.first_frame;
   file.analog_per_frame = static_cast<int>(layout.analog_per_frame);
   read_rates(file, header, layout, path);
-  file.point_labels = unique_names(all_texts(file, "POINT", "LABELS"), layout.points,
-                                   "POINT:LABELS", "point", file.repairs);
+  file.point_labels =
+      unique_names(all_texts(file, "POINT", "LABELS"), layout.points, "POINT:LABELS", "point", file.repairs);
   const bool no_sign = is_unsigned(file);
   read_point_unit(file, C3dFrames(layout, file.processor, no_sign), layout, source);
   read_channels(file, layout);
@@ -365,8 +338,7 @@ C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
   const C3dLayout& layout = head.layout;
   const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
   file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
-  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio,
-                     static_cast<Eigen::Index>(layout.channels));
+  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio, static_cast<Eigen::Index>(layout.channels));
   const C3dFrames frames = head.frames();
   frames.each_part(source, [&](std::int64_t first, std::int64_t count, const std::byte* p) {
     for (std::int64_t k = first; k < first + count; ++k, p += layout.frame_bytes()) {

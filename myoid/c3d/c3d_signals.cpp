@@ -44,15 +44,12 @@ std::vector<Eigen::Index> marker_columns(const C3dFile& file) {
 }
 
 C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
-    : columns_(marker_columns(file)),
-      points_(file.point_labels.size()),
-      first_frame_(file.first_frame) {
+    : columns_(marker_columns(file)), points_(file.point_labels.size()), first_frame_(file.first_frame) {
   if (columns_.empty() || frames == 0) throw InvalidInput("the C3D file holds no markers");
   const std::optional<ScaledUnit> unit = parse_file_unit(file.point_unit);
   if (!unit || unit->unit != Unit::meter) {
     throw InvalidInput(
-        fmt::format("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter",
-                    file.point_unit));
+        fmt::format("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit));
   }
   to_m_ = unit->to_si;
   if (columns_.size() < points_) {
@@ -77,8 +74,7 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
     for (std::string& name : markers_.names) name.erase(0, bare_begin(name));
     repairs_.push_back({0, "the subject's prefix ('subject:marker') is left out of the names"});
   } else if (prefixed) {
-    repairs_.push_back(
-        {0, "names keep their subject's prefix, since without it some would be the same"});
+    repairs_.push_back({0, "names keep their subject's prefix, since without it some would be the same"});
   }
   markers_.positions_m.resize(frames, static_cast<Eigen::Index>(3 * columns_.size()));
 }
@@ -93,15 +89,14 @@ void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* 
       const auto to = static_cast<Eigen::Index>(3 * m);
       for (Eigen::Index k = begin; k < end; ++k, p += width) {
         const bool zero = p[0] == 0.0F && p[1] == 0.0F && p[2] == 0.0F;
-        const bool measured = p[3] >= 0.0F && std::isfinite(p[0]) && std::isfinite(p[1]) &&
-                              std::isfinite(p[2]) && !zero;
+        const bool measured =
+            p[3] >= 0.0F && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && !zero;
         if (zero && p[3] >= 0.0F) {
           if (zeros_ == 0 || first + k < zero_frame_) zero_frame_ = first + k;
           ++zeros_;
         }
         for (Eigen::Index axis = 0; axis < 3; ++axis)
-          markers_.positions_m(first + k, to + axis) =
-              measured ? to_m_ * static_cast<double>(p[axis]) : kGap;
+          markers_.positions_m(first + k, to + axis) = measured ? to_m_ * static_cast<double>(p[axis]) : kGap;
       }
     }
   }
@@ -138,17 +133,14 @@ TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& colu
   if (chosen.empty()) {
     for (Eigen::Index c = 0; c < file.analog.cols(); ++c) chosen.push_back(c);
   }
-  if (chosen.empty() || file.analog.rows() == 0)
-    throw InvalidInput("the C3D file holds no analog channels");
+  if (chosen.empty() || file.analog.rows() == 0) throw InvalidInput("the C3D file holds no analog channels");
   const Eigen::Index samples = file.analog.rows();
   const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame;
   Eigen::VectorXd time(samples);
-  for (Eigen::Index i = 0; i < samples; ++i)
-    time[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
+  for (Eigen::Index i = 0; i < samples; ++i) time[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
   const C3dChannelUnits units = c3d_channel_units(file);
   std::vector<Channel> channels;
-  for (const Eigen::Index c : chosen)
-    channels.push_back(units.channels[static_cast<std::size_t>(c)]);
+  for (const Eigen::Index c : chosen) channels.push_back(units.channels[static_cast<std::size_t>(c)]);
   Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(chosen.size()));
   for (Eigen::Index begin = 0; begin < samples; begin += kBlockRows) {
     const Eigen::Index end = std::min(samples, begin + kBlockRows);
@@ -156,8 +148,7 @@ TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& colu
       const CountScale& scale = units.scales[static_cast<std::size_t>(chosen[k])];
       for (Eigen::Index i = begin; i < end; ++i) {
         values(i, static_cast<Eigen::Index>(k)) =
-            (static_cast<double>(file.analog(i, chosen[k])) - scale.offset) * scale.scale *
-            scale.to_si;
+            (static_cast<double>(file.analog(i, chosen[k])) - scale.offset) * scale.scale * scale.to_si;
       }
     }
   }

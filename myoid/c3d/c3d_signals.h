@@ -16,16 +16,14 @@ namespace myoid::recording {
 /// POINT:ANGLES, FORCES, MOMENTS, POWERS or SCALARS name are results of another program.
 [[nodiscard]] std::vector<Eigen::Index> marker_columns(const C3dFile& file);
 
-/// Converts the points of a file to markers in meters, some frames at a time. A point that is not
-/// measured, no number or exactly 0 0 0 is NaN. A subject's prefix ("name:") is removed if the
-/// names stay unique.
+/// Converts the points of a file to markers in meters, some frames at a time. A point that is not measured, no number
+/// or exactly 0 0 0 is NaN. A subject's prefix ("name:") is removed if the names stay unique.
 class C3dMarkerBuilder {
  public:
   /// Throws InvalidInput if there is no marker or frame, or if the unit is no length.
   C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames);
 
-  /// Adds the frames [first, first + count), each a row of four numbers for every point, as in
-  /// `C3dFile::points`.
+  /// Adds the frames [first, first + count), each a row of four numbers for every point, as in `C3dFile::points`.
   void add(Eigen::Index first, Eigen::Index count, const float* rows);
 
   /// Returns the markers and adds notes to `repairs`.
@@ -45,17 +43,14 @@ class C3dMarkerBuilder {
 /// Returns all markers of a file. Throws like `C3dMarkerBuilder`.
 [[nodiscard]] MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs);
 
-/// The factors to SI of the channels; a channel of unknown unit keeps its numbers and is
-/// dimensionless.
+/// The factors to SI of the channels; a channel of unknown unit keeps its numbers and is dimensionless.
 struct C3dChannelUnits {
   std::vector<Channel> channels;
   std::vector<CountScale> scales;
 };
 [[nodiscard]] C3dChannelUnits c3d_channel_units(const C3dFile& file);
 
-/// Returns the analog channels `columns` in SI, or all if `columns` is empty. Throws InvalidInput
-/// if there are none.
-[[nodiscard]] TimeSeries c3d_analog(const C3dFile& file,
-                                    const std::vector<Eigen::Index>& columns = {});
+/// Returns the analog channels `columns` in SI, or all if `columns` is empty. Throws InvalidInput if there are none.
+[[nodiscard]] TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& columns = {});
 
 }  // namespace myoid::recording

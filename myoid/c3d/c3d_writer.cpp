@@ -20,8 +20,8 @@ std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
   const double low = is_unsigned ? 0.0 : -32768.0;
   const double high = is_unsigned ? 65535.0 : 32767.0;
   if (!(value >= low && value <= high) || value != std::nearbyint(value)) {
-    throw InvalidInput(fmt::format(
-        "{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high));
+    throw InvalidInput(
+        fmt::format("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high));
   }
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(static_cast<int>(value)));
 }
@@ -113,10 +113,8 @@ void put_header(const C3dFile& file,
 bool writes_unsigned(const C3dFile& file) {
   const C3dParameter* said = file.find("ANALOG", "FORMAT");
   if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))
-    return std::none_of(file.channels.begin(), file.channels.end(),
-                        [](const C3dChannel& c) { return c.offset < 0.0; });
-  return std::any_of(file.channels.begin(), file.channels.end(),
-                     [](const C3dChannel& c) { return c.offset > 32767; });
+    return std::none_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset < 0.0; });
+  return std::any_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset > 32767; });
 }
 
 }  // namespace
@@ -126,15 +124,14 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   const std::size_t analog = file.channels.size() * static_cast<std::size_t>(file.analog_per_frame);
   const auto frames = static_cast<std::size_t>(file.frame_count());
   if (points > 65535 || analog > 65535)
-    throw InvalidInput(fmt::format(
-        "{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog));
+    throw InvalidInput(
+        fmt::format("{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog));
   if (frames == 0 || points + analog == 0)
     throw InvalidInput("a C3D file needs at least one frame of points or analog samples");
   const double scale = static_cast<double>(file.point_scale) * (format.integer ? 1.0 : -1.0);
   const C3dBytes number{format.processor};
 
-  // The parameters are formatted twice: first for their length, then with the block at which the
-  // data begin.
+  // The parameters are formatted twice: first for their length, then with the block at which the data begin.
   std::vector<C3dGroup> groups = c3d_description(file, scale);
   std::vector<std::byte> section = format_c3d_parameters(groups, number);
   const std::size_t data_block = 2 + section.size() / kC3dBlock;
@@ -151,8 +148,7 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
 
   SampleWriter writer(&out[data], file, format, writes_unsigned(file));
   for (Eigen::Index k = 0; k < file.frame_count(); ++k) {
-    for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(points); ++p)
-      writer.point(&file.points(k, 4 * p));
+    for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(points); ++p) writer.point(&file.points(k, 4 * p));
     for (Eigen::Index i = 0; i < (file.channels.empty() ? 0 : file.analog_per_frame); ++i) {
       for (Eigen::Index c = 0; c < file.analog.cols(); ++c)
         writer.sample(file.analog(k * file.analog_per_frame + i, c));

@@ -32,9 +32,7 @@ double rate_of(const Eigen::VectorXd& time_s, const char* what) {
 
 /// Returns the analog samples per frame. Throws InvalidInput unless their number is whole and both
 /// clocks begin together.
-int samples_per_frame(const Eigen::VectorXd& analog_s,
-                      const Eigen::VectorXd& frames_s,
-                      double frame_rate_hz) {
+int samples_per_frame(const Eigen::VectorXd& analog_s, const Eigen::VectorXd& frames_s, double frame_rate_hz) {
   const double ratio = rate_of(analog_s, "analog") / frame_rate_hz;
   const auto whole = static_cast<int>(std::lround(ratio));
   if (whole < 1 || std::abs(ratio - whole) > 1e-3 * ratio) {
@@ -62,8 +60,7 @@ void add_points(const MarkerSeries& markers, Eigen::Index frames, C3dFile& file)
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
       const bool gap = markers.missing(k, m);
       for (Eigen::Index axis = 0; axis < 3; ++axis)
-        file.points(k, 4 * m + axis) =
-            gap ? 0.0F : static_cast<float>(1000.0 * markers.positions_m(k, 3 * m + axis));
+        file.points(k, 4 * m + axis) = gap ? 0.0F : static_cast<float>(1000.0 * markers.positions_m(k, 3 * m + axis));
       file.points(k, 4 * m + 3) = gap ? -1.0F : 0.0F;
     }
   }
@@ -76,10 +73,9 @@ void add_channels(const TimeSeries& analog, Eigen::Index samples, C3dFile& file)
     const Channel& channel = analog.channels()[static_cast<std::size_t>(c)];
     const bool moment = channel.unit == Unit::newton_meter;
     file.channels.push_back({channel.name,
-                             moment ? "Nmm"
-                             : channel.unit == Unit::dimensionless
-                                 ? ""
-                                 : std::string(symbol(channel.unit)),
+                             moment                                ? "Nmm"
+                             : channel.unit == Unit::dimensionless ? ""
+                                                                   : std::string(symbol(channel.unit)),
                              0.0, 1.0});
     for (Eigen::Index i = 0; i < samples; ++i)
       file.analog(i, c) = static_cast<float>(analog.values()(i, c) * (moment ? 1000.0 : 1.0));
@@ -90,8 +86,7 @@ void add_channels(const TimeSeries& analog, Eigen::Index samples, C3dFile& file)
 
 C3dFile make_c3d(const MarkerSeries& markers, const TimeSeries& analog) {
   const bool has_markers = markers.frame_count() > 0;
-  if (!has_markers && analog.empty())
-    throw InvalidInput("a C3D file needs markers or analog channels");
+  if (!has_markers && analog.empty()) throw InvalidInput("a C3D file needs markers or analog channels");
   const Eigen::VectorXd& clock = has_markers ? markers.time_s : analog.time_s();
   C3dFile file;
   file.point_rate_hz = rate_of(clock, has_markers ? "markers" : "analog");

@@ -5,9 +5,7 @@
 
 namespace myoid {
 
-BodyPoints::BodyPoints(const model::BodyModel& model,
-                       const recording::MarkerSeries* markers,
-                       const TimeSeries* motion)
+BodyPoints::BodyPoints(const model::BodyModel& model, const recording::MarkerSeries* markers, const TimeSeries* motion)
     : model_(&model), markers_(markers), motion_(motion), state_(model::make_state(model)) {
   if (markers == nullptr) return;
   for (const std::string& name : markers->names) {
@@ -30,8 +28,7 @@ void BodyPoints::pose(Eigen::Index frame) {
     for (std::size_t m = 0; m < marker_body_.size(); ++m) {
       const auto column = static_cast<Eigen::Index>(m);
       if (marker_body_[m] < 0 || markers_->missing(frame, column)) continue;
-      points_[static_cast<std::size_t>(marker_body_[m])].push_back(
-          markers_->position(frame, column));
+      points_[static_cast<std::size_t>(marker_body_[m])].push_back(markers_->position(frame, column));
     }
     return;
   }
@@ -56,16 +53,14 @@ double BodyPoints::distance(const Vec3& p_G, model::BodyIndex body) const {
   double least = of_one(p_G, body);
   for (const model::Joint& joint : model_->joints) {
     if (joint.parent == body) least = std::min(least, of_one(p_G, joint.child));
-    if (joint.child == body && joint.parent != 0)
-      least = std::min(least, of_one(p_G, joint.parent));
+    if (joint.child == body && joint.parent != 0) least = std::min(least, of_one(p_G, joint.parent));
   }
   return least;
 }
 
 double BodyPoints::of_one(const Vec3& p_G, model::BodyIndex body) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& point : points_[static_cast<std::size_t>(body)])
-    least = std::min(least, (point - p_G).norm());
+  for (const Vec3& point : points_[static_cast<std::size_t>(body)]) least = std::min(least, (point - p_G).norm());
   return least;
 }
 

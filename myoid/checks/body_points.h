@@ -14,9 +14,7 @@ namespace myoid {
 /// markers, by the joints, centers of mass and markers of the model. One of the two is given.
 class BodyPoints {
  public:
-  BodyPoints(const model::BodyModel& model,
-             const recording::MarkerSeries* markers,
-             const TimeSeries* motion);
+  BodyPoints(const model::BodyModel& model, const recording::MarkerSeries* markers, const TimeSeries* motion);
 
   [[nodiscard]] Eigen::Index frame_count() const;
   [[nodiscard]] double time_s(Eigen::Index frame) const;
@@ -26,9 +24,8 @@ class BodyPoints {
   [[nodiscard]] const std::vector<Vec3>& of(model::BodyIndex body) const {
     return points_[static_cast<std::size_t>(body)];
   }
-  /// Returns the distance from the nearest point of the body or of its neighbors across a joint. A
-  /// foot may have its markers on the toes, and a marker of the ankle may belong to the shank.
-  /// Infinite without points.
+  /// Returns the distance from the nearest point of the body or of its neighbors across a joint. A foot may have its
+  /// markers on the toes, and a marker of the ankle may belong to the shank. Infinite without points.
   [[nodiscard]] double distance(const Vec3& p_G, model::BodyIndex body) const;
   /// Returns the distance from the nearest point of the body alone.
   [[nodiscard]] double of_one(const Vec3& p_G, model::BodyIndex body) const;

@@ -72,8 +72,7 @@ class StudyCheck {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
     }
     attempt("video", [&] { require_videos(study_); });
-    for (const NormSpec& norm : study_.norms)
-      attempt("norm", [&] { (void)read_norm(norm, study_); });
+    for (const NormSpec& norm : study_.norms) attempt("norm", [&] { (void)read_norm(norm, study_); });
     for (const TrialSpec& trial : study_.trials) {
       if (model_) attempt(trial.name, [&] { check_trial(trial); });
     }
@@ -87,8 +86,7 @@ class StudyCheck {
 
  private:
   void add(RemarkCode code, Severity severity, std::string where, std::string says) {
-    remarks_.push_back(
-        {.code = code, .severity = severity, .where = std::move(where), .says = std::move(says)});
+    remarks_.push_back({.code = code, .severity = severity, .where = std::move(where), .says = std::move(says)});
   }
 
   void add(std::vector<Remark> remarks, const std::string& where) {
@@ -97,9 +95,7 @@ class StudyCheck {
       remarks_.push_back(std::move(remark));
     }
   }
-  void add(std::vector<Remark> remarks) {
-    std::move(remarks.begin(), remarks.end(), std::back_inserter(remarks_));
-  }
+  void add(std::vector<Remark> remarks) { std::move(remarks.begin(), remarks.end(), std::back_inserter(remarks_)); }
 
   void refuse(const std::string& where, std::string says, std::string complaint) {
     remarks_.push_back({.code = RemarkCode::refused,
@@ -139,9 +135,8 @@ class StudyCheck {
     }
     if (asked.empty()) return;
     add(RemarkCode::unanswered, Severity::warning, study_.file.filename().string(),
-        fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}",
-                    asked.size(), asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "",
-                    fmt::join(asked, "; ")));
+        fmt::format("{} line{} still ask{} for an answer (TODO), or for being deleted: {}", asked.size(),
+                    asked.size() == 1 ? "" : "s", asked.size() == 1 ? "s" : "", fmt::join(asked, "; ")));
   }
 
   void check_model() {
@@ -152,17 +147,14 @@ class StudyCheck {
           const double value = setup.start.*field.member;
           if (value >= field.bounds.lower && value <= field.bounds.upper) continue;
           add(RemarkCode::start_outside_bounds, Severity::warning, "model",
-              fmt::format(
-                  "{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins "
-                  "at the nearest of these; [[muscle]] start sets another value",
-                  setup.name, field.name, value, symbol(field.unit), field.bounds.lower,
-                  field.bounds.upper));
+              fmt::format("{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins "
+                          "at the nearest of these; [[muscle]] start sets another value",
+                          setup.name, field.name, value, symbol(field.unit), field.bounds.lower, field.bounds.upper));
         }
       }
       for (const std::string& text : model.unsupported)
         add(RemarkCode::model_unsupported, Severity::warning, "model", text);
-      for (const std::string& text : model.notes)
-        add(RemarkCode::reading, Severity::note, "model", text);
+      for (const std::string& text : model.notes) add(RemarkCode::reading, Severity::note, "model", text);
       model_ = std::move(model);
       together_.emplace(study_, *model_);
     });
@@ -182,11 +174,10 @@ class StudyCheck {
     together_->look_at(spec, input);
     add(unloaded_times(*model_, spec, input));
     if (input.markers) check_markers(*input.markers);
-    if (input.emg && study_.emg.kind == EmgKind::raw &&
-        input.emg->mean_rate_hz() < kLimits.slowest_raw_emg_hz) {
+    if (input.emg && study_.emg.kind == EmgKind::raw && input.emg->mean_rate_hz() < kLimits.slowest_raw_emg_hz) {
       add(RemarkCode::emg_rate, Severity::warning, spec.name,
-          fmt::format("EMG at {:.0f} Hz: raw EMG reaches 400 Hz and needs {:g} Hz or more",
-                      input.emg->mean_rate_hz(), kLimits.slowest_raw_emg_hz));
+          fmt::format("EMG at {:.0f} Hz: raw EMG reaches 400 Hz and needs {:g} Hz or more", input.emg->mean_rate_hz(),
+                      kLimits.slowest_raw_emg_hz));
     }
   }
 
@@ -196,8 +187,8 @@ class StudyCheck {
     recording::MarkerSeries first = markers;
     first.time_s = markers.time_s.head(1);
     first.positions_m = markers.positions_m.topRows(1);
-    (void)kinematics::inverse_kinematics(
-        *model_, first, {.marker_weights = study_.markers.weight, .max_iterations = 0});
+    (void)kinematics::inverse_kinematics(*model_, first,
+                                         {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
   /// Processes the EMG as `run` does and reports the findings of `run` on recordings, and its
@@ -238,9 +229,8 @@ class StudyCheck {
 
 namespace {
 
-/// Returns the channels that may be EMG, or only those named so if there are some, since others may
-/// be a load cell's. A storage file has no units of channels: all of them count if its title states
-/// a voltage.
+/// Returns the channels that may be EMG, or only those named so if there are some, since others may be a load cell's. A
+/// storage file has no units of channels: all of them count if its title states a voltage.
 std::optional<TimeSeries> voltages(const std::filesystem::path& path,
                                    const recording::AnalogChannels& analog,
                                    const std::vector<recording::PlateSetup>& plates) {
@@ -269,8 +259,7 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
 
 }  // namespace
 
-std::vector<Remark> check_recording(const std::filesystem::path& path,
-                                    const std::optional<Vec3>& stated_up_L) {
+std::vector<Remark> check_recording(const std::filesystem::path& path, const std::optional<Vec3>& stated_up_L) {
   recording::Recording file = recording::read_recording(path);
   const std::string where = path.filename().string();
   std::vector<Remark> findings;
@@ -278,16 +267,13 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
   try {
     const recording::LaboratoryUp up = recording::stand_plates(file, stated_up_L);
     if (up.up_L)
-      findings.push_back(
-          {.code = RemarkCode::reading,
-           .severity = Severity::note,
-           .where = where,
-           .says = fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because)});
+      findings.push_back({.code = RemarkCode::reading,
+                          .severity = Severity::note,
+                          .where = where,
+                          .says = fmt::format("{} is up ({})", recording::axis_name(*up.up_L), up.because)});
   } catch (const InvalidInput& error) {
-    findings.push_back({.code = RemarkCode::refused,
-                        .severity = Severity::error,
-                        .where = where,
-                        .says = error.what()});
+    findings.push_back(
+        {.code = RemarkCode::refused, .severity = Severity::error, .where = where, .says = error.what()});
     standing = false;
   }
   for (const recording::Repair& repair : file.repairs)
@@ -306,14 +292,12 @@ std::vector<Remark> check_recording(const std::filesystem::path& path,
     require_finite(*emg, path.string());
     constexpr Eigen::Index kFewest = 10;
     if (emg->sample_count() < kFewest)
-      throw ReadError(
-          path, 0,
-          fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
-                      emg->sample_count() == 1 ? "" : "s", kFewest));
+      throw ReadError(path, 0,
+                      fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
+                                  emg->sample_count() == 1 ? "" : "s", kFewest));
     std::vector<Remark> faults = signals::check_emg(*emg);
-    const bool raw = std::none_of(faults.begin(), faults.end(), [](const Remark& f) {
-      return f.code == RemarkCode::emg_envelope;
-    });
+    const bool raw =
+        std::none_of(faults.begin(), faults.end(), [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
     add(std::move(faults));
     add(levels_alone(*emg, raw, where));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});

@@ -15,10 +15,9 @@ namespace myoid {
 [[nodiscard]] std::vector<Remark> check_recording(const std::filesystem::path& path,
                                                   const std::optional<Vec3>& stated_up_L = {});
 
-/// Reads every input of the study and checks the quality of every channel, units, rates, names,
-/// gaps, overlap of EMG and motion, and the EMG's reference level. The findings come worst first.
-/// `run_study` accepts a study without an error here. Errors in inputs are findings, not
-/// exceptions.
+/// Reads every input of the study and checks the quality of every channel, units, rates, names, gaps, overlap of EMG
+/// and motion, and the EMG's reference level. The findings come worst first. `run_study` accepts a study without an
+/// error here. Errors in inputs are findings, not exceptions.
 [[nodiscard]] std::vector<Remark> check_study(const Study& study);
 
 }  // namespace myoid

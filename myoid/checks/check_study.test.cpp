@@ -39,21 +39,17 @@ struct WrittenStudy {
     for (int i = 0; i < 200; ++i) {
       const double s = std::sin(0.05 * i);
       trc += fmt::format("{}\t{:.2f}\t0.3\t{:.4f}\t0\n", i + 1, 0.01 * i, 0.1 * s);
-      emg += fmt::format("{:.2f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\n", 0.01 * i, s * s, s * s, s * s,
-                         flat ? 0.2 : s * s);
+      emg += fmt::format("{:.2f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\n", 0.01 * i, s * s, s * s, s * s, flat ? 0.2 : s * s);
     }
     recording::write_file(folder / "t.trc", trc);
     recording::write_file(folder / "t.sto", emg);
   }
-  [[nodiscard]] std::vector<Remark> findings() const {
-    return check_study(parse_study(text, folder / "study.toml"));
-  }
+  [[nodiscard]] std::vector<Remark> findings() const { return check_study(parse_study(text, folder / "study.toml")); }
   /// Text of the first finding if it is an error.
   [[nodiscard]] std::string error() const {
     const std::vector<Remark> all = findings();
-    return all.empty() || all.front().severity != Severity::error
-               ? "(no error)"
-               : all.front().where + ": " + sentence(all.front());
+    return all.empty() || all.front().severity != Severity::error ? "(no error)"
+                                                                  : all.front().where + ": " + sentence(all.front());
   }
 };
 
@@ -82,20 +78,18 @@ TEST(CheckStudy, NamesAMissingFileWithoutThrowing) {
 TEST(CheckStudy, AMisspeltChannelOfEveryTrialIsToldOnceWithTheTrialsNamed) {
   WrittenStudy study;
   for (const char* name : {"u", "v"})
-    study.text +=
-        fmt::format("[[trial]]\nname = \"{}\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n", name);
+    study.text += fmt::format("[[trial]]\nname = \"{}\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n", name);
   study.text.replace(study.text.find("emg = \"TRI\""), 11, "emg = \"TRJ\"");
   const std::vector<Remark> findings = study.findings();
-  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
-                          [](const Remark& f) { return f.severity == Severity::error; }),
-            1);
+  EXPECT_EQ(
+      std::count_if(findings.begin(), findings.end(), [](const Remark& f) { return f.severity == Severity::error; }),
+      1);
   EXPECT_NE(study.error().find("(likewise in u, v)"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, MarkersOfWhichTheModelHasNoneAreAnError) {
   const WrittenStudy study("RWRA");
-  EXPECT_NE(study.error().find("t: no marker of the recording (RWRA) is in the model"),
-            std::string::npos)
+  EXPECT_NE(study.error().find("t: no marker of the recording (RWRA) is in the model"), std::string::npos)
       << study.error();
 }
 
@@ -103,8 +97,7 @@ TEST(CheckStudy, OneRecordingInTwoTrialsIsAnErrorThatNamesBoth) {
   WrittenStudy study;
   study.text += "[[trial]]\nname = \"u\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n";
   const std::string error = study.error();
-  EXPECT_EQ(error.find("u: 100 % of its EMG (t.sto) and of its motion are those of trial 't'"), 0U)
-      << error;
+  EXPECT_EQ(error.find("u: 100 % of its EMG (t.sto) and of its motion are those of trial 't'"), 0U) << error;
 }
 
 TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
@@ -116,10 +109,8 @@ TEST(CheckStudy, TrialsThatAreWindowsOfOneRecordingAreTwo) {
 
 TEST(CheckStudy, ATrialOfLessThanHalfASecondIsNamedAsSuch) {
   WrittenStudy study;
-  study.text.replace(study.text.find("name = \"t\""), 10,
-                     "name = \"t\"\nstart_s = 1.0\nend_s = 1.3");
-  EXPECT_NE(study.error().find("the trial lasts 0.3 s (1 to 1.3 s); at least 0.5 s"),
-            std::string::npos)
+  study.text.replace(study.text.find("name = \"t\""), 10, "name = \"t\"\nstart_s = 1.0\nend_s = 1.3");
+  EXPECT_NE(study.error().find("the trial lasts 0.3 s (1 to 1.3 s); at least 0.5 s"), std::string::npos)
       << study.error();
 }
 
@@ -134,8 +125,7 @@ TEST(CheckStudy, RawEmgCalledAnEnvelopeIsAnError) {
   for (std::size_t at = emg.find("\t0."); at != std::string::npos; at = emg.find("\t0.", at + 1))
     if ((at / 7) % 2 == 0) emg.insert(at + 1, "-");
   recording::write_file(study.folder / "t.sto", emg);
-  EXPECT_NE(study.error().find("is never below zero; is it raw EMG?"), std::string::npos)
-      << study.error();
+  EXPECT_NE(study.error().find("is never below zero; is it raw EMG?"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, AnActivationInPercentIsAnError) {
@@ -145,8 +135,7 @@ TEST(CheckStudy, AnActivationInPercentIsAnError) {
   std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
   for (int i = 0; i < 200; ++i) emg += fmt::format("{:.2f}\t{}\t5\t5\t5\n", 0.01 * i, i % 90);
   recording::write_file(study.folder / "t.sto", emg);
-  EXPECT_NE(study.error().find("'BIC' reaches 89, but an activation"), std::string::npos)
-      << study.error();
+  EXPECT_NE(study.error().find("'BIC' reaches 89, but an activation"), std::string::npos) << study.error();
 }
 
 TEST(CheckStudy, WhatInitLeftToBeAnsweredIsAWarningWithItsLine) {
@@ -176,8 +165,7 @@ TEST(CheckStudy, EnvelopesWithoutAMaximalContractionAreSaidToBeSo) {
 TEST(CheckStudy, AWeightOfAMarkerThatTheModelLacksIsAnError) {
   WrittenStudy study;
   study.text += "[markers.weight]\nacromion = 10\n";
-  EXPECT_NE(study.error().find("[markers.weight] acromion: the model has no such marker"),
-            std::string::npos)
+  EXPECT_NE(study.error().find("[markers.weight] acromion: the model has no such marker"), std::string::npos)
       << study.error();
 }
 
@@ -217,9 +205,9 @@ TEST(CheckRecording, LooksAtASingleFile) {
   }
   recording::write_file(folder / "emg.csv", text);
   const std::vector<Remark> findings = check_recording(folder / "emg.csv");
-  ASSERT_EQ(std::count_if(findings.begin(), findings.end(),
-                          [](const Remark& f) { return f.severity == Severity::warning; }),
-            1);
+  ASSERT_EQ(
+      std::count_if(findings.begin(), findings.end(), [](const Remark& f) { return f.severity == Severity::warning; }),
+      1);
   EXPECT_EQ(findings[0].code, RemarkCode::emg_hum);
   EXPECT_EQ(findings[0].about, "b");
 }
@@ -233,8 +221,7 @@ std::vector<Remark> warnings_of(const std::filesystem::path& file) {
 TEST(CheckRecording, NoiseAloneIsNoEmg) {
   const test::TemporaryFolder folder;
   std::string text = "time,a [mV]\n";
-  for (int i = 0; i < 4000; ++i)
-    text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.3f},{:.9f}\n", 0.001 * i, ((i * 7919) % 2003) / 2003.0 - 0.5);
   recording::write_file(folder / "emg.csv", text);
   const std::vector<Remark> found = warnings_of(folder / "emg.csv");
   ASSERT_EQ(found.size(), 1U);
@@ -253,8 +240,7 @@ TEST(CheckRecording, OneSampleIsNoRecording) {
   }
 }
 
-/// Recordings of three laboratories with known faults: markers hidden for a long time, electrodes
-/// that were not worn.
+/// Recordings of three laboratories with known faults: markers hidden for a long time, electrodes that were not worn.
 TEST(CheckRecording, OfRealRecordingsOnlyWhatIsTrueIsSaid) {
   const std::filesystem::path data = test::data_folder();
   MYOID_REQUIRE_DATA(data / "elbow-emg" / "load5p5_T1_emg_raw_uV.sto");
@@ -284,8 +270,7 @@ TEST(CheckStudy, AStartThatTheModelPutsOutsideTheBoundsIsWarnedOf) {
   study.text += "[model]\nfile = \"arm.osim\"\n";
   const std::vector<Remark> findings = study.findings();
   EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Remark& f) {
-    return f.severity == Severity::warning &&
-           f.says.find("optimal_fiber_length") != std::string::npos &&
+    return f.severity == Severity::warning && f.says.find("optimal_fiber_length") != std::string::npos &&
            f.says.find("lies outside 0.01 to 0.6") != std::string::npos;
   }));
 }

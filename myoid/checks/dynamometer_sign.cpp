@@ -19,17 +19,14 @@ namespace myoid {
 namespace {
 
 /// Returns F_max r of each muscle of the study [N m], r the mean over the coordinate's range.
-Eigen::VectorXd strengths_nm(const Study& study,
-                             const model::BodyModel& model,
-                             const std::string& coordinate) {
+Eigen::VectorXd strengths_nm(const Study& study, const model::BodyModel& model, const std::string& coordinate) {
   constexpr int kSteps = 8;
   const int index = model.coordinate_index(coordinate);
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
   Eigen::VectorXd strength = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(groups.size()));
   for (std::size_t k = 0; k < groups.size(); ++k) {
     for (const int m : groups[k].members) {
-      const double f_max_n =
-          model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+      const double f_max_n = model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
       for (const double r : model::arms_over_range_m(model, m, index, kSteps)) {
         if (std::isfinite(r)) strength[static_cast<Eigen::Index>(k)] += r * f_max_n / (kSteps + 1);
       }
@@ -38,22 +35,19 @@ Eigen::VectorXd strengths_nm(const Study& study,
   return strength;
 }
 
-/// Returns the largest possible torque by the weight of all bodies that the coordinate moves, each
-/// stretched out [N m].
+/// Returns the largest possible torque by the weight of all bodies that the coordinate moves, each stretched out [N m].
 double weight_nm(const model::BodyModel& model, const std::string& coordinate) {
   const int index = model.coordinate_index(coordinate);
-  const auto joint =
-      static_cast<std::size_t>(model.coordinates[static_cast<std::size_t>(index)].joint);
+  const auto joint = static_cast<std::size_t>(model.coordinates[static_cast<std::size_t>(index)].joint);
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
-  const Vec3 center =
-      state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] * model.joints[joint].X_BM.p;
+  const Vec3 center = state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] * model.joints[joint].X_BM.p;
   const std::vector<bool> moved = dynamics::moved_bodies(model, static_cast<int>(joint));
   double sum = 0.0;
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     if (moved[b])
-      sum += model.bodies[b].mass_kg * model.gravity_G.norm() *
-             (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm();
+      sum +=
+          model.bodies[b].mass_kg * model.gravity_G.norm() * (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm();
   }
   return sum;
 }
@@ -89,8 +83,7 @@ std::optional<Products> compare(const Study& study,
     double pull = 0.0;
     for (std::size_t k = 0; k < study.muscles.size(); ++k) {
       const std::string& channel = study.muscles[k].emg;
-      const double relative =
-          a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
+      const double relative = a.values()(i, a.index(channel)) / std::max(largest.at(channel), 1e-300);
       most = std::max(most, relative);
       pull += relative * strength_nm[static_cast<Eigen::Index>(k)];
     }
@@ -106,8 +99,8 @@ std::vector<Remark> dynamometer_signs(const Study& study,
                                       const model::BodyModel& model,
                                       const std::vector<EffortTrial>& trials) {
   std::vector<Remark> found;
-  const bool any = std::any_of(trials.begin(), trials.end(),
-                               [](const EffortTrial& t) { return t.external_torque != nullptr; });
+  const bool any =
+      std::any_of(trials.begin(), trials.end(), [](const EffortTrial& t) { return t.external_torque != nullptr; });
   if (!any) return found;
   std::map<std::string, double> largest;
   for (const EffortTrial& trial : trials) {
@@ -124,9 +117,7 @@ std::vector<Remark> dynamometer_signs(const Study& study,
     std::size_t told = 0;
     std::vector<std::pair<const EffortTrial*, double>> against;
     for (const EffortTrial& trial : trials) {
-      if (trial.external_torque == nullptr || trial.envelopes.empty() ||
-          trial.spec->use == Use::passive)
-        continue;
+      if (trial.external_torque == nullptr || trial.envelopes.empty() || trial.spec->use == Use::passive) continue;
       const auto column = trial.external_torque->find(name + "_moment");
       if (!column) continue;
       const Eigen::VectorXd torque = trial.external_torque->values().col(*column);
@@ -137,21 +128,19 @@ std::vector<Remark> dynamometer_signs(const Study& study,
       all.add(*sums);
       if (sums->cosine() < kLimits.reversed) against.emplace_back(&trial, sums->cosine());
     }
-    const bool certain =
-        !against.empty() && against.size() == told && all.cosine() < kLimits.certainly_reversed;
+    const bool certain = !against.empty() && against.size() == told && all.cosine() < kLimits.certainly_reversed;
     for (const auto& [trial, cosine] : against) {
       found.push_back(
           {.code = RemarkCode::dynamometer_sign,
            .severity = certain ? Severity::error : Severity::warning,
            .where = trial->spec->name,
            .about = name,
-           .says = fmt::format(
-               "{}: the torque on {} acts in the direction of the active muscles (cosine with "
-               "their "
-               "necessary torque {:.2f}, expected above 0): is its sign reversed? "
-               "external_torque is the torque of the surroundings on the body, positive in the "
-               "coordinate's direction; negate the column if it is the person's torque",
-               trial->spec->external_torque->filename().string(), name, cosine)});
+           .says = fmt::format("{}: the torque on {} acts in the direction of the active muscles (cosine with "
+                               "their "
+                               "necessary torque {:.2f}, expected above 0): is its sign reversed? "
+                               "external_torque is the torque of the surroundings on the body, positive in the "
+                               "coordinate's direction; negate the column if it is the person's torque",
+                               trial->spec->external_torque->filename().string(), name, cosine)});
     }
   }
   return found;

@@ -26,11 +26,9 @@ struct Push {
                         Eigen::MatrixXd((flexion ? -torque_nm : torque_nm) * effort));
     // A fifth of it is cocontraction.
     Eigen::MatrixXd a(500, 4);
-    for (Eigen::Index c = 0; c < 4; ++c)
-      a.col(c) = ((c == 3) != flexion ? 1.0 : 0.2) * share * effort;
+    for (Eigen::Index c = 0; c < 4; ++c) a.col(c) = ((c == 3) != flexion ? 1.0 : 0.2) * share * effort;
     std::vector<Channel> channels;
-    for (const char* muscle : {"BIC", "BRA", "BRD", "TRI"})
-      channels.push_back({muscle, Unit::volt});
+    for (const char* muscle : {"BIC", "BRA", "BRD", "TRI"}) channels.push_back({muscle, Unit::volt});
     envelopes = TimeSeries(t, channels, 1e-3 * a);
   }
 };
@@ -46,13 +44,11 @@ TEST(DynamometerSigns, AreRightWhereItPushesAgainstTheMuscles) {
 }
 
 TEST(DynamometerSigns, ReversedInEveryTrialAreAnErrorThatSaysWhatToNegate) {
-  const std::vector<Remark> found =
-      findings({{"up", true, 1.0, -50.0}, {"down", false, 1.0, -40.0}});
+  const std::vector<Remark> found = findings({{"up", true, 1.0, -50.0}, {"down", false, 1.0, -40.0}});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "up");
-  EXPECT_NE(found[0].says.find("up.sto: the torque on elbow_flexion"), std::string::npos)
-      << found[0].says;
+  EXPECT_NE(found[0].says.find("up.sto: the torque on elbow_flexion"), std::string::npos) << found[0].says;
   EXPECT_NE(found[0].says.find("negate the column"), std::string::npos);
 }
 
@@ -84,8 +80,7 @@ TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
   ASSERT_EQ(unsure.size(), 1U);
   EXPECT_EQ(unsure[0].severity, Severity::warning);
   // A small torque of the right sign beside a large one of the wrong sign.
-  const std::vector<Remark> one =
-      findings({{"large", true, 1.0, -50.0}, {"small", true, 0.3, 15.0}});
+  const std::vector<Remark> one = findings({{"large", true, 1.0, -50.0}, {"small", true, 0.3, 15.0}});
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(one[0].severity, Severity::warning);
 }
@@ -93,8 +88,8 @@ TEST(DynamometerSigns, AreAnErrorOnlyWhereAllTrialsAndAllOfThemSaySo) {
 TEST(DynamometerSigns, AreToldWhereThereIsEmg) {
   std::vector<Push> pushes{{"up", true, 1.0, -50.0}};
   const TimeSeries whole = pushes[0].envelopes;
-  pushes[0].envelopes = TimeSeries(whole.time_s().segment(100, 300), whole.channels(),
-                                   whole.values().middleRows(100, 300));
+  pushes[0].envelopes =
+      TimeSeries(whole.time_s().segment(100, 300), whole.channels(), whole.values().middleRows(100, 300));
   EXPECT_EQ(findings(pushes).size(), 1U);
 }
 

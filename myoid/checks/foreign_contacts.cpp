@@ -51,9 +51,7 @@ Vec3 against_gravity(const model::BodyModel& model) {
 }
 
 /// Returns the center of pressure on the ground; empty if the force defines none.
-std::optional<Vec3> pressure_center(const dynamics::ExternalForce& force,
-                                    double data_time_s,
-                                    const Vec3& up) {
+std::optional<Vec3> pressure_center(const dynamics::ExternalForce& force, double data_time_s, const Vec3& up) {
   const Vec3 at = force.point->at(data_time_s);
   if (!force.point->splines.empty() || !force.torque) return at;
   const Vec3 f = force.force->at(data_time_s);
@@ -63,9 +61,8 @@ std::optional<Vec3> pressure_center(const dynamics::ExternalForce& force,
 }
 
 bool is_on_the_ground(const dynamics::ExternalForce& force) {
-  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
-         force.point && !force.force->splines.empty() &&
-         (!force.point->splines.empty() || force.torque);
+  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force && force.point &&
+         !force.force->splines.empty() && (!force.point->splines.empty() || force.torque);
 }
 
 bool are_neighbors(const model::BodyModel& model, model::BodyIndex a, model::BodyIndex b) {
@@ -80,11 +77,7 @@ struct Lowest {
   std::vector<double> speed_m_per_s;
 };
 
-Lowest lowest_of(const BodyPoints& points,
-                 std::size_t bodies,
-                 const Vec3& up,
-                 const Lowest& before,
-                 double since_s) {
+Lowest lowest_of(const BodyPoints& points, std::size_t bodies, const Vec3& up, const Lowest& before, double since_s) {
   Lowest now{std::vector<std::optional<Vec3>>(bodies), std::vector<double>(bodies, kNoDistance)};
   for (std::size_t b = 1; b < bodies; ++b) {
     for (const Vec3& p : points.of(static_cast<model::BodyIndex>(b))) {
@@ -99,17 +92,14 @@ Lowest lowest_of(const BodyPoints& points,
 /// The loads of one trial over its frames.
 class GroundContacts {
  public:
-  GroundContacts(const model::BodyModel& model,
-                 const dynamics::ExternalLoads& loads,
-                 BodyPoints points)
+  GroundContacts(const model::BodyModel& model, const dynamics::ExternalLoads& loads, BodyPoints points)
       : model_(model), loads_(loads), up_(against_gravity(model)), points_(std::move(points)) {
     const Eigen::Index n = points_.frame_count();
     step_ = std::max<Eigen::Index>(1, n / kContactFrames);
     for (const dynamics::ExternalForce& force : loads.forces) {
       if (!is_on_the_ground(force)) continue;
       double largest = 0.0;
-      for (Eigen::Index i = 0; i < n; i += step_)
-        largest = std::max(largest, force.force->at(data_time(i)).norm());
+      for (Eigen::Index i = 0; i < n; i += step_) largest = std::max(largest, force.force->at(data_time(i)).norm());
       if (largest < kLimits.contact_n) continue;
       forces_.push_back(&force);
       threshold_n_.push_back(std::max(kLimits.contact_n, kLimits.contact_share * largest));
@@ -118,12 +108,8 @@ class GroundContacts {
     walk();
   }
 
-  [[nodiscard]] const std::vector<const dynamics::ExternalForce*>& forces() const {
-    return forces_;
-  }
-  [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const {
-    return of_force_[force];
-  }
+  [[nodiscard]] const std::vector<const dynamics::ExternalForce*>& forces() const { return forces_; }
+  [[nodiscard]] const std::vector<GroundContact>& of(std::size_t force) const { return of_force_[force]; }
   /// Returns true if a plate in the floor measures the force.
   [[nodiscard]] bool is_of_floor(std::size_t force) const {
     Vec3 sum_n = Vec3::Zero();
@@ -139,9 +125,7 @@ class GroundContacts {
   }
 
  private:
-  [[nodiscard]] double data_time(Eigen::Index frame) const {
-    return loads_.data_time_s(points_.time_s(frame));
-  }
+  [[nodiscard]] double data_time(Eigen::Index frame) const { return loads_.data_time_s(points_.time_s(frame)); }
 
   void walk() {
     Lowest before;
@@ -163,9 +147,7 @@ class GroundContacts {
       before_s = now_s;
     }
     for (std::vector<GroundContact>& contacts : of_force_)
-      std::erase_if(contacts, [](const GroundContact& c) {
-        return c.end_s() - c.begin_s() < kLimits.contact_s;
-      });
+      std::erase_if(contacts, [](const GroundContact& c) { return c.end_s() - c.begin_s() < kLimits.contact_s; });
   }
 
   [[nodiscard]] std::vector<std::optional<Vec3>> centers_at(double data_time_s) const {
@@ -195,8 +177,7 @@ class GroundContacts {
         m.other_m = d;
         m.other = body;
       }
-      if (d < m.second_m && d <= kLimits.second_foot_m && stands(b, own, lowest) &&
-          !has_a_force(k, b, centers)) {
+      if (d < m.second_m && d <= kLimits.second_foot_m && stands(b, own, lowest) && !has_a_force(k, b, centers)) {
         m.second_m = d;
         m.second = body;
       }
@@ -257,9 +238,7 @@ int frame_kind(const LoadedFrame& m, bool others_are_near) {
   return 0;
 }
 
-void close_stretch(std::vector<ForeignStretch>& found,
-                   const std::vector<LoadedFrame>& part,
-                   int kind) {
+void close_stretch(std::vector<ForeignStretch>& found, const std::vector<LoadedFrame>& part, int kind) {
   if (part.empty() || part.back().time_s - part.front().time_s < kLimits.contact_s) return;
   ForeignStretch s{.begin_s = part.front().time_s,
                    .end_s = part.back().time_s,
@@ -291,13 +270,12 @@ std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool
 }
 
 std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s) {
-  const std::string other = s.other_m <= kLimits.second_foot_m
-                                ? fmt::format("{:.2g} m from {}", s.other_m,
-                                              model.bodies[static_cast<std::size_t>(s.other)].name)
-                                : "no other body of the model is near";
+  const std::string other =
+      s.other_m <= kLimits.second_foot_m
+          ? fmt::format("{:.2g} m from {}", s.other_m, model.bodies[static_cast<std::size_t>(s.other)].name)
+          : "no other body of the model is near";
   return fmt::format("from {:.4g} to {:.4g} s {} ({:.2g} m from its own, {})", s.begin_s, s.end_s,
-                     s.second_foot ? "a second foot stands beside" : "another foot's", s.own_m,
-                     other);
+                     s.second_foot ? "a second foot stands beside" : "another foot's", s.own_m, other);
 }
 
 }  // namespace
@@ -316,8 +294,7 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
       usual.push_back(usual_distance(c.frames));
       loaded += c.frames.size();
     }
-    const bool near =
-        std::any_of(usual.begin(), usual.end(), [](double d) { return d < kLimits.off_body_m; });
+    const bool near = std::any_of(usual.begin(), usual.end(), [](double d) { return d < kLimits.off_body_m; });
     std::vector<std::string> said;
     std::size_t foreign = 0;
     std::size_t touched = 0;
@@ -335,15 +312,13 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
         {.code = RemarkCode::foreign_contact,
          .severity = Severity::warning,
          .where = trial,
-         .says = fmt::format(
-             "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts "
-             "and {:.0f} % of the loaded time: {}; leave these times out (start_s, end_s), or "
-             "give them to the body that bears them",
-             force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
-             model.bodies[static_cast<std::size_t>(force.body)].name, touched,
-             contacts.of(k).size(),
-             100.0 * static_cast<double>(foreign) / static_cast<double>(loaded),
-             fmt::join(said, "; "))});
+         .says =
+             fmt::format("'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts "
+                         "and {:.0f} % of the loaded time: {}; leave these times out (start_s, end_s), or "
+                         "give them to the body that bears them",
+                         force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
+                         model.bodies[static_cast<std::size_t>(force.body)].name, touched, contacts.of(k).size(),
+                         100.0 * static_cast<double>(foreign) / static_cast<double>(loaded), fmt::join(said, "; "))});
   }
   return findings;
 }

@@ -10,12 +10,11 @@
 
 namespace myoid {
 
-/// Tells whether each contact with the ground belongs to the body to which its force is applied. A
-/// contact is a time of 50 ms or more in which a force on a body exceeds a twentieth of its largest
-/// value. Only forces of floor plates are checked: they push up, within 60 degrees, and their
-/// center of pressure is at most 0.5 m above the lowest point of the person; the force of a load
-/// cell in a hand is neither. For each contact, the distance of the center of pressure from the
-/// body is compared frame by frame:
+/// Tells whether each contact with the ground belongs to the body to which its force is applied. A contact is a time of
+/// 50 ms or more in which a force on a body exceeds a twentieth of its largest value. Only forces of floor plates are
+/// checked: they push up, within 60 degrees, and their center of pressure is at most 0.5 m above the lowest point of
+/// the person; the force of a load cell in a hand is neither. For each contact, the distance of the center of pressure
+/// from the body is compared frame by frame:
 ///
 /// - a foreign foot: the center of pressure is more than 0.2 m from the body and half as far from
 ///   another body, or 0.3 m from the body while the force's other contacts are nearer than 0.2 m;

@@ -24,10 +24,8 @@ model::BodyModel two_feet() {
                   {.name = "calcn_r", .mass_kg = 1.0},
                   {.name = "calcn_l", .mass_kg = 1.0}};
   for (int child = 1; child < 4; ++child) {
-    model::Joint joint{.name = "j" + std::to_string(child),
-                       .class_name = "WeldJoint",
-                       .parent = child == 1 ? 0 : 1,
-                       .child = child};
+    model::Joint joint{
+        .name = "j" + std::to_string(child), .class_name = "WeldJoint", .parent = child == 1 ? 0 : 1, .child = child};
     joint.X_PF.p = child == 1 ? Vec3(0.0, 0.9, 0.0) : Vec3(0.0, -0.9, child == 2 ? 0.1 : -0.1);
     model.joints.push_back(joint);
   }
@@ -51,8 +49,7 @@ struct SteadyGait {
     const double begin = t - s;  // where it stands, the body's place in the middle of the stance
     const double swing = std::max(0.0, (s - kStance_s) / (kStride_s - kStance_s));
     const double smooth = swing * swing * (3.0 - 2.0 * swing);
-    return {begin + 0.35 + kStride_s * smooth, 0.1 * std::sin(M_PI * swing),
-            foot == kRight ? 0.1 : -0.1};
+    return {begin + 0.35 + kStride_s * smooth, 0.1 * std::sin(M_PI * swing), foot == kRight ? 0.1 : -0.1};
   }
   /// 0.05 m behind the ankle at the heel's strike, 0.18 m before it at the toe's lift.
   static Vec3 pressure(double t, model::BodyIndex foot) {
@@ -65,8 +62,7 @@ struct SteadyGait {
 
 dynamics::LoadColumns force_columns(const Eigen::VectorXd& t, const Eigen::MatrixX3d& values) {
   dynamics::LoadColumns result;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    result.splines.push_back(math::Spline::interpolate(t, values.col(k), 1));
+  for (Eigen::Index k = 0; k < 3; ++k) result.splines.push_back(math::Spline::interpolate(t, values.col(k), 1));
   return result;
 }
 
@@ -107,8 +103,7 @@ struct PlateTrial {
     }
     dynamics::ExternalForce e{.name = name, .body = body};
     e.force = force_columns(time_s, force);
-    e.point = about_a_point ? dynamics::LoadColumns{.splines = {}, .constant = middle}
-                            : force_columns(time_s, point);
+    e.point = about_a_point ? dynamics::LoadColumns{.splines = {}, .constant = middle} : force_columns(time_s, point);
     if (about_a_point) e.torque = force_columns(time_s, moment);
     loads.forces.push_back(e);
   }
@@ -117,9 +112,7 @@ struct PlateTrial {
   }
 };
 
-model::BodyIndex if_stands(double t, model::BodyIndex foot) {
-  return SteadyGait::stands(t, foot) ? foot : 0;
-}
+model::BodyIndex if_stands(double t, model::BodyIndex foot) { return SteadyGait::stands(t, foot) ? foot : 0; }
 
 TEST(ForeignContacts, AreNoneWhereEachFootHasItsOwnForce) {
   for (const bool about_a_point : {false, true}) {
@@ -142,9 +135,9 @@ TEST(ForeignContacts, OneContactOfSeveralIsSaidWithItsTimeShareAndDistances) {
     ASSERT_EQ(found.size(), 1U) << about_a_point;
     EXPECT_EQ(found[0].severity, Severity::warning);
     EXPECT_EQ(found[0].where, "walk");
-    EXPECT_THAT(found[0].says, AllOf(HasSubstr("'plate_1' is applied to calcn_r"),
-                                     HasSubstr("in 1 of 3 contacts"), HasSubstr("from 4.2"),
-                                     HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));
+    EXPECT_THAT(found[0].says,
+                AllOf(HasSubstr("'plate_1' is applied to calcn_r"), HasSubstr("in 1 of 3 contacts"),
+                      HasSubstr("from 4.2"), HasSubstr("s another foot's"), HasSubstr("m from calcn_l")));
     const std::size_t at = found[0].says.find(" % of the loaded time");
     EXPECT_NEAR(std::stod(found[0].says.substr(at - 2)), 34.0, 3.0) << found[0].says;
   }
@@ -198,14 +191,12 @@ TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {
   trial.loads.forces = {force};
   const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].says,
-              AllOf(HasSubstr("in 1 of 2 contacts"), HasSubstr("from 1.0"),
-                    HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
+  EXPECT_THAT(found[0].says, AllOf(HasSubstr("in 1 of 2 contacts"), HasSubstr("from 1.0"),
+                                   HasSubstr("a second foot stands beside"), HasSubstr("from calcn_l")));
 }
 
-// A load cell 1.1 m above the floor that a hand pushes up against, and a weight of 80 N that hangs
-// from a foot: neither is a plate in the floor. The same force upward on the floor belongs to
-// another foot.
+// A load cell 1.1 m above the floor that a hand pushes up against, and a weight of 80 N that hangs from a foot: neither
+// is a plate in the floor. The same force upward on the floor belongs to another foot.
 TEST(ForeignContacts, AreLookedForOnPlatesInTheFloorAlone) {
   for (const bool hand : {true, false}) {
     PlateTrial trial;

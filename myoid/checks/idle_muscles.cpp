@@ -18,9 +18,8 @@ namespace {
 bool moves(const model::BodyModel& model, int muscle, int coordinate) {
   constexpr int kSteps = 8;
   const Eigen::VectorXd arms = model::arms_over_range_m(model, muscle, coordinate, kSteps);
-  return std::any_of(arms.begin(), arms.end(), [](double r) {
-    return !std::isfinite(r) || std::abs(r) >= kLimits.least_arm_m;
-  });
+  return std::any_of(arms.begin(), arms.end(),
+                     [](double r) { return !std::isfinite(r) || std::abs(r) >= kLimits.least_arm_m; });
 }
 
 }  // namespace
@@ -32,25 +31,23 @@ std::vector<Remark> idle_muscles(const Study& study, const model::BodyModel& mod
     std::vector<std::string> idle;
     for (const std::string& name : spec.osim) {
       const int muscle = model.muscle_index(name);
-      if (std::none_of(coordinates.begin(), coordinates.end(), [&](const std::string& c) {
-            return moves(model, muscle, model.coordinate_index(c));
-          }))
+      if (std::none_of(coordinates.begin(), coordinates.end(),
+                       [&](const std::string& c) { return moves(model, muscle, model.coordinate_index(c)); }))
         idle.push_back(name);
     }
     if (idle.empty()) continue;
     const bool all = idle.size() == spec.osim.size();
-    found.push_back(
-        {.code = RemarkCode::idle_muscle,
-         .severity = all ? Severity::error : Severity::warning,
-         .where = "study",
-         .about = spec.name,
-         .says = fmt::format("[[muscle]] {}: {} of the model {} no moment arm about {} (expected "
-                             "{:g} mm or more at some angle): {}",
-                             spec.name, fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have",
-                             fmt::join(coordinates, ", "), 1000.0 * kLimits.least_arm_m,
-                             all ? "it can make none of the torque; a muscle of the other side?"
-                                 : "the mean moment arm of this muscle is too small by it"),
-         .remedy = "name muscles that cross the joint in osim, or another coordinate in [model]"});
+    found.push_back({.code = RemarkCode::idle_muscle,
+                     .severity = all ? Severity::error : Severity::warning,
+                     .where = "study",
+                     .about = spec.name,
+                     .says = fmt::format("[[muscle]] {}: {} of the model {} no moment arm about {} (expected "
+                                         "{:g} mm or more at some angle): {}",
+                                         spec.name, fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have",
+                                         fmt::join(coordinates, ", "), 1000.0 * kLimits.least_arm_m,
+                                         all ? "it can make none of the torque; a muscle of the other side?"
+                                             : "the mean moment arm of this muscle is too small by it"),
+                     .remedy = "name muscles that cross the joint in osim, or another coordinate in [model]"});
   }
   return found;
 }

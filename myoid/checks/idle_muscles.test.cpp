@@ -15,8 +15,7 @@ Study study_of(const std::string& coordinate, const std::vector<std::string>& mu
   Study study;
   study.model.file = "model.osim";
   study.model.coordinate = coordinate;
-  for (const std::string& name : muscles)
-    study.muscles.push_back({.name = name, .osim = {name}, .emg = name});
+  for (const std::string& name : muscles) study.muscles.push_back({.name = name, .osim = {name}, .emg = name});
   return study;
 }
 
@@ -41,12 +40,11 @@ TEST(IdleMuscles, TheOtherLegsAreAndThoseOfThePatellaAreNot) {
   const auto path = test::data_folder() / "opensim" / "rajagopal2016" / "model.osim";
   MYOID_REQUIRE_DATA(path);
   const model::BodyModel leg = model::read_osim(path);
-  EXPECT_TRUE(idle_muscles(study_of("knee_angle_r", {"recfem_r", "vasint_r", "vaslat_r", "vasmed_r",
-                                                     "bfsh_r", "gasmed_r", "sart_r", "tfl_r"}),
+  EXPECT_TRUE(idle_muscles(study_of("knee_angle_r", {"recfem_r", "vasint_r", "vaslat_r", "vasmed_r", "bfsh_r",
+                                                     "gasmed_r", "sart_r", "tfl_r"}),
                            leg)
                   .empty());
-  const std::vector<Remark> found =
-      idle_muscles(study_of("ankle_angle_r", {"soleus_r", "soleus_l", "tibant_r"}), leg);
+  const std::vector<Remark> found = idle_muscles(study_of("ankle_angle_r", {"soleus_r", "soleus_l", "tibant_r"}), leg);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].about, "soleus_l");
   // Beside a muscle that has an arm, it makes the mean arm too small.

@@ -19,8 +19,8 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Returns true for a force on a body whose center of pressure moves over the ground.
 bool is_under_a_foot(const dynamics::ExternalForce& force) {
-  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force &&
-         force.point && !force.force->splines.empty() && !force.point->splines.empty();
+  return force.body != 0 && force.force_frame == 0 && force.point_frame == 0 && force.force && force.point &&
+         !force.force->splines.empty() && !force.point->splines.empty();
 }
 
 struct Load {
@@ -29,13 +29,9 @@ struct Load {
   std::vector<double> alone_m;     ///< Median distance from each body alone.
 };
 
-double median_of(std::vector<double> values) {
-  return values.empty() ? kNone : math::median(std::move(values));
-}
+double median_of(std::vector<double> values) { return values.empty() ? kNone : math::median(std::move(values)); }
 
-std::vector<Load> distances(const model::BodyModel& model,
-                            const dynamics::ExternalLoads& loads,
-                            BodyPoints& points) {
+std::vector<Load> distances(const model::BodyModel& model, const dynamics::ExternalLoads& loads, BodyPoints& points) {
   std::vector<Load> result;
   std::vector<double> largest_n;
   const Eigen::Index n = points.frame_count();
@@ -44,8 +40,7 @@ std::vector<Load> distances(const model::BodyModel& model,
   for (const dynamics::ExternalForce& force : loads.forces) {
     if (!is_under_a_foot(force)) continue;
     double largest = 0.0;
-    for (Eigen::Index i = 0; i < n; i += step)
-      largest = std::max(largest, force.force->at(at(i)).norm());
+    for (Eigen::Index i = 0; i < n; i += step) largest = std::max(largest, force.force->at(at(i)).norm());
     if (!(largest > 0.0)) continue;
     result.push_back({&force, {}, {}});
     largest_n.push_back(largest);
@@ -66,29 +61,21 @@ std::vector<Load> distances(const model::BodyModel& model,
     }
   }
   for (std::size_t k = 0; k < result.size(); ++k) {
-    for (std::vector<double>& of_body : all[k])
-      result[k].distance_m.push_back(median_of(std::move(of_body)));
-    for (std::vector<double>& of_body : alone[k])
-      result[k].alone_m.push_back(median_of(std::move(of_body)));
+    for (std::vector<double>& of_body : all[k]) result[k].distance_m.push_back(median_of(std::move(of_body)));
+    for (std::vector<double>& of_body : alone[k]) result[k].alone_m.push_back(median_of(std::move(of_body)));
   }
   return result;
 }
 
 }  // namespace
 
-std::vector<Remark> misplaced_loads(const model::BodyModel& model,
-                                    const TrialSpec& trial,
-                                    const TrialInput& input) {
+std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSpec& trial, const TrialInput& input) {
   std::vector<Remark> found;
   if (!input.loads || (!input.markers && !input.motion)) return found;
-  BodyPoints points(model, input.markers ? &*input.markers : nullptr,
-                    input.motion ? &*input.motion : nullptr);
+  BodyPoints points(model, input.markers ? &*input.markers : nullptr, input.motion ? &*input.motion : nullptr);
   const std::vector<Load> loads = distances(model, *input.loads, points);
-  const auto file =
-      trial.external_loads ? trial.external_loads->filename().string() : std::string("the loads");
-  const auto name = [&](model::BodyIndex b) {
-    return model.bodies[static_cast<std::size_t>(b)].name;
-  };
+  const auto file = trial.external_loads ? trial.external_loads->filename().string() : std::string("the loads");
+  const auto name = [&](model::BodyIndex b) { return model.bodies[static_cast<std::size_t>(b)].name; };
   const auto off = [&](const Load& load, model::BodyIndex body) {
     return load.distance_m[static_cast<std::size_t>(body)];
   };
@@ -97,15 +84,13 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model,
     const model::BodyIndex own = loads[i].force->body;
     if (off(loads[i], own) > kLimits.elsewhere_m && off(loads[i], own) < kNone) {
       said[i] = true;
-      found.push_back(
-          {.code = RemarkCode::load_misplaced,
-           .severity = Severity::error,
-           .where = trial.name,
-           .says = fmt::format(
-               "{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
-               "while loaded), expected under it: is it in mm, or in other axes or another "
-               "origin than the motion?",
-               file, loads[i].force->name, off(loads[i], own), name(own))});
+      found.push_back({.code = RemarkCode::load_misplaced,
+                       .severity = Severity::error,
+                       .where = trial.name,
+                       .says = fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
+                                           "while loaded), expected under it: is it in mm, or in other axes or another "
+                                           "origin than the motion?",
+                                           file, loads[i].force->name, off(loads[i], own), name(own))});
     }
     for (std::size_t j = i + 1; j < loads.size() && !said[i]; ++j) {
       const model::BodyIndex other = loads[j].force->body;
@@ -115,16 +100,14 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model,
           off(loads[j], own) > kLimits.much_nearer * off(loads[j], other))
         continue;
       said[i] = said[j] = true;
-      found.push_back(
-          {.code = RemarkCode::load_misplaced,
-           .severity = Severity::error,
-           .where = trial.name,
-           .says = fmt::format(
-               "{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
-               "{:.2g} m from its own body and {:.2g} m from the other (median while "
-               "loaded); exchange their applied_to_body",
-               file, loads[i].force->name, name(own), loads[j].force->name, name(other),
-               off(loads[i], own), off(loads[i], other))});
+      found.push_back({.code = RemarkCode::load_misplaced,
+                       .severity = Severity::error,
+                       .where = trial.name,
+                       .says = fmt::format("{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
+                                           "{:.2g} m from its own body and {:.2g} m from the other (median while "
+                                           "loaded); exchange their applied_to_body",
+                                           file, loads[i].force->name, name(own), loads[j].force->name, name(other),
+                                           off(loads[i], own), off(loads[i], other))});
     }
   }
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -132,8 +115,7 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model,
     if (said[i] || off(loads[i], own) < kLimits.off_body_m || off(loads[i], own) == kNone) continue;
     const std::vector<double>& alone = loads[i].alone_m;
     const auto nearest = std::min_element(alone.begin() + 1, alone.end()) - alone.begin();
-    if (alone[static_cast<std::size_t>(nearest)] > kLimits.much_nearer * off(loads[i], own))
-      continue;
+    if (alone[static_cast<std::size_t>(nearest)] > kLimits.much_nearer * off(loads[i], own)) continue;
     found.push_back(
         {.code = RemarkCode::load_misplaced,
          .severity = Severity::warning,
@@ -141,8 +123,7 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model,
          .says = fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
                              "while loaded) and {:.2g} m from {}; is applied_to_body right?",
                              file, loads[i].force->name, name(own), off(loads[i], own),
-                             alone[static_cast<std::size_t>(nearest)],
-                             name(static_cast<model::BodyIndex>(nearest)))});
+                             alone[static_cast<std::size_t>(nearest)], name(static_cast<model::BodyIndex>(nearest)))});
   }
   return found;
 }

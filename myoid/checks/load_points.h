@@ -10,14 +10,12 @@
 
 namespace myoid {
 
-/// Tells whether the measured forces on the ground act at the bodies to which they are applied: a
-/// center of pressure is under its foot. Checks every force with a moving point in ground over the
-/// frames in which it is loaded (a fifth of its largest value or more). The distance from a body is
-/// the median distance from its nearest marker or, for a motion without markers, from the nearest
-/// of its markers, joints and center of mass in the model. It is an error if two forces are each
-/// nearer to the other's body (their feet are exchanged) or a force is more than 2 m away (wrong
-/// unit or axes). It is a warning if a force is more than 0.2 m from its own body and half as far
-/// from another.
+/// Tells whether the measured forces on the ground act at the bodies to which they are applied: a center of pressure is
+/// under its foot. Checks every force with a moving point in ground over the frames in which it is loaded (a fifth of
+/// its largest value or more). The distance from a body is the median distance from its nearest marker or, for a motion
+/// without markers, from the nearest of its markers, joints and center of mass in the model. It is an error if two
+/// forces are each nearer to the other's body (their feet are exchanged) or a force is more than 2 m away (wrong unit
+/// or axes). It is a warning if a force is more than 0.2 m from its own body and half as far from another.
 [[nodiscard]] std::vector<Remark> misplaced_loads(const model::BodyModel& model,
                                                   const TrialSpec& trial,
                                                   const TrialInput& input);

@@ -25,8 +25,7 @@ model::BodyModel walker() {
                          model::TransformAxis{Vec3::UnitY()}, model::TransformAxis{Vec3::UnitZ()}};
     return joint;
   };
-  model.joints = {slider("root", 0, 1, 0, Vec3(0.0, 0.9, 0.0)),
-                  slider("right", 1, 2, 1, Vec3(0.0, -0.9, 0.2)),
+  model.joints = {slider("root", 0, 1, 0, Vec3(0.0, 0.9, 0.0)), slider("right", 1, 2, 1, Vec3(0.0, -0.9, 0.2)),
                   slider("left", 1, 3, 2, Vec3(0.0, -0.9, -0.2))};
   for (const char* name : {"forward", "step_r", "step_l"}) {
     model.coordinates.push_back({.name = name,
@@ -46,13 +45,11 @@ double place(double t, int foot) { return forward(t) + step(t, foot); }
 
 dynamics::LoadColumns columns(const Eigen::VectorXd& t, const Eigen::MatrixX3d& values) {
   dynamics::LoadColumns result;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    result.splines.push_back(math::Spline::interpolate(t, values.col(k), 3));
+  for (Eigen::Index k = 0; k < 3; ++k) result.splines.push_back(math::Spline::interpolate(t, values.col(k), 3));
   return result;
 }
 
-/// Two seconds in which each foot is loaded for half a step; the center of pressure is 5 cm before
-/// its ankle.
+/// Two seconds in which each foot is loaded for half a step; the center of pressure is 5 cm before its ankle.
 struct Walk {
   model::BodyModel model = walker();
   TrialSpec trial;
@@ -77,8 +74,7 @@ struct Walk {
     }
     Eigen::MatrixXd q(200, 3);
     for (Eigen::Index i = 0; i < 200; ++i) q.row(i) << forward(t[i]), step(t[i], 2), step(t[i], 3);
-    input.motion = TimeSeries(
-        t, {{"forward", Unit::meter}, {"step_r", Unit::meter}, {"step_l", Unit::meter}}, q);
+    input.motion = TimeSeries(t, {{"forward", Unit::meter}, {"step_r", Unit::meter}, {"step_l", Unit::meter}}, q);
   }
   void with_markers() {
     recording::MarkerSeries markers;
@@ -89,17 +85,13 @@ struct Walk {
       markers.names.push_back(marker.name);
       for (Eigen::Index i = 0; i < 200; ++i) {
         markers.positions_m.row(i).segment(3 * static_cast<Eigen::Index>(m), 3) =
-            (marker.p_BM +
-             Vec3(place(markers.time_s[i], marker.body), 0.0, marker.body == 2 ? 0.2 : -0.2))
-                .transpose();
+            (marker.p_BM + Vec3(place(markers.time_s[i], marker.body), 0.0, marker.body == 2 ? 0.2 : -0.2)).transpose();
       }
     }
     input.markers = markers;
     input.motion.reset();
   }
-  [[nodiscard]] std::vector<Remark> findings() const {
-    return misplaced_loads(model, trial, input);
-  }
+  [[nodiscard]] std::vector<Remark> findings() const { return misplaced_loads(model, trial, input); }
 };
 
 TEST(MisplacedLoads, AreNoneWhereEveryForceActsUnderItsFoot) {
@@ -117,8 +109,7 @@ TEST(MisplacedLoads, ExchangedFeetAreAnErrorThatNamesBoth) {
     const std::vector<Remark> found = walk.findings();
     ASSERT_EQ(found.size(), 1U) << markers;
     EXPECT_EQ(found[0].severity, Severity::error);
-    EXPECT_NE(found[0].says.find("'right' is applied to calcn_l and 'left' to calcn_r"),
-              std::string::npos)
+    EXPECT_NE(found[0].says.find("'right' is applied to calcn_l and 'left' to calcn_r"), std::string::npos)
         << found[0].says;
   }
 }
@@ -130,15 +121,13 @@ TEST(MisplacedLoads, OneForceOnTheWrongFootIsAWarning) {
   const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::warning);
-  EXPECT_NE(found[0].says.find("from calcn_r; is applied_to_body right?"), std::string::npos)
-      << found[0].says;
+  EXPECT_NE(found[0].says.find("from calcn_r; is applied_to_body right?"), std::string::npos) << found[0].says;
 }
 
 TEST(MisplacedLoads, APointInMillimetersIsAnError) {
   Walk walk;
   for (math::Spline& s : walk.input.loads->forces[0].point->splines)
-    s = math::Spline::interpolate(walk.input.motion->time_s(),
-                                  Eigen::VectorXd::Constant(200, 300.0), 3);
+    s = math::Spline::interpolate(walk.input.motion->time_s(), Eigen::VectorXd::Constant(200, 300.0), 3);
   const std::vector<Remark> found = walk.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);

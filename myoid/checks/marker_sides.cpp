@@ -50,8 +50,7 @@ recording::MarkerSeries one_frame(const recording::MarkerSeries& markers) {
 double rms_m(const model::BodyModel& model,
              const recording::MarkerSeries& frame,
              const std::map<std::string, double>& weights) {
-  return kinematics::inverse_kinematics(model, frame, {.marker_weights = weights})
-      .errors.column("marker_error_RMS")[0];
+  return kinematics::inverse_kinematics(model, frame, {.marker_weights = weights}).errors.column("marker_error_RMS")[0];
 }
 
 }  // namespace
@@ -61,12 +60,8 @@ std::optional<std::string> other_side(const std::string& label) {
     if (label.starts_with(side) && stands_apart(label, side.size()))
       return std::string(other) + label.substr(side.size());
   }
-  for (const auto& [side, other] : {std::pair{"_r", "_l"},
-                                    {"_l", "_r"},
-                                    {"_R", "_L"},
-                                    {"_L", "_R"},
-                                    {".R", ".L"},
-                                    {".L", ".R"}}) {
+  for (const auto& [side, other] :
+       {std::pair{"_r", "_l"}, {"_l", "_r"}, {"_R", "_L"}, {"_L", "_R"}, {".R", ".L"}, {".L", ".R"}}) {
     if (label.ends_with(side)) return label.substr(0, label.size() - 2) + other;
   }
   for (const auto& [side, other] : {std::pair{"r_", "l_"}, {"l_", "r_"}}) {
@@ -103,8 +98,7 @@ std::optional<Remark> exchanged_sides(const model::BodyModel& model,
         .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
                             "with the labels of left and right exchanged: exchange them in the "
                             "file, or by [markers] rename",
-                            trial.markers ? trial.markers->filename().string() : "the markers",
-                            1e3 * now, 1e3 * then)};
+                            trial.markers ? trial.markers->filename().string() : "the markers", 1e3 * now, 1e3 * then)};
   } catch (const InvalidInput&) {
     return std::nullopt;  // the comparison of markers with the model reports this
   }

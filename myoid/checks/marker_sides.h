@@ -12,14 +12,12 @@
 
 namespace myoid {
 
-/// Returns the label of the same place on the other side. The side is a first or last "R", "L",
-/// "right" or "left" that stands apart ("R.Knee", "RASI", "knee_r", "LeftHeel"); empty if there is
-/// none.
+/// Returns the label of the same place on the other side. The side is a first or last "R", "L", "right" or "left" that
+/// stands apart ("R.Knee", "RASI", "knee_r", "LeftHeel"); empty if there is none.
 [[nodiscard]] std::optional<std::string> other_side(const std::string& label);
 
-/// Returns an error if the frame with the most markers fits the model far better with left and
-/// right labels exchanged: rms above 40 mm as labelled, and less than half of that and less than 40
-/// mm exchanged. Needs three pairs of labels.
+/// Returns an error if the frame with the most markers fits the model far better with left and right labels exchanged:
+/// rms above 40 mm as labelled, and less than half of that and less than 40 mm exchanged. Needs three pairs of labels.
 [[nodiscard]] std::optional<Remark> exchanged_sides(const model::BodyModel& model,
                                                     const TrialSpec& trial,
                                                     const recording::MarkerSeries& markers,

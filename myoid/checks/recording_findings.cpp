@@ -30,14 +30,12 @@ RecordingFindings recording_findings(const Study& study,
     }
   });
   if (study.emg.kind != EmgKind::activation)
-    found.levels =
-        signals::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false));
+    found.levels = signals::check_emg_levels(envelopes_of(study, emg_of(inputs), activation, false));
   std::vector<EffortTrial> efforts;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (activation.trials[i].activation.empty()) continue;
     const auto& torque = inputs[i].external_torque;
-    efforts.push_back(
-        {&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation});
+    efforts.push_back({&study.trials[i], torque ? &*torque : nullptr, activation.trials[i].activation});
   }
   found.dynamometers = grouped(dynamometer_signs(study, model, efforts));
   return found;

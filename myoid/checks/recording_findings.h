@@ -19,9 +19,8 @@ struct RecordingFindings {
   std::vector<Remark> dynamometers;            ///< Grouped; `where` is the trial.
 };
 
-/// Checks the channels of every trial, the levels of the EMG over all trials, and the signs of the
-/// dynamometers (`dynamometer_signs`). `inputs` belong to the study's trials. Trials are checked in
-/// parallel.
+/// Checks the channels of every trial, the levels of the EMG over all trials, and the signs of the dynamometers
+/// (`dynamometer_signs`). `inputs` belong to the study's trials. Trials are checked in parallel.
 [[nodiscard]] RecordingFindings recording_findings(const Study& study,
                                                    const model::BodyModel& model,
                                                    const std::vector<TrialInput>& inputs,
@@ -29,8 +28,7 @@ struct RecordingFindings {
 
 /// Returns the warnings among the faults, one line each. Equal faults of several trials share a
 /// line, and after `most` lines a last one counts the others.
-[[nodiscard]] std::vector<std::string> fault_summary(std::vector<Remark> faults,
-                                                     std::size_t most = 12);
+[[nodiscard]] std::vector<std::string> fault_summary(std::vector<Remark> faults, std::size_t most = 12);
 
 /// Returns the EMG of these inputs.
 [[nodiscard]] EmgOfTrials emg_of(const std::vector<TrialInput>& inputs);

@@ -30,9 +30,8 @@ TEST(RecordingFindings, AMovementAboveTheMaximalContractionIsOfTheLevelsAndNotOf
   inputs[1].emg = envelope(2e-4);
   const EmgOfTrials emg = emg_of(inputs);
   EXPECT_EQ(emg[1], &*inputs[1].emg);
-  const RecordingFindings found =
-      recording_findings(study, model::parse_osim(model::arm4_osim(), "arm4.osim"), inputs,
-                         study_activation(study, emg));
+  const RecordingFindings found = recording_findings(study, model::parse_osim(model::arm4_osim(), "arm4.osim"), inputs,
+                                                     study_activation(study, emg));
   ASSERT_EQ(found.of_trials.size(), 2U);
   const auto above = [](const Remark& f) { return f.code == RemarkCode::emg_over_reference; };
   EXPECT_TRUE(std::any_of(found.levels.begin(), found.levels.end(), above));
@@ -54,19 +53,15 @@ Remark bad_channel(const std::string& trial,
 }
 
 TEST(FaultSummary, SaysTheSameOfSeveralTrialsOnce) {
-  const auto lines =
-      fault_summary({bad_channel("one", RemarkCode::emg_hum, "BIC"),
-                     bad_channel("one", RemarkCode::emg_drift, "BIC", Severity::note),
-                     bad_channel("two", RemarkCode::emg_hum, "BIC"),
-                     bad_channel("", RemarkCode::emg_low_signal, "TRI")});
-  EXPECT_EQ(lines,
-            (std::vector<std::string>{"trial one: BIC is bad (likewise in two)", "TRI is bad"}));
+  const auto lines = fault_summary(
+      {bad_channel("one", RemarkCode::emg_hum, "BIC"), bad_channel("one", RemarkCode::emg_drift, "BIC", Severity::note),
+       bad_channel("two", RemarkCode::emg_hum, "BIC"), bad_channel("", RemarkCode::emg_low_signal, "TRI")});
+  EXPECT_EQ(lines, (std::vector<std::string>{"trial one: BIC is bad (likewise in two)", "TRI is bad"}));
 }
 
 TEST(FaultSummary, EndsAfterSoManyLines) {
   std::vector<Remark> faults;
-  for (int k = 0; k < 9; ++k)
-    faults.push_back(bad_channel("t", RemarkCode::marker_gap, std::to_string(k)));
+  for (int k = 0; k < 9; ++k) faults.push_back(bad_channel("t", RemarkCode::marker_gap, std::to_string(k)));
   const auto lines = fault_summary(faults, 5);
   ASSERT_EQ(lines.size(), 6U);
   EXPECT_EQ(lines.back(), "4 more faults: see `myoid check`");

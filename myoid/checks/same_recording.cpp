@@ -33,9 +33,7 @@ std::uint64_t power(std::uint64_t base, Eigen::Index exponent) {
   return result;
 }
 
-bool counts(Use use) {
-  return use == Use::calibration || use == Use::validation || use == Use::isometric;
-}
+bool counts(Use use) { return use == Use::calibration || use == Use::validation || use == Use::isometric; }
 
 std::string of(const std::string& file) { return file.empty() ? "" : fmt::format(" ({})", file); }
 
@@ -74,12 +72,7 @@ double common_share(const Stretches& a, const Stretches& b) {
 }
 
 TrialPrint print_of(const TrialSpec& spec, const TrialInput& input) {
-  TrialPrint print{.trial = spec.name,
-                   .use = spec.use,
-                   .emg_file = {},
-                   .motion_file = {},
-                   .emg = {},
-                   .movement = {}};
+  TrialPrint print{.trial = spec.name, .use = spec.use, .emg_file = {}, .motion_file = {}, .emg = {}, .movement = {}};
   const TimeSeries movement = movement_of(input);
   if (!movement.empty()) print.movement = stretches_of(movement);
   if (input.emg) {
@@ -103,36 +96,30 @@ std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials) {
       const double movement = common_share(a.movement, b.movement);
       const bool both_count = counts(a.use) && counts(b.use);
       const auto add = [&](Severity severity, std::string text) {
-        findings.push_back({.code = RemarkCode::same_recording,
-                            .severity = severity,
-                            .where = b.trial,
-                            .says = std::move(text)});
+        findings.push_back(
+            {.code = RemarkCode::same_recording, .severity = severity, .where = b.trial, .says = std::move(text)});
       };
       if (emg > kEdges && movement > kEdges) {
         if (both_count)
-          add(Severity::error,
-              fmt::format("{:.0f} % of its EMG{} and of its motion are those of trial '{}': one "
-                          "effort would count twice; name each recording once, or give the two "
-                          "trials windows (start_s, end_s) that do not overlap",
-                          100.0 * emg, of(b.emg_file), a.trial));
+          add(Severity::error, fmt::format("{:.0f} % of its EMG{} and of its motion are those of trial '{}': one "
+                                           "effort would count twice; name each recording once, or give the two "
+                                           "trials windows (start_s, end_s) that do not overlap",
+                                           100.0 * emg, of(b.emg_file), a.trial));
       } else if (emg > kEdges) {
         if (both_count) {
-          add(Severity::error,
-              fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}'{}, but its motion is "
-                          "another: one of the two names the wrong file; correct its emg",
-                          100.0 * emg, of(b.emg_file), a.trial, of(a.emg_file)));
+          add(Severity::error, fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}'{}, but its motion is "
+                                           "another: one of the two names the wrong file; correct its emg",
+                                           100.0 * emg, of(b.emg_file), a.trial, of(a.emg_file)));
         } else if (counts(a.use) != counts(b.use)) {
-          add(Severity::warning,
-              fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}': is one of the two file "
-                          "names a slip? A trial that is its own maximal contraction sets 1 to "
-                          "its own largest effort",
-                          100.0 * emg, of(b.emg_file), a.trial));
+          add(Severity::warning, fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}': is one of the two file "
+                                             "names a slip? A trial that is its own maximal contraction sets 1 to "
+                                             "its own largest effort",
+                                             100.0 * emg, of(b.emg_file), a.trial));
         }
       } else if (movement > kEdges && both_count && !a.emg.empty() && !b.emg.empty()) {
-        add(Severity::warning,
-            fmt::format("{:.0f} % of its motion{} is the motion of trial '{}', but its EMG is "
-                        "another: was one of the two files named by mistake?",
-                        100.0 * movement, of(b.motion_file), a.trial));
+        add(Severity::warning, fmt::format("{:.0f} % of its motion{} is the motion of trial '{}', but its EMG is "
+                                           "another: was one of the two files named by mistake?",
+                                           100.0 * movement, of(b.motion_file), a.trial));
       }
     }
   }

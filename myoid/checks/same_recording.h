@@ -32,10 +32,9 @@ struct TrialPrint {
 };
 [[nodiscard]] TrialPrint print_of(const TrialSpec& spec, const TrialInput& input);
 
-/// Finds the same recording in two trials. It is an error if one EMG is combined with two movements
-/// or one effort counts twice. It is a warning if two EMGs are combined with one movement, or if a
-/// maximal contraction repeats a trial. One file may serve several trials with windows that do not
-/// overlap, and several maximal contractions.
+/// Finds the same recording in two trials. It is an error if one EMG is combined with two movements or one effort
+/// counts twice. It is a warning if two EMGs are combined with one movement, or if a maximal contraction repeats a
+/// trial. One file may serve several trials with windows that do not overlap, and several maximal contractions.
 [[nodiscard]] std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials);
 
 }  // namespace myoid

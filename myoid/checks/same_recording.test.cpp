@@ -17,15 +17,12 @@ TimeSeries noise(std::uint64_t seed, Eigen::Index from = 0, Eigen::Index count =
     values(i, 0) = 1e-6 * static_cast<double>(bits % 7);
     values(i, 1) = 1e-6 * static_cast<double>(bits / 7 % 1000);
   }
-  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
-      count, 1e-3 * static_cast<double>(from), 1e-3 * static_cast<double>(from + count - 1));
+  const Eigen::VectorXd time =
+      Eigen::VectorXd::LinSpaced(count, 1e-3 * static_cast<double>(from), 1e-3 * static_cast<double>(from + count - 1));
   return {time, {{"a", Unit::volt}, {"b", Unit::volt}}, values};
 }
 
-TrialPrint print(const std::string& name,
-                 std::uint64_t emg,
-                 std::uint64_t motion,
-                 Use use = Use::calibration) {
+TrialPrint print(const std::string& name, std::uint64_t emg, std::uint64_t motion, Use use = Use::calibration) {
   return {.trial = name,
           .use = use,
           .emg_file = name + ".sto",
@@ -65,8 +62,7 @@ TEST(CommonShare, OfWhatDoesNotChangeIsNone) {
 }
 
 TEST(SameRecordings, OneEmgWithTwoMovementsIsAnError) {
-  const std::vector<Remark> found =
-      same_recordings({print("a", 1, 1), print("b", 2, 2), print("c", 1, 3)});
+  const std::vector<Remark> found = same_recordings({print("a", 1, 1), print("b", 2, 2), print("c", 1, 3)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
   EXPECT_EQ(found[0].where, "c");
@@ -84,8 +80,7 @@ TEST(SameRecordings, OneMovementWithTwoEmgsIsAWarning) {
 
 TEST(SameRecordings, AMaximalContractionThatIsATrialOnceMoreIsAWarning) {
   EXPECT_EQ(levels({print("a", 1, 1), print("m", 1, 2, Use::mvc)}), std::vector{Severity::warning});
-  EXPECT_EQ(levels({print("m", 1, 1, Use::mvc), print("n", 1, 1, Use::mvc)}),
-            std::vector<Severity>{});
+  EXPECT_EQ(levels({print("m", 1, 1, Use::mvc), print("n", 1, 1, Use::mvc)}), std::vector<Severity>{});
 }
 
 TEST(SameRecordings, WindowsOfOneFileThatMeetAreTwoTrials) {
@@ -98,10 +93,8 @@ TEST(SameRecordings, WindowsOfOneFileThatMeetAreTwoTrials) {
   TrialSpec first, second;
   first.name = "a";
   second.name = "b";
-  EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(4000))}),
-            std::vector<Severity>{});
-  EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(3000))}),
-            std::vector{Severity::error});
+  EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(4000))}), std::vector<Severity>{});
+  EXPECT_EQ(levels({print_of(first, window(0)), print_of(second, window(3000))}), std::vector{Severity::error});
 }
 
 }  // namespace

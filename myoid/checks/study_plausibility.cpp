@@ -27,14 +27,12 @@ std::optional<Remark> check_support(const Study& study,
   Eigen::VectorXd q = model.default_q();
   if (input.motion) {
     for (Eigen::Index c = 0; c < input.motion->channel_count(); ++c) {
-      const auto index =
-          model.find_coordinate(input.motion->channels()[static_cast<std::size_t>(c)].name);
+      const auto index = model.find_coordinate(input.motion->channels()[static_cast<std::size_t>(c)].name);
       if (index) q[*index] = input.motion->values()(0, c);
     }
   }
   for (const std::string& name : study_coordinates(study.model)) {
-    if (!model.find_coordinate(name) ||
-        !dynamics::bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
+    if (!model.find_coordinate(name) || !dynamics::bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
       continue;
     const auto weight = dynamics::unsupported_weight(model);
     if (weight)
@@ -63,18 +61,15 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   }
   std::vector<Remark> found = implausible(*study_, *model_, capacities_, trial, input);
   std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
-  auto sides = input.markers
-                   ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight)
-                   : std::nullopt;
+  auto sides = input.markers ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight) : std::nullopt;
   // Exchanged labels would put every force under the other foot.
   found = sides ? std::vector<Remark>{*sides} : misplaced_loads(*model_, trial, input);
   if (found.empty() && input.loads && (input.markers || input.motion))
-    found = foreign_contacts(*model_, trial.name, *input.loads,
-                             {*model_, input.markers ? &*input.markers : nullptr,
-                              input.motion ? &*input.motion : nullptr});
+    found =
+        foreign_contacts(*model_, trial.name, *input.loads,
+                         {*model_, input.markers ? &*input.markers : nullptr, input.motion ? &*input.motion : nullptr});
   std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
-  if (auto support = check_support(*study_, *model_, trial, input))
-    of_trials_.push_back(std::move(*support));
+  if (auto support = check_support(*study_, *model_, trial, input)) of_trials_.push_back(std::move(*support));
 }
 
 std::vector<Remark> StudyPlausibility::findings() const {
@@ -84,33 +79,27 @@ std::vector<Remark> StudyPlausibility::findings() const {
   if (study_->emg.kind == EmgKind::activation) {
     for (Remark& f : same) f.severity = Severity::warning;
     if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
-      found.push_back(
-          {.code = RemarkCode::flat_activations,
-           .severity = Severity::warning,
-           .where = "study",
-           .says = fmt::format(
-               "[emg] kind = \"activation\", but no activation of any trial is above "
-               "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
-               "[emg] kind = \"envelope\"",
-               largest_emg_)});
+      found.push_back({.code = RemarkCode::flat_activations,
+                       .severity = Severity::warning,
+                       .where = "study",
+                       .says = fmt::format("[emg] kind = \"activation\", but no activation of any trial is above "
+                                           "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
+                                           "[emg] kind = \"envelope\"",
+                                           largest_emg_)});
     }
   }
-  for (std::vector<Remark> more : {shared_muscles(*study_), idle_muscles(*study_, *model_), same,
-                                   grouped(unlike_lengths(lengths_))})
+  for (std::vector<Remark> more :
+       {shared_muscles(*study_), idle_muscles(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
     std::move(more.begin(), more.end(), std::back_inserter(found));
   return found;
 }
 
-void require_plausible(const Study& study,
-                       const model::BodyModel& model,
-                       std::vector<TrialInput>& inputs) {
+void require_plausible(const Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs) {
   StudyPlausibility plausibility(study, model);
   const auto take = [&](std::vector<Remark> findings) {
     for (Remark& f : findings) {
       if (f.severity == Severity::error)
-        throw InvalidInput(f.where == "study"
-                               ? sentence(f)
-                               : fmt::format("{} (trial '{}')", sentence(f), f.where));
+        throw InvalidInput(f.where == "study" ? sentence(f) : fmt::format("{} (trial '{}')", sentence(f), f.where));
       // Findings on the whole study are listed with its first trial.
       std::size_t at = 0;
       while (at < inputs.size() && study.trials[at].name != f.where) ++at;

@@ -35,10 +35,7 @@ class StudyPlausibility {
   double largest_emg_ = 0.0;  ///< Over all trials.
 };
 
-/// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the
-/// trials'.
-void require_plausible(const Study& study,
-                       const model::BodyModel& model,
-                       std::vector<TrialInput>& inputs);
+/// Runs all these checks: throws InvalidInput for the first error and adds the warnings to the trials'.
+void require_plausible(const Study& study, const model::BodyModel& model, std::vector<TrialInput>& inputs);
 
 }  // namespace myoid

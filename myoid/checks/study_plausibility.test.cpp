@@ -24,9 +24,8 @@ TimeSeries emg(std::uint64_t seed) {
 
 TimeSeries elbow_motion(double to_deg) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(200, 0.0, 1.99);
-  return {time,
-          {{"elbow_flexion", Unit::radian}},
-          Eigen::MatrixXd(kDegree * to_deg * (2.0 * time.array()).sin().abs())};
+  return {
+      time, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd(kDegree * to_deg * (2.0 * time.array()).sin().abs())};
 }
 
 struct TwoTrials {
@@ -87,8 +86,7 @@ TEST(RequirePlausible, RefusesAMuscleThatMovesNoneOfTheCoordinates) {
     require_plausible(two.study, two.model, two.inputs);
     FAIL() << "not refused";
   } catch (const InvalidInput& error) {
-    EXPECT_NE(std::string(error.what()).find("no moment arm about shoulder_flexion"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("no moment arm about shoulder_flexion"), std::string::npos)
         << error.what();
   }
 }
@@ -175,8 +173,7 @@ TEST(StudyPlausibility, AStandingPersonWithoutAnyMeasuredForceIsSaid) {
     if (input.external_torque) trial.external_torque = "push.sto";
     TrialInput with = input;
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
-    with.motion =
-        TimeSeries(t, {{"knee_angle", Unit::radian}}, Eigen::MatrixXd::Constant(100, 1, knee_rad));
+    with.motion = TimeSeries(t, {{"knee_angle", Unit::radian}}, Eigen::MatrixXd::Constant(100, 1, knee_rad));
     StudyPlausibility plausibility(study, model);
     plausibility.look_at(trial, with);
     const auto found = plausibility.findings();
@@ -192,9 +189,8 @@ TEST(StudyPlausibility, AStandingPersonWithoutAnyMeasuredForceIsSaid) {
   measured.loads.emplace();
   EXPECT_FALSE(said(measured, Use::calibration, 0.0));
   TrialInput held;
-  held.external_torque =
-      TimeSeries(Eigen::VectorXd::LinSpaced(100, 0.0, 1.0),
-                 {{"knee_angle_moment", Unit::newton_meter}}, Eigen::MatrixXd::Ones(100, 1));
+  held.external_torque = TimeSeries(Eigen::VectorXd::LinSpaced(100, 0.0, 1.0),
+                                    {{"knee_angle_moment", Unit::newton_meter}}, Eigen::MatrixXd::Ones(100, 1));
   EXPECT_FALSE(said(held, Use::calibration, 0.0));
 }
 

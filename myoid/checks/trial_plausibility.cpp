@@ -29,8 +29,7 @@ void check_angles(const Study& study,
     const auto index = model.find_coordinate(name);
     if (!column || !index) continue;
     const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(*index)];
-    if (c.motion == model::MotionType::translational || !(c.upper - c.lower > kBeyond_rad))
-      continue;
+    if (c.motion == model::MotionType::translational || !(c.upper - c.lower > kBeyond_rad)) continue;
     const auto q = motion.values().col(*column).array();
     const auto outside = (q < c.lower - kBeyond_rad || q > c.upper + kBeyond_rad).count();
     if (outside == 0) continue;
@@ -38,22 +37,20 @@ void check_angles(const Study& study,
     const double far = std::max(c.lower - q.minCoeff(), q.maxCoeff() - c.upper);
     // A coordinate that is outside most of the time follows another convention.
     const bool wrong = share > kLimits.angle_share && c.clamped;
-    const bool negated =
-        (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
+    const bool negated = (-q.maxCoeff() >= c.lower - kBeyond_rad) && (-q.minCoeff() <= c.upper + kBeyond_rad);
     findings.push_back(
         {.code = RemarkCode::angle_outside_range,
          .severity = wrong ? Severity::error : Severity::warning,
          .where = where,
          .about = name,
-         .says = fmt::format(
-             "{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
-             "of the samples lie outside, by up to {} deg, where its muscle paths mean "
-             "nothing; {}",
-             name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
-             whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share,
-             whole_degrees(far),
-             negated ? "is its sign the opposite of the model's? Negate the column"
-                     : "is its zero or sign another than the model's?")});
+         .says =
+             fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
+                         "of the samples lie outside, by up to {} deg, where its muscle paths mean "
+                         "nothing; {}",
+                         name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
+                         whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
+                         negated ? "is its sign the opposite of the model's? Negate the column"
+                                 : "is its zero or sign another than the model's?")});
   }
 }
 
@@ -64,35 +61,31 @@ void check_held_mass(const Study& study,
                      std::vector<Remark>& findings) {
   if (!(trial.held_mass_kg > 0.0)) return;
   if (study.subject.mass_kg && trial.held_mass_kg > *study.subject.mass_kg) {
-    findings.push_back(
-        {.code = RemarkCode::held_mass_impossible,
-         .severity = Severity::error,
-         .where = trial.name,
-         .about = "held mass",
-         .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
-                             "in grams or pounds, or is a decimal point missing?",
-                             trial.held_mass_kg, *study.subject.mass_kg)});
+    findings.push_back({.code = RemarkCode::held_mass_impossible,
+                        .severity = Severity::error,
+                        .where = trial.name,
+                        .about = "held mass",
+                        .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
+                                            "in grams or pounds, or is a decimal point missing?",
+                                            trial.held_mass_kg, *study.subject.mass_kg)});
     return;
   }
   if (!study.model.held_mass && study.model.file) return;  // reported as an error elsewhere
-  const auto body =
-      study.model.held_mass ? model.find_body(study.model.held_mass->body) : std::nullopt;
+  const auto body = study.model.held_mass ? model.find_body(study.model.held_mass->body) : std::nullopt;
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
   for (const auto& [name, capacity] : capacities) {
     double lever_m = capacity.lever_m;
     if (body) {
       const auto b = static_cast<std::size_t>(*body);
-      const auto joint = static_cast<std::size_t>(
-          model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].joint);
+      const auto joint =
+          static_cast<std::size_t>(model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))].joint);
       if (!dynamics::moved_bodies(model, static_cast<int>(joint))[b]) continue;
-      const Vec3 center = state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] *
-                          model.joints[joint].X_BM.p;
+      const Vec3 center = state.X_GB[static_cast<std::size_t>(model.joints[joint].child)] * model.joints[joint].X_BM.p;
       lever_m = (state.X_GB[b] * study.model.held_mass->p_BP_m - center).norm();
     }
     const double moment_nm = trial.held_mass_kg * kStandardGravity * lever_m;
-    const bool still =
-        trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
+    const bool still = trial.use == Use::isometric || trial.use == Use::static_pose || trial.use == Use::mvc;
     const double most_nm = (still ? 1.0 : kLimits.lift_share) * capacity.isometric_nm();
     if (!(most_nm > 0.0) || moment_nm <= most_nm) continue;
     findings.push_back(
@@ -100,12 +93,11 @@ void check_held_mass(const Study& study,
          .severity = Severity::warning,
          .where = trial.name,
          .about = name,
-         .says = fmt::format(
-             "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
-             "literature's strength all muscles of the model can {} {:.0f} N m there: is "
-             "it in other units, or is a decimal point missing?",
-             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again",
-             most_nm)});
+         .says = fmt::format("held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
+                             "literature's strength all muscles of the model can {} {:.0f} N m there: is "
+                             "it in other units, or is a decimal point missing?",
+                             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again",
+                             most_nm)});
   }
 }
 
@@ -121,8 +113,8 @@ void check_vertical(const Study& study,
   for (const std::string& name : study_coordinates(study.model)) {
     const auto index = model.find_coordinate(name);
     if (!index) continue;
-    const auto& joint = model.joints[static_cast<std::size_t>(
-        model.coordinates[static_cast<std::size_t>(*index)].joint)];
+    const auto& joint =
+        model.joints[static_cast<std::size_t>(model.coordinates[static_cast<std::size_t>(*index)].joint)];
     limb[static_cast<std::size_t>(joint.parent)] = true;
     limb[static_cast<std::size_t>(joint.child)] = true;
   }
@@ -140,8 +132,7 @@ void check_vertical(const Study& study,
       trunk.positions_m.rightCols(3) = input.markers->positions_m.middleCols(3 * m, 3);
     }
   }
-  const Mat3 back =
-      rotation_onto(model, input.up_L).transpose();  // the markers were turned on reading
+  const Mat3 back = rotation_onto(model, input.up_L).transpose();  // the markers were turned on reading
   const std::string told = recording::axis_name(input.up_L);
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);
@@ -154,13 +145,12 @@ void check_vertical(const Study& study,
          .severity = Severity::warning,
          .where = where,
          .about = "trunk",
-         .says = fmt::format(
-             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
-             "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
-             "across the body; correct [markers] up",
-             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
-             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree,
-             std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up)});
+         .says = fmt::format("{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
+                             "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
+                             "across the body; correct [markers] up",
+                             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
+                             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree,
+                             std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up)});
     return;
   }
 }
@@ -171,8 +161,7 @@ Capacities joint_capacities(const Study& study, const model::BodyModel& model) {
   Capacities capacities;
   for (const std::string& name : study_coordinates(study.model)) {
     const auto index = model.find_coordinate(name);
-    if (!index || model.coordinates[static_cast<std::size_t>(*index)].motion ==
-                      model::MotionType::translational)
+    if (!index || model.coordinates[static_cast<std::size_t>(*index)].motion == model::MotionType::translational)
       continue;
     capacities[name] = dynamics::joint_capacity(model, name, study.subject.mass_kg.value_or(0.0));
   }
@@ -199,9 +188,8 @@ std::string too_much_torque(const std::string& coordinate,
       "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
       "in this model, {:.3g} N m{}",
       what_it_is, peak_nm, coordinate, greatest_nm,
-      peak_nm < 1000.0 * greatest_nm
-          ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
-          : "; correct its unit (N m)");
+      peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
+                                     : "; correct its unit (N m)");
 }
 
 std::vector<Remark> implausible(const Study& study,
@@ -214,9 +202,8 @@ std::vector<Remark> implausible(const Study& study,
     for (const auto& [name, capacity] : capacities) {
       const auto column = input.external_torque->find(name + "_moment");
       if (!column) continue;
-      const std::string text =
-          too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
-                          capacity.greatest_nm(), trial.external_torque->filename().string());
+      const std::string text = too_much_torque(name, usual_peak(input.external_torque->values().col(*column)),
+                                               capacity.greatest_nm(), trial.external_torque->filename().string());
       if (!text.empty())
         findings.push_back({.code = RemarkCode::torque_impossible,
                             .severity = Severity::error,

@@ -18,10 +18,9 @@ namespace myoid {
 using Capacities = std::map<std::string, dynamics::JointCapacity>;
 [[nodiscard]] Capacities joint_capacities(const Study& study, const model::BodyModel& model);
 
-/// Finds impossible inputs: an external torque beyond any joint's capacity (N mm?), a held mass
-/// beyond the muscles' strength, angles far outside the model's range (sign or convention?), the
-/// laboratory's vertical across the trunk, a passive trial without a measured torque. Each finding
-/// has numbers and a remedy.
+/// Finds impossible inputs: an external torque beyond any joint's capacity (N mm?), a held mass beyond the muscles'
+/// strength, angles far outside the model's range (sign or convention?), the laboratory's vertical across the trunk, a
+/// passive trial without a measured torque. Each finding has numbers and a remedy.
 [[nodiscard]] std::vector<Remark> implausible(const Study& study,
                                               const model::BodyModel& model,
                                               const Capacities& capacities,
@@ -34,8 +33,7 @@ inline constexpr double kFlatActivation = kLimits.flat_activation;
 /// Returns the size that one sample in a hundred exceeds, so that a single spike does not decide.
 [[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an
-/// empty text.
+/// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an empty text.
 [[nodiscard]] std::string too_much_torque(const std::string& coordinate,
                                           double peak_nm,
                                           double greatest_nm,

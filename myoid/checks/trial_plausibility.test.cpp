@@ -29,8 +29,8 @@ struct Elbow {
 /// Sine between two angles.
 TimeSeries angle(double from_deg, double to_deg) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
-  const Eigen::MatrixXd q = kDegree * (0.5 * (from_deg + to_deg) +
-                                       0.5 * (to_deg - from_deg) * (3.0 * time.array()).sin());
+  const Eigen::MatrixXd q =
+      kDegree * (0.5 * (from_deg + to_deg) + 0.5 * (to_deg - from_deg) * (3.0 * time.array()).sin());
   return {time, {{"elbow_flexion", Unit::radian}}, q};
 }
 
@@ -40,9 +40,8 @@ TEST(Implausible, TorqueInNewtonMillimetersIsAnErrorWithTheRemedy) {
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(400, 0.0, 4.0);
   for (const double peak_nm : {2.0, 20.0, 70.0}) {
     for (const double unit : {1.0, 1000.0}) {
-      elbow.input.external_torque =
-          TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
-                     Eigen::MatrixXd(unit * peak_nm * (2.0 * time.array()).sin()));
+      elbow.input.external_torque = TimeSeries(time, {{"elbow_flexion_moment", Unit::newton_meter}},
+                                               Eigen::MatrixXd(unit * peak_nm * (2.0 * time.array()).sin()));
       const std::vector<Remark> found = elbow.findings();
       ASSERT_EQ(found.size(), unit > 1.0 ? 1U : 0U) << peak_nm;
       if (found.empty()) continue;
@@ -78,8 +77,7 @@ TEST(Implausible, AnAngleOfAnotherConventionIsOnlyAWarningWhereTheRangeIsNoLimit
   EXPECT_EQ(elbow.findings()[0].severity, Severity::error);
   EXPECT_NE(elbow.findings()[0].says.find("zero or sign another"), std::string::npos);
   model::Coordinate& c =
-      elbow.model
-          .coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
+      elbow.model.coordinates[static_cast<std::size_t>(elbow.model.coordinate_index("elbow_flexion"))];
   c.clamped = false;
   EXPECT_EQ(elbow.findings()[0].severity, Severity::warning);
   c.lower = c.upper = 0.0;  // the model has no range
@@ -157,13 +155,10 @@ model::BodyModel trunk_with_arm() {
   model.joints = {hinge("root", 0, 1, 0), hinge("shoulder", 1, 2, 1), hinge("elbow", 2, 3, 2)};
   model.joints[2].X_PF.p = Vec3(0.0, -0.3, 0.0);
   for (const char* name : {"tilt", "shoulder", "elbow_flexion"}) {
-    model.coordinates.push_back(
-        {.name = name, .joint = static_cast<int>(model.coordinates.size())});
+    model.coordinates.push_back({.name = name, .joint = static_cast<int>(model.coordinates.size())});
   }
-  const std::vector<Vec3> places{
-      {0, 0, 0}, {0.1, 0.4, 0}, {0, 0.4, 0.2}, {0, 0.4, -0.2}, {0.1, 0.1, 0.1}};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    model.markers.push_back({"T" + std::to_string(i), 1, places[i]});
+  const std::vector<Vec3> places{{0, 0, 0}, {0.1, 0.4, 0}, {0, 0.4, 0.2}, {0, 0.4, -0.2}, {0.1, 0.1, 0.1}};
+  for (std::size_t i = 0; i < places.size(); ++i) model.markers.push_back({"T" + std::to_string(i), 1, places[i]});
   return model::finalize(std::move(model));
 }
 
@@ -177,8 +172,7 @@ TEST(Implausible, AVerticalThatLiesAcrossTheTrunkIsAWarning) {
     markers.names.push_back(m.name);
     markers.positions_m.conservativeResize(Eigen::NoChange, markers.positions_m.cols() + 3);
     // A laboratory whose z points up: the model's (x, y, z) is its (x, -z, y).
-    markers.positions_m.rightCols(3) =
-        Vec3(m.p_BM.x(), -m.p_BM.z(), m.p_BM.y()).transpose().replicate(20, 1);
+    markers.positions_m.rightCols(3) = Vec3(m.p_BM.x(), -m.p_BM.z(), m.p_BM.y()).transpose().replicate(20, 1);
   }
   elbow.study.model.builtin.clear();
   for (const char up : {'z', 'x', 'y'}) {
@@ -213,9 +207,7 @@ std::vector<Remark> of_a_trunk_along(const Vec3& axis, const std::string& coordi
 }
 
 TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
-  const auto leaning = [](double deg) {
-    return Vec3(0.0, std::cos(deg * kDegree), std::sin(deg * kDegree));
-  };
+  const auto leaning = [](double deg) { return Vec3(0.0, std::cos(deg * kDegree), std::sin(deg * kDegree)); };
   EXPECT_EQ(of_a_trunk_along(leaning(65.0)).size(), 1U);
   EXPECT_TRUE(of_a_trunk_along(leaning(57.0)).empty());
   // Across, but not upright by another axis either.
@@ -233,8 +225,7 @@ TEST(Implausible, APassiveTrialWithoutAMeasuredTorqueGivesNothingAndIsSaid) {
   const std::vector<Remark> found = elbow.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::warning);
-  EXPECT_NE(sentence(found[0]).find("give external_torque"), std::string::npos)
-      << sentence(found[0]);
+  EXPECT_NE(sentence(found[0]).find("give external_torque"), std::string::npos) << sentence(found[0]);
   elbow.trial.load_cell = "cell.csv";
   EXPECT_TRUE(elbow.findings().empty());
 }

@@ -25,8 +25,7 @@ std::optional<Eigen::VectorXd> height_of(const model::BodyModel& model, const Tr
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(markers.frame_count());
   double count = 0.0;
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-    const Eigen::VectorXd height =
-        markers.positions_m.middleCols(3 * m, 3) * -model.gravity_G.normalized();
+    const Eigen::VectorXd height = markers.positions_m.middleCols(3 * m, 3) * -model.gravity_G.normalized();
     if (!height.allFinite()) continue;
     sum += height;
     count += 1.0;
@@ -47,9 +46,7 @@ double acceleration_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& hei
 
 }  // namespace
 
-std::vector<Remark> unloaded_times(const model::BodyModel& model,
-                                   const TrialSpec& trial,
-                                   const TrialInput& input) {
+std::vector<Remark> unloaded_times(const model::BodyModel& model, const TrialSpec& trial, const TrialInput& input) {
   if (!input.loads || (!input.markers && !input.motion)) return {};
   const auto weight = dynamics::unsupported_weight(model);
   const auto height = weight ? height_of(model, input) : std::nullopt;
@@ -62,8 +59,7 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model,
     double sum = 0.0;
     const double at = input.loads->data_time_s(t[i]);
     for (const dynamics::ExternalForce& force : input.loads->forces) {
-      if (force.body != 0 && force.force_frame == 0 && force.force)
-        sum += up.dot(force.force->at(at));
+      if (force.body != 0 && force.force_frame == 0 && force.force) sum += up.dot(force.force->at(at));
     }
     share[i] = sum / weight->weight_n;
   }
@@ -75,9 +71,7 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model,
     while (i < t.size() && share[i] < kLimits.bears_nothing) ++i;
     if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
     // A body in the air falls without any plate.
-    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) <
-        -kLimits.falls * g)
-      continue;
+    if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -kLimits.falls * g) continue;
     times.push_back(fmt::format("{:.4g} to {:.4g} s", t[first], t[i - 1]));
     sum_s += t[i - 1] - t[first];
   }
@@ -86,11 +80,10 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model,
            .severity = Severity::warning,
            .where = trial.name,
            .about = "ground",
-           .says = fmt::format(
-               "no measured force carries the body in {:.0f} % of the trial ({}), and it "
-               "does not fall: was a foot beside the plates? `run` does not fit those "
-               "times; start_s and end_s leave them out altogether",
-               100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", "))}};
+           .says = fmt::format("no measured force carries the body in {:.0f} % of the trial ({}), and it "
+                               "does not fall: was a foot beside the plates? `run` does not fit those "
+                               "times; start_s and end_s leave them out altogether",
+                               100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", "))}};
 }
 
 }  // namespace myoid

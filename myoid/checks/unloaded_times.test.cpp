@@ -19,12 +19,10 @@ model::BodyModel trunk(const Vec3& up) {
   root.coordinates = {0};
   root.rotation = {model::TransformAxis{Vec3::UnitX()}, model::TransformAxis{Vec3::UnitY()},
                    model::TransformAxis{Vec3::UnitZ()}};
-  root.translation = {model::TransformAxis{Vec3::UnitX()},
-                      model::TransformAxis{up, 0, model::Linear{1.0, 0.0}},
+  root.translation = {model::TransformAxis{Vec3::UnitX()}, model::TransformAxis{up, 0, model::Linear{1.0, 0.0}},
                       model::TransformAxis{up.unitOrthogonal()}};
   model.joints = {root};
-  model.coordinates.push_back(
-      {.name = "height", .joint = 0, .motion = model::MotionType::translational});
+  model.coordinates.push_back({.name = "height", .joint = 0, .motion = model::MotionType::translational});
   model.markers.push_back({"sternum", 1, Vec3(0.0, 0.3, 0.1)});
   return model::finalize(std::move(model));
 }
@@ -53,17 +51,13 @@ struct WalkWithGap {
     const auto upward = [&](const Eigen::VectorXd& values) {
       dynamics::LoadColumns columns;
       for (int axis = 0; axis < 3; ++axis)
-        columns.splines.push_back(
-            math::Spline::interpolate(t.array() + clock_s, (axis == up ? 1.0 : 0.0) * values, 1));
+        columns.splines.push_back(math::Spline::interpolate(t.array() + clock_s, (axis == up ? 1.0 : 0.0) * values, 1));
       return columns;
     };
     TrialInput input;
     input.loads.emplace();
-    input.loads->forces.push_back({.name = "plate",
-                                   .body = 1,
-                                   .force = upward(kWeight_n * share),
-                                   .point = upward(0.0 * share),
-                                   .torque = {}});
+    input.loads->forces.push_back(
+        {.name = "plate", .body = 1, .force = upward(kWeight_n * share), .point = upward(0.0 * share), .torque = {}});
     // A force of the person on the ground carries no weight.
     input.loads->forces.push_back({.name = "ground",
                                    .body = 0,

@@ -7,10 +7,10 @@
 namespace myoid::cli {
 
 void add_bids(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "bids",
-      "A BIDS data set, in the form of a BIDS App: first every participant, then the group.\n"
-      "Example: myoid bids data out participant --participant-label 01 02");
+  CLI::App& command =
+      *app.add_subcommand("bids",
+                          "A BIDS data set, in the form of a BIDS App: first every participant, then the group.\n"
+                          "Example: myoid bids data out participant --participant-label 01 02");
   const auto out = std::make_shared<std::string>();
   const auto level = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::CohortOptions>();
@@ -23,8 +23,7 @@ void add_bids(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"participant", "group"}));
   command.add_option("--participant-label,--participant_label", options->persons,
                      "Labels without sub-, several (default: everybody)");
-  command.add_option("--study", options->study,
-                     "The study of every person (default: code/study.toml of the data set)");
+  command.add_option("--study", options->study, "The study of every person (default: code/study.toml of the data set)");
   add_cohort_options(command, *options);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, options, out, level] {

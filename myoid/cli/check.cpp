@@ -17,8 +17,7 @@ namespace {
 nlohmann::ordered_json findings_json(const std::vector<Remark>& findings) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Remark& f : findings) {
-    json.push_back(
-        {{"level", std::string(name(f.severity))}, {"where", f.where}, {"message", sentence(f)}});
+    json.push_back({{"level", std::string(name(f.severity))}, {"where", f.where}, {"message", sentence(f)}});
     if (!f.when) continue;
     json.back()["fault"] = std::string(name(f.code));
     json.back()["channel"] = f.about;
@@ -36,10 +35,9 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
     const bool again = !f.remedy.empty() && !said.insert(f.remedy).second;
     fmt::print("{:<8} {}: {}\n", name(f.severity), f.where, again ? f.says : sentence(f));
   }
-  const std::string subject = result.of_study
-                                  ? fmt::format("{}, {}", counted(result.trials, "trial"),
-                                                counted(result.muscles, "muscle"))
-                                  : input;
+  const std::string subject =
+      result.of_study ? fmt::format("{}, {}", counted(result.trials, "trial"), counted(result.muscles, "muscle"))
+                      : input;
   fmt::print("{}: {}, {}\n", subject, counted(result.errors, "error"),
              counted(result.findings.size() - result.errors, "remark"));
 }
@@ -55,13 +53,11 @@ void add_check(CLI::App& app, Context& context) {
   const auto o = std::make_shared<commands::CheckOptions>();
   const std::string recordings = recording::endings_text(
       [](const recording::FormatEntry& entry) { return recording::is_recording(entry.format); });
-  command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)
-      ->required();
+  command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)->required();
   command
-      .add_option(
-          "--up", o->up,
-          "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y "
-          "or -z (default: as the file says)")
+      .add_option("--up", o->up,
+                  "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y "
+                  "or -z (default: as the file says)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, o] {

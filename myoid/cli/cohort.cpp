@@ -10,10 +10,9 @@
 namespace myoid::cli {
 
 void add_cohort(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("cohort",
-                          "Many persons: a run for each, then all results side by side.\n"
-                          "Example: myoid cohort persons.csv --out cohort --jobs 2");
+  CLI::App& command = *app.add_subcommand("cohort",
+                                          "Many persons: a run for each, then all results side by side.\n"
+                                          "Example: myoid cohort persons.csv --out cohort --jobs 2");
   const auto out = std::make_shared<std::string>();
   const auto group = std::make_shared<bool>(false);
   const auto engine = std::make_shared<std::optional<cohort::Engine>>();
@@ -23,10 +22,9 @@ void add_cohort(CLI::App& app, Context& context) {
                   "Table with the columns name and study, a row a person; or a BIDS data set")
       ->required();
   command.add_option("--out", *out, "Folder of the results")->required();
-  command.add_option("--study", options->study,
-                     "BIDS: the study of every person (default: code/study.toml)");
-  CLI::Option* const person = command.add_option(
-      "--person", options->persons, "Only this person, without the group; may be repeated");
+  command.add_option("--study", options->study, "BIDS: the study of every person (default: code/study.toml)");
+  CLI::Option* const person =
+      command.add_option("--person", options->persons, "Only this person, without the group; may be repeated");
   CLI::Option* const group_only =
       command.add_flag("--group", *group, "Only the group: the tables and page of all persons");
   command
@@ -44,8 +42,7 @@ void add_cohort(CLI::App& app, Context& context) {
       fmt::print("{}\n", commands::write_cohort_workflow(*options, **engine, *out));
       return;
     }
-    run_cohort(context, *options, *out,
-               {.persons = !*group, .group = *group || options->persons.empty()});
+    run_cohort(context, *options, *out, {.persons = !*group, .group = *group || options->persons.empty()});
   });
 }
 

@@ -23,8 +23,7 @@ void print_outcomes(const std::vector<PersonOutcome>& outcomes) {
   for (const PersonOutcome& each : outcomes) width = std::max(width, each.person.size());
   for (const PersonOutcome& each : outcomes) {
     fmt::print("{:<{}}  {:<13}  {}{}\n", each.person, width, word_of(each),
-               each.reused ? "(as before: same input) " : "",
-               each.outcome ? each.outcome->message : "");
+               each.reused ? "(as before: same input) " : "", each.outcome ? each.outcome->message : "");
   }
 }
 
@@ -42,12 +41,11 @@ void print_json(const std::vector<PersonOutcome>& outcomes) {
 /// Returns the code of `run` for one person; for several, failures count before gates.
 int code_of(const std::vector<PersonOutcome>& outcomes) {
   const auto any = [&](OutcomeKind kind) {
-    return std::any_of(outcomes.begin(), outcomes.end(), [&](const PersonOutcome& each) {
-      return each.outcome && each.outcome->kind == kind;
-    });
+    return std::any_of(outcomes.begin(), outcomes.end(),
+                       [&](const PersonOutcome& each) { return each.outcome && each.outcome->kind == kind; });
   };
-  const bool open = std::any_of(outcomes.begin(), outcomes.end(),
-                                [](const PersonOutcome& each) { return !each.outcome; });
+  const bool open =
+      std::any_of(outcomes.begin(), outcomes.end(), [](const PersonOutcome& each) { return !each.outcome; });
   if (any(OutcomeKind::failed) && outcomes.size() == 1) return kBadInput;
   if (open || any(OutcomeKind::failed) || any(OutcomeKind::trials_failed)) return kSomeTrialsFailed;
   return any(OutcomeKind::gate_failed) ? kQualityGateFailed : kDone;
@@ -83,9 +81,7 @@ void run_cohort(Context& context,
 }
 
 void add_cohort_options(CLI::App& command, commands::CohortOptions& options) {
-  command
-      .add_option("--estimator", options.estimator,
-                  "least_squares or posterior, in place of the studies'")
+  command.add_option("--estimator", options.estimator, "least_squares or posterior, in place of the studies'")
       ->transform(one_of<identification::EstimatorKind>());
   command
       .add_option("--jobs", options.jobs,

@@ -36,15 +36,13 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
 }
 
 void print(const RunComparison& comparison) {
-  fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]",
-             "first", "second", "difference", "p", "verdict");
+  fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", "muscle", "parameter [unit]", "first", "second",
+             "difference", "p", "verdict");
   for (const ComparedParameter& p : comparison.parameters) {
-    if (p.first.method == "paper")
-      continue;  // in the report; shared forces do not describe a person
+    if (p.first.method == "paper") continue;  // in the report; shared forces do not describe a person
     fmt::print("{:<10} {:<30} {:>10} {:>10} {:>11} {:>9}  {}\n", p.muscle,
-               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)),
-               report::format_value(p.first.estimate), report::format_value(p.second.estimate),
-               report::format_value(p.difference),
+               fmt::format("{} [{}]", p.first.parameter, symbol(p.first.unit)), report::format_value(p.first.estimate),
+               report::format_value(p.second.estimate), report::format_value(p.difference),
                p.p_value ? fmt::format("{:.2g}", *p.p_value) : "-", name(p.change));
   }
   for (const std::string& remark : comparison.remarks) fmt::print("{}\n", remark);
@@ -53,11 +51,11 @@ void print(const RunComparison& comparison) {
 }  // namespace
 
 void add_compare(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "compare",
-      "Two finished runs, number by number: which parameters differ by more than chance, which do "
-      "not, and which the recordings cannot tell.\n"
-      "Example: myoid compare results/before results/after --out compared");
+  CLI::App& command =
+      *app.add_subcommand("compare",
+                          "Two finished runs, number by number: which parameters differ by more than chance, which do "
+                          "not, and which the recordings cannot tell.\n"
+                          "Example: myoid compare results/before results/after --out compared");
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::CompareOptions>();
   command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();

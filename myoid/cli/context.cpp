@@ -35,12 +35,11 @@ struct ProgressBar {
     if (share < 1.0 && now - last < std::chrono::milliseconds(100)) return;
     last = now;
     const double elapsed_s = std::chrono::duration<double>(now - begin).count();
-    const std::string left = share > 0.02 && share < 1.0
-                                 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share)
-                                 : "";
+    const std::string left =
+        share > 0.02 && share < 1.0 ? fmt::format("{:.0f} s left", elapsed_s * (1.0 - share) / share) : "";
     const int filled = static_cast<int>(share * 24.0);
-    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled,
-               100.0 * share, left, what);
+    fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", 24 - filled, 100.0 * share, left,
+               what);
     std::fflush(stderr);
   }
 };
@@ -52,21 +51,19 @@ namespace {
 /// Limits the threads to --threads or the number of cores, and to the number that the system
 /// grants: the scheduler ends the program where the system refuses a thread.
 void limit_threads(Context& context) {
-  const int wanted =
-      context.threads > 0 ? context.threads : oneapi::tbb::info::default_concurrency();
+  const int wanted = context.threads > 0 ? context.threads : oneapi::tbb::info::default_concurrency();
   const int granted = wanted > 1 ? std::max(1, granted_threads(wanted)) : wanted;
   if (granted < wanted) {
-    context.warn(fmt::format(
-        "the system grants fewer threads than the {} that are wanted; going on with {}: "
-        "more needs higher limits on processes and memory (ulimit -u, ulimit -v)",
-        wanted, granted));
+    context.warn(
+        fmt::format("the system grants fewer threads than the {} that are wanted; going on with {}: "
+                    "more needs higher limits on processes and memory (ulimit -u, ulimit -v)",
+                    wanted, granted));
   }
   if (context.threads == 0 && granted == wanted) return;
   context.thread_limit = std::make_shared<oneapi::tbb::global_control>(
       oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(granted));
   // A limit that is lifted at the end lets the scheduler ask for a thread once more.
-  static const auto* const kept =
-      new std::shared_ptr<oneapi::tbb::global_control>(context.thread_limit);
+  static const auto* const kept = new std::shared_ptr<oneapi::tbb::global_control>(context.thread_limit);
   (void)kept;
 }
 
@@ -74,10 +71,8 @@ CLI::Validator number_check(const char* name, bool zero_too) {
   return CLI::Validator(
       [zero_too](const std::string& text) -> std::string {
         const auto value = recording::parse_number(text);
-        if (value && std::isfinite(*value) && (*value > 0.0 || (zero_too && *value == 0.0)))
-          return {};
-        return fmt::format("found '{}', expected a number {}", text,
-                           zero_too ? "of 0 or more" : "above 0");
+        if (value && std::isfinite(*value) && (*value > 0.0 || (zero_too && *value == 0.0))) return {};
+        return fmt::format("found '{}', expected a number {}", text, zero_too ? "of 0 or more" : "above 0");
       },
       name);
 }
@@ -101,8 +96,7 @@ void Context::log(std::string_view line) const {
 
 void Context::warn(std::string_view line) const {
   if (quiet) return;
-  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "",
-             color_wanted() ? "\033[0m" : "", line);
+  fmt::print(stderr, "{}warning:{} {}\n", color_wanted() ? "\033[33m" : "", color_wanted() ? "\033[0m" : "", line);
 }
 
 void Context::tell(const Remark& remark) const {
@@ -133,8 +127,7 @@ void Context::end_progress() const {
   if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
 }
 
-void Context::prepare_file(const std::filesystem::path& path,
-                           const std::vector<std::string>& inputs) const {
+void Context::prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const {
   commands::check_output(path, inputs, overwrite);
   remember_new_folder(path.parent_path());
 }
@@ -154,10 +147,8 @@ void Context::tell_new_folders() const {
   }
 }
 
-void Context::prepare_folder(const std::filesystem::path& folder,
-                             std::string_view unless_only) const {
-  auto held =
-      std::make_unique<recording::ResultFolder>(folder, command_line, overwrite, unless_only);
+void Context::prepare_folder(const std::filesystem::path& folder, std::string_view unless_only) const {
+  auto held = std::make_unique<recording::ResultFolder>(folder, command_line, overwrite, unless_only);
   if (!held->note().empty()) log(held->note());
   hold_folder(std::move(held));
 }
@@ -179,25 +170,21 @@ void add_common_options(CLI::App& command, Context& context, const CommonOptions
   };
   unless(used.threads,
          command
-             .add_option(
-                 "--threads", context.threads,
-                 "Number of threads (default: all cores; the result is the same for every number)")
+             .add_option("--threads", context.threads,
+                         "Number of threads (default: all cores; the result is the same for every number)")
              ->check(CLI::Range(0, 1024)));
   unless(used.seed,
-         command.add_option("--seed", context.seed, "Seed of everything random (default 1)")
-             ->check(zero_or_more()));
+         command.add_option("--seed", context.seed, "Seed of everything random (default 1)")->check(zero_or_more()));
   unless(used.json, command.add_flag("--json", context.json, "Result for machines on stdout"));
   command.add_flag("--quiet", context.quiet, "Nothing on stderr but errors");
   command.add_flag("--verbose", context.verbose, "More on stderr: repairs, timings");
   unless(used.range, command.add_option("--start", context.start_s, "First time that is used [s]"));
   unless(used.range, command.add_option("--end", context.end_s, "Last time that is used [s]"));
-  unless(used.overwrite,
-         command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
-  command.parse_complete_callback([&context, idle, uses_threads = used.threads,
-                                   name = command.get_name()] {
+  unless(used.overwrite, command.add_flag("--overwrite", context.overwrite, "Replace existing results"));
+  command.parse_complete_callback([&context, idle, uses_threads = used.threads, name = command.get_name()] {
     if (context.start_s && context.end_s && !(*context.start_s < *context.end_s)) {
-      throw CLI::ValidationError("--end", fmt::format("expected a time after --start {}, found {}",
-                                                      *context.start_s, *context.end_s));
+      throw CLI::ValidationError(
+          "--end", fmt::format("expected a time after --start {}, found {}", *context.start_s, *context.end_s));
     }
     for (const CLI::Option* option : idle) {
       if (option->count() > 0)

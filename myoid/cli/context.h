@@ -65,7 +65,7 @@ struct Context {
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;  ///< Folders that prepare_file will make.
+  mutable std::vector<std::filesystem::path> new_folders;     ///< Folders that prepare_file will make.
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// Writes one line on stderr, unless --quiet.
@@ -74,16 +74,14 @@ struct Context {
   void warn(std::string_view line) const;
   /// Writes a remark of a command on stderr; details with --verbose only.
   void tell(const Remark& remark) const;
-  /// Returns the common options for the functions of `commands`, with a listener that writes
-  /// remarks.
+  /// Returns the common options for the functions of `commands`, with a listener that writes remarks.
   [[nodiscard]] commands::Call call() const;
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
   /// Ends the line of the progress bar.
   void end_progress() const;
   /// Checks the output with --overwrite. Remembers a folder that does not exist yet.
-  void prepare_file(const std::filesystem::path& path,
-                    const std::vector<std::string>& inputs) const;
+  void prepare_file(const std::filesystem::path& path, const std::vector<std::string>& inputs) const;
   /// Remembers a folder that will be made for a single file, for `tell_new_folders`.
   void remember_new_folder(const std::filesystem::path& folder) const;
   /// Names on stderr the folders that were made for single files, so that a slip in --out is seen.

@@ -15,37 +15,30 @@ namespace {
 /// Adds the axes of the laboratory and its force plates.
 void add_laboratory_options(CLI::App& command, commands::ConvertOptions& o) {
   command
-      .add_option(
-          "--up", o.up,
-          "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with "
-          "force plates as the file says, else nothing is turned)")
+      .add_option("--up", o.up,
+                  "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with "
+                  "force plates as the file says, else nothing is turned)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
-  command.add_option("--rotate", o.turns,
-                     "AXIS:DEGREES, repeated: further turns, one after another");
-  command.add_option("--body", o.bodies,
-                     "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too");
-  command
-      .add_option("--least-force", o.least_force_n,
-                  "Below it a plate counts as unloaded [N] (default 10)")
+  command.add_option("--rotate", o.turns, "AXIS:DEGREES, repeated: further turns, one after another");
+  command.add_option("--body", o.bodies, "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too");
+  command.add_option("--least-force", o.least_force_n, "Below it a plate counts as unloaded [N] (default 10)")
       ->check(above_zero());
 }
 
 }  // namespace
 
 void add_convert(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "convert",
-      "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
-      "Example: myoid convert walk.c3d walk/ --body calcn_r --body calcn_l");
+  CLI::App& command =
+      *app.add_subcommand("convert",
+                          "Writes a recording in another format: C3D, TRC, STO/MOT, CSV; EDF, BDF and ANC are read.\n"
+                          "Example: myoid convert walk.c3d walk/ --body calcn_r --body calcn_l");
   const auto o = std::make_shared<commands::ConvertOptions>();
   command
       .add_option("in", o->in, recording::endings_text([](const recording::FormatEntry& entry) {
                                  return recording::is_recording(entry.format);
                                }) + ", or the folder of a finished run")
       ->required();
-  command
-      .add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")
-      ->required();
+  command.add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")->required();
   command
       .add_option("--what", o->what,
                   "markers, channels, emg (voltages only) or plates; by default markers for .trc, "
@@ -54,8 +47,7 @@ void add_convert(CLI::App& app, Context& context) {
   add_laboratory_options(command, *o);
   command.add_option("--unit", o->unit, "Unit of EMG where the file does not say: V, mV, uV");
   command.add_option("--channel", o->channels, "Only this channel, repeated");
-  command.add_option("--analog", o->analog,
-                     "Channels to go with the markers of a .trc into a .c3d");
+  command.add_option("--analog", o->analog, "Channels to go with the markers of a .trc into a .c3d");
   command
       .add_option("--rate", o->rate_hz,
                   "Put everything on an even clock of this rate [Hz]; low-passed first where that "

@@ -13,29 +13,25 @@ namespace {
 using identification::ParameterEstimate;
 
 void print_plan(const DesignStudyResult& result) {
-  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest",
-             "median 95 %", "identified");
+  fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "movement", "time", "rest", "median 95 %", "identified");
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11} {:>15}\n", "", "", "[s]", "[s]", "[+- %]",
              fmt::format("of {}", result.beforehand.size()));
   fmt::print("{:>2}  {:<58} {:>6} {:>6} {:>11.0f} {:>15}\n", 0, "what is known beforehand", "", "",
              median_half_width(result.beforehand), identified_count(result.beforehand));
   for (std::size_t i = 0; i < result.plan.size(); ++i) {
     const PlannedMovement& m = result.plan[i];
-    fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1,
-               m.movement.description(), m.movement.duration_s, m.rest_before_s,
-               median_half_width(m.expected), identified_count(m.expected));
+    fmt::print("{:>2}  {:<58} {:>6.0f} {:>6.0f} {:>11.1f} {:>15}\n", i + 1, m.movement.description(),
+               m.movement.duration_s, m.rest_before_s, median_half_width(m.expected), identified_count(m.expected));
   }
   if (result.plan.empty()) return;
-  fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}",
-             "target", "beforehand");
+  fmt::print("\nexpected 95 % interval, as +- % of the value (the delay: +- ms)\n{:<38} {:>11}", "target",
+             "beforehand");
   for (std::size_t i = 0; i < result.plan.size(); ++i) fmt::print(" {:>7}", i + 1);
   fmt::print("  verdict\n");
   for (std::size_t t = 0; t < result.beforehand.size(); ++t) {
     const ParameterEstimate& before = result.beforehand[t];
-    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter,
-               relative_half_width(before));
-    for (const PlannedMovement& m : result.plan)
-      fmt::print(" {:>7.1f}", relative_half_width(m.expected[t]));
+    fmt::print("{:<38} {:>11.1f}", before.muscle + "." + before.parameter, relative_half_width(before));
+    for (const PlannedMovement& m : result.plan) fmt::print(" {:>7.1f}", relative_half_width(m.expected[t]));
     fmt::print("  {}\n", identification::name(result.plan.back().expected[t].verdict));
   }
 }
@@ -83,11 +79,8 @@ void add_choice_options(CLI::App& command, commands::DesignOptions& options) {
   command.add_option("--repeat", design.choice.most_of_each, "The same movement at most so often")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
-  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")
-      ->check(above_zero());
-  command
-      .add_option("--fatigue", design.fatigued_share,
-                  "Share of a muscle that may be fatigued at any time")
+  command.add_option("--budget", design.choice.budget_s, "Recording time at most [s]")->check(above_zero());
+  command.add_option("--fatigue", design.fatigued_share, "Share of a muscle that may be fatigued at any time")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
   command.add_option("--masses", design.catalogue.held_masses_kg, "Held masses there are [kg]")
@@ -113,27 +106,21 @@ void add_recording_options(CLI::App& command, DesignStudyOptions& design) {
 }  // namespace
 
 void add_design(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "design",
-      "Which movements to record so that the target parameters become identifiable.\n"
-      "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
+  CLI::App& command =
+      *app.add_subcommand("design",
+                          "Which movements to record so that the target parameters become identifiable.\n"
+                          "Example: myoid design --model arm4 --targets max_isometric_force BIC.force_length_width");
   const auto options = std::make_shared<commands::DesignOptions>();
   const auto no_dynamometer = std::make_shared<bool>(false);
   DesignStudyOptions& design = options->design;
   command.add_option("study", options->study,
                      "study.toml: model, muscles and electrodes as they are (or --model arm4)");
   command.add_option("--model", options->model, "The built-in arm: arm4");
-  command.add_flag("--wire", options->wire,
-                   "With arm4: the brachialis has a wire electrode of its own");
-  command
-      .add_option("--targets", design.targets,
-                  "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
+  command.add_flag("--wire", options->wire, "With arm4: the brachialis has a wire electrode of its own");
+  command.add_option("--targets", design.targets, "all, parameters, muscles or MUSCLE.PARAMETER (default all)")
       ->capture_default_str();
-  command.add_option("--after", options->after,
-                     "Folder of a finished run: its result is known beforehand");
-  command
-      .add_option("--estimator", options->estimator,
-                  "least_squares or posterior, in place of the study's")
+  command.add_option("--after", options->after, "Folder of a finished run: its result is known beforehand");
+  command.add_option("--estimator", options->estimator, "least_squares or posterior, in place of the study's")
       ->transform(one_of<identification::EstimatorKind>());
   add_choice_options(command, *options);
   command.add_flag("--no-dynamometer", *no_dynamometer,

@@ -23,8 +23,7 @@ struct EmgFlags {
   bool whitening = false, no_whitening = false;
 };
 
-nlohmann::ordered_json emg_json(const std::vector<std::string>& out,
-                                const commands::EmgResult& result) {
+nlohmann::ordered_json emg_json(const std::vector<std::string>& out, const commands::EmgResult& result) {
   nlohmann::ordered_json json;
   json["out"] = out.size() == 1 ? nlohmann::ordered_json(out[0]) : nlohmann::ordered_json(out);
   json["whitening"] = {{"applied", result.whitening.applied}, {"reason", result.whitening.reason}};
@@ -46,12 +45,11 @@ nlohmann::ordered_json emg_json(const std::vector<std::string>& out,
 void print_emg(const std::vector<std::string>& out, const commands::EmgResult& result) {
   for (const auto& n : result.normalisation) {
     fmt::print("{:<24} rest {:>8} uV   1 = {:8.2f} uV  ({} at {:.2f} s{})\n", n.channel,
-               n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"),
-               1e6 * n.reference_v, n.source_trial, n.source_time_s,
+               n.rests ? fmt::format("{:.2f}", 1e6 * n.resting_level_v) : std::string("unknown"), 1e6 * n.reference_v,
+               n.source_trial, n.source_time_s,
                n.from_mvc ? "" : "; no MVC: relative to the largest effort of these files");
   }
-  fmt::print("{}: {}\n", result.whitening.applied ? "whitened, all channels" : "not whitened",
-             result.whitening.reason);
+  fmt::print("{}: {}\n", result.whitening.applied ? "whitened, all channels" : "not whitened", result.whitening.reason);
   fmt::print("For a methods section: {}\n", fmt::join(result.chain.methods, " "));
   for (const std::string& file : out) fmt::print("{}\n", file);
 }
@@ -59,12 +57,10 @@ void print_emg(const std::vector<std::string>& out, const commands::EmgResult& r
 void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& context) {
   if (asked.out.empty()) throw InvalidInput("--out: a name is expected, found none");
   const std::vector<std::string> activations = commands::emg_files(o.in, asked.out, "--out");
-  const std::vector<std::string> envelopes =
-      commands::emg_files(o.in, asked.envelope, "--envelope");
+  const std::vector<std::string> envelopes = commands::emg_files(o.in, asked.envelope, "--envelope");
   commands::check_emg_files(o, activations, envelopes, context.overwrite);
   for (const std::vector<std::string>* files : {&activations, &envelopes})
-    for (const std::string& file : *files)
-      context.remember_new_folder(std::filesystem::path(file).parent_path());
+    for (const std::string& file : *files) context.remember_new_folder(std::filesystem::path(file).parent_path());
   o.chain.notch = !asked.no_notch;
   if (asked.whitening || asked.no_whitening) o.chain.whitening = asked.whitening;
   o.keep_envelopes = !envelopes.empty();
@@ -81,11 +77,10 @@ void run_emg(commands::EmgOptions o, const EmgFlags& asked, const Context& conte
 }  // namespace
 
 void add_emg(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("emg",
-                          "Raw EMG to activation: high-pass, rectify, low-pass, resting level, "
-                          "normalized to the largest effort in all files given.\n"
-                          "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
+  CLI::App& command = *app.add_subcommand("emg",
+                                          "Raw EMG to activation: high-pass, rectify, low-pass, resting level, "
+                                          "normalized to the largest effort in all files given.\n"
+                                          "Example: myoid emg flex.sto --mvc mvc.sto --out activation.sto");
   const auto o = std::make_shared<commands::EmgOptions>();
   const auto asked = std::make_shared<EmgFlags>();
   command
@@ -100,27 +95,22 @@ void add_emg(CLI::App& app, Context& context) {
   command.add_option("--mvc", o->mvc,
                      "Maximal contractions to normalize by, repeated (default: the largest effort "
                      "in the files themselves)");
-  command.add_option("--channel", o->channels,
-                     "Only this channel, repeated (default: all of the file's first clock)");
-  command.add_option("--unit", o->unit,
-                     "Unit of the numbers where the file does not say: V, mV, uV");
-  command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")
-      ->check(above_zero());
+  command.add_option("--channel", o->channels, "Only this channel, repeated (default: all of the file's first clock)");
+  command.add_option("--unit", o->unit, "Unit of the numbers where the file does not say: V, mV, uV");
+  command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")->check(above_zero());
   command
       .add_option("--lowpass", o->chain.lowpass_hz,
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(above_zero());
   command.add_flag("--no-notch", asked->no_notch, "Leave mains hum in, where it is found");
-  CLI::Option* on = command.add_flag(
-      "--whitening", asked->whitening,
-      "Even out the spectrum of all channels before they are rectified (default: if the files "
-      "allow it for every channel)");
-  command.add_flag("--no-whitening", asked->no_whitening, "Even it out in no channel")
-      ->excludes(on);
+  CLI::Option* on =
+      command.add_flag("--whitening", asked->whitening,
+                       "Even out the spectrum of all channels before they are rectified (default: if the files "
+                       "allow it for every channel)");
+  command.add_flag("--no-whitening", asked->no_whitening, "Even it out in no channel")->excludes(on);
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");
-  command
-      .add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")
+  command.add_option("--window", o->window_s, "Window of the mean that counts as 1 [s] (default 0.5)")
       ->check(above_zero());
   command.add_option("--envelope", asked->envelope,
                      "Also write the envelope [V] here (.sto, .mot or .csv; or a folder)");

@@ -17,9 +17,7 @@ std::vector<std::unique_ptr<recording::ResultFolder>>& held_folders() {
 
 }  // namespace
 
-void hold_folder(std::unique_ptr<recording::ResultFolder> folder) {
-  held_folders().push_back(std::move(folder));
-}
+void hold_folder(std::unique_ptr<recording::ResultFolder> folder) { held_folders().push_back(std::move(folder)); }
 
 void finish_folders() {
   for (const auto& held : held_folders()) held->finish();
@@ -30,10 +28,9 @@ std::string contents_of_folders() {
   for (const auto& held : held_folders()) {
     const std::string folder = held->path().string();
     text += text.empty() ? "" : "; ";
-    text +=
-        recording::holds_content(held->path())
-            ? fmt::format("every file in {} is whole, and the same command takes it over", folder)
-            : fmt::format("nothing was written into {}", folder);
+    text += recording::holds_content(held->path())
+                ? fmt::format("every file in {} is whole, and the same command takes it over", folder)
+                : fmt::format("nothing was written into {}", folder);
   }
   return text;
 }

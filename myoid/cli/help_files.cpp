@@ -43,8 +43,7 @@ struct HelpCommand {
 };
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
 }
@@ -55,8 +54,7 @@ std::vector<std::string> words_of(const std::string& type) {
   const std::size_t end = type.find('}', begin);
   std::vector<std::string> words;
   if (begin == std::string::npos || end == std::string::npos) return words;
-  for (const std::string_view each :
-       recording::split(std::string_view(type).substr(begin + 1, end - begin - 1), ','))
+  for (const std::string_view each : recording::split(std::string_view(type).substr(begin + 1, end - begin - 1), ','))
     words.emplace_back(each.substr(0, each.find("->")));
   return words;
 }
@@ -127,8 +125,7 @@ std::string roff_word(const std::string& text) {
 std::string roff_head(const std::string& name) {
   std::string capitals = name;
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return fmt::format(".TH {} 1 \"\" \"myoid {}\" \"User Commands\"\n", roff_word(capitals),
-                     version());
+  return fmt::format(".TH {} 1 \"\" \"myoid {}\" \"User Commands\"\n", roff_word(capitals), version());
 }
 
 constexpr const char* kExitCodes = R"(.SH EXIT STATUS
@@ -159,8 +156,7 @@ std::string option_roff(const HelpOption& option) {
   std::string names;
   for (const std::string& name : option.names)
     names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff_word(name));
-  if (!option.value.empty())
-    names += fmt::format("{}\\fI{}\\fR", names.empty() ? "" : " ", roff_word(option.value));
+  if (!option.value.empty()) names += fmt::format("{}\\fI{}\\fR", names.empty() ? "" : " ", roff_word(option.value));
   if (option.several) names += " ...";
   if (option.required && !option.names.empty()) names += " (required)";
   return fmt::format(".TP\n{}\n{}", names, roff(option.says));
@@ -170,13 +166,10 @@ std::string command_page(const HelpCommand& command) {
   std::string synopsis = fmt::format(".B myoid {}\n[\\fIOPTIONS\\fR]", roff_word(command.name));
   for (const HelpOption& each : command.positionals)
     synopsis += fmt::format(" \\fI{}\\fR{}", roff_word(each.value), each.several ? " ..." : "");
-  std::string text =
-      roff_head("myoid-" + command.name) +
-      fmt::format(".SH NAME\nmyoid\\-{} \\- {}\n", roff_word(command.name),
-                  roff_word(command.title())) +
-      fmt::format(".SH SYNOPSIS\n{}\n.SH DESCRIPTION\n{}", synopsis, roff(command.says));
-  if (!command.example.empty())
-    text += fmt::format(".SH EXAMPLE\n.nf\n{}.fi\n", roff_word(command.example));
+  std::string text = roff_head("myoid-" + command.name) +
+                     fmt::format(".SH NAME\nmyoid\\-{} \\- {}\n", roff_word(command.name), roff_word(command.title())) +
+                     fmt::format(".SH SYNOPSIS\n{}\n.SH DESCRIPTION\n{}", synopsis, roff(command.says));
+  if (!command.example.empty()) text += fmt::format(".SH EXAMPLE\n.nf\n{}.fi\n", roff_word(command.example));
   text += ".SH OPTIONS\n";
   for (const HelpOption& each : command.positionals) text += option_roff(each);
   for (const HelpOption& each : command.options) text += option_roff(each);
@@ -202,8 +195,7 @@ std::string program_page(const CLI::App& app, const std::vector<HelpCommand>& co
 
 std::vector<std::string> names_of(const std::vector<HelpOption>& options) {
   std::vector<std::string> names;
-  for (const HelpOption& option : options)
-    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const HelpOption& option : options) names.insert(names.end(), option.names.begin(), option.names.end());
   return names;
 }
 
@@ -212,13 +204,11 @@ std::string bash_completion(const std::vector<HelpCommand>& commands) {
   std::string values, options;
   for (const HelpCommand& command : commands) {
     all.push_back(command.name);
-    options += fmt::format("    {}) words=\"{}\" ;;\n", command.name,
-                           fmt::join(names_of(command.options), " "));
+    options += fmt::format("    {}) words=\"{}\" ;;\n", command.name, fmt::join(names_of(command.options), " "));
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
         if (!option.words.empty())
-          values += fmt::format("    \"{} {}\") words=\"{}\" ;;\n", command.name, name,
-                                fmt::join(option.words, " "));
+          values += fmt::format("    \"{} {}\") words=\"{}\" ;;\n", command.name, name, fmt::join(option.words, " "));
       }
     }
   }
@@ -251,8 +241,7 @@ std::string brief(const std::string& says) {
 /// Returns a text inside single quotes of a shell, for zsh with its own marks escaped.
 std::string quoted(std::string text, bool zsh) {
   if (zsh) {
-    for (const char* mark : {"\\", "[", "]", ":"})
-      text = replaced(std::move(text), mark, std::string("\\") + mark);
+    for (const char* mark : {"\\", "[", "]", ":"}) text = replaced(std::move(text), mark, std::string("\\") + mark);
     return replaced(std::move(text), "'", "'\\''");
   }
   return replaced(replaced(std::move(text), "\\", "\\\\"), "'", "\\'");
@@ -271,8 +260,7 @@ std::string zsh_completion(const std::vector<HelpCommand>& commands) {
         } else if (!option.value.empty()) {
           value = ":value:_files";
         }
-        cases +=
-            fmt::format(" \\\n        '*{}[{}]{}'", name, quoted(brief(option.says), true), value);
+        cases += fmt::format(" \\\n        '*{}[{}]{}'", name, quoted(brief(option.says), true), value);
       }
     }
     cases += " \\\n        '*:file:_files' ;;\n";
@@ -288,8 +276,8 @@ std::string zsh_completion(const std::vector<HelpCommand>& commands) {
 std::string fish_completion(const std::vector<HelpCommand>& commands) {
   std::string text = "# fish completion of myoid\n";
   for (const HelpCommand& command : commands) {
-    text += fmt::format("complete -c myoid -n __fish_use_subcommand -f -a {} -d '{}'\n",
-                        command.name, quoted(command.title(), false));
+    text += fmt::format("complete -c myoid -n __fish_use_subcommand -f -a {} -d '{}'\n", command.name,
+                        quoted(command.title(), false));
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");
@@ -300,9 +288,8 @@ std::string fish_completion(const std::vector<HelpCommand>& commands) {
           value = " -r";
         }
         text +=
-            fmt::format("complete -c myoid -n '__fish_seen_subcommand_from {}' {} {}{} -d '{}'\n",
-                        command.name, is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1), value,
-                        quoted(brief(option.says), false));
+            fmt::format("complete -c myoid -n '__fish_seen_subcommand_from {}' {} {}{} -d '{}'\n", command.name,
+                        is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1), value, quoted(brief(option.says), false));
       }
     }
   }
@@ -317,8 +304,7 @@ void write_help_files(const CLI::App& app, const std::filesystem::path& folder) 
     commands.push_back(help_of(*command));
   recording::write_file(folder / "man1/myoid.1", program_page(app, commands));
   for (const HelpCommand& command : commands)
-    recording::write_file(folder / "man1" / fmt::format("myoid-{}.1", command.name),
-                          command_page(command));
+    recording::write_file(folder / "man1" / fmt::format("myoid-{}.1", command.name), command_page(command));
   recording::write_file(folder / "bash/myoid", bash_completion(commands));
   recording::write_file(folder / "zsh/_myoid", zsh_completion(commands));
   recording::write_file(folder / "fish/myoid.fish", fish_completion(commands));

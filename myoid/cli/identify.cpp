@@ -21,15 +21,15 @@ using identification::StudyData;
 using identification::TrialData;
 
 void print_result(const identification::IdentificationResult& result, bool freed_speeds) {
-  fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch",
-             "estimate", "95 % interval", "verdict");
+  fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}\n", "muscle", "parameter", "branch", "estimate", "95 % interval",
+             "verdict");
   for (const auto& e : result.estimates) {
     const std::string parameter = fmt::format("{} [{}]", e.parameter, symbol(e.unit));
     fmt::print("{:<10} {:<36} {:<12} {:>14} {:>26}  {}: {}\n", e.muscle, parameter, e.fit_case,
                std::isfinite(e.estimate) ? report::format_value(e.estimate, 6) : "-",
-               e.ci_low && e.ci_high ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4),
-                                                   report::format_value(*e.ci_high, 4))
-                                     : "-",
+               e.ci_low && e.ci_high
+                   ? fmt::format("[{}, {}]", report::format_value(*e.ci_low, 4), report::format_value(*e.ci_high, 4))
+                   : "-",
                identification::name(e.verdict), e.reason);
   }
   if (result.method == "paper")
@@ -45,8 +45,7 @@ void print_result(const identification::IdentificationResult& result, bool freed
   if (!lag.empty()) fmt::print("{}\n", lag);
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
-  for (const std::string& text : result.undetermined)
-    fmt::print("left open by the data: {}\n", text);
+  for (const std::string& text : result.undetermined) fmt::print("left open by the data: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
     fmt::print(
         "{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = "
@@ -62,8 +61,7 @@ void print_samples(const identification::IdentificationResult& result,
   if (o.method == "paper") return;
   Eigen::Index all = 0;
   for (const TrialData& trial : data.trials) all += trial.time_s.size();
-  all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size()
-                                                       : joint_count(data.trials.front()));
+  all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
   if (o.method == "torque" && o.estimator == "posterior") {
     fmt::print(
         "{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as "
@@ -72,17 +70,13 @@ void print_samples(const identification::IdentificationResult& result,
         result.samples_used, all, result.effective_samples);
     return;
   }
-  const double rate_hz =
-      result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
-  fmt::print("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n",
-             result.samples_used, all, rate_hz, result.exact ? "" : " (--max-rate)");
+  const double rate_hz = result.exact ? std::max(o.max_rate_hz, identification::kNoiseFreeRate_hz) : o.max_rate_hz;
+  fmt::print("{} of {} samples are fitted: at most {:g} a second, without the ends of trials{}.\n", result.samples_used,
+             all, rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
-/// Prints the errors of the fit: of the torque by trial and joint, or of the force by trial and
-/// muscle.
-void print_fit(const identification::IdentificationResult& result,
-               const StudyData& data,
-               bool torque) {
+/// Prints the errors of the fit: of the torque by trial and joint, or of the force by trial and muscle.
+void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
   fmt::print("\n{:<34}{:>12}{:>10}\n", "fitted", torque ? "RMSE [N m]" : "RMSE [N]", "R2");
   const auto row = [](const std::string& name, double rmse, double r2) {
     fmt::print("{:<34}{:>12.4g}{:>10}\n", name, rmse, identification::r2_text(r2));
@@ -92,8 +86,8 @@ void print_fit(const identification::IdentificationResult& result,
       row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.score.rmse_nm(), t.score.r2());
       continue;
     }
-    const auto trial = std::find_if(data.trials.begin(), data.trials.end(),
-                                    [&](const TrialData& d) { return d.name == t.trial; });
+    const auto trial =
+        std::find_if(data.trials.begin(), data.trials.end(), [&](const TrialData& d) { return d.name == t.trial; });
     for (std::size_t k = 0; trial != data.trials.end() && k < data.muscles.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const std::vector<Eigen::Index> rows = identification::included_rows(*trial);
@@ -103,15 +97,14 @@ void print_fit(const identification::IdentificationResult& result,
     }
   }
   fmt::print("{:<34}{:>12}{:>10}\n",
-             result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least",
-             "", identification::r2_text(result.r2));
+             result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
+             identification::r2_text(result.r2));
 }
 
 void print_folds(const std::vector<identification::Fold>& folds,
                  const std::string& why_not,
                  const commands::IdentifyOptions& o) {
-  if (!why_not.empty())
-    fmt::print("\nNothing was left out of the fit to be predicted: {}.\n", why_not);
+  if (!why_not.empty()) fmt::print("\nNothing was left out of the fit to be predicted: {}.\n", why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
   fmt::print("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
@@ -119,11 +112,9 @@ void print_folds(const std::vector<identification::Fold>& folds,
              "starting values, one gain: R2");
   for (const identification::Fold& fold : folds) {
     fmt::print("{:<34}{:>12.4g}{:>14.1f}{:>10}{:>10}   {}\n",
-               several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial,
-               fold.identified.rmse_nm(), 100.0 * fold.identified.nrmse_range(),
-               identification::r2_text(fold.identified.r2()),
-               identification::r2_text(fold.smooth.r2()),
-               identification::r2_text(fold.literature.r2()));
+               several ? fmt::format("{}, {}", fold.trial, fold.joint) : fold.trial, fold.identified.rmse_nm(),
+               100.0 * fold.identified.nrmse_range(), identification::r2_text(fold.identified.r2()),
+               identification::r2_text(fold.smooth.r2()), identification::r2_text(fold.literature.r2()));
   }
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     fmt::print("EMG beyond all that was fitted ({}): that prediction extrapolates.\n", beyond);
@@ -132,16 +123,14 @@ void print_folds(const std::vector<identification::Fold>& folds,
 /// Prints the minima that the searches of several starts reached.
 void print_basins(const identification::BasinTable& table) {
   constexpr std::size_t kMost = 8;
-  fmt::print("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts),
-             "starts", "cost", "distance");
+  fmt::print("{:<22}{:>12}{:>16}{:>12}\n", fmt::format("  basin of {} starts", table.starts), "starts", "cost",
+             "distance");
   for (std::size_t i = 0; i < table.basins.size() && i < kMost; ++i) {
     const identification::BasinRow& basin = table.basins[i];
-    fmt::print("  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost,
-               basin.distance,
-               basin.converged < basin.starts
-                   ? fmt::format("  {} did not converge", basin.starts - basin.converged)
-                   : "",
-               basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
+    fmt::print(
+        "  {:<20}{:>12}{:>16.6g}{:>12.2g}{}{}\n", i + 1, basin.starts, basin.cost, basin.distance,
+        basin.converged < basin.starts ? fmt::format("  {} did not converge", basin.starts - basin.converged) : "",
+        basin.rival && i > 0 ? "  as good as the best: both are answers" : "");
   }
   if (table.basins.size() > kMost) fmt::print("  and {} more\n", table.basins.size() - kMost);
   if (table.failed > 0) fmt::print("  {:<20}{:>12}\n", "no minimum", table.failed);
@@ -153,11 +142,11 @@ void print_contest(const identification::NamedContest& named) {
     fmt::print("\nSolvers, {}: nothing to fit\n", named.fit);
     return;
   }
-  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver",
-             "start", "cost", "distance", "evaluations", "seconds", "ended");
+  fmt::print("\nSolvers, {}:\n{:<22}{:>6}{:>16}{:>12}{:>13}{:>10}  {}\n", named.fit, "solver", "start", "cost",
+             "distance", "evaluations", "seconds", "ended");
   for (const identification::SolverRun& run : c.runs) {
-    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start,
-               run.cost, run.distance, run.evaluations, run.seconds, math::name(run.termination));
+    fmt::print("{:<22}{:>6}{:>16.6g}{:>12.2g}{:>13}{:>10.3f}  {}\n", run.solver, run.start, run.cost, run.distance,
+               run.evaluations, run.seconds, math::name(run.termination));
   }
   fmt::print("Levenberg-Marquardt:\n");
   print_basins(c.basins);
@@ -176,24 +165,21 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
 }
 
 /// Returns true if the fit did not converge or, with --strict, a parameter is not identifiable.
-bool failed(const identification::IdentificationResult& fit,
-            const std::string& method,
-            bool strict) {
+bool failed(const identification::IdentificationResult& fit, const std::string& method, bool strict) {
   if (method != "paper" && fit.termination != math::Termination::converged) return true;
-  return strict && std::any_of(fit.estimates.begin(), fit.estimates.end(), [](const auto& e) {
-           return e.verdict == identification::Verdict::not_identifiable;
-         });
+  return strict && std::any_of(fit.estimates.begin(), fit.estimates.end(),
+                               [](const auto& e) { return e.verdict == identification::Verdict::not_identifiable; });
 }
 
 }  // namespace
 
 void add_identify(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "identify",
-      "Muscle parameters straight from files, where the earlier stages are done elsewhere.\n"
-      "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto "
-      "--velocities v.sto\n"
-      "                        --moment-arms r.sto --torques id.sto --method torque --out results");
+  CLI::App& command =
+      *app.add_subcommand("identify",
+                          "Muscle parameters straight from files, where the earlier stages are done elsewhere.\n"
+                          "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto "
+                          "--velocities v.sto\n"
+                          "                        --moment-arms r.sto --torques id.sto --method torque --out results");
   add_options<commands::IdentifyOptions>(command);
   command.get_option("--free")->delimiter(',');
   const auto out = std::make_shared<std::string>();

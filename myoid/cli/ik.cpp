@@ -26,8 +26,8 @@ void print_ik(const commands::IkResult& result, const std::string& out, bool as_
     fmt::print("{}\n", json_text(json));
     return;
   }
-  fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n",
-             ik.status.size(), ik.frames_not_converged, ik.frames_without_markers, worst_mm,
+  fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n", ik.status.size(),
+             ik.frames_not_converged, ik.frames_without_markers, worst_mm,
              result.misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
   fmt::print("{}\n{}\n", out, errors);
 }
@@ -35,16 +35,14 @@ void print_ik(const commands::IkResult& result, const std::string& out, bool as_
 }  // namespace
 
 void add_ik(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("ik",
-                          "Inverse kinematics: markers to joint angles.\n"
-                          "Example: myoid ik --model arm.osim --markers flex.trc --out ik.mot");
+  CLI::App& command = *app.add_subcommand("ik",
+                                          "Inverse kinematics: markers to joint angles.\n"
+                                          "Example: myoid ik --model arm.osim --markers flex.trc --out ik.mot");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::IkOptions>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--markers", o->markers, "Markers (.trc, .c3d)")->required();
-  command.add_option("--out", *out, "Joint angles (.mot); the marker errors go beside it")
-      ->required();
+  command.add_option("--out", *out, "Joint angles (.mot); the marker errors go beside it")->required();
   command
       .add_option("--up", o->up,
                   "Vertical axis of the laboratory: x, y, z, -x, -y or -z "
@@ -52,8 +50,7 @@ void add_ik(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
-  command.add_option("--unlock", o->unlock,
-                     "Coordinate freed although the model locks it, repeated");
+  command.add_option("--unlock", o->unlock, "Coordinate freed although the model locks it, repeated");
   add_compat_option(command, context);
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o, out] {
@@ -65,8 +62,7 @@ void add_ik(CLI::App& app, Context& context) {
     context.end_progress();
     commands::write_ik(result, *out);
     print_ik(result, *out, context.json);
-    if (result.misfit.wrong_unit || result.solved.frames_not_converged > 0)
-      context.exit_code = kQualityGateFailed;
+    if (result.misfit.wrong_unit || result.solved.frames_not_converged > 0) context.exit_code = kQualityGateFailed;
   });
 }
 

@@ -15,12 +15,9 @@ namespace myoid::cli {
 namespace {
 
 /// Adds --html, --motion, --forces, --activations, --markers, --meshes and --up.
-void add_model_page_options(CLI::App& command,
-                            commands::ModelPageOptions& options,
-                            std::string& page) {
+void add_model_page_options(CLI::App& command, commands::ModelPageOptions& options, std::string& page) {
   CLI::Option* const html = command.add_option(
-      "--html", page,
-      "Of a model: write a page that shows it in the browser, moving; one file, works offline");
+      "--html", page, "Of a model: write a page that shows it in the browser, moving; one file, works offline");
   const auto add = [&](const char* name, std::string& value, const char* text) {
     command.add_option(name, value, text)->needs(html);
   };
@@ -46,8 +43,7 @@ void write_page(const std::vector<std::string>& files,
   if (files.size() != 1 || !commands::is_model(files.front()))
     throw InvalidInput("--html shows one model: give one .osim, or arm4");
   options.model = files.front();
-  context.prepare_file(
-      html, {options.model, options.motion, options.forces, options.activations, options.markers});
+  context.prepare_file(html, {options.model, options.motion, options.forces, options.activations, options.markers});
   options.compat = context.compat;
   options.call = context.call();
   const commands::ModelPageResult result = commands::model_page(options);
@@ -58,19 +54,17 @@ void write_page(const std::vector<std::string>& files,
     fmt::print("{}\n", json_text({{"html", html}}));
     return;
   }
-  fmt::print("{}: {} bodies, {} muscles, {} frames, {:.2f} MB\n", html, scene.bodies.size(),
-             scene.muscles.size(), scene.time_s.size(),
-             1e-6 * static_cast<double>(result.html.size()));
+  fmt::print("{}: {} bodies, {} muscles, {} frames, {:.2f} MB\n", html, scene.bodies.size(), scene.muscles.size(),
+             scene.time_s.size(), 1e-6 * static_cast<double>(result.html.size()));
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("info",
-                          "Says what a file holds: channels, units, rates, duration, gaps, "
-                          "repairs; of a model also its unsupported elements.\n"
-                          "Example: myoid info arm.osim flex.trc");
+  CLI::App& command = *app.add_subcommand("info",
+                                          "Says what a file holds: channels, units, rates, duration, gaps, "
+                                          "repairs; of a model also its unsupported elements.\n"
+                                          "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto o = std::make_shared<commands::InfoOptions>();
   const auto page = std::make_shared<commands::ModelPageOptions>();
@@ -90,8 +84,7 @@ void add_info(CLI::App& app, Context& context) {
   add_common_options(command, context);
   command.callback([&context, files, o, page, html] {
     if (!html->empty()) return write_page(*files, *page, *html, context);
-    if (context.start_s || context.end_s)
-      context.warn("--start and --end have no effect without --html");
+    if (context.start_s || context.end_s) context.warn("--start and --end have no effect without --html");
     o->call = context.call();
     o->compat = context.compat;
     nlohmann::ordered_json all = nlohmann::ordered_json::array();

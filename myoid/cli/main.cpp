@@ -48,8 +48,7 @@ void stop_on_signals(std::stop_source stop) {
   }
 }
 
-/// Ends the program at an error that no caller can catch: the scheduler throws where the system
-/// refuses a thread.
+/// Ends the program at an error that no caller can catch: the scheduler throws where the system refuses a thread.
 [[noreturn]] void end_with_a_message() {
   std::string what = "unknown";
   if (const std::exception_ptr error = std::current_exception()) {
@@ -60,11 +59,10 @@ void stop_on_signals(std::stop_source stop) {
     } catch (...) {
     }
   }
-  fmt::print(
-      stderr,
-      "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, "
-      "or raise the limits on processes and memory (ulimit -u, ulimit -v).\n",
-      what);
+  fmt::print(stderr,
+             "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, "
+             "or raise the limits on processes and memory (ulimit -u, ulimit -v).\n",
+             what);
   _exit(myoid::cli::kInternalError);
 }
 
@@ -154,8 +152,8 @@ class CapitalPositionals : public CLI::Formatter {
 std::string repeated_option(CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
-      const bool takes_one = option->get_items_expected_max() == 1 &&
-                             option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+      const bool takes_one =
+          option->get_items_expected_max() == 1 && option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
       if (takes_one && option->results().size() > 1)
         return fmt::format("{} is given {} times ({}); it takes one value", option->get_name(),
                            option->results().size(), fmt::join(option->results(), ", "));
@@ -210,8 +208,7 @@ int run(int argc, char** argv, myoid::cli::Context& context) {
 int main(int argc, char** argv) {
   using namespace myoid;
   cli::Context context;
-  for (int i = 0; i < argc; ++i)
-    context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
+  for (int i = 0; i < argc; ++i) context.command_line += (i == 0 ? "" : " ") + std::string(i == 0 ? "myoid" : argv[i]);
   std::set_terminate(end_with_a_message);
   stop_on_signals(context.stop);
   try {
@@ -223,8 +220,7 @@ int main(int argc, char** argv) {
     context.end_progress();
     const std::string contents = cli::contents_of_folders();
     cli::release_folders();
-    fmt::print(stderr, "interrupted; {}\n",
-               contents.empty() ? "no file is half-written" : contents);
+    fmt::print(stderr, "interrupted; {}\n", contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();

@@ -5,8 +5,7 @@
 namespace myoid::cli {
 
 MatOption::MatOption(CLI::App& command) {
-  command.add_option("--mat", *file_,
-                     "Also write parameters, series, remarks and draws as one MATLAB file (.mat)");
+  command.add_option("--mat", *file_, "Also write parameters, series, remarks and draws as one MATLAB file (.mat)");
 }
 
 void MatOption::prepare(const Context& context, const std::vector<std::string>& inputs) const {

@@ -9,8 +9,7 @@
 
 namespace myoid::cli {
 
-/// The option --mat of commands that fill a folder with results: writes them as one MATLAB file,
-/// too.
+/// The option --mat of commands that fill a folder with results: writes them as one MATLAB file, too.
 class MatOption {
  public:
   explicit MatOption(CLI::App& command);

@@ -36,20 +36,17 @@ nlohmann::json fit_json(const MuscleResult& result) {
 
 void print_fit(const MuscleResult& result) {
   const commands::MuscleFit& fit = *result.fit;
-  fmt::print("{}: {} ({} simulated experiments)\n\n", result.name, fit.all.message,
-             fit.all.evaluations);
+  fmt::print("{}: {} ({} simulated experiments)\n\n", result.name, fit.all.message, fit.all.evaluations);
   fmt::print("{:<28}{:>14}{:>14}{:>14}\n", "parameter", "start", "estimate", "std error");
   for (const muscle::IsolatedEstimate& e : fit.all.estimates)
-    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>14.2g} {}{}\n", e.parameter, e.start, e.value,
-               e.std_error, symbol(e.unit), e.at_bound ? ", at its bound" : "");
-  fmt::print("\n{:<34}{:>12}{:>12}{:>12}\n",
-             fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n), "start",
-             "fitted", "predicted");
+    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>14.2g} {}{}\n", e.parameter, e.start, e.value, e.std_error, symbol(e.unit),
+               e.at_bound ? ", at its bound" : "");
+  fmt::print("\n{:<34}{:>12}{:>12}{:>12}\n", fmt::format("mean absolute error [% of {:.4g} N]", fit.relative_to_n),
+             "start", "fitted", "predicted");
   for (const commands::RecordingErrors& error : fit.errors)
-    fmt::print("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording,
-               100.0 * error.starting_values, 100.0 * error.fitted, 100.0 * error.predicted);
-  if (fit.errors.size() > 1)
-    fmt::print("predicted: with the parameters that the other recordings give\n");
+    fmt::print("{:<34}{:>12.2f}{:>12.2f}{:>12.2f}\n", error.recording, 100.0 * error.starting_values,
+               100.0 * error.fitted, 100.0 * error.predicted);
+  if (fit.errors.size() > 1) fmt::print("predicted: with the parameters that the other recordings give\n");
 }
 
 nlohmann::json simulation_json(const MuscleResult& result) {
@@ -67,32 +64,27 @@ nlohmann::json simulation_json(const MuscleResult& result) {
 
 void print_simulation(const MuscleResult& result) {
   const Eigen::VectorXd force = result.simulated->simulated.series.column("tendon_force");
-  fmt::print("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(),
-             force.minCoeff(), force.maxCoeff());
+  fmt::print("{}: {} samples, force {:.4g} to {:.4g} N\n", result.name, force.size(), force.minCoeff(),
+             force.maxCoeff());
   if (const auto& comparison = result.simulated->comparison) {
-    fmt::print("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n",
-               comparison->error_n, 100.0 * comparison->share,
-               comparison->error_n / comparison->share, comparison->samples);
+    fmt::print("mean absolute error {:.4g} N, {:.2f} % of {:.4g} N, over {} samples\n", comparison->error_n,
+               100.0 * comparison->share, comparison->error_n / comparison->share, comparison->samples);
   }
 }
 
 }  // namespace
 
 void add_muscle(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("muscle",
-                          "One muscle alone: which force does it make under an imposed length?\n"
-                          "Example: myoid muscle --muscle soleus.toml --length length.sto "
-                          "--excitation 1 --out force.sto");
+  CLI::App& command = *app.add_subcommand("muscle",
+                                          "One muscle alone: which force does it make under an imposed length?\n"
+                                          "Example: myoid muscle --muscle soleus.toml --length length.sto "
+                                          "--excitation 1 --out force.sto");
   const auto o = std::make_shared<commands::MuscleOptions>();
   command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
-  command
-      .add_option("--length", o->lengths,
-                  "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
+  command.add_option("--length", o->lengths, "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
       ->required();
   command.add_option("--column", o->column, "Which column of it (default: the only one)");
-  command.add_option("--scale", o->scales,
-                     "Its numbers times this ... (default 1); with several files one for each");
+  command.add_option("--scale", o->scales, "Its numbers times this ... (default 1); with several files one for each");
   command.add_option("--offset", o->offset_m, "... plus this are the length [m] (default 0)");
   command.add_option("--activation", o->activation, "Activation, a number in 0..1 or a file");
   command.add_option("--excitation", o->excitation, "Excitation, a number in 0..1 or a file");

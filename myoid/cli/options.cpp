@@ -31,8 +31,7 @@ std::string help_of(const Setting& setting, const SettingRow& row) {
 
 /// Returns "{delay,shared}", NUMBER, FILE or TEXT.
 std::string type_of(const Setting& setting) {
-  if (!setting.about.words.empty())
-    return fmt::format("{{{}}}", fmt::join(setting.about.words, ","));
+  if (!setting.about.words.empty()) return fmt::format("{{{}}}", fmt::join(setting.about.words, ","));
   if (is_number(setting)) return "NUMBER";
   return setting.kind == SettingKind::path ? "FILE" : "TEXT";
 }
@@ -43,8 +42,7 @@ CLI::Validator check_of(const Setting& setting) {
       [setting](const std::string& text) -> std::string {
         if (!is_number(setting)) return refusal(setting, text);
         const auto value = recording::parse_number(text);
-        return value ? refusal(setting, *value)
-                     : fmt::format("found '{}', expected a number", text);
+        return value ? refusal(setting, *value) : fmt::format("found '{}', expected a number", text);
       },
       "");
 }
@@ -59,8 +57,7 @@ SettingValue value_of(const Setting& setting, const std::vector<std::string>& gi
 
 void add_truth_option(CLI::App& command, std::vector<std::string>& settings) {
   command
-      .add_option("--truth", settings,
-                  "Keys of [truth] in place of the protocol's: moment_arm_sd=0.15 curves=millard")
+      .add_option("--truth", settings, "Keys of [truth] in place of the protocol's: moment_arm_sd=0.15 curves=millard")
       ->type_name("KEY=VALUE");
   command.footer(commands::truth_help());
 }
@@ -84,8 +81,7 @@ bool OptionDeclarer::met(const Setting& setting, const SettingValue& now, const 
 bool OptionReader::met(const Setting& setting, const SettingValue& /*now*/, const Set& set) {
   const CLI::Option* const option = command_->get_option(option_name(setting));
   if (option->count() == 0) return false;
-  set(setting.kind == SettingKind::flag ? SettingValue(true)
-                                        : value_of(setting, option->results()));
+  set(setting.kind == SettingKind::flag ? SettingValue(true) : value_of(setting, option->results()));
   return true;
 }
 

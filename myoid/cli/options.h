@@ -9,8 +9,7 @@
 
 namespace myoid::cli {
 
-/// Adds an option `--key` for every setting that it meets, with the setting's meaning, default and
-/// check.
+/// Adds an option `--key` for every setting that it meets, with the setting's meaning, default and check.
 class OptionDeclarer : public FlatSettingVisitor {
  public:
   explicit OptionDeclarer(CLI::App& command) : command_(&command) {}

@@ -19,26 +19,23 @@ nlohmann::ordered_json paths_json(const commands::PathsResult& result, const std
                                {"shortest_m", length.values().col(m).minCoeff()},
                                {"longest_m", length.values().col(m).maxCoeff()}});
   }
-  for (const auto& [coordinate, arm] : result.muscles.moment_arm)
-    json["moment_arms"].push_back(coordinate);
+  for (const auto& [coordinate, arm] : result.muscles.moment_arm) json["moment_arms"].push_back(coordinate);
   return json;
 }
 
 }  // namespace
 
 void add_paths(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("paths",
-                          "Musculotendon lengths, velocities and moment arms along a motion.\n"
-                          "Example: myoid paths --model arm.osim --motion ik.mot --out paths");
+  CLI::App& command = *app.add_subcommand("paths",
+                                          "Musculotendon lengths, velocities and moment arms along a motion.\n"
+                                          "Example: myoid paths --model arm.osim --motion ik.mot --out paths");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::PathsOptions>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
   command.add_option("--out", *out, "Folder for MuscleAnalysis_*.sto [m, m/s]")->required();
   command
-      .add_option("--lowpass", o->cutoff_hz,
-                  "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
+      .add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(above_zero());
   command.add_option("--surrogate", o->surrogates,
                      "File of fitted polynomials (.json) to use in the place of paths where they "

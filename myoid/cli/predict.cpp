@@ -9,32 +9,29 @@ namespace myoid::cli {
 namespace {
 
 void print_predict(const commands::PredictResult& result) {
-  fmt::print("{:<20} {:<16} {:>10} {:>8} {:>13} {:>16}\n", "trial", "joint", "RMSE [N m]", "R2",
-             "R2 < 1.5 Hz", "in the 95 % band");
+  fmt::print("{:<20} {:<16} {:>10} {:>8} {:>13} {:>16}\n", "trial", "joint", "RMSE [N m]", "R2", "R2 < 1.5 Hz",
+             "in the 95 % band");
   for (const identification::TrialFit& t : result.trials) {
-    const double covered =
-        identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm);
-    fmt::print("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", t.trial, t.joint,
-               t.score.rmse_nm(), t.score.r2(), t.band.r2(), 100.0 * covered,
-               t.calibration ? "  (took part in the fit)" : "");
+    const double covered = identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm);
+    fmt::print("{:<20} {:<16} {:>10.2f} {:>8.3f} {:>13.3f} {:>14.0f} %{}\n", t.trial, t.joint, t.score.rmse_nm(),
+               t.score.r2(), t.band.r2(), 100.0 * covered, t.calibration ? "  (took part in the fit)" : "");
   }
 }
 
 }  // namespace
 
 void add_predict(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "predict",
-      "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
-      "Example: myoid predict results --trials fast_lift --out predicted");
+  CLI::App& command =
+      *app.add_subcommand("predict",
+                          "Torque and muscle forces, with 95 % bands, of trials that took no part in a run's fit.\n"
+                          "Example: myoid predict results --trials fast_lift --out predicted");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::PredictOptions>();
   command.add_option("folder", o->folder, "Folder of a run (with run.json)")->required();
   command.add_option("--study", o->study,
                      "Another study of the same person and muscles, with the trials (default: the "
                      "study of the run)");
-  command.add_option("--trials", o->trials,
-                     "Names of the trials (default: all that took no part in the fit)");
+  command.add_option("--trials", o->trials, "Names of the trials (default: all that took no part in the fit)");
   command.add_option("--out", *out, "Folder of the predictions")->required();
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {

@@ -43,38 +43,33 @@ void report_run(Context& context, commands::ReportOptions& run, const MatOption&
 
 void report_group(Context& context, const Wishes& wishes) {
   context.prepare_folder(wishes.out);
-  report::write_report(
-      cohort::group_report({.persons = {wishes.persons.begin(), wishes.persons.end()},
-                            .after = {wishes.after.begin(), wishes.after.end()},
-                            .folder = wishes.out}),
-      wishes.out);
+  report::write_report(cohort::group_report({.persons = {wishes.persons.begin(), wishes.persons.end()},
+                                             .after = {wishes.after.begin(), wishes.after.end()},
+                                             .folder = wishes.out}),
+                       wishes.out);
   print_page(wishes.out, context);
 }
 
 }  // namespace
 
 void add_report(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "report",
-      "Rebuilds the report of a finished run from its recordings, provided that none of them has "
-      "changed since; or sets many finished runs side by side.\n"
-      "Example: myoid report results\n"
-      "Example: myoid report --group results/P01 results/P02 results/P03 --out group");
+  CLI::App& command =
+      *app.add_subcommand("report",
+                          "Rebuilds the report of a finished run from its recordings, provided that none of them has "
+                          "changed since; or sets many finished runs side by side.\n"
+                          "Example: myoid report results\n"
+                          "Example: myoid report --group results/P01 results/P02 results/P03 --out group");
   const auto wishes = std::make_shared<Wishes>();
-  CLI::Option* folder =
-      command.add_option("folder", wishes->run.folder, "Folder of a run (with run.json)");
+  CLI::Option* folder = command.add_option("folder", wishes->run.folder, "Folder of a run (with run.json)");
   add_video_options(command, wishes->run.video);
-  CLI::Option* group = command.add_option(
-      "--group", wishes->persons,
-      "Folders of runs, or folders that hold them (of a cohort, of a twin-study): one page of all");
+  CLI::Option* group =
+      command.add_option("--group", wishes->persons,
+                         "Folders of runs, or folders that hold them (of a cohort, of a twin-study): one page of all");
   group->excludes(folder);
   command
-      .add_option("--after", wishes->after,
-                  "The second sessions of the same persons in the same order: what changed")
+      .add_option("--after", wishes->after, "The second sessions of the same persons in the same order: what changed")
       ->needs(group);
-  command.add_option("--out", wishes->out, "Folder of the group's page")
-      ->needs(group)
-      ->capture_default_str();
+  command.add_option("--out", wishes->out, "Folder of the group's page")->needs(group)->capture_default_str();
   const MatOption mat(command);
   add_common_options(command, context, {.seed = false, .range = false});
   command.callback([&context, wishes, group, folder, mat] {

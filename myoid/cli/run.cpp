@@ -24,36 +24,31 @@ void print_method(const identification::IdentificationResult& method, std::size_
   std::size_t owner = 6;
   std::size_t parameter = 9;
   const auto labelled = [](const ParameterEstimate& e) {
-    return e.unit == Unit::dimensionless ? e.parameter
-                                         : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
+    return e.unit == Unit::dimensionless ? e.parameter : fmt::format("{} [{}]", e.parameter, symbol(e.unit));
   };
   for (const EstimateLine& line : lines) {
     owner = std::max(owner, line.owners.size());
     parameter = std::max(parameter, labelled(*line.estimate).size());
   }
   fmt::print("\nmethod {}: {}\n", method.method, method.message);
-  fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter",
-             parameter, "case", "initial", "estimate", "95 % interval", "verdict");
+  fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", "muscle", owner, "parameter", parameter, "case",
+             "initial", "estimate", "95 % interval", "verdict");
   bool nuisances = false;
   for (const EstimateLine& line : lines) {
     const ParameterEstimate& e = *line.estimate;
     if (identification::is_nuisance(e) && !nuisances) {
       nuisances = true;
-      fmt::print(
-          "of the electrodes and the joint, free so that the intervals hold their uncertainty:\n");
+      fmt::print("of the electrodes and the joint, free so that the intervals hold their uncertainty:\n");
     }
     const bool interval = e.ci_low && e.ci_high && !is_undetermined(e);
     const std::string estimate = !std::isfinite(e.estimate) ? "-"
-                                 : interval
-                                     ? report::format_rounded(e.estimate, *e.ci_high - *e.ci_low)
-                                     : report::format_value(e.estimate);
-    const std::string ends =
-        interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
-        : is_undetermined(e) ? "not determined"
-                             : "-";
-    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e),
-               parameter, e.fit_case, report::format_value(e.initial), estimate, ends,
-               identification::name(e.verdict));
+                                 : interval                 ? report::format_rounded(e.estimate, *e.ci_high - *e.ci_low)
+                                                            : report::format_value(e.estimate);
+    const std::string ends = interval ? fmt::format("[{}]", report::format_interval(*e.ci_low, *e.ci_high, ", "))
+                             : is_undetermined(e) ? "not determined"
+                                                  : "-";
+    fmt::print("{:<{}}  {:<{}}  {:<11} {:>10} {:>10} {:>24}  {}\n", line.owners, owner, labelled(e), parameter,
+               e.fit_case, report::format_value(e.initial), estimate, ends, identification::name(e.verdict));
   }
 }
 
@@ -64,11 +59,10 @@ void print_predictions(const StudyResult& result) {
         "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about "
         "that {0}'s own mean)\n",
         left_out);
-    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2",
-               "literature x gain: RMSE", "R2");
+    fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
-      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm(),
-                 f.identified.r2(), f.literature.rmse_nm(), f.literature.r2());
+      fmt::print("{:<20} {:>10.2f} {:>8.3f} {:>26.2f} {:>8.3f}\n", f.trial, f.identified.rmse_nm(), f.identified.r2(),
+                 f.literature.rmse_nm(), f.literature.r2());
     }
   }
   for (const identification::IdentificationResult& method : result.fit.methods) {
@@ -76,8 +70,7 @@ void print_predictions(const StudyResult& result) {
     bool first = true;
     for (const identification::TrialFit& t : method.trials) {
       if (t.calibration) continue;
-      if (first)
-        fmt::print("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
+      if (first) fmt::print("\nvalidation trials\n{:<20} {:>10} {:>8}\n", "trial", "RMSE [N m]", "R2");
       first = false;
       fmt::print("{:<20} {:>10.2f} {:>8.3f}\n", t.trial, t.score.rmse_nm(), t.score.r2());
     }
@@ -106,18 +99,15 @@ void print_gates(const std::vector<report::Gate>& gates) {
                          : gate.status == report::GateStatus::fail ? "FAILED"
                                                                    : "-";
     fmt::print("{:<8} {}: {}\n", status, gate.name, gate.value);
-    if (gate.status == report::GateStatus::fail)
-      fmt::print("{:<8} expected: {}. {}\n", "", gate.threshold, gate.why);
+    if (gate.status == report::GateStatus::fail) fmt::print("{:<8} expected: {}. {}\n", "", gate.threshold, gate.why);
   }
 }
 
-/// Prints the methods with intervals, their predictions, method `paper`, the next movements and the
-/// quality gates.
+/// Prints the methods with intervals, their predictions, method `paper`, the next movements and the quality gates.
 void print_results(const StudyResult& result, const std::vector<report::Gate>& gates) {
   for (const bool paper : {false, true}) {
     for (const identification::IdentificationResult& method : result.fit.methods) {
-      if ((method.method == "paper") == paper)
-        print_method(method, result.fit_input.data.muscles.size());
+      if ((method.method == "paper") == paper) print_method(method, result.fit_input.data.muscles.size());
     }
     if (!paper) print_predictions(result);
   }
@@ -129,24 +119,21 @@ void print_results(const StudyResult& result, const std::vector<report::Gate>& g
 void tell_gates(const std::vector<report::Gate>& gates, const Context& context) {
   if (!context.json && !context.quiet) return;
   for (const report::Gate& g : gates) {
-    if (g.status == report::GateStatus::fail)
-      context.warn(fmt::format("quality gate failed: {}: {}", g.name, g.value));
+    if (g.status == report::GateStatus::fail) context.warn(fmt::format("quality gate failed: {}: {}", g.name, g.value));
   }
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "run",
-      "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
-      "Example: myoid run study.toml --out results");
+  CLI::App& command =
+      *app.add_subcommand("run",
+                          "The whole pipeline, from a study's recordings to muscle parameters with their uncertainty.\n"
+                          "Example: myoid run study.toml --out results");
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::RunOptions>();
   command.add_option("study", options->study, "study.toml")->required();
-  command
-      .add_option("--estimator", options->estimator,
-                  "least_squares or posterior, in place of the study's")
+  command.add_option("--estimator", options->estimator, "least_squares or posterior, in place of the study's")
       ->transform(one_of<identification::EstimatorKind>());
   command.add_option("--out", *out, "Folder of the results")->required();
   add_video_options(command, options->video);
@@ -165,17 +152,14 @@ void add_run(CLI::App& app, Context& context) {
     context.end_progress();
     tell_gates(result.gates, context);
     if (result.reading_remarks > 0 && !context.verbose)
-      context.log(fmt::format(
-          "{} remarks on how files were read and repaired: in run.json, or with --verbose",
-          result.reading_remarks));
+      context.log(fmt::format("{} remarks on how files were read and repaired: in run.json, or with --verbose",
+                              result.reading_remarks));
     const StudyResult& study = result.study;
     if (context.json) {
-      fmt::print("{}", parameters_json(study.fit.methods, study.folds, result.provenance,
-                                       parameter_context(study)));
+      fmt::print("{}", parameters_json(study.fit.methods, study.folds, result.provenance, parameter_context(study)));
     } else {
       print_results(study, result.gates);
-      const double seconds =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       context.log(fmt::format("\n{:.1f} s", seconds));
       fmt::print("\nreport: {}/report.html\n", *out);
     }

@@ -7,19 +7,17 @@
 namespace myoid::cli {
 
 void add_run_tool(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "run-tool",
-      "Run an OpenSim set-up file: inverse kinematics, inverse dynamics, analyses, scaling\n"
-      "Example: myoid run-tool subject01_Setup_IK.xml");
+  CLI::App& command =
+      *app.add_subcommand("run-tool",
+                          "Run an OpenSim set-up file: inverse kinematics, inverse dynamics, analyses, scaling\n"
+                          "Example: myoid run-tool subject01_Setup_IK.xml");
   const auto o = std::make_shared<commands::RunToolOptions>();
   command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
   command.add_option("--model", o->files.model, "Model (.osim), instead of the set-up's");
-  command.add_option(
-      "--motion", o->files.motion,
-      "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers "
-      "(.trc), instead of the set-up's");
-  command.add_option("--external-loads", o->files.external_loads,
-                     "External loads (.xml), instead of the set-up's");
+  command.add_option("--motion", o->files.motion,
+                     "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers "
+                     "(.trc), instead of the set-up's");
+  command.add_option("--external-loads", o->files.external_loads, "External loads (.xml), instead of the set-up's");
   command.add_option("--out", o->files.out, "Folder of the results, instead of the set-up's");
   command
       .add_option("--compat", o->compat,

@@ -25,9 +25,7 @@ void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
                      "Instead: MUSCLE=LEVEL, or LEVEL@START (a step), or LEVEL@START+DURATION (a "
                      "burst); may be repeated; 'all' is every muscle");
   command.add_option("--rest", o.rest, "Excitation where --excite says nothing (default 0.01)");
-  command
-      .add_option("--tendon", o.tendon,
-                  "rigid, equilibrium (default) or mass (the source paper's muscle mass)")
+  command.add_option("--tendon", o.tendon, "rigid, equilibrium (default) or mass (the source paper's muscle mass)")
       ->check(CLI::IsMember(commands::tendon_names()));
   command
       .add_option("--curves", o.curves,
@@ -45,8 +43,7 @@ void add_movement_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--initial", o.initial,
                      "COORDINATE=VALUE at the start [deg, m]; may be repeated (default: the "
                      "model's default posture)");
-  command.add_option("--initial-speed", o.initial_speed,
-                     "COORDINATE=SPEED at the start [deg/s, m/s]");
+  command.add_option("--initial-speed", o.initial_speed, "COORDINATE=SPEED at the start [deg/s, m/s]");
   command.add_option("--lock", o.lock, "Coordinate that does not move; may be repeated");
   command.add_flag("--horizontal", o.horizontal, "arm4 without gravity");
   command.add_option("--held-mass", o.held_mass_kg, "Mass held in the hand [kg] (default 0)");
@@ -57,8 +54,7 @@ void add_movement_options(CLI::App& command, commands::SimulateOptions& o) {
 /// Adds the samples and the further results.
 void add_output_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--rate", o.rate_hz, "Samples of the results [Hz] (default 200)");
-  command.add_option("--tolerance", o.tolerance,
-                     "Relative local error of the integration (default 1e-8)");
+  command.add_option("--tolerance", o.tolerance, "Relative local error of the integration (default 1e-8)");
   command.add_flag("--energy", o.energy, "Also the work of every element, and whether it adds up");
   command.add_option("--sensitivity", o.sensitivity,
                      "Also the derivatives by this parameter of arm4, such as "
@@ -69,10 +65,10 @@ void add_output_options(CLI::App& command, commands::SimulateOptions& o) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "simulate",
-      "Forward dynamics: excitations of the muscles to motion, forces and lengths.\n"
-      "Example: myoid simulate --model arm4 --excite BIC=0.1@0.2+0.3 --end 2 --out sim");
+  CLI::App& command =
+      *app.add_subcommand("simulate",
+                          "Forward dynamics: excitations of the muscles to motion, forces and lengths.\n"
+                          "Example: myoid simulate --model arm4 --excite BIC=0.1@0.2+0.3 --end 2 --out sim");
   const auto out = std::make_shared<std::string>();
   const auto paper_figures_only = std::make_shared<bool>(false);
   const auto o = std::make_shared<commands::SimulateOptions>();

@@ -20,42 +20,35 @@ void print_so(const forces::MuscleForces& shared, const std::string& out, bool a
     fmt::print("{}\n", json_text(json));
     return;
   }
-  fmt::print(
-      "{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
-      shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
-      shared.kkt_residual.maxCoeff(), out);
+  fmt::print("{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
+             shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve, shared.kkt_residual.maxCoeff(),
+             out);
 }
 
 }  // namespace
 
 void add_so(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "so",
-      "Muscle force sharing (static optimization): which forces make the torques?\n"
-      "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
+  CLI::App& command = *app.add_subcommand("so",
+                                          "Muscle force sharing (static optimization): which forces make the torques?\n"
+                                          "Example: myoid so --model arm.osim --motion ik.mot --lowpass 6 --out so");
   const auto out = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::SoOptions>();
   command.add_option("--model", o->model, "OpenSim model (.osim), or arm4")->required();
   command.add_option("--motion", o->motion, "Joint angles (.mot, .sto)")->required();
   command.add_option("--out", *out, "Folder for StaticOptimization_*")->required();
-  command
-      .add_option("--objective", o->objective, "activation, force or stress (default activation)")
+  command.add_option("--objective", o->objective, "activation, force or stress (default activation)")
       ->check(CLI::IsMember({"activation", "force", "stress"}));
   command.add_option("--exponent", o->exponent, "Exponent of the sum, above 1 (default 2)");
   command.add_option("--emg", o->emg, "Measured activations by muscle name (.sto), to stay near");
   command.add_option("--emg-weight", o->emg_weight, "Weight of that term (default 1)");
-  command.add_option("--reserve", o->reserve_nm,
-                     "Optimal torque of the reserve on every coordinate [N m] (default 1)");
-  command.add_option(
-      "--coordinate", o->coordinates,
-      "Coordinate whose torque the muscles balance, repeated (default: all that take a value of "
-      "their own)");
+  command.add_option("--reserve", o->reserve_nm, "Optimal torque of the reserve on every coordinate [N m] (default 1)");
+  command.add_option("--coordinate", o->coordinates,
+                     "Coordinate whose torque the muscles balance, repeated (default: all that take a value of "
+                     "their own)");
   command
-      .add_option("--lowpass", o->cutoff_hz,
-                  "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
+      .add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(above_zero());
-  command.add_option("--loads", o->loads,
-                     "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
+  command.add_option("--loads", o->loads, "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command
       .add_option("--tendon", o->tendon,
                   "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in "

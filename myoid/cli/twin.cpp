@@ -20,8 +20,8 @@ void make_many(commands::TwinPersonsOptions options, const std::string& out, Con
   options.twin.call = context.call();
   const commands::TwinPersonsResult result = commands::write_twin_persons(options, out);
   context.end_progress();
-  context.log(fmt::format("{} persons, seeds {} to {}", options.persons, context.seed,
-                          context.seed + options.persons - 1));
+  context.log(
+      fmt::format("{} persons, seeds {} to {}", options.persons, context.seed, context.seed + options.persons - 1));
   if (!context.json) {
     fmt::print("{}\n", result.table.string());
     return;
@@ -40,8 +40,8 @@ void make_one(commands::TwinOptions options, const std::string& out, Context& co
   const commands::TwinResult result = commands::twin(options);
   commands::write_twin(result, out);
   const twin::VirtualRecording& recording = result.recording;
-  context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
-                          twin::name(recording.protocol.level), context.seed));
+  context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(), twin::name(recording.protocol.level),
+                          context.seed));
   const std::string study = (fs::path(out) / "study.toml").string();
   if (!context.json) {
     fmt::print("{}\n", study);
@@ -51,18 +51,17 @@ void make_one(commands::TwinOptions options, const std::string& out, Context& co
   json["study"] = study;
   json["level"] = twin::name(recording.protocol.level);
   json["trials"] = nlohmann::ordered_json::array();
-  for (const twin::VirtualTrial& trial : recording.trials)
-    json["trials"].push_back(trial.protocol.name);
+  for (const twin::VirtualTrial& trial : recording.trials) json["trials"].push_back(trial.protocol.name);
   fmt::print("{}\n", json_text(json));
 }
 
 }  // namespace
 
 void add_twin(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "twin",
-      "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
-      "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
+  CLI::App& command =
+      *app.add_subcommand("twin",
+                          "A virtual recording whose truth is known: markers, raw EMG, model, study.toml, truth.csv.\n"
+                          "Example: myoid twin --model arm4 --protocol examples/demo/protocol.toml --seed 1 --out rec");
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::TwinPersonsOptions>();
   command
@@ -70,8 +69,7 @@ void add_twin(CLI::App& app, Context& context) {
                   "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven "
                   "heads, level L2)")
       ->check(CLI::IsMember({"arm4", "arm7"}));
-  command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")
-      ->required();
+  command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")->required();
   command
       .add_option("--level", options->twin.level,
                   "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol "
@@ -86,8 +84,7 @@ void add_twin(CLI::App& app, Context& context) {
       .add_option("--format", options->twin.format,
                   "Files of markers and EMG: trc (.trc and .sto, default) or c3d (both in one)")
       ->check(CLI::IsMember({"trc", "c3d"}));
-  command.add_flag("--truth-only", options->truth_only,
-                   "With --subjects: persons.csv only, no recordings");
+  command.add_flag("--truth-only", options->truth_only, "With --subjects: persons.csv only, no recordings");
   command.add_option("--out", *out, "Folder for the recording")->required();
   add_common_options(command, context, {.range = false});
   command.callback([&context, &command, options, out] {

@@ -13,9 +13,7 @@
 namespace myoid::cli {
 namespace {
 
-std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-";
-}
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-"; }
 
 void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
   const auto print = [](auto... cells) {
@@ -24,17 +22,15 @@ void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_mu
         "{:>7} {:>9} {:>9}\n",
         cells...);
   };
-  print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %",
-        "<20 %", "prior", "cover", "half w.", "identif.", "of these");
-  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "[%]",
-        "<15 % [%]");
+  print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %", "<20 %", "prior",
+        "cover", "half w.", "identif.", "of these");
+  print("", "", "", "", "", "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "<10 %", "[%]", "[%]", "[%]", "<15 % [%]");
   for (const twin::TwinSummary& s : summaries) {
     if (!each_muscle && s.muscle != "all" && s.muscle != "subject") continue;
     const int identified = s.verdicts[0];
-    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias),
-          percent(s.median_error), percent(s.rmse), percent(s.within_5), percent(s.within_10),
-          percent(s.within_20), percent(s.prior_within_10), percent(s.coverage),
-          percent(s.half_width), percent(static_cast<double>(identified) / s.count),
+    print(s.method, s.fit_case, s.muscle, s.parameter, s.count, percent(s.bias), percent(s.median_error),
+          percent(s.rmse), percent(s.within_5), percent(s.within_10), percent(s.within_20), percent(s.prior_within_10),
+          percent(s.coverage), percent(s.half_width), percent(static_cast<double>(identified) / s.count),
           identified > 0 ? percent(static_cast<double>(s.identified_within_15) / identified) : "-");
   }
 }
@@ -43,8 +39,8 @@ void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_mu
 void print_predictions(const twin::TwinStudyResult& result) {
   if (result.predictions.empty()) return;
   fmt::print("\ntrials held back, medians: NRMSE is RMSE over the range of the trial's torque\n");
-  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]",
-             "R2", "smoothed: NRMSE", "R2", "below 1.5 Hz: NRMSE", "R2");
+  fmt::print("{:<28} {:>5} {:>10} {:>7} {:>16} {:>7} {:>19} {:>7}\n", "trial", "n", "NRMSE [%]", "R2",
+             "smoothed: NRMSE", "R2", "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
   for (const twin::TwinPrediction& p : result.predictions) {
     if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
@@ -61,16 +57,14 @@ void print_predictions(const twin::TwinStudyResult& result) {
       count = r2.size();
       return std::pair{math::median(std::move(nrmse)), math::median(std::move(r2))};
     };
-    const auto law = medians(&twin::TwinPrediction::law),
-               smooth = medians(&twin::TwinPrediction::smooth),
+    const auto law = medians(&twin::TwinPrediction::law), smooth = medians(&twin::TwinPrediction::smooth),
                band = medians(&twin::TwinPrediction::band);
-    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial,
-               count, law.first, law.second, smooth.first, smooth.second, band.first, band.second);
+    fmt::print("{:<28} {:>5} {:>10.1f} {:>7.3f} {:>16.1f} {:>7.3f} {:>19.1f} {:>7.3f}\n", trial, count, law.first,
+               law.second, smooth.first, smooth.second, band.first, band.second);
   }
 }
 
-void print_verdicts(const twin::TwinStudyResult& result,
-                    const std::vector<twin::TwinSummary>& summaries) {
+void print_verdicts(const twin::TwinStudyResult& result, const std::vector<twin::TwinSummary>& summaries) {
   for (const char* method : {"torque", "force", "paper"}) {
     int good = 0;
     int bad = 0;
@@ -86,10 +80,10 @@ void print_verdicts(const twin::TwinStudyResult& result,
       outside += s.outside_physical;
     }
     if (good + bad + other_good + other_bad == 0) continue;
-    fmt::print("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "",
-               "error < 10 %", "error >= 10 %");
-    fmt::print("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad,
-               "not identified", other_good, other_bad);
+    fmt::print("\nmethod {}: does the verdict know?\n{:<24} {:>14} {:>14}\n", method, "", "error < 10 %",
+               "error >= 10 %");
+    fmt::print("{:<24} {:>14} {:>14}\n{:<24} {:>14} {:>14}\n", "identified", good, bad, "not identified", other_good,
+               other_bad);
     fmt::print("{} values outside the physical bounds without the verdict non_physical\n", outside);
   }
   print_predictions(result);
@@ -98,21 +92,18 @@ void print_verdicts(const twin::TwinStudyResult& result,
 }  // namespace
 
 void add_twin_study(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand(
-      "twin-study",
-      "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
-      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out "
-      "study");
+  CLI::App& command =
+      *app.add_subcommand("twin-study",
+                          "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
+                          "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out "
+                          "study");
   const auto out = std::make_shared<std::string>();
   const auto each_muscle = std::make_shared<bool>(false);
   const auto options = std::make_shared<commands::TwinStudyOptions>();
-  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml)")
-      ->required();
+  command.add_option("--protocol", options->protocol, "Protocol of the recording (.toml)")->required();
   command.add_option("--level", options->level, "L0, L1 or L2 instead of the protocol's own")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
-  command
-      .add_option("--offset", options->offset,
-                  "Mean of the persons away from the priors', in standard deviations")
+  command.add_option("--offset", options->offset, "Mean of the persons away from the priors', in standard deviations")
       ->check(CLI::Range(-3.0, 3.0));
   add_truth_option(command, options->truth);
   command.add_option("--subjects", options->study.subjects, "Virtual persons")
@@ -121,14 +112,11 @@ void add_twin_study(CLI::App& app, Context& context) {
   command.add_option("--method", options->study.methods, "torque, force, paper; several")
       ->transform(one_of<identification::Method>())
       ->default_str("torque");
-  command
-      .add_option("--estimator", options->study.estimator,
-                  "Of method torque: least_squares or posterior")
+  command.add_option("--estimator", options->study.estimator, "Of method torque: least_squares or posterior")
       ->transform(one_of<identification::EstimatorKind>())
       ->default_str("least_squares");
   command.add_flag("--each-muscle", *each_muscle, "A line for each muscle too");
-  command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")
-      ->required();
+  command.add_option("--out", *out, "Folder for persons.csv, summary.csv, predictions.csv")->required();
   add_common_options(command, context, {.range = false});
   command.callback([&context, options, out, each_muscle] {
     context.prepare_folder(*out);
@@ -137,11 +125,11 @@ void add_twin_study(CLI::App& app, Context& context) {
     context.end_progress();
     commands::write_twin_study(result, *out);
     const twin::TwinStudyResult& study = result.study;
-    const std::string persons = study.interrupted ? fmt::format("INTERRUPTED: only {} of {}",
-                                                                study.finished, study.subjects)
-                                                  : fmt::format("{}", study.finished);
-    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level,
-               persons, study.failures.size());
+    const std::string persons = study.interrupted
+                                    ? fmt::format("INTERRUPTED: only {} of {}", study.finished, study.subjects)
+                                    : fmt::format("{}", study.finished);
+    fmt::print("protocol {}, level {}, {} persons, {} failures\n\n", study.protocol, study.level, persons,
+               study.failures.size());
     print_summary(result.summaries, *each_muscle);
     print_verdicts(study, result.summaries);
     if (study.interrupted) throw Interrupted();

@@ -9,10 +9,9 @@
 namespace myoid::cli {
 
 void add_update_file(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("update-file",
-                          "Write an OpenSim model or set-up of any version in the newest form\n"
-                          "Example: myoid update-file gait2392_v2.osim gait2392.osim");
+  CLI::App& command = *app.add_subcommand("update-file",
+                                          "Write an OpenSim model or set-up of any version in the newest form\n"
+                                          "Example: myoid update-file gait2392_v2.osim gait2392.osim");
   const auto new_file = std::make_shared<std::string>();
   const auto o = std::make_shared<commands::UpdateFileOptions>();
   command.add_option("old", o->file, "Model, set-up or set (.osim, .xml)")->required();

@@ -36,9 +36,7 @@ report::Badge badge(const std::optional<Outcome>& outcome) {
   return report::Badge::none;
 }
 
-bool has_results(const PersonOutcome& each) {
-  return each.outcome && each.outcome->kind != OutcomeKind::failed;
-}
+bool has_results(const PersonOutcome& each) { return each.outcome && each.outcome->kind != OutcomeKind::failed; }
 
 /// Returns the name and further columns.
 std::vector<std::string> own_cells(const Person& person) {
@@ -48,8 +46,7 @@ std::vector<std::string> own_cells(const Person& person) {
 }
 
 report::Table persons_table(const Manifest& manifest, const std::vector<PersonOutcome>& outcomes) {
-  report::Table table{
-      .id = "persons", .title = "Persons", .caption = {}, .columns = {"person"}, .rows = {}};
+  report::Table table{.id = "persons", .title = "Persons", .caption = {}, .columns = {"person"}, .rows = {}};
   for (const std::string& name : manifest.fact_names()) table.columns.push_back(name);
   for (const char* name : {"study", "outcome", "message"}) table.columns.emplace_back(name);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -79,17 +76,13 @@ void add_parameters(report::Table& table, const Person& person, const CsvTable& 
   }
 }
 
-report::Report page_of(const Manifest& manifest,
-                       const Group& group,
-                       const std::vector<GroupPerson>& persons) {
+report::Report page_of(const Manifest& manifest, const Group& group, const std::vector<GroupPerson>& persons) {
   GroupPage beside = group_page(persons);
   report::Report page;
   page.title = "A cohort";
   page.subtitle = counted(group.outcomes.size(), "person");
-  page.headline =
-      fmt::format("{} of {} persons have results.", persons.size(), group.outcomes.size());
-  for (const std::string& line : failures(group.outcomes))
-    page.headline += " Without: " + line + ".";
+  page.headline = fmt::format("{} of {} persons have results.", persons.size(), group.outcomes.size());
+  for (const std::string& line : failures(group.outcomes)) page.headline += " Without: " + line + ".";
   if (!beside.outliers.empty()) page.headline += " " + outlier_sentence(beside.outliers);
   page.links = {{"every number of every person", "cohort.csv"}, {"the persons", "persons.csv"}};
   report::Section people;
@@ -97,8 +90,7 @@ report::Report page_of(const Manifest& manifest,
   people.heading = "The persons";
   people.tables.push_back(group.persons);
   page.sections = {std::move(beside.persons), std::move(people)};
-  page.provenance = {{"program", fmt::format("myoid {}", version())},
-                     {"manifest", manifest.file.string()}};
+  page.provenance = {{"program", fmt::format("myoid {}", version())}, {"manifest", manifest.file.string()}};
   return page;
 }
 
@@ -140,8 +132,7 @@ void write_group(const Group& group, const Manifest& manifest, const fs::path& f
   recording::write_file(folder / "persons.csv", report::table_csv(group.persons));
   report::write_report(group.page, folder);
   recording::write_file(folder / "participants.tsv", participants_tsv(manifest));
-  recording::write_file(folder / ".bidsignore",
-                        "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
+  recording::write_file(folder / ".bidsignore", "persons/\nworkflow/\nfigures/\ntables/\n*.csv\nreport.*\n");
   for (std::size_t i = 0; i < manifest.persons.size(); ++i) {
     const Person& person = manifest.persons[i];
     std::error_code ignored;

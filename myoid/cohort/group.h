@@ -14,7 +14,7 @@ namespace myoid::cohort {
 struct Group {
   std::vector<PersonOutcome> outcomes;  ///< In the order of the manifest.
   report::Table persons;                ///< Person, further columns, study, outcome, message.
-  report::Table parameters;  ///< Person, further columns, and the columns of parameters.csv.
+  report::Table parameters;             ///< Person, further columns, and the columns of parameters.csv.
   report::Report page;
 };
 

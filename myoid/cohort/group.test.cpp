@@ -14,15 +14,13 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr const char* kHeader =
-    "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict,reason\n";
+constexpr const char* kHeader = "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict,reason\n";
 
 /// Three persons: two with numbers, one who failed.
 Manifest three(const fs::path& folder) {
   Manifest manifest{.file = "m.csv", .persons = {}};
   const auto add = [&](const std::string& name, OutcomeKind kind, const std::string& rows) {
-    manifest.persons.push_back(
-        {.name = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
+    manifest.persons.push_back({.name = name, .label = name, .study = "s.toml", .facts = {{"group", "young, fit"}}});
     const fs::path place = person_folder(folder, manifest.persons.back());
     write_outcome({.kind = kind, .message = kind == OutcomeKind::failed ? "no EMG" : ""}, place);
     if (!rows.empty()) recording::write_file(place / "parameters.csv", kHeader + rows);
@@ -72,8 +70,7 @@ TEST(Group, WritesTablesPageAndDerivativeAndNoDerivativeOfAPersonWithoutResults)
   write_group(read_group(manifest, folder.path()), manifest, folder.path());
   EXPECT_THAT(recording::read_text_file(folder / "cohort.csv"),
               HasSubstr("A,\"young, fit\",BIC,max_isometric_force,N,torque,both,100,90,110"));
-  EXPECT_THAT(recording::read_text_file(folder / "persons.csv"),
-              HasSubstr("C,\"young, fit\",s.toml,failed,no EMG"));
+  EXPECT_THAT(recording::read_text_file(folder / "persons.csv"), HasSubstr("C,\"young, fit\",s.toml,failed,no EMG"));
   EXPECT_THAT(recording::read_text_file(folder / "participants.tsv"),
               HasSubstr("participant_id\tgroup\nsub-A\tyoung, fit\n"));
   EXPECT_TRUE(fs::exists(folder / "report.html"));

@@ -63,15 +63,11 @@ StripCell cell_of(const GroupNumber& number) {
 }
 
 bool counts(const StripCell& cell) {
-  return cell.value &&
-         (cell.verdict.empty() || cell.badge == Badge::good || cell.badge == Badge::weak);
+  return cell.value && (cell.verdict.empty() || cell.badge == Badge::good || cell.badge == Badge::weak);
 }
 
 /// Marks the outliers of a column, and draws median and spread behind it.
-void judge(StripGrid& grid,
-           std::size_t column,
-           std::string_view name,
-           std::vector<Outlier>& outliers) {
+void judge(StripGrid& grid, std::size_t column, std::string_view name, std::vector<Outlier>& outliers) {
   std::vector<double> values;
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < grid.rows.size(); ++i) {
@@ -107,8 +103,7 @@ std::string id_of(std::string_view name) {
 
 /// Returns a grid whose cells are still empty.
 StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, std::string title) {
-  StripGrid grid{
-      .id = std::move(id), .title = std::move(title), .caption = {}, .columns = {}, .rows = {}};
+  StripGrid grid{.id = std::move(id), .title = std::move(title), .caption = {}, .columns = {}, .rows = {}};
   for (const GroupPerson& person : persons)
     grid.rows.push_back({.person = person.name, .page = person.page, .cells = {}});
   return grid;
@@ -116,11 +111,10 @@ StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, st
 
 /// Returns the column of this name; adds a new one if there is none.
 std::size_t column_of(StripGrid& grid, const std::string& name, const std::string& unit) {
-  const auto found = std::find_if(grid.columns.begin(), grid.columns.end(),
-                                  [&](const StripColumn& c) { return c.name == name; });
+  const auto found =
+      std::find_if(grid.columns.begin(), grid.columns.end(), [&](const StripColumn& c) { return c.name == name; });
   if (found != grid.columns.end()) return static_cast<std::size_t>(found - grid.columns.begin());
-  grid.columns.push_back(
-      {.name = name, .unit = unit, .middle = {}, .spread_low = {}, .spread_high = {}});
+  grid.columns.push_back({.name = name, .unit = unit, .middle = {}, .spread_low = {}, .spread_high = {}});
   for (report::StripRow& row : grid.rows) row.cells.emplace_back();
   return grid.columns.size() - 1;
 }
@@ -139,24 +133,20 @@ StripGrid quality_grid(const std::vector<GroupPerson>& persons, std::vector<Outl
     }
   }
   for (std::size_t c = 0; c < grid.columns.size(); ++c) {
-    if (grid.columns[c].name != "questions not passed")
-      judge(grid, c, grid.columns[c].name, outliers);
+    if (grid.columns[c].name != "questions not passed") judge(grid, c, grid.columns[c].name, outliers);
   }
   return grid;
 }
 
 /// Returns one grid per parameter, in the order in which the parameters appear.
-std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons,
-                                    std::vector<Outlier>& outliers) {
+std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std::vector<Outlier>& outliers) {
   std::vector<StripGrid> grids;
   for (std::size_t i = 0; i < persons.size(); ++i) {
     for (const GroupNumber& number : persons[i].numbers) {
       const std::string id = id_of(number.parameter);
-      auto grid =
-          std::find_if(grids.begin(), grids.end(), [&](const StripGrid& g) { return g.id == id; });
+      auto grid = std::find_if(grids.begin(), grids.end(), [&](const StripGrid& g) { return g.id == id; });
       if (grid == grids.end())
-        grid =
-            grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));
+        grid = grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));
       grid->caption =
           "A row is a person: mark and 95 % interval. Behind them median and robust standard "
           "deviation of the numbers that the recordings tell; pale: a number that the recording "
@@ -187,24 +177,22 @@ std::optional<std::vector<Cell>> summary_row(const StripGrid& grid, std::size_t 
   const double mean = std::accumulate(estimates.begin(), estimates.end(), 0.0) / count;
   double squares = 0.0;
   for (const double x : estimates) squares += (x - mean) * (x - mean);
-  return report::text_row(
-      {grid.title, grid.columns[column].name, grid.columns[column].unit,
-       fmt::format("{} of {}", estimates.size(), grid.rows.size()), report::format_value(mean),
-       estimates.size() < 2 ? "-" : report::format_value(std::sqrt(squares / (count - 1.0))),
-       widths.empty() ? "-" : report::format_value(math::median(std::move(widths)))});
+  return report::text_row({grid.title, grid.columns[column].name, grid.columns[column].unit,
+                           fmt::format("{} of {}", estimates.size(), grid.rows.size()), report::format_value(mean),
+                           estimates.size() < 2 ? "-" : report::format_value(std::sqrt(squares / (count - 1.0))),
+                           widths.empty() ? "-" : report::format_value(math::median(std::move(widths)))});
 }
 
 report::Table summary_table(const std::vector<StripGrid>& grids) {
   report::Table table{.id = "summary",
                       .title = "Numbers that the recordings tell",
                       .caption = "Verdict identified or weak. Every person counts once.",
-                      .columns = {"parameter", "muscle", "unit", "persons", "mean",
-                                  "SD between persons", "median half width of the 95 % intervals"},
+                      .columns = {"parameter", "muscle", "unit", "persons", "mean", "SD between persons",
+                                  "median half width of the 95 % intervals"},
                       .rows = {}};
   for (const StripGrid& grid : grids) {
     for (std::size_t c = 0; c < grid.columns.size(); ++c) {
-      if (std::optional<std::vector<Cell>> row = summary_row(grid, c))
-        table.rows.push_back(std::move(*row));
+      if (std::optional<std::vector<Cell>> row = summary_row(grid, c)) table.rows.push_back(std::move(*row));
     }
   }
   return table;
@@ -214,19 +202,17 @@ report::Table outlier_table(const std::vector<Outlier>& outliers) {
   report::Table table{
       .id = "outliers",
       .title = "Persons far from the others",
-      .caption = fmt::format(
-          "A number farther than {} robust standard deviations (1.4826 times the median absolute "
-          "deviation) from the median of the persons, where {} or more have it. Look at the "
-          "person's "
-          "report first: a label, unit or electrode is more often the cause than the person.",
-          kOutlierDistance, kFewestForOutliers),
+      .caption = fmt::format("A number farther than {} robust standard deviations (1.4826 times the median absolute "
+                             "deviation) from the median of the persons, where {} or more have it. Look at the "
+                             "person's "
+                             "report first: a label, unit or electrode is more often the cause than the person.",
+                             kOutlierDistance, kFewestForOutliers),
       .columns = {"person", "number", "value", "median of the persons", "robust SD from it"},
       .rows = {}};
   for (const Outlier& o : outliers) {
     const std::string unit = o.unit.empty() ? "" : " " + o.unit;
     table.rows.push_back(report::text_row({o.person, o.number, report::format_value(o.value) + unit,
-                                           report::format_value(o.median) + unit,
-                                           fmt::format("{:+.1f}", o.distance)}));
+                                           report::format_value(o.median) + unit, fmt::format("{:+.1f}", o.distance)}));
   }
   return table;
 }
@@ -264,16 +250,13 @@ std::string outlier_sentence(const std::vector<Outlier>& outliers) {
   if (outliers.empty()) return "";
   std::vector<std::string> persons;
   for (const Outlier& o : outliers) {
-    if (std::find(persons.begin(), persons.end(), o.person) == persons.end())
-      persons.push_back(o.person);
+    if (std::find(persons.begin(), persons.end(), o.person) == persons.end()) persons.push_back(o.person);
   }
-  std::string text =
-      fmt::format("{} of {} far from the others: ", counted(outliers.size(), "number"),
-                  counted(persons.size(), "person"));
+  std::string text = fmt::format("{} of {} far from the others: ", counted(outliers.size(), "number"),
+                                 counted(persons.size(), "person"));
   for (std::size_t i = 0; i < std::min(outliers.size(), kMostNamed); ++i)
     text += fmt::format("{}{}, {}", i == 0 ? "" : "; ", outliers[i].person, outliers[i].number);
-  if (outliers.size() > kMostNamed)
-    text += fmt::format("; and {} more, named below", outliers.size() - kMostNamed);
+  if (outliers.size() > kMostNamed) text += fmt::format("; and {} more, named below", outliers.size() - kMostNamed);
   return text + ".";
 }
 

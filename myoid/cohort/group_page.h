@@ -17,10 +17,9 @@ struct Outlier {
   double distance = 0.0;  ///< In robust standard deviations, with sign.
 };
 
-/// The robust distance of each value from the others: (x - median) / (1.4826 MAD), MAD the median
-/// absolute deviation from the median. 0 for all where MAD is 0 or there are fewer than five
-/// values. Beyond 3.5 a value is an outlier (Iglewicz and Hoaglin, How to Detect and Handle
-/// Outliers, 1993).
+/// The robust distance of each value from the others: (x - median) / (1.4826 MAD), MAD the median absolute deviation
+/// from the median. 0 for all where MAD is 0 or there are fewer than five values. Beyond 3.5 a value is an outlier
+/// (Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993).
 inline constexpr double kOutlierDistance = 3.5;
 inline constexpr std::size_t kFewestForOutliers = 5;
 [[nodiscard]] std::vector<double> robust_distances(const std::vector<double>& values);

@@ -23,8 +23,7 @@ constexpr int kDeepest = 3;  // below the folder that is named
 
 std::string cell(const CsvTable& table, const std::vector<std::string>& row, const char* name) {
   const auto found = std::find(table.names.begin(), table.names.end(), name);
-  return found == table.names.end() ? ""
-                                    : row[static_cast<std::size_t>(found - table.names.begin())];
+  return found == table.names.end() ? "" : row[static_cast<std::size_t>(found - table.names.begin())];
 }
 
 std::string chosen_method(const CsvTable& table) {
@@ -37,21 +36,18 @@ std::string chosen_method(const CsvTable& table) {
 }
 
 std::optional<GroupNumber> number_of(const CsvTable& table, const std::vector<std::string>& row) {
-  const auto value = [&](const char* name) {
-    return recording::parse_number(cell(table, row, name));
-  };
+  const auto value = [&](const char* name) { return recording::parse_number(cell(table, row, name)); };
   const auto estimate = value("estimate");
   if (!estimate) return std::nullopt;
   const std::string fit_case = cell(table, row, "case"), unit = cell(table, row, "unit");
-  return GroupNumber{
-      .parameter = cell(table, row, "parameter") + (fit_case == "both" ? "" : ", " + fit_case),
-      .muscle = cell(table, row, "muscle"),
-      .unit = unit == "1" ? "" : unit,
-      .verdict = cell(table, row, "verdict"),
-      .estimate = *estimate,
-      .low = value("ci_low"),
-      .high = value("ci_high"),
-      .truth = value("truth")};
+  return GroupNumber{.parameter = cell(table, row, "parameter") + (fit_case == "both" ? "" : ", " + fit_case),
+                     .muscle = cell(table, row, "muscle"),
+                     .unit = unit == "1" ? "" : unit,
+                     .verdict = cell(table, row, "verdict"),
+                     .estimate = *estimate,
+                     .low = value("ci_low"),
+                     .high = value("ci_high"),
+                     .truth = value("truth")};
 }
 
 json read_json(const fs::path& file) {
@@ -87,12 +83,10 @@ void add_fit(const json& parameters, std::vector<Quality>& quality) {
   for (const json& fold : parameters.value("leave_one_trial_out", json::array())) {
     const json identified = fold.value("identified", json::object());
     if (identified.value("r2", json()).is_number()) r2.push_back(identified.at("r2"));
-    if (identified.value("rmse_nm", json()).is_number())
-      rmse_nm.push_back(identified.at("rmse_nm"));
+    if (identified.value("rmse_nm", json()).is_number()) rmse_nm.push_back(identified.at("rmse_nm"));
   }
   if (!r2.empty()) quality.push_back({"R2 of trials left out", "", math::median(r2), ""});
-  if (!rmse_nm.empty())
-    quality.push_back({"torque error, left out", "N m", math::median(rmse_nm), ""});
+  if (!rmse_nm.empty()) quality.push_back({"torque error, left out", "N m", math::median(rmse_nm), ""});
 }
 
 void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
@@ -104,8 +98,7 @@ void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
     const Eigen::VectorXd rms = series.column("marker_error_RMS");
     errors_mm.push_back(1000.0 * math::median({rms.begin(), rms.end()}));
   }
-  if (!errors_mm.empty())
-    quality.push_back({"marker error", "mm", math::median(std::move(errors_mm)), ""});
+  if (!errors_mm.empty()) quality.push_back({"marker error", "mm", math::median(std::move(errors_mm)), ""});
 }
 
 /// Finds the folders of runs in this one, in the order of their names.
@@ -137,10 +130,8 @@ bool add_virtual_persons(const fs::path& folder, std::vector<GroupPerson>& perso
     of.rows.push_back(row);
   }
   for (const auto& [seed, rows] : by_seed)
-    persons.push_back({.name = fmt::format("person {}", seed),
-                       .page = {},
-                       .numbers = group_numbers(rows),
-                       .quality = {}});
+    persons.push_back(
+        {.name = fmt::format("person {}", seed), .page = {}, .numbers = group_numbers(rows), .quality = {}});
   return true;
 }
 
@@ -155,8 +146,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& runs) {
   const auto alike = [&](std::size_t i, bool from_end) {
     return std::all_of(parts.begin(), parts.end(), [&](const auto& of) {
       return i + 1 < of.size() &&
-             (from_end ? of[of.size() - 1 - i] == parts[0][parts[0].size() - 1 - i]
-                       : of[i] == parts[0][i]);
+             (from_end ? of[of.size() - 1 - i] == parts[0][parts[0].size() - 1 - i] : of[i] == parts[0][i]);
     });
   };
   std::size_t front = 0, back = 0;
@@ -168,8 +158,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& runs) {
   for (const auto& of : parts) {
     std::string name;
     const std::size_t first = parts.size() > 1 ? front : of.size() - 1;
-    for (std::size_t i = first; i < of.size() - back; ++i)
-      name += (name.empty() ? "" : "/") + of[i];
+    for (std::size_t i = first; i < of.size() - back; ++i) name += (name.empty() ? "" : "/") + of[i];
     names.push_back(name.empty() ? of.back() : name);
   }
   return names;
@@ -182,8 +171,7 @@ std::vector<GroupNumber> group_numbers(const CsvTable& parameters) {
   std::vector<GroupNumber> numbers;
   for (const auto& row : parameters.rows) {
     if (cell(parameters, row, "method") != method) continue;
-    if (std::optional<GroupNumber> number = number_of(parameters, row))
-      numbers.push_back(std::move(*number));
+    if (std::optional<GroupNumber> number = number_of(parameters, row)) numbers.push_back(std::move(*number));
   }
   return numbers;
 }
@@ -196,8 +184,7 @@ std::vector<Quality> run_quality(const fs::path& folder) {
     if (fs::exists(parameters)) add_fit(read_json(parameters), quality);
   } catch (const json::exception& error) {
     throw ReadError(folder, 0,
-                    fmt::format("is not the result of a run: {}; run the study again (myoid run)",
-                                error.what()));
+                    fmt::format("is not the result of a run: {}; run the study again (myoid run)", error.what()));
   }
   add_markers(folder, quality);
   return quality;
@@ -228,18 +215,16 @@ std::string page_of(const GroupRun& run, const fs::path& page_folder) {
   return fs::absolute(page).lexically_normal().lexically_relative(from).generic_string();
 }
 
-std::vector<GroupPerson> read_group_persons(const std::vector<fs::path>& folders,
-                                            const fs::path& page_folder) {
+std::vector<GroupPerson> read_group_persons(const std::vector<fs::path>& folders, const fs::path& page_folder) {
   std::vector<GroupPerson> persons;
   std::vector<fs::path> others;
   for (const fs::path& folder : folders)
     if (!add_virtual_persons(folder, persons)) others.push_back(folder);
   for (const GroupRun& run : group_runs(others))
-    persons.push_back(
-        {.name = run.name,
-         .page = page_of(run, page_folder),
-         .numbers = group_numbers(recording::read_csv_table(run.folder / "parameters.csv")),
-         .quality = run_quality(run.folder)});
+    persons.push_back({.name = run.name,
+                       .page = page_of(run, page_folder),
+                       .numbers = group_numbers(recording::read_csv_table(run.folder / "parameters.csv")),
+                       .quality = run_quality(run.folder)});
   return persons;
 }
 

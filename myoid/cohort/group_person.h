@@ -40,10 +40,9 @@ struct GroupPerson {
 /// Numbers of other methods and rows without an estimate are left out.
 [[nodiscard]] std::vector<GroupNumber> group_numbers(const recording::CsvTable& parameters);
 
-/// Returns the quality of the run in this folder, each number as far as the run has it: questions
-/// that were not answered well (report.json), R2 of the fit and, as medians over trials, R2 and
-/// torque error of the trials left out (parameters.json), marker error (ik_marker_errors.sto of the
-/// trials). Throws ReadError for a damaged file.
+/// Returns the quality of the run in this folder, each number as far as the run has it: questions that were not
+/// answered well (report.json), R2 of the fit and, as medians over trials, R2 and torque error of the trials left out
+/// (parameters.json), marker error (ik_marker_errors.sto of the trials). Throws ReadError for a damaged file.
 [[nodiscard]] std::vector<Quality> run_quality(const std::filesystem::path& folder);
 
 /// A run of a group.
@@ -61,7 +60,7 @@ struct GroupRun {
 
 /// Reads the persons of a group: of every run, and of the folders of twin-studies (persons.csv with
 /// seeds), whose persons bring their truth and no reports. Throws as `group_runs`.
-[[nodiscard]] std::vector<GroupPerson> read_group_persons(
-    const std::vector<std::filesystem::path>& folders, const std::filesystem::path& page_folder);
+[[nodiscard]] std::vector<GroupPerson> read_group_persons(const std::vector<std::filesystem::path>& folders,
+                                                          const std::filesystem::path& page_folder);
 
 }  // namespace myoid::cohort

@@ -12,8 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPersonHeader =
-    "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n";
+constexpr std::string_view kPersonHeader = "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n";
 
 fs::path run_with(const fs::path& folder, const std::string& rows) {
   recording::write_file(folder / "parameters.csv", std::string(kPersonHeader) + rows);
@@ -23,12 +22,10 @@ fs::path run_with(const fs::path& folder, const std::string& rows) {
 TEST(GroupPerson, HasTheNumbersOfTorqueOrElseOfTheFirstMethod) {
   const test::TemporaryFolder folder;
   const std::string paper = "BIC,max_isometric_force,N,paper,both,500,400,600,weak\n";
-  const fs::path both =
-      run_with(folder / "both", paper +
-                                    "BIC,max_isometric_force,N,torque,both,700,,,identified\n"
-                                    "TRI,max_isometric_force,N,torque,both,,,,weak\n");
-  const std::vector<GroupPerson> found =
-      read_group_persons({both, run_with(folder / "paper", paper)}, folder.path());
+  const fs::path both = run_with(folder / "both", paper +
+                                                      "BIC,max_isometric_force,N,torque,both,700,,,identified\n"
+                                                      "TRI,max_isometric_force,N,torque,both,,,,weak\n");
+  const std::vector<GroupPerson> found = read_group_persons({both, run_with(folder / "paper", paper)}, folder.path());
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].name, "both");
   ASSERT_EQ(found[0].numbers.size(), 1U);  // TRI has no estimate

@@ -24,8 +24,7 @@ namespace {
 bool is_by_torque(const ComparedParameter& p) { return p.first.method == "torque"; }
 
 std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
-  const std::vector<GroupRun> first = group_runs(options.persons),
-                              second = group_runs(options.after);
+  const std::vector<GroupRun> first = group_runs(options.persons), second = group_runs(options.after);
   if (first.size() != second.size())
     throw InvalidInput(
         fmt::format("--group names {} and --after {}: give both sessions of the same persons, in "
@@ -33,8 +32,8 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
                     counted(first.size(), "run"), counted(second.size(), "run")));
   std::vector<PersonChange> changes;
   for (std::size_t i = 0; i < first.size(); ++i)
-    changes.push_back({first[i].name, page_of(second[i], options.folder),
-                       compare_runs(first[i].folder, second[i].folder)});
+    changes.push_back(
+        {first[i].name, page_of(second[i], options.folder), compare_runs(first[i].folder, second[i].folder)});
   return changes;
 }
 
@@ -63,8 +62,7 @@ std::string change_sentence(const std::vector<PersonChange>& changes) {
   if (found.empty()) return "No number of any person changed by more than chance explains.";
   const std::size_t more = found.size() - std::min(found.size(), kNamed);
   found.resize(found.size() - more);
-  return fmt::format("{}{}.", fmt::join(found, "; "),
-                     more > 0 ? fmt::format("; and {} more", more) : "");
+  return fmt::format("{}{}.", fmt::join(found, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 }  // namespace
@@ -87,8 +85,7 @@ report::Report group_report(const GroupReportOptions& options) {
   }
   page.sections.push_back(std::move(beside.persons));
   page.provenance = {{"program", fmt::format("myoid {}", version())}};
-  for (const std::filesystem::path& folder : options.persons)
-    page.provenance.push_back({"persons", folder.string()});
+  for (const std::filesystem::path& folder : options.persons) page.provenance.push_back({"persons", folder.string()});
   for (const std::filesystem::path& folder : options.after)
     page.provenance.push_back({"second sessions", folder.string()});
   return page;

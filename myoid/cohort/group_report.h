@@ -15,9 +15,8 @@ struct GroupReportOptions {
   std::filesystem::path folder;  ///< Folder of the page, to which its links are relative.
 };
 
-/// Returns the page of the persons: their changes first, where there is a second session, then the
-/// persons beside each other. Throws InvalidInput if the sessions are not as many as the persons,
-/// and ReadError for a folder without a run.
+/// Returns the page of the persons: their changes first, where there is a second session, then the persons beside each
+/// other. Throws InvalidInput if the sessions are not as many as the persons, and ReadError for a folder without a run.
 [[nodiscard]] report::Report group_report(const GroupReportOptions& options);
 
 }  // namespace myoid::cohort

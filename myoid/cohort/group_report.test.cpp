@@ -21,25 +21,22 @@ namespace fs = std::filesystem;
 
 /// A run that found this F_max with a standard error of 20 N.
 fs::path run(const fs::path& folder, double strength) {
-  recording::write_file(
-      folder / "parameters.csv",
-      fmt::format("muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n"
-                  "BIC,max_isometric_force,N,paper,both,1,1,1,weak\n"
-                  "BIC,max_isometric_force,N,torque,both,{},{},{},identified\n",
-                  strength, strength - 40, strength + 40));
-  recording::write_file(
-      folder / "parameters.json",
-      fmt::format(
-          R"({{"methods": [{{"method": "torque", "r2": 0.75, "estimates": [{{"muscle": "BIC",
+  recording::write_file(folder / "parameters.csv",
+                        fmt::format("muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n"
+                                    "BIC,max_isometric_force,N,paper,both,1,1,1,weak\n"
+                                    "BIC,max_isometric_force,N,torque,both,{},{},{},identified\n",
+                                    strength, strength - 40, strength + 40));
+  recording::write_file(folder / "parameters.json",
+                        fmt::format(
+                            R"({{"methods": [{{"method": "torque", "r2": 0.75, "estimates": [{{"muscle": "BIC",
               "parameter": "max_isometric_force", "unit": "N", "method": "torque", "case": "both",
               "estimate": {}, "std_error": 20, "ci_low": {}, "ci_high": {},
               "verdict": "identified"}}], "trials": []}}],
               "leave_one_trial_out": [{{"identified": {{"r2": 0.5, "rmse_nm": 3}}}},
                                       {{"identified": {{"r2": 0.7, "rmse_nm": 1}}}},
                                       {{"identified": {{"r2": null, "rmse_nm": 2}}}}]}})",
-          strength, strength - 40, strength + 40));
-  recording::write_file(folder / "report.json",
-                        R"({"gates": [{"status": "pass"}, {"status": "warn"}]})");
+                            strength, strength - 40, strength + 40));
+  recording::write_file(folder / "report.json", R"({"gates": [{"status": "pass"}, {"status": "warn"}]})");
   recording::write_file(folder / "report.html", "<html></html>");
   recording::write_file(folder / "lift/ik_marker_errors.sto",
                         "e\nversion=1\nnRows=3\nnColumns=2\nendheader\ntime\tmarker_error_RMS\n"
@@ -57,8 +54,8 @@ TEST(GroupReport, HasTheRunsOfAFolderWithLinksAndQuality) {
   const test::TemporaryFolder folder;
   run(folder / "persons/one/result", 600);
   run(folder / "persons/two/result", 700);
-  const report::Report page = group_report(
-      {.persons = {folder / "persons"}, .after = {}, .folder = folder / "pages/group"});
+  const report::Report page =
+      group_report({.persons = {folder / "persons"}, .after = {}, .folder = folder / "pages/group"});
   report::validate(page);
   ASSERT_EQ(page.sections.size(), 1U);
   const report::StripGrid& quality = page.sections[0].grids.at(0);
@@ -80,8 +77,7 @@ TEST(GroupReport, OfTwoSessionsHasTheChangeAndTheSmallestThatShows) {
     before.push_back(run(folder / "before" / name, 600));
     after.push_back(run(folder / "after" / name, 600 + change));
   }
-  const report::Report page =
-      group_report({.persons = before, .after = after, .folder = folder / "group"});
+  const report::Report page = group_report({.persons = before, .after = after, .folder = folder / "group"});
   report::validate(page);
   ASSERT_EQ(page.sections[0].id, "changes");
   const report::StripGrid& grid = page.sections[0].grids.at(0);
@@ -110,21 +106,17 @@ TEST(GroupReport, SaysWhatIsMissing) {
   } catch (const ReadError& error) {
     EXPECT_THAT(error.what(), HasSubstr("myoid run"));
   }
-  EXPECT_THROW(
-      static_cast<void>(group_report({.persons = {one, two}, .after = {one}, .folder = "x"})),
-      InvalidInput);
+  EXPECT_THROW(static_cast<void>(group_report({.persons = {one, two}, .after = {one}, .folder = "x"})), InvalidInput);
 }
 
 TEST(GroupReport, OfATwinStudyThePersonsBringTheirTruth) {
   const test::TemporaryFolder folder;
-  recording::write_file(
-      folder / "persons.csv",
-      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
-      "verdict\n"
-      "1,torque,both,BIC,max_isometric_force,N,905,1059,952,771,1163,0.8,weak\n"
-      "2,torque,both,BIC,max_isometric_force,N,800,1059,820,700,900,0.8,weak\n");
-  const report::Report page =
-      group_report({.persons = {folder.path()}, .after = {}, .folder = "x"});
+  recording::write_file(folder / "persons.csv",
+                        "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
+                        "verdict\n"
+                        "1,torque,both,BIC,max_isometric_force,N,905,1059,952,771,1163,0.8,weak\n"
+                        "2,torque,both,BIC,max_isometric_force,N,800,1059,820,700,900,0.8,weak\n");
+  const report::Report page = group_report({.persons = {folder.path()}, .after = {}, .folder = "x"});
   const report::StripGrid& grid = page.sections[0].grids.at(0);
   ASSERT_EQ(grid.rows.size(), 2U);
   EXPECT_EQ(grid.rows[0].person, "person 1");

@@ -30,9 +30,8 @@ std::string label_of(std::string_view name) {
 }
 
 void check_name(const fs::path& file, std::size_t line, const std::string& name) {
-  const bool known = std::all_of(name.begin(), name.end(), [](char c) {
-    return is_letter_or_digit(c) || c == '-' || c == '_' || c == '.';
-  });
+  const bool known = std::all_of(name.begin(), name.end(),
+                                 [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_' || c == '.'; });
   if (known && !name.starts_with('.') && !name.starts_with('-') && !label_of(name).empty()) return;
   throw ReadError(file, line,
                   fmt::format("found the name '{}', expected letters, digits, '-', '_' and '.', "
@@ -65,9 +64,8 @@ class Roll {
 std::size_t column(const CsvTable& table, const fs::path& file, std::string_view name) {
   const auto found = std::find(table.names.begin(), table.names.end(), name);
   if (found == table.names.end())
-    throw ReadError(
-        file, table.header_line,
-        fmt::format("no column '{}'; found the columns {}", name, fmt::join(table.names, ", ")));
+    throw ReadError(file, table.header_line,
+                    fmt::format("no column '{}'; found the columns {}", name, fmt::join(table.names, ", ")));
   return static_cast<std::size_t>(found - table.names.begin());
 }
 
@@ -115,12 +113,10 @@ class Participants {
     for (std::size_t c = 0; c < table.names.size(); ++c) {
       if (c != id) absent_.emplace_back(table.names[c], "");
     }
-    for (const std::vector<std::string>& row : table.rows)
-      by_id_[row[id]] = facts_of(table, row, {id});
+    for (const std::vector<std::string>& row : table.rows) by_id_[row[id]] = facts_of(table, row, {id});
   }
 
-  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& of(
-      const std::string& id) const {
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& of(const std::string& id) const {
     const auto found = by_id_.find(id);
     return found == by_id_.end() ? absent_ : found->second;
   }
@@ -147,8 +143,7 @@ Manifest read_bids(const fs::path& folder, const fs::path& study) {
   Roll roll(manifest);
   for (const std::string& name : names)
     roll.add({.name = name, .label = {}, .study = file, .facts = participants.of(name)}, 0);
-  if (names.empty())
-    throw ReadError(folder, 0, "the folder has no folder sub-…; a BIDS data set has one a person");
+  if (names.empty()) throw ReadError(folder, 0, "the folder has no folder sub-…; a BIDS data set has one a person");
   return manifest;
 }
 
@@ -170,8 +165,7 @@ Manifest read_manifest(const fs::path& file, const fs::path& study) {
   return read_table(file);
 }
 
-std::vector<const Person*> chosen_persons(const Manifest& manifest,
-                                          const std::vector<std::string>& names) {
+std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::vector<std::string>& names) {
   const auto answers = [](const Person& person, const std::string& name) {
     return name == person.name || name == person.label || name == "sub-" + person.label;
   };
@@ -182,22 +176,18 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest,
     std::vector<std::string> known;
     for (const Person& person : manifest.persons) known.push_back(person.name);
     const auto near = recording::nearest_word(name, known);
-    throw InvalidInput(
-        fmt::format("{} has no person '{}'{}; it has {} persons", manifest.file.string(), name,
-                    near ? fmt::format(" (did you mean '{}'?)", *near) : "", known.size()));
+    throw InvalidInput(fmt::format("{} has no person '{}'{}; it has {} persons", manifest.file.string(), name,
+                                   near ? fmt::format(" (did you mean '{}'?)", *near) : "", known.size()));
   }
   std::vector<const Person*> chosen;
   for (const Person& person : manifest.persons) {
-    if (names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-          return answers(person, name);
-        }))
+    if (names.empty() ||
+        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return answers(person, name); }))
       chosen.push_back(&person);
   }
   return chosen;
 }
 
-fs::path person_folder(const fs::path& cohort, const Person& person) {
-  return cohort / kPersonsFolder / person.name;
-}
+fs::path person_folder(const fs::path& cohort, const Person& person) { return cohort / kPersonsFolder / person.name; }
 
 }  // namespace myoid::cohort

@@ -33,11 +33,9 @@ struct Manifest {
 /// alphabetical order, their further columns are those of participants.tsv if that file exists, and
 /// the study of every person is `study`, or `code/study.toml` of the data set if `study` is empty.
 ///
-/// Throws ReadError with the line: no person, no column `name` or `study`, an empty cell there, a
-/// name with other characters than letters, digits, '-', '_' and '.', two persons with one name or
-/// one BIDS label.
-[[nodiscard]] Manifest read_manifest(const std::filesystem::path& file,
-                                     const std::filesystem::path& study = {});
+/// Throws ReadError with the line: no person, no column `name` or `study`, an empty cell there, a name with other
+/// characters than letters, digits, '-', '_' and '.', two persons with one name or one BIDS label.
+[[nodiscard]] Manifest read_manifest(const std::filesystem::path& file, const std::filesystem::path& study = {});
 
 /// Returns the persons with these names or BIDS labels ("01", "sub-01"), in the order of the
 /// manifest; all persons if there are no names. Throws InvalidInput for a name that no person has.
@@ -45,8 +43,7 @@ struct Manifest {
                                                         const std::vector<std::string>& names);
 
 /// Returns the folder of a person's results in the folder of the cohort.
-[[nodiscard]] std::filesystem::path person_folder(const std::filesystem::path& cohort,
-                                                  const Person& person);
+[[nodiscard]] std::filesystem::path person_folder(const std::filesystem::path& cohort, const Person& person);
 
 /// Folder of all persons' results in the folder of a cohort.
 inline constexpr std::string_view kPersonsFolder = "persons";

@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 
 TEST(Manifest, ATableNamesPersonsStudiesAndFurtherColumns) {
   const TemporaryFolder folder;
-  recording::write_file(folder / "persons.csv",
-                        "name;age;study\nP-1;31;one/study.toml\nP-2;n/a;two/study.toml\n");
+  recording::write_file(folder / "persons.csv", "name;age;study\nP-1;31;one/study.toml\nP-2;n/a;two/study.toml\n");
   const Manifest manifest = read_manifest(folder / "persons.csv");
   ASSERT_EQ(manifest.persons.size(), 2U);
   EXPECT_EQ(manifest.persons[0].name, "P-1");
@@ -47,11 +46,9 @@ TEST(Manifest, RefusesPersonsWhoseResultsWouldMeet) {
 TEST(Manifest, ABidsDataSetHasItsFoldersAsPersonsAndItsTableAsColumns) {
   const TemporaryFolder folder;
   for (const char* name : {"sub-02", "sub-01", "sourcedata"}) fs::create_directories(folder / name);
-  EXPECT_THAT(message_of([&] { (void)read_manifest(folder.path()); }),
-              HasSubstr("code/study.toml"));
+  EXPECT_THAT(message_of([&] { (void)read_manifest(folder.path()); }), HasSubstr("code/study.toml"));
   recording::write_file(folder / "code/study.toml", "x = 1\n");
-  recording::write_file(folder / "participants.tsv",
-                        "participant_id\tweight\nsub-02\t61.5\nsub-09\t80\n");
+  recording::write_file(folder / "participants.tsv", "participant_id\tweight\nsub-02\t61.5\nsub-09\t80\n");
   const Manifest manifest = read_manifest(folder.path());
   ASSERT_EQ(manifest.persons.size(), 2U);
   EXPECT_EQ(manifest.persons[0].name, "sub-01");
@@ -70,8 +67,7 @@ TEST(Manifest, PersonsAreChosenByNameOrLabelInTheOrderOfTheManifest) {
   EXPECT_EQ(chosen[0]->label, "01");
   EXPECT_EQ(chosen[1]->label, "03");
   EXPECT_EQ(chosen_persons(manifest, {}).size(), 3U);
-  EXPECT_THAT(message_of([&] { (void)chosen_persons(manifest, {"sub-04"}); }),
-              HasSubstr("no person 'sub-04'"));
+  EXPECT_THAT(message_of([&] { (void)chosen_persons(manifest, {"sub-04"}); }), HasSubstr("no person 'sub-04'"));
 }
 
 }  // namespace

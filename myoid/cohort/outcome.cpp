@@ -41,8 +41,7 @@ std::optional<Outcome> read_outcome(const fs::path& folder) {
                     .build = json.at("build").get<std::string>(),
                     .inputs = {}};
     for (const ordered_json& input : json.at("inputs"))
-      outcome.inputs.push_back(
-          {input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
+      outcome.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
     return outcome;
   } catch (const InvalidInput&) {
     return std::nullopt;
@@ -69,8 +68,7 @@ void remove_outcome(const fs::path& folder) {
 
 bool is_current(const Outcome& outcome, const fs::path& study, std::string_view settings) {
   const auto& inputs = outcome.inputs;
-  return outcome.kind != OutcomeKind::failed && outcome.settings == settings &&
-         outcome.build == build_identity() &&
+  return outcome.kind != OutcomeKind::failed && outcome.settings == settings && outcome.build == build_identity() &&
          std::any_of(inputs.begin(), inputs.end(),
                      [&](const InputFile& input) { return input.path == study.string(); }) &&
          std::all_of(inputs.begin(), inputs.end(), is_unchanged);
@@ -80,8 +78,7 @@ std::vector<std::string> failures(const std::vector<PersonOutcome>& outcomes) {
   std::vector<std::string> lines;
   for (const PersonOutcome& each : outcomes) {
     if (!each.outcome) {
-      lines.push_back(
-          fmt::format("{}: not computed yet; give the same command again", each.person));
+      lines.push_back(fmt::format("{}: not computed yet; give the same command again", each.person));
     } else if (each.outcome->kind == OutcomeKind::failed) {
       lines.push_back(fmt::format("{}: {}", each.person, each.outcome->message));
     }

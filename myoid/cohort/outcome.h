@@ -18,8 +18,7 @@ enum class OutcomeKind {
   trials_failed,  ///< Computed without some of the trials.
   failed,         ///< Nothing was computed; the message says why.
 };
-inline constexpr std::string_view kOutcomeNames[] = {"done", "gate_failed", "trials_failed",
-                                                     "failed"};
+inline constexpr std::string_view kOutcomeNames[] = {"done", "gate_failed", "trials_failed", "failed"};
 constexpr ChoiceNames choice_names(OutcomeKind) { return kOutcomeNames; }
 
 /// The end of one person's job. A job that was killed has no outcome.
@@ -31,17 +30,14 @@ struct Outcome {
   std::vector<InputFile> inputs;
 };
 
-/// Returns the content of outcome.json in a person's folder; empty if the file is absent or
-/// damaged.
+/// Returns the content of outcome.json in a person's folder; empty if the file is absent or damaged.
 [[nodiscard]] std::optional<Outcome> read_outcome(const std::filesystem::path& folder);
 void write_outcome(const Outcome& outcome, const std::filesystem::path& folder);
 void remove_outcome(const std::filesystem::path& folder);
 
 /// Returns true if the person need not be computed again: the same program with the same settings
 /// read the same bytes, the study among them, and computed results.
-[[nodiscard]] bool is_current(const Outcome& outcome,
-                              const std::filesystem::path& study,
-                              std::string_view settings);
+[[nodiscard]] bool is_current(const Outcome& outcome, const std::filesystem::path& study, std::string_view settings);
 
 /// The outcomes of some persons, in the order of the persons.
 struct PersonOutcome {

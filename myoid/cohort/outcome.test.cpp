@@ -60,10 +60,9 @@ TEST(Outcome, IsCurrentOnlyForTheSameProgramSettingsAndBytes) {
 TEST(Outcome, FailuresNameThePersonsWithoutResults) {
   const Outcome done;
   const Outcome failed{.kind = OutcomeKind::failed, .message = "no file"};
-  EXPECT_THAT(failures({{.person = "A", .outcome = done},
-                        {.person = "B", .outcome = failed},
-                        {.person = "C", .outcome = {}}}),
-              ElementsAre("B: no file", HasSubstr("C: not computed")));
+  EXPECT_THAT(
+      failures({{.person = "A", .outcome = done}, {.person = "B", .outcome = failed}, {.person = "C", .outcome = {}}}),
+      ElementsAre("B: no file", HasSubstr("C: not computed")));
 }
 
 }  // namespace

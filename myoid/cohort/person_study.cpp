@@ -19,21 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the length of "word}" at the begin of the text, 0 without one: TOML's own braces hold
-/// "=".
+/// Returns the length of "word}" at the begin of the text, 0 without one: TOML's own braces hold "=".
 std::size_t word_in_braces(std::string_view text) {
   std::size_t length = 0;
-  while (length < text.size() &&
-         (std::isalnum(static_cast<unsigned char>(text[length])) != 0 || text[length] == '_'))
+  while (length < text.size() && (std::isalnum(static_cast<unsigned char>(text[length])) != 0 || text[length] == '_'))
     ++length;
   const bool closed = length > 0 && length < text.size() && text[length] == '}';
   return closed ? length + 1 : 0;
 }
 
-std::string value_of(std::string_view word,
-                     const Person& person,
-                     const fs::path& file,
-                     std::size_t line) {
+std::string value_of(std::string_view word, const Person& person, const fs::path& file, std::size_t line) {
   if (word == "name") return person.name;
   if (word == "label") return person.label;
   std::vector<std::string> known{"name", "label"};
@@ -41,13 +36,10 @@ std::string value_of(std::string_view word,
     known.push_back(name);
     if (name != word) continue;
     if (!cell.empty()) return cell;
-    throw ReadError(
-        file, line,
-        fmt::format("the person '{}' has no value in the column '{}'", person.name, word));
+    throw ReadError(file, line, fmt::format("the person '{}' has no value in the column '{}'", person.name, word));
   }
   throw ReadError(file, line,
-                  fmt::format("found {{{}}}, expected a column of the manifest: {}", word,
-                              fmt::join(known, ", ")));
+                  fmt::format("found {{{}}}, expected a column of the manifest: {}", word, fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -78,8 +70,7 @@ fs::path person_study(const Person& person, const fs::path& folder) {
   const std::string own = study_toml(study);
   const fs::path place = folder / "study.toml";
   std::error_code ignored;
-  if (!fs::exists(place, ignored) || recording::read_text_file(place) != own)
-    recording::write_file(place, own);
+  if (!fs::exists(place, ignored) || recording::read_text_file(place) != own) recording::write_file(place, own);
   return place;
 }
 

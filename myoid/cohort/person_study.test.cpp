@@ -15,19 +15,16 @@ namespace {
 using test::message_of;
 using testing::HasSubstr;
 
-const Person kPerson{
-    .name = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
+const Person kPerson{.name = "sub-07", .label = "07", .study = {}, .facts = {{"weight", "61.5"}, {"sex", ""}}};
 
 TEST(PersonStudy, WordsInBracesBecomeThePersonsAndTomlsOwnBracesStay) {
-  EXPECT_EQ(filled_study("mass = {weight} # {name}, {label}\nemg = { same_as = \"BIC\" }\n", "t",
-                         kPerson),
+  EXPECT_EQ(filled_study("mass = {weight} # {name}, {label}\nemg = { same_as = \"BIC\" }\n", "t", kPerson),
             "mass = 61.5 # sub-07, 07\nemg = { same_as = \"BIC\" }\n");
 }
 
 TEST(PersonStudy, SaysWhichColumnIsMissingAndInWhichLine) {
-  EXPECT_THAT(
-      message_of([] { (void)filled_study("a = 1\nb = \"{labell}\"\n", "t.toml", kPerson); }),
-      HasSubstr("t.toml:2: found {labell}, expected a column of the manifest: name, label"));
+  EXPECT_THAT(message_of([] { (void)filled_study("a = 1\nb = \"{labell}\"\n", "t.toml", kPerson); }),
+              HasSubstr("t.toml:2: found {labell}, expected a column of the manifest: name, label"));
   EXPECT_THAT(message_of([] { (void)filled_study("sex = \"{sex}\"\n", "t.toml", kPerson); }),
               HasSubstr("'sub-07' has no value in the column 'sex'"));
 }
@@ -50,8 +47,7 @@ TEST(PersonStudy, AFilledTemplateIsAStudyWhosePathsAreThoseOfTheTemplate) {
   EXPECT_EQ(filled.file, folder / "out/study.toml");
   EXPECT_EQ(filled.subject.mass_kg, 61.5);
   ASSERT_TRUE(filled.trials[0].markers && by_hand.trials[0].markers);
-  EXPECT_EQ(filled.trials[0].markers->lexically_normal(),
-            by_hand.trials[0].markers->lexically_normal());
+  EXPECT_EQ(filled.trials[0].markers->lexically_normal(), by_hand.trials[0].markers->lexically_normal());
 
   person.study = folder / "code/by_hand.toml";
   EXPECT_EQ(person_study(person, folder / "other"), person.study) << "no template: the file itself";

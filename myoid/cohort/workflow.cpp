@@ -129,10 +129,7 @@ std::string shell_word(std::string_view word) {
   return quoted + "'";
 }
 
-Workflow workflow(Engine engine,
-                  const Manifest& manifest,
-                  const fs::path& cohort,
-                  const std::string& options) {
+Workflow workflow(Engine engine, const Manifest& manifest, const fs::path& cohort, const std::string& options) {
   const std::string out = fs::absolute(cohort).lexically_normal().string();
   const std::string place = (fs::path(out) / "workflow").string();
   const std::string here = shell_word(place);
@@ -147,8 +144,7 @@ Workflow workflow(Engine engine,
   switch (engine) {
     case Engine::snakemake: {
       const std::string file = shell_word(place + "/Snakefile");
-      result.files.push_back(
-          {"Snakefile", fmt::format(kSnakefile, file, python_text(place), python_text(out))});
+      result.files.push_back({"Snakefile", fmt::format(kSnakefile, file, python_text(place), python_text(out))});
       result.start = fmt::format("snakemake --snakefile {} --cores all --keep-going", file);
       break;
     }

@@ -29,9 +29,8 @@ TEST(Workflow, EveryEngineCallsOneScriptAPerson) {
   for (const Engine engine : {Engine::snakemake, Engine::slurm, Engine::parallel}) {
     const Workflow w = workflow(engine, kManifest, "/out/c", "--estimator posterior");
     EXPECT_EQ(text_of(w, "persons.txt"), "A\nB\n");
-    EXPECT_THAT(text_of(w, "person.sh"),
-                HasSubstr("cohort '/data/my lab/m.csv' --out '/out/c' --estimator posterior "
-                          "--person \"$1\""));
+    EXPECT_THAT(text_of(w, "person.sh"), HasSubstr("cohort '/data/my lab/m.csv' --out '/out/c' --estimator posterior "
+                                                   "--person \"$1\""));
     EXPECT_THAT(text_of(w, "group.sh"), HasSubstr("--estimator posterior --group"));
     EXPECT_THAT(w.start, HasSubstr("/out/c/workflow/"));
   }
@@ -62,8 +61,7 @@ TEST(Workflow, ThePersonsScriptSucceedsOnceTheOutcomeIsRecordedAndElseHasTheProg
   EXPECT_EQ(code_of("exit 3"), 3) << "a manifest that cannot be read records nothing";
   EXPECT_EQ(code_of("kill -9 $$"), 137);
   recording::write_file(folder / "out/persons/A/outcome.json", "{}");
-  for (const char* recorded : {"exit 0", "exit 3", "exit 4", "exit 5"})
-    EXPECT_EQ(code_of(recorded), 0) << recorded;
+  for (const char* recorded : {"exit 0", "exit 3", "exit 4", "exit 5"}) EXPECT_EQ(code_of(recorded), 0) << recorded;
   EXPECT_EQ(code_of("exit 130"), 130);
   EXPECT_EQ(code_of("echo said; exit 1"), 1);
   EXPECT_EQ(recording::read_text_file(folder / "out/workflow/logs/A.log"), "said\n");

@@ -13,7 +13,7 @@ namespace myoid::commands {
 struct CheckOptions {
   Call call;
   std::string input;  ///< study.toml, or a recording.
-  std::string up;  ///< Vertical of a recording's laboratory: x, -y, ...; empty: as the file states.
+  std::string up;     ///< Vertical of a recording's laboratory: x, -y, ...; empty: as the file states.
 };
 
 struct CheckResult {

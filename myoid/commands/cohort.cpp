@@ -35,8 +35,7 @@ std::string settings_of(const CohortOptions& o) {
 
 /// Removes the results of an earlier job from a person's folder.
 void remove_earlier(const fs::path& folder) {
-  const std::set<std::string> kept{kStageFolder, "study.toml",
-                                   std::string(recording::FolderLock::kFile)};
+  const std::set<std::string> kept{kStageFolder, "study.toml", std::string(recording::FolderLock::kFile)};
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (!kept.contains(entry.path().filename().string())) fs::remove_all(entry.path(), ignored);
@@ -44,16 +43,15 @@ void remove_earlier(const fs::path& folder) {
 }
 
 std::size_t failed_gates(const RunResult& result) {
-  return static_cast<std::size_t>(std::count_if(
-      result.gates.begin(), result.gates.end(),
-      [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; }));
+  return static_cast<std::size_t>(std::count_if(result.gates.begin(), result.gates.end(), [](const report::Gate& gate) {
+    return gate.status == report::GateStatus::fail;
+  }));
 }
 
 std::string failed_gate_names(const RunResult& result) {
   std::string names;
   for (const report::Gate& gate : result.gates) {
-    if (gate.status == report::GateStatus::fail)
-      names += fmt::format("{}{}", names.empty() ? "" : ", ", gate.name);
+    if (gate.status == report::GateStatus::fail) names += fmt::format("{}{}", names.empty() ? "" : ", ", gate.name);
   }
   return names;
 }
@@ -61,17 +59,15 @@ std::string failed_gate_names(const RunResult& result) {
 void judge(const RunResult& result, Outcome& outcome) {
   std::string trials;
   for (const TrialResult& trial : result.study.trials) {
-    if (!trial.failure().empty())
-      trials += fmt::format("{}{}", trials.empty() ? "" : ", ", trial.spec.name);
+    if (!trial.failure().empty()) trials += fmt::format("{}{}", trials.empty() ? "" : ", ", trial.spec.name);
   }
   if (!trials.empty()) {
     outcome.kind = OutcomeKind::trials_failed;
     outcome.message = "trials that failed: " + trials;
   } else if (result.failed(false)) {
     outcome.kind = OutcomeKind::gate_failed;
-    outcome.message = failed_gates(result) > 0
-                          ? "quality gates that failed: " + failed_gate_names(result)
-                          : "the method torque did not converge";
+    outcome.message = failed_gates(result) > 0 ? "quality gates that failed: " + failed_gate_names(result)
+                                               : "the method torque did not converge";
   }
 }
 
@@ -90,16 +86,14 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
   RunResult result = run(options);
   result.study.times.clear();  // the same bytes however long the job takes
   write_run(result, folder);
-  Outcome outcome{
-      .kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = {}};
+  Outcome outcome{.kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = {}};
   outcome.inputs = result.provenance.inputs;
   judge(result, outcome);
   return outcome;
 }
 
 Outcome failure(const std::string& message) {
-  return {
-      .kind = OutcomeKind::failed, .message = message, .settings = {}, .build = {}, .inputs = {}};
+  return {.kind = OutcomeKind::failed, .message = message, .settings = {}, .build = {}, .inputs = {}};
 }
 
 /// Computes a person unless the results are current; records a failure.
@@ -176,8 +170,7 @@ void in_jobs(std::size_t count, std::size_t jobs, const Body& body) {
 
 }  // namespace
 
-std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& o,
-                                                        const fs::path& folder) {
+std::vector<cohort::PersonOutcome> write_cohort_persons(const CohortOptions& o, const fs::path& folder) {
   const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
   const std::vector<const Person*> persons = cohort::chosen_persons(manifest, o.persons);
   std::vector<cohort::PersonOutcome> outcomes(persons.size());
@@ -201,16 +194,11 @@ cohort::Group write_cohort_group(const CohortOptions& o, const fs::path& folder)
   return group;
 }
 
-std::string write_cohort_workflow(const CohortOptions& o,
-                                  cohort::Engine engine,
-                                  const fs::path& folder) {
+std::string write_cohort_workflow(const CohortOptions& o, cohort::Engine engine, const fs::path& folder) {
   const cohort::Manifest manifest = cohort::read_manifest(o.manifest, o.study);
   std::string options;
-  if (!o.study.empty())
-    options += "--study " + cohort::shell_word(fs::absolute(o.study).lexically_normal().string());
-  if (o.estimator)
-    options +=
-        fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
+  if (!o.study.empty()) options += "--study " + cohort::shell_word(fs::absolute(o.study).lexically_normal().string());
+  if (o.estimator) options += fmt::format("{}--estimator {}", options.empty() ? "" : " ", choice_name(*o.estimator));
   const cohort::Workflow workflow = cohort::workflow(engine, manifest, folder, options);
   for (const cohort::WorkflowFile& file : workflow.files)
     recording::write_file(folder / "workflow" / file.name, file.text);
@@ -229,9 +217,7 @@ void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder, bool 
                     "--overwrite",
                     folder.string()));
   fs::create_directories(persons, error);
-  if (error)
-    throw InvalidInput(
-        fmt::format("cannot create the folder {}: {}", persons.string(), error.message()));
+  if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", persons.string(), error.message()));
 }
 
 }  // namespace myoid::commands

@@ -19,9 +19,9 @@ namespace myoid::commands {
 /// Many persons, each with a study: `run` for each, then all results side by side.
 struct CohortOptions {
   Call call;
-  std::string manifest;              ///< Table of the persons, or folder of a BIDS data set.
-  std::string study;                 ///< BIDS: the study of every person; empty: code/study.toml.
-  std::vector<std::string> persons;  ///< Names or labels; empty: all persons.
+  std::string manifest;                                    ///< Table of the persons, or folder of a BIDS data set.
+  std::string study;                                       ///< BIDS: the study of every person; empty: code/study.toml.
+  std::vector<std::string> persons;                        ///< Names or labels; empty: all persons.
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the studies'.
   std::size_t jobs = 0;  ///< Persons computed at the same time; 0: as many as threads.
   /// Receives the end of each person at once; may be empty. Called by one thread at a time.
@@ -47,8 +47,6 @@ std::string write_cohort_workflow(const CohortOptions& options,
 /// Makes the folder of a cohort with a readable manifest. Throws InvalidInput for a file, for a
 /// folder with other content than a cohort's unless `overwrite`, and for the manifest as
 /// `write_cohort_persons` does; then no folder is made.
-void prepare_cohort_folder(const CohortOptions& options,
-                           const std::filesystem::path& folder,
-                           bool overwrite);
+void prepare_cohort_folder(const CohortOptions& options, const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace myoid::commands

@@ -46,14 +46,12 @@ class Converter {
     const std::string to = recording::extension_of(out);
     const bool folder = to.empty();
     if (makes_derivative(o_)) {
-      for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject))
-        wrote(file);
+      for (const fs::path& file : recording::write_bids_derivative(o_.in, out, o_.subject)) wrote(file);
       return std::move(written_);
     }
     if (!folder && !recording::is_written_ending(to))
-      throw InvalidInput(
-          fmt::format("{}: files of kind '{}' are not written; expected {}, or a folder", o_.out,
-                      to, recording::written_endings_text()));
+      throw InvalidInput(fmt::format("{}: files of kind '{}' are not written; expected {}, or a folder", o_.out, to,
+                                     recording::written_endings_text()));
     const auto format = recording::format_of(out);
     if (folder) {
       everything(out);
@@ -82,8 +80,8 @@ class Converter {
 
   /// Returns the voltages of a file, in --unit if the file states none.
   [[nodiscard]] TimeSeries voltages(const std::string& path) const {
-    recording::EmgFile file = recording::read_emg(
-        path, o_.unit, false, path == o_.in ? o_.channels : std::vector<std::string>());
+    recording::EmgFile file =
+        recording::read_emg(path, o_.unit, false, path == o_.in ? o_.channels : std::vector<std::string>());
     report(path, file.repairs);
     if (!file.unit_conflict.empty()) remarks_.warn(fmt::format("{}: {}", path, file.unit_conflict));
     return std::move(file.data);
@@ -95,9 +93,7 @@ class Converter {
 
   void wrote(const fs::path& path) { written_.push_back(path.string()); }
 
-  void write_markers(const fs::path& out,
-                     recording::MarkerSeries markers,
-                     std::vector<recording::Repair>& repairs) {
+  void write_markers(const fs::path& out, recording::MarkerSeries markers, std::vector<recording::Repair>& repairs) {
     claim(out);
     without_blanks(markers, repairs);
     recording::write_trc(out, recording::rotated(at_rate(cut(std::move(markers), o_.call)), R_));
@@ -119,8 +115,7 @@ class Converter {
 
   void require_channels(const std::vector<Channel>& channels) const {
     if (channels.empty())
-      throw ReadError(o_.in, 0,
-                      "every channel has samples that are no numbers; a .csv file holds them");
+      throw ReadError(o_.in, 0, "every channel has samples that are no numbers; a .csv file holds them");
   }
 
   void storage_channels(const fs::path& out) {
@@ -130,8 +125,7 @@ class Converter {
     recording::ChannelStatement said{all.title, all.in_degrees, {}};
     const recording::AnalogChannels read = std::move(file.data);
     const bool as_read = stays(read, out);
-    const recording::AnalogChannels changed =
-        as_read ? recording::AnalogChannels() : chosen(read, out, o_.in);
+    const recording::AnalogChannels changed = as_read ? recording::AnalogChannels() : chosen(read, out, o_.in);
     const recording::AnalogChannels& written = as_read ? read : changed;
     require_channels(written.channels());
     for (const Channel& c : written.channels())
@@ -182,11 +176,10 @@ class Converter {
       recording::Recording file = recording::read_recording(o_.in);
       report(file.repairs);
       if (file.analog.empty())
-        throw ReadError(o_.in, 0,
-                        "there are no analog channels to write; markers go to a .trc file");
+        throw ReadError(o_.in, 0, "there are no analog channels to write; markers go to a .trc file");
       if (!file.other_clocks.empty() && o_.channels.empty())
-        remarks_.warn(fmt::format("{}: {}; a folder as OUT takes all", o_.in,
-                                  recording::first_clock_alone(other_clocks(file))));
+        remarks_.warn(
+            fmt::format("{}: {}; a folder as OUT takes all", o_.in, recording::first_clock_alone(other_clocks(file))));
       if (stays(file.analog, out)) {
         write_read(out, recording::rows_of(file.analog));
       } else {
@@ -196,12 +189,10 @@ class Converter {
     wrote(out);
   }
 
-  /// Turns plates, markers and events to the model's ground, whose y is up: by --up, else by the
-  /// vertical of the file.
+  /// Turns plates, markers and events to the model's ground, whose y is up: by --up, else by the vertical of the file.
   void stand(recording::Recording& file) {
     try {
-      const recording::LaboratoryUp up =
-          recording::stand_plates(file, recording::axis_vector(o_.up), o_.least_force_n);
+      const recording::LaboratoryUp up = recording::stand_plates(file, recording::axis_vector(o_.up), o_.least_force_n);
       if (!up.up_L) return;
       R_ = rotation_of(o_, *up.up_L);
       if (o_.up.empty())
@@ -217,24 +208,22 @@ class Converter {
     if (!o_.up.empty() || !o_.turns.empty()) return;
     const std::string up = recording::axis_name(up_L);
     if (up != "y")
-      remarks_.note(fmt::format(
-          "note: {}: up is {} in this file; the markers are written as recorded; --up {} turns "
-          "them to y up, as models stand",
-          o_.in, up, up));
+      remarks_.note(
+          fmt::format("note: {}: up is {} in this file; the markers are written as recorded; --up {} turns "
+                      "them to y up, as models stand",
+                      o_.in, up, up));
   }
 
   void plates(const fs::path& out, recording::Recording file) {
     claim(out);
-    if (file.plates.empty())
-      throw ReadError(o_.in, 0, "there are no force plates that are understood");
+    if (file.plates.empty()) throw ReadError(o_.in, 0, "there are no force plates that are understood");
     report(file.repairs);
     const std::vector<int> numbers = plate_numbers(o_, file);
     std::vector<recording::Repair> notes;
-    const TimeSeries loads = recording::ground_reaction(
-        file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
+    const TimeSeries loads =
+        recording::ground_reaction(file.force_plates(), {.R_YG = R_, .least_force_n = o_.least_force_n}, notes);
     report(notes);
-    recording::write_storage(out, at_rate(cut(loads, o_.call)),
-                             {.title = out.stem().string(), .comments = {}});
+    recording::write_storage(out, at_rate(cut(loads, o_.call)), {.title = out.stem().string(), .comments = {}});
     wrote(out);
     if (o_.bodies.empty()) {
       remarks_.note(
@@ -244,9 +233,8 @@ class Converter {
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
     claim(xml);
-    recording::write_file(xml,
-                          recording::format_external_loads(out.stem().string(), numbers, o_.bodies,
-                                                           out.filename().string()));
+    recording::write_file(
+        xml, recording::format_external_loads(out.stem().string(), numbers, o_.bodies, out.filename().string()));
     wrote(xml);
   }
 
@@ -271,9 +259,7 @@ class Converter {
   }
 
   /// Writes all channels, and a second file of the voltages that may be EMG.
-  void write_all_channels(const fs::path& folder,
-                          const std::string& stem,
-                          const recording::Recording& file) {
+  void write_all_channels(const fs::path& folder, const std::string& stem, const recording::Recording& file) {
     const auto write = [&](const fs::path& out, const recording::RowSource& rows) {
       if (rows.channels.empty()) return;
       claim(out);
@@ -282,8 +268,7 @@ class Converter {
     };
     const fs::path all = folder / (stem + "_analog.sto");
     const bool as_read = stays(file.analog, all);
-    const recording::AnalogChannels changed =
-        as_read ? recording::AnalogChannels() : chosen(file.clocks(), all, o_.in);
+    const recording::AnalogChannels changed = as_read ? recording::AnalogChannels() : chosen(file.clocks(), all, o_.in);
     const recording::AnalogChannels& series = as_read ? file.analog : changed;
     write(all, recording::rows_of(series));
     if (o_.channels.empty()) {
@@ -304,8 +289,7 @@ class Converter {
     claim(out);
     if (recording::format_of(o_.in) == FileFormat::c3d) {
       if (!R_.isIdentity(0.0) || o_.call.start_s || o_.call.end_s || o_.rate_hz > 0.0)
-        throw InvalidInput(
-            "a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
+        throw InvalidInput("a C3D file is rewritten as it is; convert it to .trc to turn, cut or resample it");
       recording::C3dFile file = recording::read_c3d(o_.in);
       report(file.repairs);
       recording::write_c3d(out, file);
@@ -326,12 +310,10 @@ class Converter {
       }
     }
     recording::MarkerSeries markers = file.markers;
-    if (markers.frame_count() > 0)
-      markers = recording::rotated(at_rate(cut(std::move(markers), o_.call)), R_);
+    if (markers.frame_count() > 0) markers = recording::rotated(at_rate(cut(std::move(markers), o_.call)), R_);
     const std::string& channels_from = o_.analog.empty() ? o_.in : o_.analog;
     recording::write_c3d(
-        out, recording::make_c3d(
-                 markers, analog.empty() ? TimeSeries() : chosen(analog, out, channels_from)));
+        out, recording::make_c3d(markers, analog.empty() ? TimeSeries() : chosen(analog, out, channels_from)));
     wrote(out);
   }
 
@@ -343,8 +325,7 @@ class Converter {
 
 /// Returns the options with the kind of content that the endings of the names imply.
 ConvertOptions with_kind(ConvertOptions o) {
-  if (o.what.empty() && recording::extension_of(o.out) == ".mot" &&
-      recording::format_of(o.in) == FileFormat::c3d)
+  if (o.what.empty() && recording::extension_of(o.out) == ".mot" && recording::format_of(o.in) == FileFormat::c3d)
     o.what = "plates";
   return o;
 }
@@ -363,8 +344,7 @@ bool makes_derivative(const ConvertOptions& o) {
 }
 
 ConvertResult convert(const ConvertOptions& options) {
-  if (!options.what.empty())
-    check_word("--what", options.what, {"markers", "channels", "emg", "plates"});
+  if (!options.what.empty()) check_word("--what", options.what, {"markers", "channels", "emg", "plates"});
   Remarks remarks(options.call);
   const ConvertOptions o = with_kind(options);
   ConvertResult result;

@@ -11,10 +11,10 @@ namespace myoid::commands {
 /// A recording in another format.
 struct ConvertOptions {
   Call call;
-  std::string in;    ///< A recording or table, or the folder of a finished run.
-  std::string out;   ///< .c3d, .trc, .sto, .mot, .csv, or a folder for everything.
-  std::string what;  ///< markers, channels, emg or plates; empty: by the endings of the names.
-  std::string up;    ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
+  std::string in;                     ///< A recording or table, or the folder of a finished run.
+  std::string out;                    ///< .c3d, .trc, .sto, .mot, .csv, or a folder for everything.
+  std::string what;                   ///< markers, channels, emg or plates; empty: by the endings of the names.
+  std::string up;                     ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
   std::vector<std::string> turns;     ///< "AXIS:DEGREES", one after another.
   std::string unit;                   ///< Unit of EMG if the file does not state it: V, mV, uV.
   std::vector<std::string> channels;  ///< Only these channels; empty: all.

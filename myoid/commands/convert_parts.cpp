@@ -17,11 +17,9 @@ namespace myoid::commands {
 Mat3 rotation_of(const ConvertOptions& o, const Vec3& up_L) {
   Mat3 R = recording::rotation_to_y_up(up_L);
   for (const std::string& turn : o.turns) {
-    const auto degrees = turn.size() > 2 && turn[1] == ':'
-                             ? recording::parse_number(std::string_view(turn).substr(2))
-                             : std::nullopt;
-    if (!degrees || std::string_view("xyz").find(turn[0]) == std::string_view::npos ||
-        !std::isfinite(*degrees))
+    const auto degrees =
+        turn.size() > 2 && turn[1] == ':' ? recording::parse_number(std::string_view(turn).substr(2)) : std::nullopt;
+    if (!degrees || std::string_view("xyz").find(turn[0]) == std::string_view::npos || !std::isfinite(*degrees))
       throw InvalidInput(fmt::format("--rotate {}: expected AXIS:DEGREES, as x:-90", turn));
     const Vec3 axis = turn[0] == 'x'   ? Vec3::UnitX().eval()
                       : turn[0] == 'y' ? Vec3::UnitY().eval()
@@ -29,8 +27,7 @@ Mat3 rotation_of(const ConvertOptions& o, const Vec3& up_L) {
     R = Eigen::AngleAxisd(*degrees * kDegree, axis).toRotationMatrix() * R;
   }
   // Turns by right angles stay exact.
-  return R.unaryExpr(
-      [](double x) { return std::abs(x - std::round(x)) < 1e-15 ? std::round(x) : x; });
+  return R.unaryExpr([](double x) { return std::abs(x - std::round(x)) < 1e-15 ? std::round(x) : x; });
 }
 
 void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Repair>& repairs) {
@@ -41,13 +38,10 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
     std::replace(name.begin(), name.end(), '\t', '_');
     ++changed;
   }
-  if (changed > 0)
-    repairs.push_back({0, fmt::format("blanks in {} marker names became '_'", changed)});
+  if (changed > 0) repairs.push_back({0, fmt::format("blanks in {} marker names became '_'", changed)});
 }
 
-bool is_storage(const std::string& file) {
-  return recording::format_of(file) == recording::FileFormat::storage;
-}
+bool is_storage(const std::string& file) { return recording::format_of(file) == recording::FileFormat::storage; }
 
 std::vector<std::string> other_clocks(const recording::Recording& file) {
   std::vector<std::string> names;
@@ -66,18 +60,16 @@ std::vector<int> plate_numbers(const ConvertOptions& o, const recording::Recordi
       fmt::format("--body: {} {} for {} force {} of {} ({}); give one for each, in this order, "
                   "and \"\" for a "
                   "plate on which nobody stands",
-                  given, given == 1 ? "body" : "bodies", numbers.size(),
-                  numbers.size() == 1 ? "plate" : "plates", o.in, fmt::join(numbers, ", ")));
+                  given, given == 1 ? "body" : "bodies", numbers.size(), numbers.size() == 1 ? "plate" : "plates", o.in,
+                  fmt::join(numbers, ", ")));
 }
 
 Eigen::VectorXd new_clock(const ConvertOptions& o, const Eigen::VectorXd& old) {
   const double length_s = old[old.size() - 1] - old[0];
   const auto intervals = static_cast<Eigen::Index>(std::floor(length_s * o.rate_hz + 1e-6));
   if (intervals < 1 || intervals > 100'000'000)
-    throw InvalidInput(fmt::format("--rate {}: that makes {} samples of {:.3g} s", o.rate_hz,
-                                   intervals + 1, length_s));
-  return Eigen::VectorXd::LinSpaced(intervals + 1, old[0],
-                                    old[0] + static_cast<double>(intervals) / o.rate_hz);
+    throw InvalidInput(fmt::format("--rate {}: that makes {} samples of {:.3g} s", o.rate_hz, intervals + 1, length_s));
+  return Eigen::VectorXd::LinSpaced(intervals + 1, old[0], old[0] + static_cast<double>(intervals) / o.rate_hz);
 }
 
 }  // namespace myoid::commands

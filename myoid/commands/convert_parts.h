@@ -22,10 +22,8 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
 /// Returns the channels whose clock differs from the first channel's.
 [[nodiscard]] std::vector<std::string> other_clocks(const recording::Recording& file);
 
-/// Returns the numbers of the force plates. Throws InvalidInput unless the options give one body
-/// for each plate.
-[[nodiscard]] std::vector<int> plate_numbers(const ConvertOptions& options,
-                                             const recording::Recording& file);
+/// Returns the numbers of the force plates. Throws InvalidInput unless the options give one body for each plate.
+[[nodiscard]] std::vector<int> plate_numbers(const ConvertOptions& options, const recording::Recording& file);
 
 /// Returns an even clock at the options' rate over the time of the old one. Throws InvalidInput if
 /// the clock would have no or too many samples.

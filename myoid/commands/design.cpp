@@ -13,8 +13,7 @@
 namespace myoid::commands {
 namespace {
 
-/// Returns the elbow of the source paper: surface electrodes on three muscles; the brachialis acts
-/// as the biceps does.
+/// Returns the elbow of the source paper: surface electrodes on three muscles; the brachialis acts as the biceps does.
 Study arm4_study(bool wire) {
   Study study;
   study.model.builtin = "arm4";
@@ -29,12 +28,10 @@ Study arm4_study(bool wire) {
 }
 
 Study study_of(const DesignOptions& o) {
-  if (o.study.empty() == o.model.empty())
-    throw InvalidInput("design: give either a study.toml or --model arm4");
+  if (o.study.empty() == o.model.empty()) throw InvalidInput("design: give either a study.toml or --model arm4");
   if (!o.model.empty() && o.model != "arm4")
-    throw InvalidInput(fmt::format(
-        "--model {}: only arm4 is built in; for another model write a study.toml that names it",
-        o.model));
+    throw InvalidInput(
+        fmt::format("--model {}: only arm4 is built in; for another model write a study.toml that names it", o.model));
   return o.study.empty() ? arm4_study(o.wire) : read_study(o.study);
 }
 
@@ -42,12 +39,11 @@ EarlierRun read_earlier(const DesignOptions& o, const Study& study, Remarks& rem
   EarlierRun earlier = read_earlier_run(o.after);
   const IdentityDifferences unlike = differences(identity_of(study), read_run_identity(o.after));
   if (!unlike.grave.empty())
-    throw InvalidInput(fmt::format(
-        "--after {}: {}; its numbers mean something else; give the result of a run of this "
-        "study",
-        o.after, fmt::join(unlike.grave, "; ")));
-  for (const std::string& text : unlike.other)
-    remarks.warn(fmt::format("--after {}: {}", o.after, text));
+    throw InvalidInput(
+        fmt::format("--after {}: {}; its numbers mean something else; give the result of a run of this "
+                    "study",
+                    o.after, fmt::join(unlike.grave, "; ")));
+  for (const std::string& text : unlike.other) remarks.warn(fmt::format("--after {}: {}", o.after, text));
   return earlier;
 }
 
@@ -59,8 +55,8 @@ DesignResult design(const DesignOptions& o) {
   Study study = study_of(o);
   if (o.estimator) study.identify.estimator = *o.estimator;
   DesignStudyOptions choice = o.design;
-  choice.choice.criterion = o.criterion == "A" ? identification::DesignCriterion::a_optimal
-                                               : identification::DesignCriterion::d_optimal;
+  choice.choice.criterion =
+      o.criterion == "A" ? identification::DesignCriterion::a_optimal : identification::DesignCriterion::d_optimal;
   choice.catalogue.dynamometer = o.dynamometer;
   choice.seed = o.call.seed;
   choice.progress = o.call.progress;
@@ -70,10 +66,10 @@ DesignResult design(const DesignOptions& o) {
   const DesignStudyResult& found = result.design;
   if (found.too_hard == found.catalogue_size)
     throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
-  remarks.note(fmt::format(
-      "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
-      "persons; {} exchanges",
-      found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));
+  remarks.note(
+      fmt::format("{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
+                  "persons; {} exchanges",
+                  found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));
   result.remarks = remarks.list();
   return result;
 }

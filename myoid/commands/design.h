@@ -19,7 +19,7 @@ struct DesignOptions {
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   std::string criterion = "D";                             ///< D or A.
   bool dynamometer = true;                                 ///< Isokinetic movements are possible.
-  DesignStudyOptions design;  ///< Its seed, criterion and `earlier` follow from the above.
+  DesignStudyOptions design;                               ///< Its seed, criterion and `earlier` follow from the above.
 };
 
 struct DesignResult {

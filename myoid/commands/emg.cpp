@@ -37,28 +37,23 @@ struct SmoothedFiles {
 SmoothedFiles smooth(const EmgOptions& o, const std::vector<std::string>& paths, Remarks& remarks) {
   GroupedWarnings warnings(remarks);
   SmoothedFiles files;
-  for (const TimeSeries& raw : read_raw_emg(o, warnings))
-    files.stages.push_back(signals::clean_emg(raw, o.chain));
+  for (const TimeSeries& raw : read_raw_emg(o, warnings)) files.stages.push_back(signals::clean_emg(raw, o.chain));
   files.whitening = signals::find_whitening(files.views(), o.chain);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     signals::add_envelope(files.stages[i], o.chain, files.whitening);
-    for (const std::string& finding : files.stages[i].findings)
-      remarks.note(fmt::format("{}: {}", paths[i], finding));
+    for (const std::string& finding : files.stages[i].findings) remarks.note(fmt::format("{}: {}", paths[i], finding));
   }
   for (const signals::WhiteningFilter& filter : files.whitening.filters) {
     if (filter.reason.empty())
-      remarks.note(fmt::format("channel '{}': statistical bandwidth {:.0f} Hz, whitened {:.0f} Hz",
-                               filter.channel, filter.bandwidth_before_hz,
-                               filter.bandwidth_after_hz));
+      remarks.note(fmt::format("channel '{}': statistical bandwidth {:.0f} Hz, whitened {:.0f} Hz", filter.channel,
+                               filter.bandwidth_before_hz, filter.bandwidth_after_hz));
   }
   return files;
 }
 
 }  // namespace
 
-std::vector<std::string> emg_files(const std::vector<std::string>& inputs,
-                                   const std::string& to,
-                                   const char* option) {
+std::vector<std::string> emg_files(const std::vector<std::string>& inputs, const std::string& to, const char* option) {
   if (to.empty()) return {};
   if (inputs.size() == 1) return {to};
   std::vector<std::string> files;
@@ -86,8 +81,7 @@ EmgResult emg(const EmgOptions& o) {
   SmoothedFiles files = smooth(o, paths, remarks);
   std::vector<signals::TrialEnvelope> trials;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    trials.push_back(
-        {paths[i], i >= o.in.size(), &files.stages[i].envelope, files.stages[i].bandwidth_hz});
+    trials.push_back({paths[i], i >= o.in.size(), &files.stages[i].envelope, files.stages[i].bandwidth_hz});
   }
   const signals::NormalisationOptions window{.window_s = o.window_s};
   EmgResult result;
@@ -126,11 +120,9 @@ void write_emg(const EmgResult& result,
                const std::vector<std::string>& activations,
                const std::vector<std::string>& envelopes) {
   for (std::size_t i = 0; i < activations.size(); ++i)
-    recording::write_series(activations[i], result.activations[i], "Activation",
-                            result.activation_header);
+    recording::write_series(activations[i], result.activations[i], "Activation", result.activation_header);
   for (std::size_t i = 0; i < envelopes.size(); ++i)
-    recording::write_series(envelopes[i], result.envelopes[i], "EMG envelope volt",
-                            result.envelope_header);
+    recording::write_series(envelopes[i], result.envelopes[i], "EMG envelope volt", result.envelope_header);
 }
 
 }  // namespace myoid::commands

@@ -29,7 +29,7 @@ struct EmgResult {
   std::vector<TimeSeries> envelopes;    ///< [V], one per input if kept.
   signals::Whitening whitening;
   std::vector<signals::ChannelNormalisation> normalisation;
-  signals::EmgChain chain;  ///< From the raw EMG to the activation.
+  signals::EmgChain chain;                                      ///< From the raw EMG to the activation.
   std::vector<std::string> activation_header, envelope_header;  ///< The chain, for files.
   std::vector<Remark> remarks;
 };
@@ -52,8 +52,7 @@ void check_emg_files(const EmgOptions& options,
                      const std::vector<std::string>& envelopes,
                      bool overwrite);
 
-/// Writes the activation of each input and the envelopes, if files for them are given (.sto, .mot
-/// or .csv).
+/// Writes the activation of each input and the envelopes, if files for them are given (.sto, .mot or .csv).
 void write_emg(const EmgResult& result,
                const std::vector<std::string>& activations,
                const std::vector<std::string>& envelopes);

@@ -29,10 +29,7 @@ std::string defect_of(const TimeSeries& emg, Eigen::Index column) {
 
 /// Selects the channels that can be filtered and normalized. Defective channels are left out with a
 /// warning. It is an error if the user named the channels or none remains.
-TimeSeries usable_channels(const std::string& path,
-                           const TimeSeries& emg,
-                           bool asked_for,
-                           GroupedWarnings& warnings) {
+TimeSeries usable_channels(const std::string& path, const TimeSeries& emg, bool asked_for, GroupedWarnings& warnings) {
   constexpr Eigen::Index kFewest = 10;
   if (emg.sample_count() < kFewest)
     throw ReadError(path, 0,
@@ -58,8 +55,7 @@ TimeSeries usable_channels(const std::string& path,
                    fmt::format("{}: {}; it is left out", path, one));
   }
   if (!defects.empty() && (asked_for || usable.empty()))
-    throw ReadError(
-        path, 0, all + (asked_for ? "ask for others with --channel" : "no other channel is there"));
+    throw ReadError(path, 0, all + (asked_for ? "ask for others with --channel" : "no other channel is there"));
   return emg.select(usable);
 }
 
@@ -69,9 +65,8 @@ void keep_common_channels(const std::vector<std::string>& paths,
                           GroupedWarnings& warnings) {
   std::vector<std::string> common;
   for (const Channel& channel : files.front().channels()) {
-    const auto lacks = std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) {
-      return !file.find(channel.name);
-    });
+    const auto lacks =
+        std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) { return !file.find(channel.name); });
     if (lacks == files.end()) {
       common.push_back(channel.name);
     } else {
@@ -82,16 +77,12 @@ void keep_common_channels(const std::vector<std::string>& paths,
                                paths.front(), channel.name, other, channel_names(*lacks)));
     }
   }
-  if (common.empty())
-    throw InvalidInput(fmt::format("no channel is in all files: {}", fmt::join(paths, ", ")));
+  if (common.empty()) throw InvalidInput(fmt::format("no channel is in all files: {}", fmt::join(paths, ", ")));
   for (TimeSeries& file : files) file = file.select(common);
 }
 
 /// Warns of faults in raw EMG. Throws ReadError if no channel is raw.
-void warn_of_faults(const std::string& path,
-                    const TimeSeries& emg,
-                    bool highpass,
-                    GroupedWarnings& warnings) {
+void warn_of_faults(const std::string& path, const TimeSeries& emg, bool highpass, GroupedWarnings& warnings) {
   std::vector<std::string> envelopes;
   const std::vector<Remark> faults = signals::check_emg(emg, highpass);
   for (const Remark& fault : faults) {
@@ -108,14 +99,11 @@ void warn_of_faults(const std::string& path,
                         "; give the raw EMG, or divide by the largest effort yourself (a study "
                         "does it with [emg] kind = \"envelope\")");
   if (!envelopes.empty())
-    warnings.add(RemarkCode::emg_envelope, path, "envelopes",
-                 fmt::format("{}: {}; leave them out", path, what));
+    warnings.add(RemarkCode::emg_envelope, path, "envelopes", fmt::format("{}: {}; leave them out", path, what));
   for (const Remark& fault : faults) {
-    const bool envelope =
-        std::find(envelopes.begin(), envelopes.end(), fault.about) != envelopes.end();
+    const bool envelope = std::find(envelopes.begin(), envelopes.end(), fault.about) != envelopes.end();
     if (fault.severity == Severity::warning && !envelope)
-      warnings.add(fault.code, channel_in(path, fault.about), "channels",
-                   fmt::format("{}: {}", path, sentence(fault)));
+      warnings.add(fault.code, channel_in(path, fault.about), "channels", fmt::format("{}: {}", path, sentence(fault)));
   }
 }
 
@@ -123,11 +111,9 @@ void warn_of_faults(const std::string& path,
 TimeSeries read_raw(const std::string& path, const EmgOptions& o, GroupedWarnings& warnings) {
   recording::EmgFile file = recording::read_emg(path, o.unit, false, o.channels);
   for (const recording::Repair& repair : file.repairs)
-    warnings.add(RemarkCode::reading, path, repair.message,
-                 fmt::format("{}: {}", path, recording::to_string(repair)));
+    warnings.add(RemarkCode::reading, path, repair.message, fmt::format("{}: {}", path, recording::to_string(repair)));
   if (!file.unit_conflict.empty())
-    warnings.add(RemarkCode::unit_doubtful, path, file.unit_conflict,
-                 fmt::format("{}: {}", path, file.unit_conflict));
+    warnings.add(RemarkCode::unit_doubtful, path, file.unit_conflict, fmt::format("{}: {}", path, file.unit_conflict));
   return usable_channels(path, file.data, !o.channels.empty(), warnings);
 }
 
@@ -138,10 +124,7 @@ GroupedWarnings::~GroupedWarnings() {
 }
 
 void GroupedWarnings::add(RemarkCode code, std::string where, std::string about, std::string says) {
-  found_.push_back({.code = code,
-                    .where = std::move(where),
-                    .about = std::move(about),
-                    .says = std::move(says)});
+  found_.push_back({.code = code, .where = std::move(where), .about = std::move(about), .says = std::move(says)});
 }
 
 std::vector<std::string> emg_paths(const EmgOptions& o) {
@@ -155,8 +138,7 @@ std::vector<TimeSeries> read_raw_emg(const EmgOptions& o, GroupedWarnings& warni
   std::vector<TimeSeries> raw;
   for (const std::string& path : paths) raw.push_back(read_raw(path, o, warnings));
   keep_common_channels(paths, raw, warnings);
-  for (std::size_t i = 0; i < raw.size(); ++i)
-    warn_of_faults(paths[i], raw[i], !o.chain.as_published, warnings);
+  for (std::size_t i = 0; i < raw.size(); ++i) warn_of_faults(paths[i], raw[i], !o.chain.as_published, warnings);
   return raw;
 }
 

@@ -32,7 +32,6 @@ class GroupedWarnings {
 /// Returns the raw EMG of all these files, with the channels that all have and that can be filtered
 /// and normalized. Other channels are left out with a warning. Throws ReadError if none remains, or
 /// a requested channel does not, and for a file that is rectified and smoothed already.
-[[nodiscard]] std::vector<TimeSeries> read_raw_emg(const EmgOptions& options,
-                                                   GroupedWarnings& warnings);
+[[nodiscard]] std::vector<TimeSeries> read_raw_emg(const EmgOptions& options, GroupedWarnings& warnings);
 
 }  // namespace myoid::commands

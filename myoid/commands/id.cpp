@@ -28,9 +28,8 @@ model::BodyModel holding(model::BodyModel model, const IdOptions& o) {
   if (body.empty()) {
     std::vector<std::string> names;
     for (std::size_t i = 1; i < model.bodies.size(); ++i) names.push_back(model.bodies[i].name);
-    throw InvalidInput(
-        fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
-                    o.held_mass_kg, fmt::join(names, ", ")));
+    throw InvalidInput(fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
+                                   o.held_mass_kg, fmt::join(names, ", ")));
   }
   return dynamics::with_held_mass(std::move(model), body, p_BP_m, o.held_mass_kg);
 }
@@ -44,9 +43,8 @@ IdResult id(const IdOptions& o) {
         "--speeds or --accelerations");
   Remarks remarks(o.call);
   const model::BodyModel model = holding(load_model(o.model, o.compat, remarks), o);
-  const kinematics::JointMotion motion =
-      with_derivatives(load_motion(model, o.motion, o.cutoff_hz, o.call, remarks), model, o.speeds,
-                       o.accelerations, o.call, remarks);
+  const kinematics::JointMotion motion = with_derivatives(load_motion(model, o.motion, o.cutoff_hz, o.call, remarks),
+                                                          model, o.speeds, o.accelerations, o.call, remarks);
   std::optional<dynamics::ExternalLoads> loads;
   if (!o.loads.empty()) loads = load_external_loads(model, o.loads, motion, remarks);
   IdResult result;

@@ -27,8 +27,7 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
   files.torque = o.method == "torque";
   files.start_s = o.call.start_s;
   files.end_s = o.call.end_s;
-  StudyData data =
-      read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
+  StudyData data = read_identify_data(files, table, [&](const std::string& text) { remarks.warn(text); });
   for (const std::string& name : o.free_more) {
     (void)identification::parameter_field(name);
     identification::ParameterRule rule;
@@ -48,8 +47,7 @@ IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, 
 }
 
 IdentificationResult fit_torque(const MuscleTable& t, const EstimatorOptions& o, StudyData& data) {
-  return with_freed(identification::identify_torque_or_exact(data, o, t.speed_may_be_free), t,
-                    data);
+  return with_freed(identification::identify_torque_or_exact(data, o, t.speed_may_be_free), t, data);
 }
 
 identification::ForceOptions force_options(const MuscleTable& t, const EstimatorOptions& o) {
@@ -61,11 +59,9 @@ IdentificationResult fit_data(const IdentifyOptions& o,
                               const MuscleTable& table,
                               const EstimatorOptions& options,
                               StudyData& data) {
-  if (o.method == "paper")
-    return identification::identify_paper(data, {.multistart = o.starts.value_or(1)});
+  if (o.method == "paper") return identification::identify_paper(data, {.multistart = o.starts.value_or(1)});
   if (o.method == "force")
-    return with_freed(identification::identify_force(data, force_options(table, options)), table,
-                      data);
+    return with_freed(identification::identify_force(data, force_options(table, options)), table, data);
   IdentificationResult fit = fit_torque(table, options, data);
   identification::look_around(data, options, fit);
   return fit;
@@ -77,22 +73,17 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const EstimatorOptions& options,
                                            const MuscleTable& table,
                                            std::string& why_not) {
-  const identification::CrossValidationOptions how{.kind = o.folds == "block"
-                                                               ? identification::FoldKind::block
-                                                               : identification::FoldKind::trial};
+  const identification::CrossValidationOptions how{.kind = o.folds == "block" ? identification::FoldKind::block
+                                                                              : identification::FoldKind::trial};
   (void)identification::splits(data, how, &why_not);
-  const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) {
-    return fit_torque(table, once, fold);
-  };
+  const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) { return fit_torque(table, once, fold); };
   if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
   const auto fit_force = [&](StudyData& fold, const EstimatorOptions& once) {
-    return with_freed(identification::identify_muscle_force(fold, force_options(table, once)),
-                      table, fold);
+    return with_freed(identification::identify_muscle_force(fold, force_options(table, once)), table, fold);
   };
   std::vector<identification::Fold> folds;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    const auto more = identification::cross_validate(identification::force_study(data, k),
-                                                     fit_force, options, how);
+    const auto more = identification::cross_validate(identification::force_study(data, k), fit_force, options, how);
     folds.insert(folds.end(), more.begin(), more.end());
   }
   return folds;
@@ -105,9 +96,8 @@ Provenance provenance_of(const IdentifyOptions& o) {
     provenance.inputs.push_back({path, sha256(recording::read_text_file(path))});
   };
   add(o.muscles.string());
-  for (const auto* list :
-       {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
-        &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
+  for (const auto* list : {&o.files.activations, &o.files.lengths, &o.files.velocities, &o.files.forces,
+                           &o.files.moment_arms, &o.files.torques, &o.files.motions}) {
     for (const std::string& path : *list) add(path);
   }
   return provenance;
@@ -120,8 +110,7 @@ std::string solvers_csv(const std::vector<identification::NamedContest>& contest
   for (const auto& [fit, c] : contests) {
     for (const identification::SolverRun& run : c.runs) {
       text += fmt::format("{},{},{},{},{},{},{},{}\n", fit, run.solver, run.start, number(run.cost),
-                          number(run.distance), run.evaluations, number(run.seconds),
-                          math::name(run.termination));
+                          number(run.distance), run.evaluations, number(run.seconds), math::name(run.termination));
     }
   }
   return text;
@@ -149,11 +138,9 @@ IdentifyResult identify(const IdentifyOptions& o) {
     EstimatorOptions as_fitted = as_asked;
     as_fitted.lag = result.fit.lag;
     as_fitted.choose_lag = false;
-    result.contests =
-        identification::solver_contests(result.data, o.method, as_fitted,
-                                        {.starts = o.starts.value_or(kStartsToCompare),
-                                         .seed = o.call.seed,
-                                         .progress = o.call.progress});
+    result.contests = identification::solver_contests(
+        result.data, o.method, as_fitted,
+        {.starts = o.starts.value_or(kStartsToCompare), .seed = o.call.seed, .progress = o.call.progress});
   }
   for (const auto* warnings : {&result.fit.interval_warnings, &result.fit.warnings})
     for (const std::string& text : *warnings) remarks.warn(text);
@@ -173,8 +160,7 @@ std::string identify_json(const IdentifyResult& result) {
 void write_identify(const IdentifyResult& result, const std::filesystem::path& folder) {
   write_parameter_files({result.fit}, result.folds, result.provenance, result.told, folder);
   write_held_back(result.fit, result.data, result.provenance, folder);
-  if (!result.contests.empty())
-    recording::write_file(folder / "solvers.csv", solvers_csv(result.contests));
+  if (!result.contests.empty()) recording::write_file(folder / "solvers.csv", solvers_csv(result.contests));
 }
 
 }  // namespace myoid::commands

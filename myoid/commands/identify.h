@@ -35,8 +35,8 @@ struct IdentifyResult {
 [[nodiscard]] std::string identify_json(const IdentifyResult& result);
 
 /// Initial parts of the names of the files that `write_identify` writes.
-inline const std::vector<std::string_view> kIdentifyFiles{"parameters.", "fold_parameters.",
-                                                          "posterior.", "predictions.", "solvers."};
+inline const std::vector<std::string_view> kIdentifyFiles{"parameters.", "fold_parameters.", "posterior.",
+                                                          "predictions.", "solvers."};
 
 /// Writes parameters.json, parameters.csv and, if there are such results, fold_parameters.csv,
 /// posterior.csv, solvers.csv, predictions.csv and the folders of predicted trials.

@@ -17,9 +17,8 @@ using identification::ParameterRule;
 using identification::StudyData;
 
 bool is_free(const StudyData& data, bool (*about)(const ParameterRule&)) {
-  return std::any_of(data.rules.begin(), data.rules.end(), [&](const ParameterRule& rule) {
-    return rule.free.value_or(false) && about(rule);
-  });
+  return std::any_of(data.rules.begin(), data.rules.end(),
+                     [&](const ParameterRule& rule) { return rule.free.value_or(false) && about(rule); });
 }
 
 /// Returns true for a parameter of the joint that acts by its motion.
@@ -53,10 +52,10 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
     if (o.method != "torque")
       throw InvalidInput(fmt::format("--free {}: it is the joint's; use --method torque", name));
     if (field.field != identification::kOffset && o.files.motions.empty())
-      throw InvalidInput(fmt::format(
-          "--free {}: it acts by the joint's motion; give its angles with --motion, one "
-          "file per trial",
-          name));
+      throw InvalidInput(
+          fmt::format("--free {}: it acts by the joint's motion; give its angles with --motion, one "
+                      "file per trial",
+                      name));
   }
 }
 
@@ -92,8 +91,7 @@ class ValueCheck : public FlatSettingVisitor {
 
 void visit_files(IdentifyOptions& o, SettingVisitor& v) {
   v.path("muscles", o.muscles,
-         {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.",
-          .required = "muscles.csv"});
+         {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.", .required = "muscles.csv"});
   v.texts("activations", o.files.activations,
           {.says = "Activations, 0 to 1, in columns named by muscle, or by the column `emg` of "
                    "muscles.csv; one file per trial. They may have a clock of their own.",
@@ -105,16 +103,16 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
   v.texts("velocities", o.files.velocities,
           {.says = "Rates of these lengths [m/s], lengthening positive.",
            .otherwise = "by the quintic spline through the lengths: for lengths without noise"});
-  v.texts("forces", o.files.forces,
-          {.says = "Muscle forces [N], in columns named by muscle.",
-           .otherwise = "none; `paper` and `force` need them"});
+  v.texts(
+      "forces", o.files.forces,
+      {.says = "Muscle forces [N], in columns named by muscle.", .otherwise = "none; `paper` and `force` need them"});
   v.texts("moment-arms", o.files.moment_arms,
           {.says = "Moment arms r = −dl/dq [m], in columns named by muscle; a file for each "
                    "coordinate of each trial.",
            .otherwise = "none; `torque` needs them"});
-  v.texts("torques", o.files.torques,
-          {.says = "The joint torque that the muscles provide together [N m].",
-           .otherwise = "none; `torque` needs them"});
+  v.texts(
+      "torques", o.files.torques,
+      {.says = "The joint torque that the muscles provide together [N m].", .otherwise = "none; `torque` needs them"});
   v.texts("coordinate", o.files.coordinates,
           {.says = "Columns of the torque file, with or without `_moment`. Several joints are "
                    "fitted at once: `--moment-arms` then has the first trial's files in this "
@@ -152,8 +150,7 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
                   "([how](../theory/identification.md)).",
           .otherwise = "`automatic` for `torque`, else `delay`",
           .words = kLags});
-  v.flag("no-priors", o.no_priors,
-         {.says = "The data alone, plain least squares (`force`, `torque`)."});
+  v.flag("no-priors", o.no_priors, {.says = "The data alone, plain least squares (`force`, `torque`)."});
   v.texts("free", o.free_more,
           {.says = "Further parameters to identify, of all muscles, channels or the joint, by "
                    "comma: `emg_shape,length_activation`.",
@@ -182,14 +179,10 @@ void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
                    "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
                    "none.",
            .limits = within(0, 100000)});
-  v.text(
-      "loss", o.loss,
-      {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
+  v.text("loss", o.loss, {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
   v.count("bootstrap", o.bootstrap,
-          {.says = "Bootstrap replicates, a second route to the intervals; 0: none.",
-           .limits = within(0, 100000)});
-  v.flag("profile", o.profile,
-         {.says = "Profile likelihood of every parameter, a third route to the intervals."});
+          {.says = "Bootstrap replicates, a second route to the intervals; 0: none.", .limits = within(0, 100000)});
+  v.flag("profile", o.profile, {.says = "Profile likelihood of every parameter, a third route to the intervals."});
   v.flag("compare-solvers", o.compare_solvers,
          {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the "
                   "same starts: [which solver](#which-solver). Also writes `solvers.csv`."});
@@ -238,10 +231,10 @@ void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
   }
   // Samples hold frequencies well below half of their rate.
   if (o.method != "paper" && o.residual_hz >= 0.45 * o.max_rate_hz)
-    throw InvalidInput(fmt::format(
-        "--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; "
-        "give --max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
-        o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
+    throw InvalidInput(
+        fmt::format("--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; "
+                    "give --max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
+                    o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
   if (o.files.motion_cutoff_hz && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
   refuse_free_without_motion(o);
@@ -260,21 +253,17 @@ std::vector<std::string> without_effect(const IdentifyOptions& o) {
   tell(paper && o.no_priors, "--no-priors", "the published method has no priors");
   tell(paper && o.residual_hz != IdentifyOptions{}.residual_hz, "--residual-cutoff",
        "the published method fits the forces as they are");
-  tell(paper && o.max_rate_hz != IdentifyOptions{}.max_rate_hz, "--max-rate",
-       "the published method fits every sample");
+  tell(paper && o.max_rate_hz != IdentifyOptions{}.max_rate_hz, "--max-rate", "the published method fits every sample");
   constexpr std::string_view kForces = "methods paper and force fit muscle forces (--forces)";
   tell(!torque && !o.files.torques.empty(), "--torques", kForces);
   tell(!torque && !o.files.moment_arms.empty(), "--moment-arms", kForces);
   tell(!torque && !o.files.held_back.empty(), "--validate",
        "trials are predicted by the joint torque, of method torque");
-  tell(torque && !o.files.forces.empty(), "--forces",
-       "method torque fits joint torques (--torques)");
+  tell(torque && !o.files.forces.empty(), "--forces", "method torque fits joint torques (--torques)");
   return found;
 }
 
-identification::EstimatorOptions estimator_options(const IdentifyOptions& o,
-                                                   const StudyData& data,
-                                                   Remarks& remarks) {
+identification::EstimatorOptions estimator_options(const IdentifyOptions& o, const StudyData& data, Remarks& remarks) {
   identification::EstimatorSettings settings = settings_of(o);
   if (!o.files.motions.empty() && !is_free(data, is_about_motion))
     remarks.warn(

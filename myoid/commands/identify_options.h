@@ -41,8 +41,7 @@ struct IdentifyOptions {
 /// command line, the check of the options and the guide's table use this list.
 void visit(IdentifyOptions& options, SettingVisitor& v);
 
-/// Throws InvalidInput for numbers out of range and for unknown methods, losses, lags or kinds of
-/// folds.
+/// Throws InvalidInput for numbers out of range and for unknown methods, losses, lags or kinds of folds.
 void check_values(const IdentifyOptions& options);
 
 /// Throws InvalidInput if the options ask for a result that the method or the files cannot give.
@@ -53,7 +52,8 @@ void refuse_impossible(const IdentifyOptions& options, const MuscleTable& table)
 
 /// Returns the estimator's options for data with these rules. Throws InvalidInput if two of the
 /// options state how muscles follow their EMG.
-[[nodiscard]] identification::EstimatorOptions estimator_options(
-    const IdentifyOptions& options, const identification::StudyData& data, Remarks& remarks);
+[[nodiscard]] identification::EstimatorOptions estimator_options(const IdentifyOptions& options,
+                                                                 const identification::StudyData& data,
+                                                                 Remarks& remarks);
 
 }  // namespace myoid::commands

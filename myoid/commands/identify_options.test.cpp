@@ -16,8 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(IdentifyOptions, AreTheOnesThatTheGuidePrints) {
-  test::expect_printed("docs/guide/identify.md", "options",
-                       markdown(option_rows(IdentifyOptions{}), "option"));
+  test::expect_printed("docs/guide/identify.md", "options", markdown(option_rows(IdentifyOptions{}), "option"));
 }
 
 TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
@@ -31,8 +30,8 @@ TEST(IdentifyOptions, WhatTheMethodDoesNotUseIsSaid) {
   o.method = "paper";
   o.no_priors = true;
   o.posterior_draws = 400;
-  EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--posterior-draws"),
-                                             HasSubstr("--no-priors"), HasSubstr("--torques")));
+  EXPECT_THAT(without_effect(o),
+              ElementsAre(HasSubstr("--posterior-draws"), HasSubstr("--no-priors"), HasSubstr("--torques")));
   o.posterior_draws = 0;
   EXPECT_THAT(without_effect(o), ElementsAre(HasSubstr("--no-priors"), HasSubstr("--torques")));
 }

@@ -27,9 +27,9 @@ std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) 
     if (!fails(first)) continue;
     std::size_t last = first;
     while (fails(last + 1)) ++last;
-    runs.push_back(last == first ? fmt::format("{} ({:.6g} s)", first + 1, time(first))
-                                 : fmt::format("{} to {} ({:.6g} to {:.6g} s)", first + 1, last + 1,
-                                               time(first), time(last)));
+    runs.push_back(last == first
+                       ? fmt::format("{} ({:.6g} s)", first + 1, time(first))
+                       : fmt::format("{} to {} ({:.6g} to {:.6g} s)", first + 1, last + 1, time(first), time(last)));
     first = last;
   }
   return runs;
@@ -37,14 +37,10 @@ std::vector<std::string> runs_not_converged(const kinematics::IkResult& result) 
 
 /// Returns the rotation of a marker file's laboratory onto the model's: by `up` ("z", "-y"); if
 /// `up` is empty by the file's stated vertical, with a note; else none.
-Mat3 onto_model(const model::BodyModel& model,
-                const std::string& markers,
-                const std::string& up,
-                Remarks& remarks) {
+Mat3 onto_model(const model::BodyModel& model, const std::string& markers, const std::string& up, Remarks& remarks) {
   if (const auto told = recording::axis_vector(up)) return rotation_onto(model, *told);
   const recording::LaboratoryUp own = trial_up(kUpOfTheFile, markers, model);
-  if (*own.up_L != model_up(model))
-    remarks.note(fmt::format("note: {}: {}", markers, up_note(own, model)));
+  if (*own.up_L != model_up(model)) remarks.note(fmt::format("note: {}: {}", markers, up_note(own, model)));
   return rotation_onto(model, *own.up_L);
 }
 
@@ -61,8 +57,7 @@ std::map<std::string, double> marker_weights(const std::vector<std::string>& pai
   std::map<std::string, double> weights;
   for (const std::string& pair : pairs) {
     const std::size_t equal = pair.rfind('=');
-    const auto value =
-        equal == std::string::npos ? std::nullopt : recording::parse_number(pair.substr(equal + 1));
+    const auto value = equal == std::string::npos ? std::nullopt : recording::parse_number(pair.substr(equal + 1));
     if (!value) throw InvalidInput(fmt::format("--weight {}: expected MARKER=NUMBER", pair));
     weights[pair.substr(0, equal)] = *value;
   }
@@ -78,11 +73,8 @@ IkResult ik(const IkOptions& o) {
   recording::MarkerFile file = recording::read_markers(o.markers);
   warn_of_repairs(o.markers, file.repairs, remarks);
   const recording::MarkerSeries markers =
-      cut(recording::rotated(std::move(file.markers),
-                             onto_model(result.model, o.markers, o.up, remarks)),
-          o.call);
-  const kinematics::IkOptions options{.marker_weights = marker_weights(o.weights),
-                                      .progress = o.call.progress};
+      cut(recording::rotated(std::move(file.markers), onto_model(result.model, o.markers, o.up, remarks)), o.call);
+  const kinematics::IkOptions options{.marker_weights = marker_weights(o.weights), .progress = o.call.progress};
   result.solved = kinematics::inverse_kinematics(result.model, markers, options);
   for (const std::string& note : result.solved.notes) remarks.warn(note);
   result.misfit = kinematics::marker_misfit(result.model, markers, result.solved);
@@ -91,8 +83,7 @@ IkResult ik(const IkOptions& o) {
   if (!result.not_converged.empty())
     remarks.warn(fmt::format("not converged: frames {}", fmt::join(result.not_converged, ", ")));
   if (!result.solved.undetermined.empty())
-    remarks.warn(fmt::format("not determined by the markers: {}",
-                             fmt::join(result.solved.undetermined, ", ")));
+    remarks.warn(fmt::format("not determined by the markers: {}", fmt::join(result.solved.undetermined, ", ")));
   result.remarks = remarks.list();
   return result;
 }

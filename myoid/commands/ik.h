@@ -13,10 +13,10 @@ namespace myoid::commands {
 /// Options of inverse kinematics of markers.
 struct IkOptions {
   Call call;
-  std::string model;             ///< A file (.osim), or "arm4".
-  std::string compat = "exact";  ///< Paths and joints: exact, or opensim.
-  std::string markers;           ///< .trc, .c3d
-  std::string up;  ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
+  std::string model;                      ///< A file (.osim), or "arm4".
+  std::string compat = "exact";           ///< Paths and joints: exact, or opensim.
+  std::string markers;                    ///< .trc, .c3d
+  std::string up;                         ///< Vertical of the laboratory: x, -y, ...; empty: as the file states.
   std::vector<std::string> weights;       ///< "MARKER=WEIGHT"; 1 for other markers.
   std::vector<std::string> lock, unlock;  ///< Coordinates.
 };

@@ -26,10 +26,8 @@ ordered_json study_contents(const std::string& path) {
                  {"methods", ordered_json::array()}};
   for (const identification::Method method : study.identify.methods)
     j["methods"].push_back(std::string(choice_name(method)));
-  for (const auto& m : study.muscles)
-    j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
-  for (const auto& t : study.trials)
-    j["trials"].push_back(fmt::format("{} ({})", t.name, choice_name(t.use)));
+  for (const auto& m : study.muscles) j["muscles"].push_back(fmt::format("{} <- EMG {}", m.name, m.emg));
+  for (const auto& t : study.trials) j["trials"].push_back(fmt::format("{} ({})", t.name, choice_name(t.use)));
   return j;
 }
 
@@ -37,9 +35,8 @@ ordered_json contents_of_model(const InfoOptions& o) {
   const model::OsimOptions options{.compat = model::parse_compat(o.compat)};
   ModelQuestions ask = o.ask;
   ask.seed = o.call.seed;
-  return model_contents(o.file == "arm4"
-                            ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
-                            : model::read_osim(o.file, options),
+  return model_contents(o.file == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
+                                         : model::read_osim(o.file, options),
                         ask);
 }
 
@@ -49,9 +46,9 @@ ordered_json contents_of(const InfoOptions& o) {
   const auto format = recording::format_of(o.file);
   if (format == recording::FileFormat::toml) return study_contents(o.file);
   (void)recording::read_text_file(o.file);  // reports a missing or empty file
-  throw ReadError(o.file, 0,
-                  fmt::format("files of kind '{}' are not known; known are {}",
-                              recording::extension_of(o.file), known_endings()));
+  throw ReadError(
+      o.file, 0,
+      fmt::format("files of kind '{}' are not known; known are {}", recording::extension_of(o.file), known_endings()));
 }
 
 }  // namespace

@@ -19,19 +19,14 @@ namespace {
 
 void refuse_without_motion(const ModelPageOptions& o) {
   if (!o.motion.empty()) return;
-  for (const auto& [name, value] :
-       {std::pair{"--forces", &o.forces}, std::pair{"--activations", &o.activations},
-        std::pair{"--markers", &o.markers}}) {
-    if (!value->empty())
-      throw InvalidInput(fmt::format("{} is shown along a motion: give --motion too", name));
+  for (const auto& [name, value] : {std::pair{"--forces", &o.forces}, std::pair{"--activations", &o.activations},
+                                    std::pair{"--markers", &o.markers}}) {
+    if (!value->empty()) throw InvalidInput(fmt::format("{} is shown along a motion: give --motion too", name));
   }
 }
 
-void add_coloring(const std::string& name,
-                  const std::string& unit,
-                  const std::string& path,
-                  SceneInput& input,
-                  Remarks& remarks) {
+void add_coloring(
+    const std::string& name, const std::string& unit, const std::string& path, SceneInput& input, Remarks& remarks) {
   if (path.empty()) return;
   recording::Storage file = recording::read_storage(path);
   warn_of_repairs(path, file.repairs, remarks);

@@ -12,12 +12,12 @@ namespace myoid::commands {
 /// Options of a page that shows a moving model in the browser.
 struct ModelPageOptions {
   Call call;
-  std::string model;                ///< A file (.osim), or "arm4".
-  std::string compat = "exact";     ///< Paths: exact, or opensim.
-  std::string motion;               ///< Joint angles (.mot, .sto); empty: the default posture.
-  std::string forces, activations;  ///< Color the muscles along the motion (.sto).
-  std::string markers;              ///< Measured markers, shown beside the model's (.trc, .c3d).
-  std::string up = "y";             ///< Vertical axis of the markers: x, y or z.
+  std::string model;                      ///< A file (.osim), or "arm4".
+  std::string compat = "exact";           ///< Paths: exact, or opensim.
+  std::string motion;                     ///< Joint angles (.mot, .sto); empty: the default posture.
+  std::string forces, activations;        ///< Color the muscles along the motion (.sto).
+  std::string markers;                    ///< Measured markers, shown beside the model's (.trc, .c3d).
+  std::string up = "y";                   ///< Vertical axis of the markers: x, y or z.
   std::vector<std::string> mesh_folders;  ///< Searched after the model's folder and its Geometry.
 };
 

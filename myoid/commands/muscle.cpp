@@ -24,9 +24,8 @@ void refuse_contradictions(const MuscleOptions& o) {
                                    counted(o.measured.size(), "file"), o.lengths.size()));
   }
   if (o.scales.size() != 1 && o.scales.size() != o.lengths.size()) {
-    throw InvalidInput(
-        fmt::format("--scale: {} numbers for {} files of --length; give one, or one each",
-                    o.scales.size(), o.lengths.size()));
+    throw InvalidInput(fmt::format("--scale: {} numbers for {} files of --length; give one, or one each",
+                                   o.scales.size(), o.lengths.size()));
   }
 }
 
@@ -51,9 +50,7 @@ ForceComparison compare_force(const Eigen::VectorXd& force_n,
   return comparison;
 }
 
-ImposedLength simulate_muscle(const MuscleOptions& o,
-                              const muscle::MuscleFile& file,
-                              Remarks& remarks) {
+ImposedLength simulate_muscle(const MuscleOptions& o, const muscle::MuscleFile& file, Remarks& remarks) {
   const muscle::Musculotendon<double> unit(file.parameters, file.laws, file.millard);
   const muscle::IsolatedMuscleInput input = read_experiment(o, 0, file, remarks);
   muscle::IsolatedMuscleOptions options;
@@ -72,8 +69,8 @@ ImposedLength simulate_muscle(const MuscleOptions& o,
     return result;
   }
   if (measured)
-    result.comparison = compare_force(result.simulated.series.column("tendon_force"),
-                                      measured->values, related_to(o, file), remarks);
+    result.comparison =
+        compare_force(result.simulated.series.column("tendon_force"), measured->values, related_to(o, file), remarks);
   return result;
 }
 
@@ -81,8 +78,8 @@ ImposedLength simulate_muscle(const MuscleOptions& o,
 std::string table_rows(const std::string& left_out, const muscle::IsolatedFit& fit) {
   std::string rows;
   for (const muscle::IsolatedEstimate& e : fit.estimates)
-    rows += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start,
-                        e.value, e.std_error, e.at_bound);
+    rows += fmt::format("{},{},{},{},{},{},{}\n", left_out, e.parameter, symbol(e.unit), e.start, e.value, e.std_error,
+                        e.at_bound);
   return rows;
 }
 
@@ -106,9 +103,8 @@ MuscleResult muscle(const MuscleOptions& options) {
 
 void write_muscle(const MuscleResult& result, const std::filesystem::path& path) {
   if (result.simulated) {
-    recording::write_storage(
-        path, result.simulated->simulated.series,
-        {.title = result.name, .comments = {"myoid " + std::string(version()), result.command}});
+    recording::write_storage(path, result.simulated->simulated.series,
+                             {.title = result.name, .comments = {"myoid " + std::string(version()), result.command}});
     return;
   }
   std::string csv = "left_out,parameter,unit,start,estimate,std_error,at_bound\n";

@@ -32,9 +32,8 @@ struct MuscleResult {
   std::vector<Remark> remarks;
 };
 
-/// Simulates the muscle under the imposed length, or fits it to the measured forces. Throws
-/// InvalidInput for options that contradict each other, and for lengths and forces that this muscle
-/// cannot have.
+/// Simulates the muscle under the imposed length, or fits it to the measured forces. Throws InvalidInput for options
+/// that contradict each other, and for lengths and forces that this muscle cannot have.
 [[nodiscard]] MuscleResult muscle(const MuscleOptions& options);
 
 /// Writes the simulated series (.sto), or the table of the fits (.csv): left out, parameter, unit,

@@ -22,8 +22,7 @@ using testing::HasSubstr;
 /// Half a second in which the rat soleus swings by 1 mm, driven fully but for the last tenth.
 MuscleOptions swing(const test::TemporaryFolder& folder) {
   std::string length = "time,length\n";
-  for (int k = 0; k <= 100; ++k)
-    length += std::to_string(0.005 * k) + "," + std::to_string(std::sin(0.1 * k)) + "\n";
+  for (int k = 0; k <= 100; ++k) length += std::to_string(0.005 * k) + "," + std::to_string(std::sin(0.1 * k)) + "\n";
   recording::write_file(folder / "l.csv", length);
   recording::write_file(folder / "a.csv", "time,activation\n0,1\n0.4,1\n");
   MuscleOptions options;
@@ -45,8 +44,7 @@ TEST(MuscleFunction, ComparesWithWhatItWroteAndFindsNoError) {
   std::string force = "time,force\n";
   const TimeSeries& series = first.simulated->simulated.series;
   for (Eigen::Index i = 0; i < series.sample_count(); ++i)
-    force += std::to_string(series.time_s()[i]) + "," +
-             std::to_string(2.0 * series.column("tendon_force")[i]) + "\n";
+    force += std::to_string(series.time_s()[i]) + "," + std::to_string(2.0 * series.column("tendon_force")[i]) + "\n";
   recording::write_file(folder / "f.csv", force);
   options.measured = {folder / "f.csv"};
   const MuscleResult second = muscle(options);

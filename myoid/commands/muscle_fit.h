@@ -28,8 +28,6 @@ struct MuscleFit {
 
 /// Fits the parameters to all recordings and to all but each one, and compares the results. Throws
 /// InvalidInput for forces that the muscle cannot produce.
-[[nodiscard]] MuscleFit fit_muscle(const MuscleOptions& options,
-                                   const muscle::MuscleFile& file,
-                                   Remarks& remarks);
+[[nodiscard]] MuscleFit fit_muscle(const MuscleOptions& options, const muscle::MuscleFile& file, Remarks& remarks);
 
 }  // namespace myoid::commands

@@ -15,16 +15,13 @@ Column within_call(Column column, const Call& call) {
   if (!call.start_s && !call.end_s) return column;
   const TimeSeries all(column.time_s, {{column.name, Unit::dimensionless}}, column.values);
   const Eigen::Index last = all.sample_count() - 1;
-  const TimeSeries part =
-      all.slice(call.start_s.value_or(all.time_s()(0)), call.end_s.value_or(all.time_s()(last)));
+  const TimeSeries part = all.slice(call.start_s.value_or(all.time_s()(0)), call.end_s.value_or(all.time_s()(last)));
   column.time_s = part.time_s();
   column.values = part.values().col(0);
   return column;
 }
 
-void check_length(const Eigen::VectorXd& length_m,
-                  const muscle::MuscleFile& file,
-                  const std::string& path) {
+void check_length(const Eigen::VectorXd& length_m, const muscle::MuscleFile& file, const std::string& path) {
   if (length_m.size() == 0) return;
   if (!(length_m.minCoeff() > 0.0)) {
     throw InvalidInput(
@@ -32,14 +29,13 @@ void check_length(const Eigen::VectorXd& length_m,
                     "in m (see --scale and --offset)",
                     path, length_m.minCoeff()));
   }
-  const double usual_m =
-      file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
+  const double usual_m = file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
   // No muscle shortens to a third or lengthens to the triple of fiber and tendon at rest.
   if (length_m.maxCoeff() > 3.0 * usual_m || length_m.minCoeff() < 0.3 * usual_m) {
-    throw InvalidInput(fmt::format(
-        "{}: the length goes from {:g} to {:g} m, fiber and tendon together are about {:g} m; "
-        "expected meters (see --scale and --offset), and not the file of forces",
-        path, length_m.minCoeff(), length_m.maxCoeff(), usual_m));
+    throw InvalidInput(
+        fmt::format("{}: the length goes from {:g} to {:g} m, fiber and tendon together are about {:g} m; "
+                    "expected meters (see --scale and --offset), and not the file of forces",
+                    path, length_m.minCoeff(), length_m.maxCoeff(), usual_m));
   }
 }
 
@@ -55,10 +51,9 @@ void read_drive(const MuscleOptions& o, Remarks& remarks, muscle::IsolatedMuscle
   input.drive_time_s = column.time_s;
   input.drive = column.values;
   const Eigen::Index last = column.time_s.size() - 1;
-  if (column.time_s(0) > input.time_s(0) ||
-      column.time_s(last) < input.time_s(input.time_s.size() - 1)) {
-    remarks.warn(fmt::format("{} covers {:g} to {:g} s only; beyond, its first and last value hold",
-                             drive, column.time_s(0), column.time_s(last)));
+  if (column.time_s(0) > input.time_s(0) || column.time_s(last) < input.time_s(input.time_s.size() - 1)) {
+    remarks.warn(fmt::format("{} covers {:g} to {:g} s only; beyond, its first and last value hold", drive,
+                             column.time_s(0), column.time_s(last)));
   }
 }
 
@@ -69,8 +64,7 @@ Column read_column(const std::string& path, const std::string& wanted, Remarks& 
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries& series = file.data;
   std::string names;
-  for (const Channel& channel : series.channels())
-    names += (names.empty() ? "" : ", ") + channel.name;
+  for (const Channel& channel : series.channels()) names += (names.empty() ? "" : ", ") + channel.name;
   if (wanted.empty() && series.channel_count() != 1) {
     throw ReadError(path, 0, fmt::format("has the columns {}: choose one with --column", names));
   }
@@ -78,8 +72,7 @@ Column read_column(const std::string& path, const std::string& wanted, Remarks& 
     throw ReadError(path, 0, fmt::format("has no column '{}'; there are {}", wanted, names));
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
-  Column column{series.time_s(), series.values().col(at),
-                series.channels()[static_cast<std::size_t>(at)].name};
+  Column column{series.time_s(), series.values().col(at), series.channels()[static_cast<std::size_t>(at)].name};
   if (!column.values.allFinite()) {
     throw ReadError(path, 0, fmt::format("column '{}' has gaps: fill them first", column.name));
   }
@@ -110,8 +103,7 @@ muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
   input.initial_activation = as_number(o.initial_activation);
   if (!input.initial_activation) {
     throw InvalidInput(
-        fmt::format("--initial-activation {}: expected a number in 0 to 1, or `settled`",
-                    o.initial_activation));
+        fmt::format("--initial-activation {}: expected a number in 0 to 1, or `settled`", o.initial_activation));
   }
   return input;
 }

@@ -18,10 +18,10 @@ struct MuscleOptions {
   double offset_m = 0.0;
   std::string activation, excitation;       ///< Exactly one: a number in 0..1, or a file.
   std::string initial_activation = "0.01";  ///< With `excitation`: a number, or "settled" on it.
-  std::vector<std::string> measured;  ///< Force [N] over time; with `fit` one file for each length.
-  std::vector<std::string> fit;       ///< Parameters to identify; empty: simulates only.
-  double isometric_n = 0.0;           ///< Reference force of relative errors; 0: F_max.
-  double tolerance = 1e-9;            ///< Relative tolerance of the integration.
+  std::vector<std::string> measured;        ///< Force [N] over time; with `fit` one file for each length.
+  std::vector<std::string> fit;             ///< Parameters to identify; empty: simulates only.
+  double isometric_n = 0.0;                 ///< Reference force of relative errors; 0: F_max.
+  double tolerance = 1e-9;                  ///< Relative tolerance of the integration.
 };
 
 }  // namespace myoid::commands

@@ -6,9 +6,7 @@
 
 namespace myoid::commands {
 
-void check_output(const std::filesystem::path& path,
-                  const std::vector<std::string>& inputs,
-                  bool overwrite) {
+void check_output(const std::filesystem::path& path, const std::vector<std::string>& inputs, bool overwrite) {
   namespace fs = std::filesystem;
   if (path.empty()) throw InvalidInput("--out is empty; name the file to write");
   std::error_code ignored;
@@ -17,13 +15,12 @@ void check_output(const std::filesystem::path& path,
     if (fs::weakly_canonical(path, ignored) == fs::weakly_canonical(input, ignored) ||
         fs::equivalent(path, input, ignored)) {
       throw InvalidInput(fmt::format(
-          "{} is an input of this command and would be replaced by its result; give another --out",
-          path.string()));
+          "{} is an input of this command and would be replaced by its result; give another --out", path.string()));
     }
   }
   if (!overwrite && fs::is_regular_file(path, ignored)) {
-    throw InvalidInput(fmt::format(
-        "{} exists already; give --overwrite to replace it, or another --out", path.string()));
+    throw InvalidInput(
+        fmt::format("{} exists already; give --overwrite to replace it, or another --out", path.string()));
   }
 }
 
@@ -38,9 +35,8 @@ void protect_inputs(const std::filesystem::path& folder,
     const std::string file = fs::path(input).filename().string();
     for (const std::string_view result : results) {
       if (file.starts_with(result)) {
-        throw InvalidInput(fmt::format(
-            "{} is an input of this command and would be replaced by a result; give another --out",
-            input));
+        throw InvalidInput(
+            fmt::format("{} is an input of this command and would be replaced by a result; give another --out", input));
       }
     }
   }

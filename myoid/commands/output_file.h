@@ -9,9 +9,7 @@ namespace myoid::commands {
 
 /// Checks the file of a result. Throws InvalidInput with the remedy if `path` is empty, is one of
 /// the `inputs` (with `overwrite` too), or exists and `overwrite` is not given.
-void check_output(const std::filesystem::path& path,
-                  const std::vector<std::string>& inputs,
-                  bool overwrite);
+void check_output(const std::filesystem::path& path, const std::vector<std::string>& inputs, bool overwrite);
 
 /// Checks a folder of results, whose names begin with `results`. Throws InvalidInput if a result
 /// would replace one of the `inputs`.

@@ -19,9 +19,7 @@ namespace {
 using kinematics::PathSurrogate;
 
 /// Notes the errors of the polynomials, and the muscles without polynomials.
-void tell_errors(const std::vector<PathSurrogate>& surrogates,
-                 const std::string& path,
-                 Remarks& remarks) {
+void tell_errors(const std::vector<PathSurrogate>& surrogates, const std::string& path, Remarks& remarks) {
   double length_mm = 0.0, arm_mm = 0.0;
   std::vector<std::string> outside;
   for (const PathSurrogate& s : surrogates) {
@@ -32,25 +30,22 @@ void tell_errors(const std::vector<PathSurrogate>& surrogates,
     length_mm = std::max(length_mm, 1e3 * s.length_error_m);
     arm_mm = std::max(arm_mm, 1e3 * s.arm_error_m);
   }
-  remarks.note(fmt::format(
-      "{}: polynomials for {} of {} muscles, errors at most {:.2g} mm in length and {:.2g} mm in "
-      "moment arm",
-      path, surrogates.size() - outside.size(), surrogates.size(), length_mm, arm_mm));
+  remarks.note(
+      fmt::format("{}: polynomials for {} of {} muscles, errors at most {:.2g} mm in length and {:.2g} mm in "
+                  "moment arm",
+                  path, surrogates.size() - outside.size(), surrogates.size(), length_mm, arm_mm));
   if (!outside.empty()) {
-    remarks.warn(fmt::format("no polynomial is within tolerance for {}; their paths are computed",
-                             fmt::join(outside, ", ")));
+    remarks.warn(
+        fmt::format("no polynomial is within tolerance for {}; their paths are computed", fmt::join(outside, ", ")));
   }
 }
 
 /// Reads the polynomials of the file; fits new ones if the file has none of this model.
-std::vector<PathSurrogate> load_surrogates(const PathsOptions& o,
-                                           const model::BodyModel& model,
-                                           Remarks& remarks) {
+std::vector<PathSurrogate> load_surrogates(const PathsOptions& o, const model::BodyModel& model, Remarks& remarks) {
   const kinematics::SurrogateOptions options{.length_tolerance_m = 1e-3 * o.tolerance_mm,
                                              .arm_tolerance_m = 5e-3 * o.tolerance_mm,
                                              .progress = o.call.progress};
-  const std::string text =
-      o.model == "arm4" ? model::arm4_osim() : recording::read_text_file(o.model);
+  const std::string text = o.model == "arm4" ? model::arm4_osim() : recording::read_text_file(o.model);
   const std::string key = kinematics::surrogate_key(text, model.compat, options);
   auto surrogates = kinematics::read_surrogates(o.surrogates, model, key);
   if (!surrogates) {
@@ -69,16 +64,14 @@ PathsResult paths(const PathsOptions& o) {
   if (o.compare_with_opensim) warn_of_path_differences(model, o.model, remarks);
   const kinematics::JointMotion motion = load_motion(model, o.motion, o.cutoff_hz, o.call, remarks);
   if (o.check_jumps) {
-    for (const model::PathJump& jump : model::find_jumps(model))
-      remarks.warn(model::describe(model, jump));
+    for (const model::PathJump& jump : model::find_jumps(model)) remarks.warn(model::describe(model, jump));
   }
   std::vector<PathSurrogate> surrogates;
   if (!o.surrogates.empty()) surrogates = load_surrogates(o, model, remarks);
   PathsResult result;
   result.samples = motion.sample_count();
   result.muscles = kinematics::muscle_kinematics(
-      model, motion,
-      {.surrogates = surrogates.empty() ? nullptr : &surrogates, .progress = o.call.progress});
+      model, motion, {.surrogates = surrogates.empty() ? nullptr : &surrogates, .progress = o.call.progress});
   if (!surrogates.empty()) {
     remarks.note(fmt::format("{} of {} paths are from polynomials", result.muscles.from_surrogates,
                              result.samples * result.muscles.length.channel_count()));

@@ -25,16 +25,14 @@ PredictResult predict(const PredictOptions& o) {
   result.provenance.command = o.call.command;
   result.provenance.inputs = input.files;
   result.provenance.options_json = study_json(input.study);
-  const identification::IdentificationResult fit =
-      read_fit(o.folder, input.fit.data, input.fit.options);
+  const identification::IdentificationResult fit = read_fit(o.folder, input.fit.data, input.fit.options);
   const identification::TrialPredictions predictions(input.fit.data, input.fit.options, fit);
   for (const identification::TrialData& trial : input.trials) {
     if (trial.calibration) remarks.note(fmt::format("trial {} took part in the fit", trial.name));
     for (std::size_t j = 0; j < identification::joint_count(trial); ++j)
       result.trials.push_back(predictions.of(identification::of_joint(trial, j)));
   }
-  for (const identification::MuscleSetup& muscle : input.fit.data.muscles)
-    result.muscles.push_back(muscle.name);
+  for (const identification::MuscleSetup& muscle : input.fit.data.muscles) result.muscles.push_back(muscle.name);
   result.remarks = remarks.list();
   return result;
 }

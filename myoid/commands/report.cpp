@@ -12,9 +12,8 @@ namespace myoid::commands {
 ReportResult report(const ReportOptions& o) {
   const RunRecord run = read_run_record(o.folder);
   ReportResult result;
-  result.study =
-      run_study(read_filmed_study(run.study, o.video),
-                {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress});
+  result.study = run_study(read_filmed_study(run.study, o.video),
+                           {.start_s = run.start_s, .end_s = run.end_s, .progress = o.call.progress});
   refuse_changed(result.study.source.files, run);
   result.provenance.command = run.command.empty() ? o.call.command : run.command;
   result.provenance.inputs = result.study.source.files;

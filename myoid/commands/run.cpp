@@ -17,25 +17,19 @@
 namespace myoid::commands {
 namespace {
 
-/// Reports the faults of recordings and trials and the repairs of files; returns the count of
-/// repairs.
+/// Reports the faults of recordings and trials and the repairs of files; returns the count of repairs.
 std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
-  const auto reused =
-      std::count_if(study.trials.begin(), study.trials.end(),
-                    [](const TrialResult& trial) { return trial.motion.ik_reused; });
-  if (reused > 0)
-    remarks.note(
-        fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
+  const auto reused = std::count_if(study.trials.begin(), study.trials.end(),
+                                    [](const TrialResult& trial) { return trial.motion.ik_reused; });
+  if (reused > 0) remarks.note(fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
   for (const std::string& line : fault_summary(all_faults(study))) remarks.warn(line);
   std::size_t details = 0;
   for (const TrialResult& trial : study.trials) {
-    if (!trial.failure().empty())
-      remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
+    if (!trial.failure().empty()) remarks.warn(fmt::format("trial {}: {}", trial.spec.name, trial.failure()));
     for (const std::string& warning : sentences(trial.remarks, Severity::warning))
       remarks.warn(fmt::format("trial {}: {}", trial.spec.name, warning));
     const std::vector<std::string> notes = sentences(trial.remarks, Severity::note);
-    for (const std::string& note : notes)
-      remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
+    for (const std::string& note : notes) remarks.detail(fmt::format("{}: {}", trial.spec.name, note));
     details += notes.size();
   }
   return details;
@@ -44,9 +38,8 @@ std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
 }  // namespace
 
 bool RunResult::failed(bool strict) const {
-  bool failed = std::any_of(gates.begin(), gates.end(), [](const report::Gate& gate) {
-    return gate.status == report::GateStatus::fail;
-  });
+  bool failed = std::any_of(gates.begin(), gates.end(),
+                            [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; });
   for (const identification::IdentificationResult& method : study.fit.methods) {
     if (method.method != "torque") continue;
     failed = failed || method.termination != math::Termination::converged;
@@ -61,10 +54,8 @@ RunResult run(const RunOptions& o) {
   RunResult result;
   Study study = read_filmed_study(o.study, o.video);
   if (o.estimator) study.identify.estimator = *o.estimator;
-  result.study = run_study(study, {.start_s = o.call.start_s,
-                                   .end_s = o.call.end_s,
-                                   .progress = o.call.progress,
-                                   .store = o.store});
+  result.study = run_study(
+      study, {.start_s = o.call.start_s, .end_s = o.call.end_s, .progress = o.call.progress, .store = o.store});
   result.gates = quality_gates(result.study);
   result.provenance.command = o.call.command;
   result.provenance.inputs = result.study.source.files;

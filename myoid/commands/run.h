@@ -23,7 +23,7 @@ struct RunOptions {
   std::string study;                                       ///< study.toml
   std::optional<identification::EstimatorKind> estimator;  ///< In place of the study's.
   VideoChoice video;                                       ///< In place of the study's films.
-  std::optional<std::filesystem::path> store;  ///< Keeps stages between runs; empty: none.
+  std::optional<std::filesystem::path> store;              ///< Keeps stages between runs; empty: none.
 };
 
 struct RunResult {

@@ -29,24 +29,20 @@ SimulateOptions with_defaults(SimulateOptions o) {
 void refuse_impossible(const SimulateOptions& o) {
   if (!o.excitations.empty() && !o.excite.empty())
     throw InvalidInput("give either --excitations or --excite, not both");
-  if (!(o.rest >= 0.0 && o.rest <= 1.0))
-    throw InvalidInput(fmt::format("--rest {}: expected 0 to 1", o.rest));
+  if (!(o.rest >= 0.0 && o.rest <= 1.0)) throw InvalidInput(fmt::format("--rest {}: expected 0 to 1", o.rest));
   if (!(o.tolerance >= 1e-13 && o.tolerance <= 1e-2))
     throw InvalidInput(fmt::format("--tolerance {}: expected 1e-13 to 0.01", o.tolerance));
   if (o.model == "arm4") return;
-  if (o.horizontal)
-    throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
+  if (o.horizontal) throw InvalidInput("--horizontal belongs to arm4; a model file says its gravity itself");
   if (!o.sensitivity.empty()) {
-    throw InvalidInput(
-        "--sensitivity belongs to arm4; of a model file, simulate twice and take differences");
+    throw InvalidInput("--sensitivity belongs to arm4; of a model file, simulate twice and take differences");
   }
 }
 
 Provenance provenance_of(const SimulateOptions& o, const Drive& drive) {
   Provenance provenance;
   provenance.command = o.call.command;
-  if (o.model != "arm4")
-    provenance.inputs.push_back({o.model, sha256(recording::read_text_file(o.model))});
+  if (o.model != "arm4") provenance.inputs.push_back({o.model, sha256(recording::read_text_file(o.model))});
   if (!o.excitations.empty())
     provenance.inputs.push_back({o.excitations, sha256(recording::read_text_file(o.excitations))});
   provenance.options_json = json_text({{"model", o.model},
@@ -126,9 +122,8 @@ SimulateResult simulate_arm4(const SimulateOptions& o, Remarks& remarks) {
     result.sensitivities = simulation::simulate_sensitivities(arm, input, start, options, wanted);
   }
   const Vec3 shoulder = model::arm4_shoulder_rad(o.horizontal);
-  result.held = {{"shoulder_flexion", shoulder.x()},
-                 {"shoulder_adduction", shoulder.y()},
-                 {"shoulder_rotation", shoulder.z()}};
+  result.held = {
+      {"shoulder_flexion", shoulder.x()}, {"shoulder_adduction", shoulder.y()}, {"shoulder_rotation", shoulder.z()}};
   result.provenance = provenance_of(o, drive);
   return result;
 }
@@ -136,13 +131,11 @@ SimulateResult simulate_arm4(const SimulateOptions& o, Remarks& remarks) {
 SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   model::BodyModel body = load_model(o.model, "exact", remarks);
   if (o.held_mass_kg != 0.0) {
-    body = dynamics::with_held_mass(std::move(body), o.held_body,
-                                    Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]),
+    body = dynamics::with_held_mass(std::move(body), o.held_body, Vec3(o.held_at_m[0], o.held_at_m[1], o.held_at_m[2]),
                                     o.held_mass_kg);
   }
   const simulation::SimulationModel model = simulation::make_simulation_model(
-      std::move(body),
-      {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)});
+      std::move(body), {.mode = tendon_mode(o), .curves = muscle_curves(o), .activation = activation_law(o)});
   if (model.idle_actuators > 0)
     remarks.warn(fmt::format("{}: its {} actuators exert nothing", o.model, model.idle_actuators));
   std::vector<std::string> muscles;
@@ -160,8 +153,7 @@ SimulateResult simulate_file(const SimulateOptions& o, Remarks& remarks) {
   simulation::SimulationStart start = simulation::default_start(model, drive.start_s);
   refuse_followers(o, model.body);
   place(o, coordinates, start, input.device);
-  result.simulation =
-      simulation::simulate(model, input, start, integration_options(o, drive.end_s));
+  result.simulation = simulation::simulate(model, input, start, integration_options(o, drive.end_s));
   result.provenance = provenance_of(o, drive);
   return result;
 }
@@ -172,13 +164,12 @@ void tell_trouble(const SimulateResult& result, Remarks& remarks) {
     remarks.warn(fmt::format("sensitivities not to the end: {}", result.sensitivities->message));
   const simulation::Simulation& s = result.simulation;
   if (s.jumps_passed > 0) {
-    remarks.warn(fmt::format(
-        "{} times the equations jumped, as where the path of a muscle does; each was passed by a "
-        "step of 1 ns, and energy is not kept there",
-        s.jumps_passed));
+    remarks.warn(
+        fmt::format("{} times the equations jumped, as where the path of a muscle does; each was passed by a "
+                    "step of 1 ns, and energy is not kept there",
+                    s.jumps_passed));
   }
-  if (s.status != math::OdeStatus::done)
-    remarks.warn(fmt::format("not simulated to the end: {}", s.message));
+  if (s.status != math::OdeStatus::done) remarks.warn(fmt::format("not simulated to the end: {}", s.message));
 }
 
 }  // namespace

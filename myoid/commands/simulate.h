@@ -24,8 +24,8 @@ struct SimulateOptions {
   std::vector<std::string> excite;     ///< "MUSCLE=LEVEL", "...@START", "...@START+DURATION".
   double rest = 0.01;                  ///< Excitation of muscles that `excite` does not name.
   std::string tendon = "equilibrium";  ///< One of tendon_names().
-  std::string curves;      ///< One of curve_names(); empty: "paper" for arm4, "file" for a file.
-  std::string activation;  ///< One of activation_names(); empty: "two_lags" or "thelen".
+  std::string curves;                  ///< One of curve_names(); empty: "paper" for arm4, "file" for a file.
+  std::string activation;              ///< One of activation_names(); empty: "two_lags" or "thelen".
   std::vector<std::string> initial, initial_speed;  ///< "COORDINATE=VALUE" [deg, m, deg/s, m/s].
   std::vector<std::string> lock;                    ///< Coordinates that do not move.
   bool horizontal = false;                          ///< arm4 without gravity.
@@ -35,8 +35,8 @@ struct SimulateOptions {
   double rate_hz = 200.0;                        ///< Rate of the results.
   double tolerance = 1e-8;                       ///< Relative local error of the integration.
   bool energy = false;                           ///< Computes the work of every element, too.
-  std::vector<std::string> sensitivity;  ///< Parameters of arm4, or beginnings of names with '*'.
-  bool figures = false;                  ///< Draws a figure of the movement, too.
+  std::vector<std::string> sensitivity;          ///< Parameters of arm4, or beginnings of names with '*'.
+  bool figures = false;                          ///< Draws a figure of the movement, too.
 };
 
 /// Returns the words for tendons, curves and activation laws.
@@ -63,9 +63,8 @@ struct SimulateResult {
 
 /// Initial parts of the names of the files that `write_simulate` writes.
 inline const std::vector<std::string_view> kSimulateFiles{
-    "motion.mot",     "speeds.sto", "accelerations.sto", "excitation.sto",
-    "activation.sto", "forces.sto", "fiber_forces.sto",  "MuscleAnalysis_",
-    "torques.sto",    "states.sto", "energy.sto",        "simulation.json"};
+    "motion.mot",       "speeds.sto",      "accelerations.sto", "excitation.sto", "activation.sto", "forces.sto",
+    "fiber_forces.sto", "MuscleAnalysis_", "torques.sto",       "states.sto",     "energy.sto",     "simulation.json"};
 
 /// Writes the files of `write_simulation` and `write_sensitivities`, and the figures.
 void write_simulate(const SimulateResult& result, const std::filesystem::path& folder);

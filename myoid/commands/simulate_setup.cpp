@@ -19,22 +19,19 @@
 namespace myoid::commands {
 namespace {
 
-const std::map<std::string, muscle::TendonMode> kModes = {
-    {"rigid", muscle::TendonMode::rigid},
-    {"equilibrium", muscle::TendonMode::equilibrium},
-    {"mass", muscle::TendonMode::mass}};
-const std::map<std::string, simulation::MuscleCurves> kCurves = {
-    {"file", simulation::MuscleCurves::file},
-    {"paper", simulation::MuscleCurves::paper},
-    {"thelen", simulation::MuscleCurves::thelen},
-    {"de_groote", simulation::MuscleCurves::de_groote},
-    {"millard", simulation::MuscleCurves::millard}};
-const std::map<std::string, muscle::ActivationLaw> kLaws = {
-    {"envelope", muscle::ActivationLaw::envelope},
-    {"two_lags", muscle::ActivationLaw::two_lags},
-    {"thelen", muscle::ActivationLaw::thelen},
-    {"de_groote", muscle::ActivationLaw::de_groote},
-    {"recursive", muscle::ActivationLaw::recursive}};
+const std::map<std::string, muscle::TendonMode> kModes = {{"rigid", muscle::TendonMode::rigid},
+                                                          {"equilibrium", muscle::TendonMode::equilibrium},
+                                                          {"mass", muscle::TendonMode::mass}};
+const std::map<std::string, simulation::MuscleCurves> kCurves = {{"file", simulation::MuscleCurves::file},
+                                                                 {"paper", simulation::MuscleCurves::paper},
+                                                                 {"thelen", simulation::MuscleCurves::thelen},
+                                                                 {"de_groote", simulation::MuscleCurves::de_groote},
+                                                                 {"millard", simulation::MuscleCurves::millard}};
+const std::map<std::string, muscle::ActivationLaw> kLaws = {{"envelope", muscle::ActivationLaw::envelope},
+                                                            {"two_lags", muscle::ActivationLaw::two_lags},
+                                                            {"thelen", muscle::ActivationLaw::thelen},
+                                                            {"de_groote", muscle::ActivationLaw::de_groote},
+                                                            {"recursive", muscle::ActivationLaw::recursive}};
 
 template <typename Value>
 std::vector<std::string> keys(const std::map<std::string, Value>& map) {
@@ -44,9 +41,7 @@ std::vector<std::string> keys(const std::map<std::string, Value>& map) {
 }
 
 template <typename Value>
-Value value_of(const std::map<std::string, Value>& map,
-               const std::string& word,
-               std::string_view option) {
+Value value_of(const std::map<std::string, Value>& map, const std::string& word, std::string_view option) {
   check_word(option, word, keys(map));
   return map.at(word);
 }
@@ -54,8 +49,7 @@ Value value_of(const std::map<std::string, Value>& map,
 /// Splits "NAME=NUMBER" of an option.
 std::pair<std::string, double> assignment(const std::string& text, std::string_view option) {
   const std::size_t at = text.find('=');
-  const auto number =
-      at == std::string::npos ? std::nullopt : recording::parse_number(text.substr(at + 1));
+  const auto number = at == std::string::npos ? std::nullopt : recording::parse_number(text.substr(at + 1));
   if (at == 0 || !number || !std::isfinite(*number))
     throw InvalidInput(fmt::format("{} '{}': expected NAME=NUMBER", option, text));
   return {text.substr(0, at), *number};
@@ -69,8 +63,7 @@ std::size_t index_of(const std::string& name,
     if (coordinates[k].name == name) return k;
     names += (names.empty() ? "" : ", ") + coordinates[k].name;
   }
-  throw InvalidInput(
-      fmt::format("{} {}: the model has no such coordinate; there are {}", option, name, names));
+  throw InvalidInput(fmt::format("{} {}: the model has no such coordinate; there are {}", option, name, names));
 }
 
 }  // namespace
@@ -79,19 +72,11 @@ std::vector<std::string> tendon_names() { return keys(kModes); }
 std::vector<std::string> curve_names() { return keys(kCurves); }
 std::vector<std::string> activation_names() { return keys(kLaws); }
 
-muscle::TendonMode tendon_mode(const SimulateOptions& o) {
-  return value_of(kModes, o.tendon, "--tendon");
-}
-simulation::MuscleCurves muscle_curves(const SimulateOptions& o) {
-  return value_of(kCurves, o.curves, "--curves");
-}
-muscle::ActivationLaw activation_law(const SimulateOptions& o) {
-  return value_of(kLaws, o.activation, "--activation");
-}
+muscle::TendonMode tendon_mode(const SimulateOptions& o) { return value_of(kModes, o.tendon, "--tendon"); }
+simulation::MuscleCurves muscle_curves(const SimulateOptions& o) { return value_of(kCurves, o.curves, "--curves"); }
+muscle::ActivationLaw activation_law(const SimulateOptions& o) { return value_of(kLaws, o.activation, "--activation"); }
 
-Drive read_drive(const SimulateOptions& o,
-                 const std::vector<std::string>& muscles,
-                 Remarks& remarks) {
+Drive read_drive(const SimulateOptions& o, const std::vector<std::string>& muscles, Remarks& remarks) {
   Drive drive;
   drive.start_s = o.call.start_s.value_or(0.0);
   drive.end_s = o.call.end_s.value_or(drive.start_s + 1.0);
@@ -118,8 +103,7 @@ void place(const SimulateOptions& o,
            simulation::SimulationStart& start,
            std::vector<simulation::Device>& devices) {
   start.qdot.resize(coordinates.size(), 0.0);
-  const auto assign = [&](const std::vector<std::string>& texts, std::string_view option,
-                          std::vector<double>& values) {
+  const auto assign = [&](const std::vector<std::string>& texts, std::string_view option, std::vector<double>& values) {
     for (const std::string& text : texts) {
       const auto [name, value] = assignment(text, option);
       const std::size_t k = index_of(name, coordinates, option);
@@ -128,8 +112,7 @@ void place(const SimulateOptions& o,
   };
   assign(o.initial, "--initial", start.q);
   assign(o.initial_speed, "--initial-speed", start.qdot);
-  for (const std::string& name : o.lock)
-    devices[index_of(name, coordinates, "--lock")] = simulation::locked();
+  for (const std::string& name : o.lock) devices[index_of(name, coordinates, "--lock")] = simulation::locked();
 }
 
 void refuse_followers(const SimulateOptions& o, const model::BodyModel& body) {
@@ -138,16 +121,14 @@ void refuse_followers(const SimulateOptions& o, const model::BodyModel& body) {
     for (const auto* list : {&o.initial, &o.initial_speed}) {
       for (const std::string& text : *list) {
         if (!text.starts_with(name + "=")) continue;
-        throw InvalidInput(
-            fmt::format("{}: the coordinate follows '{}' (coupler '{}'); place that", text,
-                        body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
+        throw InvalidInput(fmt::format("{}: the coordinate follows '{}' (coupler '{}'); place that", text,
+                                       body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
       }
     }
   }
 }
 
-std::vector<std::string> wanted_parameters(const SimulateOptions& o,
-                                           const simulation::Arm<double>& arm) {
+std::vector<std::string> wanted_parameters(const SimulateOptions& o, const simulation::Arm<double>& arm) {
   std::vector<std::string> all = simulation::arm_parameter_names(arm);
   all.insert(all.end(), {"start_angle", "start_speed"});
   std::vector<std::string> result;
@@ -160,8 +141,7 @@ std::vector<std::string> wanted_parameters(const SimulateOptions& o,
       if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
     }
     if (!found) {
-      throw InvalidInput(fmt::format("--sensitivity {}: no such parameter; there are {}", text,
-                                     fmt::join(all, ", ")));
+      throw InvalidInput(fmt::format("--sensitivity {}: no such parameter; there are {}", text, fmt::join(all, ", ")));
     }
   }
   return result;

@@ -33,8 +33,7 @@ TEST(SimulateSetup, PlacesTurningCoordinatesInDegreesAndSlidingOnesInMeters) {
 
 TEST(SimulateSetup, TheTimeIsTheFilesUnlessTheCallSaysOtherwise) {
   const test::TemporaryFolder folder;
-  recording::write_file(folder / "u.sto",
-                        "u\nversion=1\ninDegrees=no\nendheader\ntime\tA\n2\t0.1\n5\t0.2\n");
+  recording::write_file(folder / "u.sto", "u\nversion=1\ninDegrees=no\nendheader\ntime\tA\n2\t0.1\n5\t0.2\n");
   SimulateOptions o;
   Remarks remarks(o.call);
   Drive drive = read_drive(o, {"A"}, remarks);

@@ -28,8 +28,8 @@ forces::SharingOptions sharing_options(const SoOptions& o,
   }
   const bool elastic = o.tendon == "elastic";
   if (elastic || o.passive) {
-    options.law = simulation::muscle_force_law(
-        model, input.muscles, {.elastic_tendon = elastic, .passive_force = o.passive});
+    options.law =
+        simulation::muscle_force_law(model, input.muscles, {.elastic_tendon = elastic, .passive_force = o.passive});
   }
   return options;
 }
@@ -48,8 +48,7 @@ SoResult so(const SoOptions& o) {
   if (const auto weight = dynamics::unsupported_weight(model);
       weight && !loads && dynamics::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(weight->sentence("--loads"));
-  const forces::SharingInput input =
-      forces::sharing_input(model, motion, o.coordinates, loads ? &*loads : nullptr);
+  const forces::SharingInput input = forces::sharing_input(model, motion, o.coordinates, loads ? &*loads : nullptr);
   for (const std::string& note : input.notes) remarks.warn(note);
   SoResult result;
   result.shared = forces::share(input, sharing_options(o, model, input, remarks));

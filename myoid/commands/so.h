@@ -20,9 +20,9 @@ struct SoOptions {
   double cutoff_hz = 0.0;                ///< Cut-off of the angles' smoothing, -3 dB; 0: none.
   std::string objective = "activation";  ///< activation, force or stress.
   double exponent = 2.0;                 ///< Exponent of the sum, above 1.
-  std::string emg;          ///< Activations by muscle that the solution approaches (.sto).
-  double emg_weight = 1.0;  ///< Weight of the distance from `emg`.
-  double reserve_nm = 1.0;  ///< Optimal torque of each coordinate's reserve.
+  std::string emg;                       ///< Activations by muscle that the solution approaches (.sto).
+  double emg_weight = 1.0;               ///< Weight of the distance from `emg`.
+  double reserve_nm = 1.0;               ///< Optimal torque of each coordinate's reserve.
   std::vector<std::string> coordinates;  ///< Balanced by the muscles; empty: all free ones.
   std::string loads;                     ///< <ExternalLoads> (.xml); empty: none.
   std::string tendon = "rigid";          ///< rigid or elastic.

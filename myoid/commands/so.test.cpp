@@ -20,8 +20,7 @@ namespace {
 std::string swinging_elbow(const test::TemporaryFolder& folder) {
   std::string text = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
   for (int i = 0; i <= 50; ++i)
-    text +=
-        std::to_string(0.02 * i) + "\t" + std::to_string(70.0 + 25.0 * std::sin(0.12 * i)) + "\n";
+    text += std::to_string(0.02 * i) + "\t" + std::to_string(70.0 + 25.0 * std::sin(0.12 * i)) + "\n";
   recording::write_file(folder / "m.mot", text);
   return folder / "m.mot";
 }
@@ -46,8 +45,8 @@ TEST(SoFunction, MusclesAndReserveMakeTheTorqueOfInverseDynamics) {
   // Muscles of the class have 0.01 as their least control, and the extensor is not needed.
   EXPECT_EQ(shared.shared.activation.values().minCoeff(), 0.01);
   for (Eigen::Index i = 0; i < torque.size(); ++i) {
-    const double made = arms.values().row(i).dot(shared.shared.force.values().row(i)) +
-                        shared.shared.reserve.values()(i, 0);
+    const double made =
+        arms.values().row(i).dot(shared.shared.force.values().row(i)) + shared.shared.reserve.values()(i, 0);
     EXPECT_NEAR(made, torque[i], 1e-8) << i;  // the dual's tolerance on torques of some 3 N m
   }
   so_options.tendon = "soft";

@@ -17,12 +17,9 @@
 
 namespace myoid::commands {
 
-void check_word(std::string_view option,
-                const std::string& word,
-                const std::vector<std::string>& words) {
+void check_word(std::string_view option, const std::string& word, const std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), word) != words.end()) return;
-  throw InvalidInput(
-      fmt::format("{} '{}': expected one of {}", option, word, fmt::join(words, ", ")));
+  throw InvalidInput(fmt::format("{} '{}': expected one of {}", option, word, fmt::join(words, ", ")));
 }
 
 void warn_of_repairs(const std::filesystem::path& path,
@@ -31,35 +28,30 @@ void warn_of_repairs(const std::filesystem::path& path,
   for (const recording::Repair& repair : repairs) remarks.warn(recording::to_string(path, repair));
 }
 
-void warn_of_path_differences(const model::BodyModel& model,
-                              const std::string& name,
-                              Remarks& remarks) {
+void warn_of_path_differences(const model::BodyModel& model, const std::string& name, Remarks& remarks) {
   constexpr int kPostures = 40;
   if (model.compat != model::Compat{}) return;
   int count = 0;
   std::string worst;
   for (const model::PathDifference& d : model::compare_with_opensim(model, kPostures)) {
     if (d.postures_above_1mm == 0) continue;
-    if (++count <= 3)
-      worst += (worst.empty() ? "" : ", ") + model.muscles[static_cast<std::size_t>(d.muscle)].name;
+    if (++count <= 3) worst += (worst.empty() ? "" : ", ") + model.muscles[static_cast<std::size_t>(d.muscle)].name;
   }
   if (count == 0) return;
-  remarks.warn(fmt::format(
-      "{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim "
-      "4.5.2; `myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
-      name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
+  remarks.warn(
+      fmt::format("{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim "
+                  "4.5.2; `myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
+                  name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
 }
 
 model::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks) {
   std::error_code ignored;
   if (!name.ends_with(".osim") && name != "arm4" && !std::filesystem::exists(name, ignored)) {
-    throw InvalidInput(fmt::format(
-        "--model {}: there is no such file, and the only built-in model is arm4", name));
+    throw InvalidInput(fmt::format("--model {}: there is no such file, and the only built-in model is arm4", name));
   }
   const model::OsimOptions options{.compat = model::parse_compat(compat)};
-  model::BodyModel model = name == "arm4"
-                               ? model::parse_osim(model::arm4_osim(), "arm4.osim", options)
-                               : model::read_osim(name, options);
+  model::BodyModel model =
+      name == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim", options) : model::read_osim(name, options);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
   for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
   return model;
@@ -69,9 +61,8 @@ TimeSeries cut(const TimeSeries& series, const Call& call) {
   if (!call.start_s && !call.end_s) return series;
   TimeSeries result = series.slice(call.start_s.value_or(-1e300), call.end_s.value_or(1e300));
   if (result.empty()) {
-    throw InvalidInput(
-        fmt::format("nothing lies between --start and --end; the data go from {} to {} s",
-                    series.time_s()[0], series.time_s()[series.sample_count() - 1]));
+    throw InvalidInput(fmt::format("nothing lies between --start and --end; the data go from {} to {} s",
+                                   series.time_s()[0], series.time_s()[series.sample_count() - 1]));
   }
   return result;
 }
@@ -108,15 +99,12 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
                              }),
             call);
     const Eigen::VectorXd& time_s = derivative.time_s();
-    if (given.sample_count() != time_s.size() ||
-        (given.time_s() - time_s).cwiseAbs().maxCoeff() > 1e-9) {
-      throw ReadError(
-          path, 0,
-          fmt::format("has {} samples from {} to {} s; expected the times of the motion, "
-                      "{} samples from {} to {} s",
-                      given.sample_count(), given.time_s()[0],
-                      given.time_s()[given.sample_count() - 1], time_s.size(), time_s[0],
-                      time_s[time_s.size() - 1]));
+    if (given.sample_count() != time_s.size() || (given.time_s() - time_s).cwiseAbs().maxCoeff() > 1e-9) {
+      throw ReadError(path, 0,
+                      fmt::format("has {} samples from {} to {} s; expected the times of the motion, "
+                                  "{} samples from {} to {} s",
+                                  given.sample_count(), given.time_s()[0], given.time_s()[given.sample_count() - 1],
+                                  time_s.size(), time_s[0], time_s[time_s.size() - 1]));
     }
     Eigen::MatrixXd values = derivative.values();
     bool any = false;
@@ -143,11 +131,9 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries q = recording::to_si(file, [&](const std::string& name) {
     const auto c = model.find_coordinate(name);
-    return c &&
-           model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
+    return c && model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
   });
-  if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty())
-    remarks.warn(doubt);
+  if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty()) remarks.warn(doubt);
   const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
   for (const signals::MotionJump& jump : signals::find_motion_jumps(q, asked))
     remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
@@ -159,9 +145,8 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
   kinematics::MotionOptions options;
   if (cutoff_hz > 0.0) {
     if (cutoff_hz >= 0.5 * q.mean_rate_hz()) {
-      throw InvalidInput(fmt::format(
-          "--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",
-          cutoff_hz, path.string(), q.mean_rate_hz()));
+      throw InvalidInput(fmt::format("--lowpass {} Hz: {} has {:.4g} Hz; give less than half of that, or leave it out",
+                                     cutoff_hz, path.string(), q.mean_rate_hz()));
     }
     options.cutoff_hz = cutoff_hz;
   }
@@ -179,10 +164,10 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
   for (const std::string& note : loads.notes) remarks.warn(note);
   const Eigen::VectorXd& time_s = motion.q.time_s();
   if (time_s[0] < loads.start_s - 1e-3 || time_s[time_s.size() - 1] > loads.end_s + 1e-3) {
-    remarks.warn(fmt::format(
-        "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
-        "are guessed by straight lines",
-        path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
+    remarks.warn(
+        fmt::format("{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
+                    "are guessed by straight lines",
+                    path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
   return loads;
 }

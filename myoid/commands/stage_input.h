@@ -16,9 +16,7 @@
 namespace myoid::commands {
 
 /// Throws InvalidInput with the option's name, unless the word is one of `words`.
-void check_word(std::string_view option,
-                const std::string& word,
-                const std::vector<std::string>& words);
+void check_word(std::string_view option, const std::string& word, const std::vector<std::string>& words);
 
 /// Warns of the repairs and omissions of a file's reader.
 void warn_of_repairs(const std::filesystem::path& path,
@@ -27,14 +25,10 @@ void warn_of_repairs(const std::filesystem::path& path,
 
 /// Loads a model from a file, or the built-in "arm4", with the paths that `compat` names ("exact"
 /// or "opensim"). Remarks name elements that are not supported.
-[[nodiscard]] model::BodyModel load_model(const std::string& name,
-                                          const std::string& compat,
-                                          Remarks& remarks);
+[[nodiscard]] model::BodyModel load_model(const std::string& name, const std::string& compat, Remarks& remarks);
 
 /// Warns of the muscles whose exact path differs visibly (1 mm) from OpenSim's at random postures.
-void warn_of_path_differences(const model::BodyModel& model,
-                              const std::string& name,
-                              Remarks& remarks);
+void warn_of_path_differences(const model::BodyModel& model, const std::string& name, Remarks& remarks);
 
 /// Reads a motion file (.mot, .sto) as coordinates with two derivatives. `cutoff_hz` > 0 smooths.
 /// The whole file is smoothed and differentiated, then cut to the call's time, so that the numbers
@@ -45,9 +39,8 @@ void warn_of_path_differences(const model::BodyModel& model,
                                                   const Call& call,
                                                   Remarks& remarks);
 
-/// Replaces the spline's derivatives of a motion by the speeds and accelerations in these files,
-/// for the coordinates that they have; an empty path changes nothing. Throws ReadError unless their
-/// times equal those of the motion's file.
+/// Replaces the spline's derivatives of a motion by the speeds and accelerations in these files, for the coordinates
+/// that they have; an empty path changes nothing. Throws ReadError unless their times equal those of the motion's file.
 [[nodiscard]] kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
                                                        const model::BodyModel& model,
                                                        const std::filesystem::path& speeds,

@@ -32,22 +32,18 @@ twin::Protocol protocol_of(const TwinOptions& o) {
 }
 
 twin::WriteOptions write_options(const std::string& format) {
-  return {.overwrite = true,
-          .format = format == "c3d" ? twin::RecordingFormat::c3d : twin::RecordingFormat::text};
+  return {.overwrite = true, .format = format == "c3d" ? twin::RecordingFormat::c3d : twin::RecordingFormat::text};
 }
 
 /// Returns the folder of one person, named by the seed.
-fs::path folder_of(const fs::path& out, std::uint64_t seed) {
-  return out / fmt::format("person_{:06}", seed);
-}
+fs::path folder_of(const fs::path& out, std::uint64_t seed) { return out / fmt::format("person_{:06}", seed); }
 
 }  // namespace
 
 std::optional<twin::Level> level_named(const std::string& name) {
   if (name.empty()) return std::nullopt;
   check_word("--level", name, {"L0", "L1", "L2"});
-  for (const twin::Level level :
-       {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
+  for (const twin::Level level : {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
     if (name == twin::name(level)) return level;
   }
   return std::nullopt;
@@ -55,9 +51,7 @@ std::optional<twin::Level> level_named(const std::string& name) {
 
 std::string truth_help() { return reference_text({twin::truth_reference()}); }
 
-TwinResult twin(const TwinOptions& o) {
-  return {twin::make_virtual_recording(protocol_of(o), o.call.seed), o.format};
-}
+TwinResult twin(const TwinOptions& o) { return {twin::make_virtual_recording(protocol_of(o), o.call.seed), o.format}; }
 
 void write_twin(const TwinResult& result, const fs::path& folder) {
   twin::write_virtual_recording(result.recording, folder, write_options(result.format));
@@ -71,12 +65,10 @@ TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options, const fs
   oneapi::tbb::parallel_for(std::size_t{0}, options.persons, [&](std::size_t i) {
     progress.check();
     const std::uint64_t seed = options.twin.call.seed + i;
-    const twin::VirtualRecording recording = options.truth_only
-                                                 ? twin::make_virtual_person(protocol, seed)
-                                                 : twin::make_virtual_recording(protocol, seed);
+    const twin::VirtualRecording recording =
+        options.truth_only ? twin::make_virtual_person(protocol, seed) : twin::make_virtual_recording(protocol, seed);
     if (!options.truth_only)
-      twin::write_virtual_recording(recording, folder_of(folder, seed),
-                                    write_options(options.twin.format));
+      twin::write_virtual_recording(recording, folder_of(folder, seed), write_options(options.twin.format));
     lines[i] = twin::truth_row(recording);
     progress.tell(static_cast<double>(++done) / static_cast<double>(options.persons),
                   fmt::format("{} of {} persons", done.load(), options.persons));

@@ -47,8 +47,7 @@ struct TwinPersonsResult {
 
 /// Makes the persons, writes each into a folder of its own and all into the table. At most one
 /// recording per thread is in memory. The folder may hold files already.
-TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options,
-                                     const std::filesystem::path& folder);
+TwinPersonsResult write_twin_persons(const TwinPersonsOptions& options, const std::filesystem::path& folder);
 
 /// Returns the keys of a protocol's [truth], for a terminal.
 [[nodiscard]] std::string truth_help();

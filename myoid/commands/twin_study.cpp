@@ -17,8 +17,7 @@ TwinStudyResult twin_study(const TwinStudyOptions& o) {
   options.progress = o.call.progress;
   TwinStudyResult result;
   result.study = twin::twin_study(protocol, options);
-  for (const twin::TwinFailure& f : result.study.failures)
-    remarks.warn(fmt::format("seed {}: {}", f.seed, f.message));
+  for (const twin::TwinFailure& f : result.study.failures) remarks.warn(fmt::format("seed {}: {}", f.seed, f.message));
   result.summaries = twin::summarize(result.study);
   result.provenance.command = o.call.command;
   result.provenance.inputs.push_back({o.protocol, sha256(recording::read_text_file(o.protocol))});

@@ -12,9 +12,8 @@ namespace myoid::commands {
 
 UpdateFileResult update_file(const UpdateFileOptions& o) {
   Remarks remarks(o.call);
-  model::UpdatedOsim updated =
-      model::updated_osim(recording::read_text_file(o.file), o.file,
-                          {.six_digits = model::parse_compat(o.compat).six_digit_offsets});
+  model::UpdatedOsim updated = model::updated_osim(recording::read_text_file(o.file), o.file,
+                                                   {.six_digits = model::parse_compat(o.compat).six_digit_offsets});
   for (const std::string& note : updated.notes) remarks.warn(note);
   UpdateFileResult result;
   result.text = std::move(updated.text);

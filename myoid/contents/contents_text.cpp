@@ -27,8 +27,7 @@ bool is_list_of_members(const ordered_json& value) {
   return value.is_array() && !value.empty() && value[0].is_object();
 }
 
-/// Returns "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other
-/// members as they are.
+/// Returns "BIC [V]  lowest -0.003  highest 0.002" of an object, without its lists; a list's other members as they are.
 std::string member_text(const ordered_json& item) {
   if (!item.is_object()) return number_or_text(item, 6);
   std::string line;
@@ -74,9 +73,8 @@ std::string contents_text(const ordered_json& contents) {
     std::replace(label.begin(), label.end(), '_', ' ');
     if (!value.is_array()) {
       const auto from = contents.find(key + kFrom);
-      text += fmt::format(
-          "{}: {}{}\n", label, number_or_text(value, 6),
-          from == contents.end() ? "" : fmt::format(" (from {})", number_or_text(*from, 6)));
+      text += fmt::format("{}: {}{}\n", label, number_or_text(value, 6),
+                          from == contents.end() ? "" : fmt::format(" (from {})", number_or_text(*from, 6)));
     } else if (!value.empty() && value[0].is_number()) {
       text += fmt::format("{}: {}\n", label, compact(value));
     } else if (!value.empty()) {

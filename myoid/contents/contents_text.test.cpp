@@ -32,8 +32,7 @@ TEST(ContentsText, WhereAValueComesFromStandsBehindIt) {
 
 TEST(ContentsText, ListsWithinAListStandBelowTheirMember) {
   const nlohmann::ordered_json clocks{
-      {"other_clocks",
-       {{{"rate_hz", 148.0}, {"channels", {{{"name", "ACC X"}}, {{"name", "ACC Y"}}}}}}}};
+      {"other_clocks", {{{"rate_hz", 148.0}, {"channels", {{{"name", "ACC X"}}, {{"name", "ACC Y"}}}}}}}};
   EXPECT_EQ(contents_text(clocks), "other clocks (1):\n  rate_hz 148\n    ACC X\n    ACC Y\n");
 }
 

@@ -17,12 +17,12 @@ namespace {
 ordered_json differences_json(const model::BodyModel& m, int postures, std::uint64_t seed) {
   ordered_json list = ordered_json::array();
   for (const model::PathDifference& d : model::compare_with_opensim(m, postures, seed)) {
-    list.push_back(fmt::format(
-        "{}: length by up to {:.3g} mm (rms {:.3g} mm, above 1 mm in {} of {} postures), moment "
-        "arm "
-        "by up to {:.3g} mm",
-        m.muscles[static_cast<std::size_t>(d.muscle)].name, 1e3 * d.length_m,
-        1e3 * d.typical_length_m, d.postures_above_1mm, postures, 1e3 * d.moment_arm_m));
+    list.push_back(
+        fmt::format("{}: length by up to {:.3g} mm (rms {:.3g} mm, above 1 mm in {} of {} postures), moment "
+                    "arm "
+                    "by up to {:.3g} mm",
+                    m.muscles[static_cast<std::size_t>(d.muscle)].name, 1e3 * d.length_m, 1e3 * d.typical_length_m,
+                    d.postures_above_1mm, postures, 1e3 * d.moment_arm_m));
   }
   return list;
 }
@@ -33,9 +33,8 @@ ordered_json jumps_json(const model::BodyModel& m) {
   return list;
 }
 
-/// Returns the unit of a coordinate's values in files. A coordinate that turns a body by another
-/// law than its own angle, or that follows an angle, is in radians there, whatever OpenSim calls
-/// its motion.
+/// Returns the unit of a coordinate's values in files. A coordinate that turns a body by another law than its own
+/// angle, or that follows an angle, is in radians there, whatever OpenSim calls its motion.
 std::string unit_of(const model::BodyModel& m, int index) {
   const model::Coordinate& c = m.coordinates[static_cast<std::size_t>(index)];
   if (c.motion == model::MotionType::rotational) return "deg";
@@ -43,8 +42,7 @@ std::string unit_of(const model::BodyModel& m, int index) {
     if (axis.coordinate == index) return "rad";
   for (const model::CoordinateCoupler& coupler : m.couplers) {
     const auto leader = static_cast<std::size_t>(coupler.independent);
-    if (coupler.dependent == index && m.coordinates[leader].motion == model::MotionType::rotational)
-      return "rad";
+    if (coupler.dependent == index && m.coordinates[leader].motion == model::MotionType::rotational) return "rad";
   }
   return c.motion == model::MotionType::translational ? "m" : "coupled";
 }
@@ -69,24 +67,22 @@ ordered_json model_contents(const model::BodyModel& m, const ModelQuestions& ask
     const model::Coordinate& c = m.coordinates[k];
     const bool angle = c.motion == model::MotionType::rotational;
     const double scale = angle ? 1.0 / kDegree : 1.0;
-    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name,
-                                           unit_of(m, static_cast<int>(k)), c.lower * scale,
-                                           c.upper * scale, c.locked ? ", locked" : ""));
+    j["coordinates"].push_back(fmt::format("{} [{}] {:.4g} to {:.4g}{}", c.name, unit_of(m, static_cast<int>(k)),
+                                           c.lower * scale, c.upper * scale, c.locked ? ", locked" : ""));
   }
   j["muscles"] = ordered_json::array();
   for (const model::Muscle& muscle : m.muscles) {
     j["muscles"].push_back(fmt::format(
-        "{} ({}): F_max {:.4g} N, l0 {:.4g} m, tendon {:.4g} m, {} points, {} wraps", muscle.name,
-        muscle.class_name, muscle.properties.max_isometric_force_n,
-        muscle.properties.optimal_fiber_length_m, muscle.properties.tendon_slack_length_m,
-        muscle.path.points.size(), muscle.path.wraps.size()));
+        "{} ({}): F_max {:.4g} N, l0 {:.4g} m, tendon {:.4g} m, {} points, {} wraps", muscle.name, muscle.class_name,
+        muscle.properties.max_isometric_force_n, muscle.properties.optimal_fiber_length_m,
+        muscle.properties.tendon_slack_length_m, muscle.path.points.size(), muscle.path.wraps.size()));
   }
   for (const model::Marker& marker : m.markers) j["markers"].push_back(marker.name);
   j["document_version"] = m.document_version;
   for (const model::CoordinateCoupler& c : m.couplers) {
-    j["couplers"].push_back(fmt::format(
-        "{}: {} follows {}", c.name, m.coordinates[static_cast<std::size_t>(c.dependent)].name,
-        m.coordinates[static_cast<std::size_t>(c.independent)].name));
+    j["couplers"].push_back(fmt::format("{}: {} follows {}", c.name,
+                                        m.coordinates[static_cast<std::size_t>(c.dependent)].name,
+                                        m.coordinates[static_cast<std::size_t>(c.independent)].name));
   }
   for (const model::LoopConstraint& c : m.constraints)
     j["constraints"].push_back(fmt::format("{} ({})", c.name, c.class_name));

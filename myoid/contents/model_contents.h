@@ -18,7 +18,6 @@ struct ModelQuestions {
 
 /// Describes a model for people and programs: bodies, joints, coordinates with range and unit,
 /// muscles, markers, actuators, and unsupported parts.
-[[nodiscard]] nlohmann::ordered_json model_contents(const model::BodyModel& model,
-                                                    const ModelQuestions& ask = {});
+[[nodiscard]] nlohmann::ordered_json model_contents(const model::BodyModel& model, const ModelQuestions& ask = {});
 
 }  // namespace myoid

@@ -91,8 +91,7 @@ ordered_json markers_json(const recording::MarkerSeries& markers) {
   j["markers"] = ordered_json::array();
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     Eigen::Index missing = 0;
-    for (Eigen::Index f = 0; f < markers.frame_count(); ++f)
-      missing += markers.missing(f, m) ? 1 : 0;
+    for (Eigen::Index f = 0; f < markers.frame_count(); ++f) missing += markers.missing(f, m) ? 1 : 0;
     ordered_json marker{{"name", markers.names[static_cast<std::size_t>(m)]}};
     if (missing > 0) marker["missing_frames"] = missing;
     j["markers"].push_back(std::move(marker));
@@ -120,9 +119,7 @@ ordered_json events_json(const std::vector<recording::Event>& events) {
 
 /// Adds the upward direction and its sources in the file; "not known" without any, "contradictory"
 /// where two sources disagree.
-void add_up(const std::filesystem::path& path,
-            const recording::C3dSurvey& survey,
-            ordered_json& j) {
+void add_up(const std::filesystem::path& path, const recording::C3dSurvey& survey, ordered_json& j) {
   recording::LaboratoryUp up{recording::screen_up(survey.file), "POINT:Y_SCREEN or POINT:SCREEN"};
   try {
     if (!survey.plates.empty()) up = recording::read_laboratory_up(path);
@@ -189,16 +186,14 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   return j;
 }
 
-/// Returns markers, channels in SI, or both, each with its own clock. `series` names a file of
-/// channels alone.
+/// Returns markers, channels in SI, or both, each with its own clock. `series` names a file of channels alone.
 ordered_json recording_json(const std::filesystem::path& path, const char* series) {
   const recording::Recording file = recording::read_recording(path);
   const bool has_markers = file.markers.marker_count() > 0;
   const bool has_channels = file.analog.channel_count() > 0;
   ordered_json j;
   if (has_markers) {
-    j["kind"] = fmt::format("markers{} ({})", has_channels ? " and channels" : "",
-                            recording::extension_of(path));
+    j["kind"] = fmt::format("markers{} ({})", has_channels ? " and channels" : "", recording::extension_of(path));
     j.update(markers_json(file.markers));
     if (has_channels) {
       const TimeSeries analog = file.analog.series();
@@ -223,9 +218,8 @@ ordered_json storage_json(const std::filesystem::path& path) {
   // An EMG file has no angles; a file that does not mention them may have none either.
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
-  } else if (std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
-               return recording::equal_ignoring_case(entry.first, "inDegrees");
-             })) {
+  } else if (std::any_of(file.header.begin(), file.header.end(),
+                         [](const auto& entry) { return recording::equal_ignoring_case(entry.first, "inDegrees"); })) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
     j["angles"] = "degrees (the header does not say; files of this kind are)";

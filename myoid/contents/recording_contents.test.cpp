@@ -44,10 +44,9 @@ TEST(RecordingContents, ATableOfMarkersAloneIsToldByItsMarkersAndTheirGaps) {
 TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "e.sto", "x\nnRows=1\nnColumns=2\nendheader\ntime\tBIC\n0.5\t2\n");
-  recording::write_file(
-      folder / "m.trc",
-      "PathFileType\t4\t(X/Y/Z)\tm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
-      "100\t100\t1\t1\tmm\nFrame#\tTime\tA\n\t\tX1\tY1\tZ1\n1\t0.5\t1\t2\t3\n");
+  recording::write_file(folder / "m.trc",
+                        "PathFileType\t4\t(X/Y/Z)\tm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+                        "100\t100\t1\t1\tmm\nFrame#\tTime\tA\n\t\tX1\tY1\tZ1\n1\t0.5\t1\t2\t3\n");
   for (const char* name : {"e.sto", "m.trc"}) {
     const auto contents = recording_contents(folder / name);
     ASSERT_TRUE(contents) << name;
@@ -57,8 +56,7 @@ TEST(RecordingContents, OneSampleHasAStartAndNoRate) {
   }
 }
 
-// The laboratory of `PlateLoad` turned, with and without a screen's axis; without plates nothing
-// tells.
+// The laboratory of `PlateLoad` turned, with and without a screen's axis; without plates nothing tells.
 TEST(RecordingContents, OfAC3dFileItTellsWhichWayIsUpAndWhatSaysSo) {
   const test::TemporaryFolder folder;
   for (const char up : {'x', 'y', 'z'}) {

@@ -9,9 +9,7 @@
 
 namespace myoid {
 
-std::string check_angle_unit(const std::filesystem::path& path,
-                             bool says_degrees,
-                             const TimeSeries& motion) {
+std::string check_angle_unit(const std::filesystem::path& path, bool says_degrees, const TimeSeries& motion) {
   double largest_rad = 0.0, widest_rad = 0.0;
   std::string largest_name;
   for (Eigen::Index c = 0; c < motion.channel_count(); ++c) {

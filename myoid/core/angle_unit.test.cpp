@@ -22,8 +22,7 @@ TEST(AngleUnit, DegreesThatAreCalledRadiansAreRefused) {
 }
 
 TEST(AngleUnit, RadiansThatAreCalledDegreesAreDoubted) {
-  EXPECT_THAT(check_angle_unit("m.mot", true, angles(0.1 * kDegree, 1.2 * kDegree)),
-              ::testing::HasSubstr("'knee'"));
+  EXPECT_THAT(check_angle_unit("m.mot", true, angles(0.1 * kDegree, 1.2 * kDegree)), ::testing::HasSubstr("'knee'"));
   // A posture that hardly moves may be what it says.
   EXPECT_EQ(check_angle_unit("m.mot", true, angles(1.0 * kDegree, 1.1 * kDegree)), "");
 }

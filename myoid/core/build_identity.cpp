@@ -15,8 +15,7 @@ std::string identity() {
   // Inside a shared library, the library's file counts, not the program that loaded it.
   std::string file = "/proc/self/exe";
   Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&build_identity), &info) != 0 &&
-      info.dli_fname != nullptr &&
+  if (dladdr(reinterpret_cast<const void*>(&build_identity), &info) != 0 && info.dli_fname != nullptr &&
       std::string_view(info.dli_fname).find(".so") != std::string_view::npos)
     file = info.dli_fname;
   std::ifstream stream(file, std::ios::binary);

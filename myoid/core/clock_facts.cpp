@@ -17,8 +17,7 @@ ClockFacts clock_facts(const Eigen::VectorXd& time_s) {
   facts.rate_hz = 1.0 / interval_s;
   facts.even = true;
   for (Eigen::Index i = 1; i < facts.samples; ++i)
-    facts.even =
-        facts.even && std::abs(time_s[i] - time_s[i - 1] - interval_s) <= kUneven * interval_s;
+    facts.even = facts.even && std::abs(time_s[i] - time_s[i - 1] - interval_s) <= kUneven * interval_s;
   return facts;
 }
 

@@ -17,8 +17,7 @@ struct ClockFacts {
   bool even = false;                 ///< No interval departs from the mean by more than 0.1 %.
 };
 
-/// Describes a clock. Values stay empty if times are not finite or the last time is not after the
-/// first.
+/// Describes a clock. Values stay empty if times are not finite or the last time is not after the first.
 [[nodiscard]] ClockFacts clock_facts(const Eigen::VectorXd& time_s);
 
 }  // namespace myoid

@@ -19,11 +19,9 @@ struct Pose {
   [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-/// Returns the rotation by body-fixed X-Y-Z Euler angles [rad]: Rx(a) Ry(b) Rz(c), OpenSim's
-/// `orientation`.
+/// Returns the rotation by body-fixed X-Y-Z Euler angles [rad]: Rx(a) Ry(b) Rz(c), OpenSim's `orientation`.
 [[nodiscard]] inline Mat3 rotation_body_xyz(const Vec3& angles_rad) {
-  return (Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()) *
-          Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
+  return (Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()) * Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
           Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()))
       .toRotationMatrix();
 }

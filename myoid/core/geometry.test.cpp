@@ -17,8 +17,7 @@ TEST(Pose, InverseUndoesThePose) {
 }
 
 TEST(RotationBodyXyz, TurnsAboutTheBodysOwnAxesInTurn) {
-  // Rx(90 deg) first, then about the turned y axis: z of the body ends along ground -y rotated by
-  // Ry.
+  // Rx(90 deg) first, then about the turned y axis: z of the body ends along ground -y rotated by Ry.
   const double half_pi = std::acos(0.0);
   const Mat3 R_AB = rotation_body_xyz({half_pi, half_pi, 0.0});
   // Rx Ry e_z = Rx (1,0,0) = (1,0,0)

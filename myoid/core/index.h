@@ -6,8 +6,6 @@ namespace myoid {
 
 /// Converts a signed index of Eigen or a model, never negative here, to an index of the standard
 /// containers: `bodies[at(k)]`.
-[[nodiscard]] constexpr std::size_t at(std::ptrdiff_t index) {
-  return static_cast<std::size_t>(index);
-}
+[[nodiscard]] constexpr std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace myoid

@@ -7,14 +7,12 @@
 
 namespace myoid {
 
-/// Renders JSON with `indent` blanks a level; -1 writes one line. All JSON of the program is
-/// rendered here. Never throws: bytes that are no UTF-8, as names of files and channels may hold,
-/// become U+FFFD.
+/// Renders JSON with `indent` blanks a level; -1 writes one line. All JSON of the program is rendered here. Never
+/// throws: bytes that are no UTF-8, as names of files and channels may hold, become U+FFFD.
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& json, int indent = 2);
 
-/// Parses JSON; the fields of an object are sorted by name. Throws nlohmann::json::parse_error
-/// where the text is not JSON; without `throws` the value is then a discarded one. All JSON is
-/// parsed here: a parser takes 2 s to compile.
+/// Parses JSON; the fields of an object are sorted by name. Throws nlohmann::json::parse_error where the text is not
+/// JSON; without `throws` the value is then a discarded one. All JSON is parsed here: a parser takes 2 s to compile.
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, bool throws = true);
 
 /// Parses JSON as parse_json does; the fields of an object keep their order.

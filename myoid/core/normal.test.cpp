@@ -14,8 +14,7 @@ TEST(Normal, NineteenOfTwentyNumbersLieWithinTheInterval) {
 
 TEST(Normal, TheSpreadOfRectifiedNoiseIsThatOfAHalfNormalDistribution) {
   // Mean sqrt(2/pi), variance 1 - 2/pi; the constant has four digits.
-  EXPECT_NEAR(kRectifiedSpread, std::sqrt((1.0 - 2.0 / std::numbers::pi) * std::numbers::pi / 2.0),
-              5e-5);
+  EXPECT_NEAR(kRectifiedSpread, std::sqrt((1.0 - 2.0 / std::numbers::pi) * std::numbers::pi / 2.0), 5e-5);
 }
 
 }  // namespace

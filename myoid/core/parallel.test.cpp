@@ -10,8 +10,7 @@ namespace {
 
 TEST(ParallelRanges, MeetEveryNumberOnceForEveryNumberOfThreads) {
   for (const std::size_t threads : {1, 2, 4}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            threads);
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     for (const long count : {0L, 1L, 7L, 64L, 1000L}) {
       std::vector<int> met(static_cast<std::size_t>(count), 0);
       parallel_ranges(count, 7L, [&](const auto& range) {
@@ -24,8 +23,7 @@ TEST(ParallelRanges, MeetEveryNumberOnceForEveryNumberOfThreads) {
 
 TEST(ParallelRanges, ThrowWhatTheBodyThrows) {
   for (const std::size_t threads : {1, 2}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            threads);
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
     EXPECT_THROW(parallel_ranges(100, 3,
                                  [](const auto& range) {
                                    if (range.end() > 50) throw std::runtime_error("half way");

@@ -31,11 +31,10 @@ void parallel_in_order(std::size_t count, std::size_t slots, const Make& make, c
     make(i, i % slots);
     return i;
   };
-  tbb::parallel_pipeline(
-      slots, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
-                 tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, made) &
-                 tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order,
-                                                     [&](std::size_t i) { take(i, i % slots); }));
+  tbb::parallel_pipeline(slots, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
+                                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, made) &
+                                    tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order,
+                                                                        [&](std::size_t i) { take(i, i % slots); }));
 }
 
 }  // namespace myoid

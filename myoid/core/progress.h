@@ -10,8 +10,7 @@ namespace myoid {
 
 /// Reports the progress of a long stage and stops it on request. The library itself prints nothing.
 struct Progress {
-  /// Called with the finished share in 0..1 and the name of the work; may be empty. Must be
-  /// thread-safe.
+  /// Called with the finished share in 0..1 and the name of the work; may be empty. Must be thread-safe.
   std::function<void(double share, std::string_view what)> report;
   std::stop_token stop;
 

@@ -90,13 +90,11 @@ std::string sentence(const Remark& remark) {
   if (named == 0) return text;
   const auto end = remark.likewise.begin() + static_cast<std::ptrdiff_t>(named);
   text += fmt::format(" (likewise in {}", fmt::join(remark.likewise.begin(), end, ", "));
-  if (named < remark.likewise.size())
-    text += fmt::format(" and {} more", remark.likewise.size() - named);
+  if (named < remark.likewise.size()) text += fmt::format(" and {} more", remark.likewise.size() - named);
   return text + ")";
 }
 
-std::vector<std::string> sentences(const std::vector<Remark>& remarks,
-                                   std::optional<Severity> only) {
+std::vector<std::string> sentences(const std::vector<Remark>& remarks, std::optional<Severity> only) {
   std::vector<std::string> texts;
   for (const Remark& remark : remarks) {
     if (!only || remark.severity == *only) texts.push_back(sentence(remark));
@@ -108,14 +106,13 @@ std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times) {
   std::vector<Remark> kept;
   for (const Remark& remark : remarks) {
     const bool alone = remark.about.empty() || (remark.when && times == Times::kept);
-    const auto same = alone ? kept.end()
-                            : std::find_if(kept.begin(), kept.end(),
-                                           [&](const Remark& k) { return are_alike(k, remark); });
+    const auto same =
+        alone ? kept.end()
+              : std::find_if(kept.begin(), kept.end(), [&](const Remark& k) { return are_alike(k, remark); });
     if (same == kept.end()) {
       kept.push_back(remark);
     } else if (same->where != remark.where &&
-               std::find(same->likewise.begin(), same->likewise.end(), remark.where) ==
-                   same->likewise.end()) {
+               std::find(same->likewise.begin(), same->likewise.end(), remark.where) == same->likewise.end()) {
       same->likewise.push_back(remark.where);
     }
   }

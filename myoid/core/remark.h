@@ -18,8 +18,7 @@ enum class Severity {
 };
 [[nodiscard]] std::string_view name(Severity severity);
 
-/// The question that a remark answers. Programs distinguish remarks by this code, never by their
-/// words.
+/// The question that a remark answers. Programs distinguish remarks by this code, never by their words.
 enum class RemarkCode {
   // Channels of a recording; the documentation of `myoid check` has one row for each.
   marker_unit,
@@ -104,16 +103,13 @@ struct Remark {
 [[nodiscard]] std::string sentence(const Remark& remark);
 
 /// Returns the sentences of all remarks, or of the remarks of one severity.
-[[nodiscard]] std::vector<std::string> sentences(const std::vector<Remark>& remarks,
-                                                 std::optional<Severity> only = {});
+[[nodiscard]] std::vector<std::string> sentences(const std::vector<Remark>& remarks, std::optional<Severity> only = {});
 
 /// Remarks with a time are alike as well, or each keeps its own time.
 enum class Times { kept, merged };
 
-/// Joins remarks of equal code, severity and `about`: the first one names the places of the others.
-/// The order stays.
-[[nodiscard]] std::vector<Remark> grouped(const std::vector<Remark>& remarks,
-                                          Times times = Times::kept);
+/// Joins remarks of equal code, severity and `about`: the first one names the places of the others. The order stays.
+[[nodiscard]] std::vector<Remark> grouped(const std::vector<Remark>& remarks, Times times = Times::kept);
 
 /// Sorts the worst first; the order stays otherwise.
 void sort_by_severity(std::vector<Remark>& remarks);

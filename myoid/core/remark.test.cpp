@@ -22,8 +22,7 @@ TEST(Remark, IsASentenceWithItsRemedy) {
 
 TEST(Remark, OfOneThingInSeveralPlacesIsSaidOnce) {
   std::vector<Remark> remarks;
-  for (const char* trial : {"a", "b", "b", "c", "d", "e", "f"})
-    remarks.push_back(hum(trial, "BIC"));
+  for (const char* trial : {"a", "b", "b", "c", "d", "e", "f"}) remarks.push_back(hum(trial, "BIC"));
   remarks.push_back(hum("b", "TRI"));
   remarks.push_back(hum("c", "BIC"));
   remarks.back().severity = Severity::note;

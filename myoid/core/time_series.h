@@ -19,9 +19,8 @@ struct Channel {
 };
 
 /// Samples of several channels on one clock. Rows are samples, columns are channels.
-/// Invariant: `time_s` strictly increases and is finite; `values` has time_s.size() rows and
-/// channels.size() columns; channel names are unique and not empty. Values may be NaN (a gap) only
-/// between `recording` and `signals`.
+/// Invariant: `time_s` strictly increases and is finite; `values` has time_s.size() rows and channels.size() columns;
+/// channel names are unique and not empty. Values may be NaN (a gap) only between `recording` and `signals`.
 class TimeSeries {
  public:
   TimeSeries() = default;
@@ -40,8 +39,7 @@ class TimeSeries {
   /// Returns the column of the channel of this name; empty if there is none.
   [[nodiscard]] std::optional<Eigen::Index> find(std::string_view name) const;
 
-  /// Returns the column of the channel of this name. Throws InvalidInput listing the names there
-  /// are.
+  /// Returns the column of the channel of this name. Throws InvalidInput listing the names there are.
   [[nodiscard]] Eigen::Index index(std::string_view name) const;
 
   /// Samples of one channel. Throws like `index`.

@@ -15,28 +15,21 @@ TimeSeries two_channels() {
   return {Eigen::Vector3d(0.0, 0.1, 0.2), {{"a", Unit::meter}, {"b", Unit::meter}}, values};
 }
 
-TEST(TimeSeries, AddressesChannelsByName) {
-  EXPECT_EQ(two_channels().column("b"), Eigen::Vector3d(10, 20, 30));
-}
+TEST(TimeSeries, AddressesChannelsByName) { EXPECT_EQ(two_channels().column("b"), Eigen::Vector3d(10, 20, 30)); }
 
 TEST(TimeSeries, RefusesTimeThatDoesNotIncrease) {
-  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0.1, 0.1), {{"a"}}, Eigen::MatrixXd::Zero(2, 1)),
-               InvalidInput);
+  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0.1, 0.1), {{"a"}}, Eigen::MatrixXd::Zero(2, 1)), InvalidInput);
 }
 
 TEST(TimeSeries, RefusesTwoChannelsOfOneName) {
-  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0, 1), {{"a"}, {"a"}}, Eigen::MatrixXd::Zero(2, 2)),
-               InvalidInput);
+  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0, 1), {{"a"}, {"a"}}, Eigen::MatrixXd::Zero(2, 2)), InvalidInput);
 }
 
 TEST(TimeSeries, RefusesAShapeThatDoesNotFit) {
-  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0, 1), {{"a"}}, Eigen::MatrixXd::Zero(3, 1)),
-               InvalidInput);
+  EXPECT_THROW(TimeSeries(Eigen::Vector2d(0, 1), {{"a"}}, Eigen::MatrixXd::Zero(3, 1)), InvalidInput);
 }
 
-TEST(TimeSeries, SliceKeepsBothEnds) {
-  EXPECT_EQ(two_channels().slice(0.1, 0.2).time_s(), Eigen::Vector2d(0.1, 0.2));
-}
+TEST(TimeSeries, SliceKeepsBothEnds) { EXPECT_EQ(two_channels().slice(0.1, 0.2).time_s(), Eigen::Vector2d(0.1, 0.2)); }
 
 TEST(TimeSeries, SelectKeepsTheOrderAskedFor) {
   const TimeSeries selected = two_channels().select({"b", "a"});
@@ -57,8 +50,7 @@ TEST(RequireUnit, NamesTheChannelThatIsWrong) {
 TEST(RequireFinite, RefusesAGap) {
   Eigen::MatrixXd values = two_channels().values();
   values(1, 1) = std::nan("");
-  EXPECT_THROW(require_finite({two_channels().time_s(), two_channels().channels(), values}, "x"),
-               InvalidInput);
+  EXPECT_THROW(require_finite({two_channels().time_s(), two_channels().channels(), values}, "x"), InvalidInput);
 }
 
 }  // namespace

@@ -120,16 +120,14 @@ std::optional<ScaledUnit> parse_unit(std::string_view text) {
     text.remove_suffix(1);
   }
   const auto matches = [&](const UnitWord& entry) { return entry.word == text; };
-  if (const auto* it = std::find_if(kExactWords.begin(), kExactWords.end(), matches);
-      it != kExactWords.end()) {
+  if (const auto* it = std::find_if(kExactWords.begin(), kExactWords.end(), matches); it != kExactWords.end()) {
     return it->unit;
   }
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto matches_lower = [&](const UnitWord& entry) { return entry.word == lower; };
-  if (const auto* it = std::find_if(kLongWords.begin(), kLongWords.end(), matches_lower);
-      it != kLongWords.end()) {
+  if (const auto* it = std::find_if(kLongWords.begin(), kLongWords.end(), matches_lower); it != kLongWords.end()) {
     return it->unit;
   }
   return std::nullopt;

@@ -5,8 +5,7 @@
 
 namespace myoid {
 
-/// SI units of quantities inside the library. Readers convert to these; only the report and the
-/// writers convert back.
+/// SI units of quantities inside the library. Readers convert to these; only the report and the writers convert back.
 enum class Unit {
   dimensionless,
   second,
@@ -38,10 +37,9 @@ struct ScaledUnit {
   friend bool operator==(const ScaledUnit&, const ScaledUnit&) = default;
 };
 
-/// Recognizes the unit words of laboratory files ("mm", "cm", "m", "uV", "mV", "V", "deg", "rad",
-/// "N", "Nmm", "N m", "ms", "s", "kg", "1", ...). Blanks around the word are ignored. Empty: not a
-/// known unit. Case matters only where it changes the meaning ("mV" and "MV"); "MM" and "METERS"
-/// are accepted.
+/// Recognizes the unit words of laboratory files ("mm", "cm", "m", "uV", "mV", "V", "deg", "rad", "N", "Nmm", "N m",
+/// "ms", "s", "kg", "1", ...). Blanks around the word are ignored. Empty: not a known unit. Case matters only where it
+/// changes the meaning ("mV" and "MV"); "MM" and "METERS" are accepted.
 [[nodiscard]] std::optional<ScaledUnit> parse_unit(std::string_view text);
 
 inline constexpr double kPi = 3.14159265358979323846;

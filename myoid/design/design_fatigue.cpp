@@ -19,8 +19,7 @@ double worst(const Tiredness& state) {
 
 void work(const Effort& effort, const muscle::FatigueRates<double>& rates, Tiredness& state) {
   for (std::size_t k = 0; k < state.size(); ++k) {
-    for (const double a : effort.activation[k])
-      state[k] = muscle::step_fatigue(rates, a, state[k], kFatigueStep_s);
+    for (const double a : effort.activation[k]) state[k] = muscle::step_fatigue(rates, a, state[k], kFatigueStep_s);
   }
 }
 
@@ -45,11 +44,9 @@ Effort effort_of(const std::vector<std::optional<identification::TrialData>>& pe
       const Eigen::VectorXd& clock = trial->activation.time_s();
       for (std::size_t s = 0; s < steps; ++s) {
         const double from = static_cast<double>(s) * kFatigueStep_s;
-        const auto begin =
-            std::lower_bound(clock.data(), clock.data() + clock.size(), from) - clock.data();
+        const auto begin = std::lower_bound(clock.data(), clock.data() + clock.size(), from) - clock.data();
         const auto end =
-            std::lower_bound(clock.data(), clock.data() + clock.size(), from + kFatigueStep_s) -
-            clock.data();
+            std::lower_bound(clock.data(), clock.data() + clock.size(), from + kFatigueStep_s) - clock.data();
         if (end > begin) sum[s] += a.segment(begin, end - begin).mean();
       }
     }

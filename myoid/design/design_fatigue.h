@@ -15,14 +15,12 @@ struct Effort {
 
 /// Returns the effort of a movement's performances; an empty performance belongs to a person who
 /// cannot do the movement.
-[[nodiscard]] Effort effort_of(
-    const std::vector<std::optional<identification::TrialData>>& performances,
-    const std::vector<identification::MuscleSetup>& muscles,
-    double duration_s);
+[[nodiscard]] Effort effort_of(const std::vector<std::optional<identification::TrialData>>& performances,
+                               const std::vector<identification::MuscleSetup>& muscles,
+                               double duration_s);
 
 /// Returns the fatigued share of the most tired muscle after this movement alone, from rest.
-[[nodiscard]] double fatigued_share(const Effort& effort,
-                                    const muscle::FatigueRates<double>& rates);
+[[nodiscard]] double fatigued_share(const Effort& effort, const muscle::FatigueRates<double>& rates);
 
 /// A rest before a movement, and the most tired muscle's fatigued share at the movement's end.
 struct PlannedRest {

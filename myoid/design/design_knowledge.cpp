@@ -31,8 +31,8 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
   if (earlier) {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
     for (Eigen::Index j = 0; j < p; ++j) {
-      const auto it = std::find(earlier->parameters.begin(), earlier->parameters.end(),
-                                free[static_cast<std::size_t>(j)].label);
+      const auto it =
+          std::find(earlier->parameters.begin(), earlier->parameters.end(), free[static_cast<std::size_t>(j)].label);
       if (it == earlier->parameters.end()) continue;
       const Eigen::Index from = it - earlier->parameters.begin();
       if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
@@ -40,17 +40,14 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
     for (const auto& [a, from_a] : pairs) {
       const bool logarithmic = free[static_cast<std::size_t>(a)].field->logarithmic;
       known.mean[a] = logarithmic ? std::log(earlier->estimate[from_a]) : earlier->estimate[from_a];
-      for (const auto& [b, from_b] : pairs)
-        known.covariance(a, b) = earlier->covariance(from_a, from_b);
+      for (const auto& [b, from_b] : pairs) known.covariance(a, b) = earlier->covariance(from_a, from_b);
     }
   }
   // Scaled by the prior: a direction that the run left undetermined has no variance in its
   // covariance, and keeps its prior. The least variance of a direction is a millionth.
   const Eigen::VectorXd unit = sd_before.cwiseInverse();
-  const math::SymmetricEigen axes =
-      math::symmetric_eigen(unit.asDiagonal() * known.covariance * unit.asDiagonal());
-  if (!axes.values.allFinite())
-    throw InvalidInput("design: the covariance of the earlier run is not finite");
+  const math::SymmetricEigen axes = math::symmetric_eigen(unit.asDiagonal() * known.covariance * unit.asDiagonal());
+  if (!axes.values.allFinite()) throw InvalidInput("design: the covariance of the earlier run is not finite");
   Eigen::VectorXd variance = axes.values;
   for (double& v : variance) v = v <= 1e-14 ? 1.0 : std::max(v, 1e-12);
   const Eigen::MatrixXd scaled = sd_before.asDiagonal() * axes.vectors;
@@ -79,8 +76,7 @@ std::vector<Eigen::VectorXd> draw_persons(const std::vector<Unknown>& free,
   return persons;
 }
 
-std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
-                                     const std::vector<std::string>& wanted) {
+std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free, const std::vector<std::string>& wanted) {
   std::vector<Eigen::Index> targets;
   for (std::size_t j = 0; j < free.size(); ++j) {
     const std::string& label = free[j].label;
@@ -88,8 +84,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
     const std::string owner = label.substr(0, dot);
     const std::string parameter = label.substr(dot + 1);
     // A nuisance is free so that the others include its uncertainty; if named, it is a target, too.
-    const bool nuisance =
-        free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
+    const bool nuisance = free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
     for (const std::string& w : wanted) {
       if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
         targets.push_back(static_cast<Eigen::Index>(j));
@@ -98,18 +93,17 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free,
     }
   }
   for (const std::string& w : wanted) {
-    const bool known =
-        w == "all" || std::any_of(free.begin(), free.end(), [&](const auto& f) {
-          const std::size_t dot = f.label.find('.');
-          return f.label == w || f.label.substr(0, dot) == w || f.label.substr(dot + 1) == w;
-        });
+    const bool known = w == "all" || std::any_of(free.begin(), free.end(), [&](const auto& f) {
+                         const std::size_t dot = f.label.find('.');
+                         return f.label == w || f.label.substr(0, dot) == w || f.label.substr(dot + 1) == w;
+                       });
     if (known) continue;
     std::string names;
     for (const Unknown& f : free) names += (names.empty() ? "" : ", ") + f.label;
-    throw InvalidInput(fmt::format(
-        "target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
-        "{}",
-        w, names));
+    throw InvalidInput(
+        fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
+                    "{}",
+                    w, names));
   }
   return targets;
 }
@@ -120,8 +114,8 @@ const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier, cons
   const std::string owners = f.label.substr(0, dot);
   const std::string owner = owners.substr(0, owners.find('+'));
   for (const ParameterEstimate& e : earlier->estimates) {
-    if ((e.muscle == owner || e.muscle == owners) && e.parameter == f.field->name && e.ci_low &&
-        e.ci_high && std::isfinite(e.estimate))
+    if ((e.muscle == owner || e.muscle == owners) && e.parameter == f.field->name && e.ci_low && e.ci_high &&
+        std::isfinite(e.estimate))
       return &e;
   }
   return nullptr;
@@ -143,9 +137,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   if (found != nullptr) {
     // The run's own interval, which includes other routes, shrinks by the same ratio.
     const bool logarithmic = f.field->logarithmic;
-    const auto scaled = [&](double value) {
-      return logarithmic ? std::log(std::max(value, 1e-300)) : value;
-    };
+    const auto scaled = [&](double value) { return logarithmic ? std::log(std::max(value, 1e-300)) : value; };
     below = expectation.ratio * (scaled(found->estimate) - scaled(*found->ci_low));
     above = expectation.ratio * (scaled(*found->ci_high) - scaled(found->estimate));
   }
@@ -156,8 +148,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
   identification::VerdictContext context{.model_error = model_error};
-  const auto own = std::find_if(muscles.begin(), muscles.end(),
-                                [&](const auto& m) { return m.name == e.muscle; });
+  const auto own = std::find_if(muscles.begin(), muscles.end(), [&](const auto& m) { return m.name == e.muscle; });
   for (const identification::MuscleSetup& other : muscles) {
     if (own != muscles.end() && other.name != own->name && other.emg_channel == own->emg_channel)
       context.shares_electrode_with = other.name;

@@ -21,30 +21,25 @@ struct Knowledge {
   Eigen::MatrixXd precision;  ///< Inverse covariance.
 };
 
-/// Returns the priors. For the parameters that an earlier run fitted, its estimate and covariance
-/// replace them. A direction that the run left undetermined keeps its prior. Throws InvalidInput if
-/// the run's covariance is not finite.
+/// Returns the priors. For the parameters that an earlier run fitted, its estimate and covariance replace them. A
+/// direction that the run left undetermined keeps its prior. Throws InvalidInput if the run's covariance is not finite.
 [[nodiscard]] Knowledge knowledge_of(const std::vector<identification::Unknown>& free,
                                      const std::optional<EarlierRun>& earlier);
 
-/// Draws persons from the knowledge, within the bounds; the first is the mean. One seed gives the
-/// same persons.
-[[nodiscard]] std::vector<Eigen::VectorXd> draw_persons(
-    const std::vector<identification::Unknown>& free,
-    const Knowledge& known,
-    int count,
-    std::uint64_t seed);
+/// Draws persons from the knowledge, within the bounds; the first is the mean. One seed gives the same persons.
+[[nodiscard]] std::vector<Eigen::VectorXd> draw_persons(const std::vector<identification::Unknown>& free,
+                                                        const Knowledge& known,
+                                                        int count,
+                                                        std::uint64_t seed);
 
-/// Returns the indices of the parameters that `wanted` names: "all" (except the EMG gains), an
-/// owner ("BIC"), a parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for an
-/// unknown name.
+/// Returns the indices of the parameters that `wanted` names: "all" (except the EMG gains), an owner ("BIC"), a
+/// parameter, or both ("BIC.optimal_fiber_length"). Throws InvalidInput for an unknown name.
 [[nodiscard]] std::vector<Eigen::Index> targets_of(const std::vector<identification::Unknown>& free,
                                                    const std::vector<std::string>& wanted);
 
-/// Returns the run's row of an unknown (for tied ones, of the first owner) if the row has an
-/// interval; else nullptr.
-[[nodiscard]] const identification::ParameterEstimate* found_by(
-    const std::optional<EarlierRun>& earlier, const identification::Unknown& parameter);
+/// Returns the run's row of an unknown (for tied ones, of the first owner) if the row has an interval; else nullptr.
+[[nodiscard]] const identification::ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier,
+                                                                const identification::Unknown& parameter);
 
 /// The expected knowledge of a number, from which its verdict follows.
 struct Expectation {

@@ -25,8 +25,7 @@ std::vector<Unknown> three() {
     return f;
   };
   return {of("BIC", "max_isometric_force", std::log(1000.0), 0.25),
-          of("BRA", "max_isometric_force", std::log(800.0), 0.25),
-          of("BIC", "optimal_fiber_length", 0.12, 0.0)};
+          of("BRA", "max_isometric_force", std::log(800.0), 0.25), of("BIC", "optimal_fiber_length", 0.12, 0.0)};
 }
 
 TEST(DesignKnowledge, WithoutARunItIsThePriorsAndAQuarterOfTheBoundsWhereThereIsNone) {
@@ -86,13 +85,9 @@ TEST(DesignKnowledge, AnIntervalOfARunNarrowsOnItsOwnScale) {
   run->estimates = {row};
   ASSERT_EQ(found_by(run, free[0]), &run->estimates[0]);
   EXPECT_EQ(found_by(run, free[1]), nullptr);
-  const identification::ParameterEstimate half = expected_estimate(free[0],
-                                                                   {.mean = std::log(1000.0),
-                                                                    .sd = 0.1,
-                                                                    .prior_sd = 0.25,
-                                                                    .found = found_by(run, free[0]),
-                                                                    .ratio = 0.5},
-                                                                   {});
+  const identification::ParameterEstimate half = expected_estimate(
+      free[0], {.mean = std::log(1000.0), .sd = 0.1, .prior_sd = 0.25, .found = found_by(run, free[0]), .ratio = 0.5},
+      {});
   // Half of a factor of two to either side is a factor of the square root of two.
   EXPECT_NEAR(*half.ci_low, 1000.0 / std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(*half.ci_high, 1000.0 * std::sqrt(2.0), 1e-6);

@@ -5,9 +5,7 @@
 namespace myoid {
 namespace {
 
-identification::ParameterEstimate estimate(double value,
-                                           double half,
-                                           identification::Verdict verdict) {
+identification::ParameterEstimate estimate(double value, double half, identification::Verdict verdict) {
   identification::ParameterEstimate e;
   e.muscle = "BIC";
   e.parameter = "max_isometric_force";

@@ -37,16 +37,14 @@ struct Noise {
   double torque_sd_nm = 0.0, emg_cv = 0.0;
 };
 
-/// Returns the earlier run's noise if it stems from a recording, not from simulated data; else the
-/// options' noise.
+/// Returns the earlier run's noise if it stems from a recording, not from simulated data; else the options' noise.
 Noise noise_of(const DesignStudyOptions& options) {
   if (options.earlier && options.earlier->torque_sd_nm > 1e-3)
     return {.torque_sd_nm = options.earlier->torque_sd_nm, .emg_cv = options.earlier->emg_cv};
   return {.torque_sd_nm = options.torque_sd_nm, .emg_cv = options.emg_cv};
 }
 
-/// Returns J' W J nu of one trial at the truth, with the estimator's weights and effective number
-/// of samples.
+/// Returns J' W J nu of one trial at the truth, with the estimator's weights and effective number of samples.
 Eigen::MatrixXd information_of(const StudyData& data,
                                const EstimatorOptions& torque,
                                const Eigen::VectorXd& z,
@@ -77,15 +75,12 @@ EstimatorOptions estimator_of(const Study& study, const StudyData& data, double 
   torque.max_rate_hz = 25.0;
   torque.estimator = study.identify.estimator;
   torque.unseen = study.beliefs;
-  for (const identification::MuscleSetup& m : data.muscles)
-    torque.gain_prior_sd[m.emg_channel] = gain_sd;
+  for (const identification::MuscleSetup& m : data.muscles) torque.gain_prior_sd[m.emg_channel] = gain_sd;
   return torque;
 }
 
 /// Returns the movements that the study's equipment allows.
-std::vector<Movement> catalogue_of(const Study& study,
-                                   const model::BodyModel& model,
-                                   CatalogueOptions options) {
+std::vector<Movement> catalogue_of(const Study& study, const model::BodyModel& model, CatalogueOptions options) {
   const model::Coordinate& coordinate =
       model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
   options.coordinate = coordinate.name;
@@ -108,24 +103,20 @@ std::vector<MovementCourse> courses_of(const Study& study,
 }
 
 /// Returns person k with these numbers.
-MovementPerson person_of(const identification::ModelValues& values,
-                         std::size_t k,
-                         std::uint64_t seed) {
+MovementPerson person_of(const identification::ModelValues& values, std::size_t k, std::uint64_t seed) {
   MovementPerson person;
   person.muscles = values.muscles;
-  if (!values.channels.empty())
-    person.emg_delay_s = values.channels.front()[identification::kDelay];
+  if (!values.channels.empty()) person.emg_delay_s = values.channels.front()[identification::kDelay];
   person.seed = math::seed_for(seed, fmt::format("person {}", k));
   return person;
 }
 
 /// Returns the estimator's parameters, from the first movement within the strength of a person with
 /// the starting values; empty if there is none.
-std::optional<identification::ParameterMap> parameters_of(
-    const StudyData& muscles,
-    const EstimatorOptions& torque,
-    const std::vector<MovementCourse>& courses,
-    std::uint64_t seed) {
+std::optional<identification::ParameterMap> parameters_of(const StudyData& muscles,
+                                                          const EstimatorOptions& torque,
+                                                          const std::vector<MovementCourse>& courses,
+                                                          std::uint64_t seed) {
   identification::ModelValues start;
   for (const identification::MuscleSetup& m : muscles.muscles)
     start.muscles.push_back(identification::muscle_values(m.start, m.extras));
@@ -140,14 +131,12 @@ std::optional<identification::ParameterMap> parameters_of(
 }
 
 /// Returns the information of the trial of person k, who has the numbers z in the solver's scale.
-using Information =
-    std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z, std::size_t k)>;
+using Information = std::function<Eigen::MatrixXd(const TrialData& trial, const Eigen::VectorXd& z, std::size_t k)>;
 
 /// Returns true if the earlier run is by the posterior.
 bool has_shares(const std::optional<EarlierRun>& earlier) {
-  return earlier &&
-         std::any_of(earlier->estimates.begin(), earlier->estimates.end(),
-                     [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
+  return earlier && std::any_of(earlier->estimates.begin(), earlier->estimates.end(),
+                                [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
 }
 
 /// Returns the errors for a plan by the posterior: the earlier run's; else the options' noise, and
@@ -164,8 +153,7 @@ PlannedErrors planned_errors(const DesignStudyOptions& options, const EstimatorO
   const identification::EnvelopeError plain(torque.envelope_cutoff_hz, {});
   const Eigen::VectorXd frequency = plain.frequencies_hz();
   double below = 0.0;
-  for (Eigen::Index i = 0; i < frequency.size() && frequency[i] < 2.0; ++i)
-    below += plain.spectrum()[i];
+  for (Eigen::Index i = 0; i < frequency.size() && frequency[i] < 2.0; ++i) below += plain.spectrum()[i];
   errors.emg_factor /= std::sqrt(below);
   return errors;
 }
@@ -188,8 +176,7 @@ Performance performance_of(const MovementCourse& course,
   result.information.duration_s = course.movement.duration_s;
   std::vector<std::optional<TrialData>> trials;
   for (std::size_t k = 0; k < persons.size(); ++k) {
-    trials.push_back(
-        perform(course, muscles.muscles, person_of(parameters.values(persons[k]), k, seed)));
+    trials.push_back(perform(course, muscles.muscles, person_of(parameters.values(persons[k]), k, seed)));
     Eigen::MatrixXd& information = result.information.per_person.emplace_back();
     if (trials.back()) information = information_in(*trials.back(), persons[k], k);
   }
@@ -204,8 +191,7 @@ std::vector<TrialData> session_of(const std::vector<MovementCourse>& courses,
                                   std::uint64_t seed) {
   std::vector<TrialData> session;
   for (const MovementCourse& course : courses) {
-    if (auto trial = perform(course, muscles.muscles, person_of(values, 0, seed)))
-      session.push_back(std::move(*trial));
+    if (auto trial = perform(course, muscles.muscles, person_of(values, 0, seed))) session.push_back(std::move(*trial));
   }
   return session;
 }
@@ -232,14 +218,11 @@ Teller teller_of(const StudyData& muscles,
   // Moment arms, tendons and scales are the same as in an earlier run, so a further recording does
   // not narrow their part of the intervals.
   const auto posterior = std::make_shared<const PosteriorInformation>(
-      muscles, session_of(courses, muscles, start, options.seed), torque,
-      planned_errors(options, torque),
+      muscles, session_of(courses, muscles, start, options.seed), torque, planned_errors(options, torque),
       has_shares(options.earlier) ? identification::Believed::geometry_and_sensors_exact
                                   : identification::Believed::nothing_exact);
-  return {[posterior, seed = options.seed](const TrialData& trial, const Eigen::VectorXd& z,
-                                           std::size_t k) {
-            return posterior->of(trial, z,
-                                 math::seed_for(seed, fmt::format("{} {}", k, trial.name)));
+  return {[posterior, seed = options.seed](const TrialData& trial, const Eigen::VectorXd& z, std::size_t k) {
+            return posterior->of(trial, z, math::seed_for(seed, fmt::format("{} {}", k, trial.name)));
           },
           posterior->quantities()};
 }
@@ -254,8 +237,7 @@ identification::DesignProblem problem_of(const std::vector<Unknown>& free,
   problem.parameters.insert(problem.parameters.end(), quantities.begin(), quantities.end());
   const auto size = static_cast<Eigen::Index>(problem.parameters.size());
   problem.prior_precision.setIdentity(size, size);
-  problem.prior_precision.topLeftCorner(known.precision.rows(), known.precision.cols()) =
-      known.precision;
+  problem.prior_precision.topLeftCorner(known.precision.rows(), known.precision.cols()) = known.precision;
   problem.targets = targets_of(free, targets);
   return problem;
 }
@@ -274,16 +256,15 @@ struct Expected {
     std::vector<ParameterEstimate> estimates;
     for (const Eigen::Index j : targets) {
       const Unknown& f = free[static_cast<std::size_t>(j)];
-      estimates.push_back(expected_estimate(
-          f,
-          {.mean = known.mean[j],
-           .sd = sd[j],
-           .prior_sd =
-               f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
-           .model_error = earlier ? earlier->model_error : 0.0,
-           .found = found_by(earlier, f),
-           .ratio = ratio(j, sd)},
-          muscles));
+      estimates.push_back(
+          expected_estimate(f,
+                            {.mean = known.mean[j],
+                             .sd = sd[j],
+                             .prior_sd = f.prior.sd > 0.0 ? identification::prior_spread(f, strength_sd) : prior_sd[j],
+                             .model_error = earlier ? earlier->model_error : 0.0,
+                             .found = found_by(earlier, f),
+                             .ratio = ratio(j, sd)},
+                            muscles));
     }
     return estimates;
   }
@@ -307,8 +288,7 @@ struct Expected {
   [[nodiscard]] std::vector<ParameterEstimate> beforehand() const {
     std::vector<ParameterEstimate> estimates = with(prior_sd);
     for (std::size_t t = 0; t < targets.size(); ++t) {
-      const ParameterEstimate* found =
-          found_by(earlier, free[static_cast<std::size_t>(targets[t])]);
+      const ParameterEstimate* found = found_by(earlier, free[static_cast<std::size_t>(targets[t])]);
       if (found == nullptr) continue;
       estimates[t].verdict = found->verdict;
       estimates[t].reason = found->reason;
@@ -323,8 +303,7 @@ double relative_half_width(const ParameterEstimate& estimate) {
   const double half = identification::half_width(estimate);
   if (estimate.parameter == "emg_delay") return 1e3 * half;
   const bool zero = identification::zero_by_nature(estimate.parameter) && estimate.prior_sd;
-  return 100.0 * half /
-         (zero ? math::normal_quantile(0.975) * *estimate.prior_sd : std::abs(estimate.estimate));
+  return 100.0 * half / (zero ? math::normal_quantile(0.975) * *estimate.prior_sd : std::abs(estimate.estimate));
 }
 
 int identified_count(const std::vector<ParameterEstimate>& estimates) {
@@ -336,8 +315,7 @@ int identified_count(const std::vector<ParameterEstimate>& estimates) {
 double median_half_width(const std::vector<ParameterEstimate>& estimates) {
   std::vector<double> widths;
   for (const ParameterEstimate& e : estimates) {
-    const bool of_value =
-        e.parameter != "emg_delay" && !identification::zero_by_nature(e.parameter);
+    const bool of_value = e.parameter != "emg_delay" && !identification::zero_by_nature(e.parameter);
     if (of_value || estimates.size() == 1) widths.push_back(relative_half_width(e));
   }
   if (widths.empty()) return 0.0;
@@ -350,9 +328,7 @@ DesignStudyResult design_study(const Study& study, const DesignStudyOptions& opt
   return design_study(study, load_model(study), options);
 }
 
-DesignStudyResult design_study(const Study& study,
-                               const model::BodyModel& model,
-                               const DesignStudyOptions& options) {
+DesignStudyResult design_study(const Study& study, const model::BodyModel& model, const DesignStudyOptions& options) {
   const StudyData data = muscles_of(study, model);
   const EstimatorOptions torque = estimator_of(study, data, options.gain_sd);
   const std::vector<Movement> movements = catalogue_of(study, model, options.catalogue);
@@ -370,21 +346,18 @@ DesignStudyResult design_study(const Study& study,
   Knowledge known = knowledge_of(free, options.earlier);
   const bool by_posterior = torque.estimator == identification::EstimatorKind::posterior;
   if (by_posterior && !options.earlier) join_strengths(free, torque.unseen.strength, known);
-  const std::vector<Eigen::VectorXd> persons =
-      draw_persons(free, known, options.persons, options.seed);
+  const std::vector<Eigen::VectorXd> persons = draw_persons(free, known, options.persons, options.seed);
 
   options.progress.tell(0.2, "information");
   const Teller teller = teller_of(data, torque, courses, parameters->values(known.mean), options);
-  identification::DesignProblem problem =
-      problem_of(free, known, teller.quantities, options.targets);
+  identification::DesignProblem problem = problem_of(free, known, teller.quantities, options.targets);
   problem.catalogue.resize(movements.size());
   std::vector<Effort> efforts(movements.size());
   const muscle::FatigueRates<double> rates = muscle::published_fatigue_rates("elbow_rest");
   std::vector<char> tiring(movements.size(), 0);
   oneapi::tbb::parallel_for(std::size_t{0}, movements.size(), [&](std::size_t i) {
     options.progress.check();
-    Performance performance =
-        performance_of(courses[i], data, *parameters, persons, options.seed, teller.information);
+    Performance performance = performance_of(courses[i], data, *parameters, persons, options.seed, teller.information);
     tiring[i] = fatigued_share(performance.effort, rates) > options.fatigued_share ? 1 : 0;
     if (tiring[i] != 0) {
       for (Eigen::MatrixXd& m : performance.information.per_person) m.resize(0, 0);
@@ -394,18 +367,13 @@ DesignStudyResult design_study(const Study& study,
   });
 
   options.progress.tell(0.6, "choice");
-  const identification::DesignResult choice =
-      identification::choose_movements(problem, options.choice);
+  const identification::DesignResult choice = identification::choose_movements(problem, options.choice);
   result.too_tiring = static_cast<std::size_t>(std::accumulate(tiring.begin(), tiring.end(), 0));
   result.too_hard = choice.infeasible.size() - result.too_tiring;
   result.exchanges = choice.exchanges;
-  const Expected expected{free,
-                          known,
-                          problem.targets,
-                          choice.prior_sd,
-                          by_posterior ? torque.unseen.strength : 0.0,
-                          data.muscles,
-                          options.earlier};
+  const Expected expected{
+      free,         known,          problem.targets, choice.prior_sd, by_posterior ? torque.unseen.strength : 0.0,
+      data.muscles, options.earlier};
   result.beforehand = expected.beforehand();
   std::vector<const Effort*> chosen;
   for (const identification::DesignStep& step : choice.steps) {

@@ -40,12 +40,9 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
   const auto setups = muscle_setups(study, load_model(study));
   const MovementPerson person = typical(setups);
   for (const bool horizontal : {false, true}) {
-    const MovementCourse course = movement_course(study, movement_models(study, load_model(study)),
-                                                  {.horizontal = horizontal,
-                                                   .held_mass_kg = 1.0,
-                                                   .lowest_rad = 0.5,
-                                                   .highest_rad = 2.0,
-                                                   .frequency_hz = 0.6});
+    const MovementCourse course = movement_course(
+        study, movement_models(study, load_model(study)),
+        {.horizontal = horizontal, .held_mass_kg = 1.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.6});
     const auto trial = perform(course, setups, person);
     ASSERT_TRUE(trial);
     const Eigen::Index lead = course.time_s.size() - trial->time_s.size();
@@ -57,12 +54,10 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
         const double a = trial->activation.values()(lead + i, k);
         EXPECT_GE(a, person.co_contraction);
         torque += trial->moment_arm_m(i, k) *
-                  muscle::hill_force(a, trial->length_m(i, k) - p.tendon_slack_length_m,
-                                     trial->velocity_mps(i, k), p);
+                  muscle::hill_force(a, trial->length_m(i, k) - p.tendon_slack_length_m, trial->velocity_mps(i, k), p);
       }
       EXPECT_NEAR(torque, course.required_torque_nm[lead + i], 1e-9);
-      EXPECT_NEAR(trial->activation.time_s()[lead + i], trial->time_s[i] - person.emg_delay_s,
-                  1e-12);
+      EXPECT_NEAR(trial->activation.time_s()[lead + i], trial->time_s[i] - person.emg_delay_s, 1e-12);
     }
   }
 }
@@ -70,42 +65,39 @@ TEST(Movement, TheMusclesOfAPerformanceExertTheTorqueThatTheMotionRequires) {
 TEST(Movement, WhatIsTooHeavyCannotBePerformed) {
   const Study study = planned_study();
   const auto setups = muscle_setups(study, load_model(study));
-  const MovementCourse course = movement_course(
-      study, movement_models(study, load_model(study)),
-      {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
+  const MovementCourse course =
+      movement_course(study, movement_models(study, load_model(study)),
+                      {.held_mass_kg = 30.0, .lowest_rad = 0.5, .highest_rad = 2.0, .frequency_hz = 0.5});
   EXPECT_FALSE(perform(course, setups, typical(setups)));
 }
 
 TEST(Movement, AnIsokineticMovementKeepsItsSpeedOverMostOfTheRange) {
-  const MovementCourse course = movement_course(
-      planned_study(), movement_models(planned_study(), load_model(planned_study())),
-      {.kind = MovementKind::isokinetic,
-       .lowest_rad = 0.3,
-       .highest_rad = 2.1,
-       .speed_radps = 1.0,
-       .level = 0.5,
-       .duration_s = 8.0});
+  const MovementCourse course =
+      movement_course(planned_study(), movement_models(planned_study(), load_model(planned_study())),
+                      {.kind = MovementKind::isokinetic,
+                       .lowest_rad = 0.3,
+                       .highest_rad = 2.1,
+                       .speed_radps = 1.0,
+                       .level = 0.5,
+                       .duration_s = 8.0});
   // The speed shows in the brachialis: dl/dt = -r dq/dt.
   int steady = 0;
   for (Eigen::Index i = 0; i < course.time_s.size(); ++i) {
-    const double speed =
-        std::abs(course.muscles.velocity_mps(i, 1) / course.muscles.moment_arm_m(i, 1));
+    const double speed = std::abs(course.muscles.velocity_mps(i, 1) / course.muscles.moment_arm_m(i, 1));
     steady += std::abs(speed - 1.0) < 0.15 ? 1 : 0;
   }
   EXPECT_GT(steady, static_cast<int>(0.75 * static_cast<double>(course.time_s.size())));
 }
 
 /// The plan as a person performs it, without noise.
-std::vector<identification::TrialData> performed(
-    const Study& study,
-    const DesignStudyResult& design,
-    const std::vector<identification::MuscleSetup>& muscles,
-    const MovementPerson& person) {
+std::vector<identification::TrialData> performed(const Study& study,
+                                                 const DesignStudyResult& design,
+                                                 const std::vector<identification::MuscleSetup>& muscles,
+                                                 const MovementPerson& person) {
   std::vector<identification::TrialData> trials;
   for (const PlannedMovement& planned : design.plan)
     trials.push_back(
-        perform(movement_course(study, movement_models(study, load_model(study)), planned.movement),
-                muscles, person)
+        perform(movement_course(study, movement_models(study, load_model(study)), planned.movement), muscles, person)
             .value());
   return trials;
 }
@@ -125,14 +117,12 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
   data.muscles = muscle_setups(study, load_model(study));
   identification::free_speeds(data, identification::unstated_speeds(data));
   // The plan is about muscles whose tendons are known.
-  for (identification::MuscleSetup& muscle : data.muscles)
-    muscle.fixed.emplace_back("tendon_slack_length");
+  for (identification::MuscleSetup& muscle : data.muscles) muscle.fixed.emplace_back("tendon_slack_length");
   const MovementPerson person = typical(data.muscles);
   constexpr double kRate_hz = 50.0;
   const double above_2_hz = std::sqrt(2.0 * 2.0 / kRate_hz);  // of white noise stays below
   const auto envelope_filter = math::design_butterworth(
-      math::FilterBand::low_pass, 2,
-      math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 3.0, kRate_hz), kRate_hz);
+      math::FilterBand::low_pass, 2, math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 3.0, kRate_hz), kRate_hz);
   double square = 0.0;
   double expected_square = 0.0;
   int count = 0;
@@ -144,8 +134,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
       // The envelope's noise reaches up to 3 Hz, as after a filter.
       Eigen::MatrixXd noisy = trial.activation.values();
       for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
-        const Eigen::VectorXd noise =
-            math::zero_phase(envelope_filter, random.normals(noisy.rows()));
+        const Eigen::VectorXd noise = math::zero_phase(envelope_filter, random.normals(noisy.rows()));
         noisy.col(c).array() *= 1.0 + options.emg_cv / above_2_hz * noise.array();
       }
       trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), noisy);
@@ -176,9 +165,7 @@ TEST(DesignStudy, ItsExpectedSpreadIsTheSpreadThatIdentificationHas) {
 
 /// The trial with a torque error of this size that another takes the place of after 0.3 s, and the
 /// noise of EMG of 150 Hz behind a low-pass of 6 Hz.
-identification::TrialData recorded(identification::TrialData trial,
-                                   double torque_sd_nm,
-                                   math::Random& random) {
+identification::TrialData recorded(identification::TrialData trial, double torque_sd_nm, math::Random& random) {
   constexpr double kRate_hz = 50.0;
   const double kept = std::exp(-1.0 / (0.3 * kRate_hz));
   const Eigen::VectorXd steps = random.normals(trial.torque_nm.size());
@@ -188,8 +175,7 @@ identification::TrialData recorded(identification::TrialData trial,
     trial.torque_nm[i] += torque_sd_nm * error;
   }
   const auto filter = math::design_butterworth(
-      math::FilterBand::low_pass, 2,
-      math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz), kRate_hz);
+      math::FilterBand::low_pass, 2, math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz), kRate_hz);
   Eigen::MatrixXd noisy = trial.activation.values();
   for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
     const Eigen::VectorXd noise = math::zero_phase(filter, random.normals(noisy.rows()));
@@ -231,13 +217,12 @@ TEST(DesignStudy, ByThePosteriorItExpectsTheIntervalsThatPosteriorsOfRecordingsH
     for (const auto& e : found.estimates) {
       for (const auto& expected : design.plan.back().expected) {
         if (e.muscle == expected.muscle && e.parameter == expected.parameter)
-          ratios[e.parameter].push_back((*e.std_error / e.estimate) /
-                                        (*expected.std_error / expected.estimate));
+          ratios[e.parameter].push_back((*e.std_error / e.estimate) / (*expected.std_error / expected.estimate));
       }
     }
   }
-  for (const char* name : {"max_isometric_force", "optimal_fiber_length", "force_length_width",
-                           "concentric_curvature"}) {
+  for (const char* name :
+       {"max_isometric_force", "optimal_fiber_length", "force_length_width", "concentric_curvature"}) {
     double sum = 0.0;
     for (const double ratio : ratios[name]) sum += std::log(ratio);
     ASSERT_EQ(ratios[name].size(), 12U);

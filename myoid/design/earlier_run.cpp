@@ -36,14 +36,11 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       run.estimate.setConstant(p, std::nan(""));
       for (Eigen::Index a = 0; a < p; ++a) {
         for (Eigen::Index b = 0; b < p; ++b)
-          run.covariance(a, b) =
-              rows.at(static_cast<std::size_t>(a)).at(static_cast<std::size_t>(b));
+          run.covariance(a, b) = rows.at(static_cast<std::size_t>(a)).at(static_cast<std::size_t>(b));
       }
       for (const nlohmann::json& e : method.at("estimates")) {
-        const std::string label =
-            e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
-        if (auto row = identification::estimate_of_json(e))
-          run.estimates.push_back(std::move(*row));
+        const std::string label = e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
+        if (auto row = identification::estimate_of_json(e)) run.estimates.push_back(std::move(*row));
         const auto it = std::find(run.parameters.begin(), run.parameters.end(), label);
         if (it == run.parameters.end()) continue;
         run.estimate[it - run.parameters.begin()] = e.at("estimate").get<double>();
@@ -55,25 +52,22 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       return run;
     }
   } catch (const nlohmann::json::exception& error) {
-    throw ReadError(
-        file, 0,
-        fmt::format("is not what `myoid run` writes ({}); run the study again", error.what()));
+    throw ReadError(file, 0, fmt::format("is not what `myoid run` writes ({}); run the study again", error.what()));
   }
   throw ReadError(file, 0, "holds no fit by method torque; run the study with method = \"torque\"");
 }
 
 EarlierRun earlier_run(const identification::IdentificationResult& fit) {
-  EarlierRun run{.parameters = fit.free_parameters,
-                 .estimate = Eigen::VectorXd::Constant(
-                     static_cast<Eigen::Index>(fit.free_parameters.size()), std::nan("")),
-                 .covariance = fit.covariance,
-                 .torque_sd_nm = fit.torque_sd_nm,
-                 .emg_cv = fit.emg_cv,
-                 .model_error = fit.model_error,
-                 .estimates = fit.estimates};
+  EarlierRun run{
+      .parameters = fit.free_parameters,
+      .estimate = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(fit.free_parameters.size()), std::nan("")),
+      .covariance = fit.covariance,
+      .torque_sd_nm = fit.torque_sd_nm,
+      .emg_cv = fit.emg_cv,
+      .model_error = fit.model_error,
+      .estimates = fit.estimates};
   for (const ParameterEstimate& e : fit.estimates) {
-    const auto it =
-        std::find(run.parameters.begin(), run.parameters.end(), e.muscle + "." + e.parameter);
+    const auto it = std::find(run.parameters.begin(), run.parameters.end(), e.muscle + "." + e.parameter);
     if (it != run.parameters.end()) run.estimate[it - run.parameters.begin()] = e.estimate;
   }
   return run;

@@ -10,12 +10,11 @@
 
 namespace myoid {
 
-/// The results of a finished run (its parameters.json, method torque): the knowledge before the
-/// next recording.
+/// The results of a finished run (its parameters.json, method torque): the knowledge before the next recording.
 struct EarlierRun {
   std::vector<std::string> parameters;  ///< "BIC.max_isometric_force"
   Eigen::VectorXd estimate;             ///< SI.
-  Eigen::MatrixXd covariance;  ///< In the estimator's scale (logarithms where it uses them).
+  Eigen::MatrixXd covariance;           ///< In the estimator's scale (logarithms where it uses them).
   double torque_sd_nm = 0.0;
   double emg_cv = 0.0;
   /// IdentificationResult::model_error, which more recording does not reduce.
@@ -24,8 +23,7 @@ struct EarlierRun {
   std::vector<identification::ParameterEstimate> estimates;
 };
 
-/// Reads the results in a folder. Throws ReadError if the folder holds no parameters.json with a
-/// fit by method torque.
+/// Reads the results in a folder. Throws ReadError if the folder holds no parameters.json with a fit by method torque.
 [[nodiscard]] EarlierRun read_earlier_run(const std::filesystem::path& folder);
 
 /// Returns the results of a fit by method torque.

@@ -40,15 +40,13 @@ double angle_at(const Movement& m, double t) {
       // A triangular wave with its corners rounded: constant speed over most of the range.
       constexpr double kSharpness = 0.98;
       const double phase = kPi * m.speed_radps * t / (m.highest_rad - m.lowest_rad);
-      return centre +
-             half * std::asin(kSharpness * std::sin(phase - 0.5 * kPi)) / std::asin(kSharpness);
+      return centre + half * std::asin(kSharpness * std::sin(phase - 0.5 * kPi)) / std::asin(kSharpness);
     }
     case MovementKind::lowering: {
       constexpr double kRaise_s = 1.2;
       constexpr double kLower_s = 2.8;
       const double u = t - std::floor(t / (kRaise_s + kLower_s)) * (kRaise_s + kLower_s);
-      const double share =
-          u < kRaise_s ? smooth(u / kRaise_s) : 1.0 - smooth((u - kRaise_s) / kLower_s);
+      const double share = u < kRaise_s ? smooth(u / kRaise_s) : 1.0 - smooth((u - kRaise_s) / kLower_s);
       return m.lowest_rad + 2.0 * half * share;
     }
   }
@@ -78,9 +76,7 @@ std::string_view word(MovementKind kind) {
   return "?";
 }
 
-bool by_device(MovementKind kind) {
-  return kind == MovementKind::isometric || kind == MovementKind::isokinetic;
-}
+bool by_device(MovementKind kind) { return kind == MovementKind::isometric || kind == MovementKind::isokinetic; }
 
 /// Returns (x + sqrt(x^2 + e^2)) / 2 = p(x): positive, smooth, and p(x) - p(-x) = x.
 double positive_part(double x, double e) { return 0.5 * (x + std::sqrt(x * x + e * e)); }
@@ -89,8 +85,7 @@ double positive_part(double x, double e) { return 0.5 * (x + std::sqrt(x * x + e
 std::vector<std::string> channels_of(const std::vector<identification::MuscleSetup>& muscles) {
   std::vector<std::string> channels;
   for (const identification::MuscleSetup& m : muscles) {
-    if (std::find(channels.begin(), channels.end(), m.emg_channel) == channels.end())
-      channels.push_back(m.emg_channel);
+    if (std::find(channels.begin(), channels.end(), m.emg_channel) == channels.end()) channels.push_back(m.emg_channel);
   }
   return channels;
 }
@@ -114,22 +109,19 @@ struct Share {
 }  // namespace
 
 std::string Movement::description() const {
-  const std::string range =
-      kind == MovementKind::isometric
-          ? fmt::format("{:.0f} deg", degrees(lowest_rad))
-          : fmt::format("{:.0f}-{:.0f} deg", degrees(lowest_rad), degrees(highest_rad));
+  const std::string range = kind == MovementKind::isometric
+                                ? fmt::format("{:.0f} deg", degrees(lowest_rad))
+                                : fmt::format("{:.0f}-{:.0f} deg", degrees(lowest_rad), degrees(highest_rad));
   switch (kind) {
     case MovementKind::swing:
     case MovementKind::lowering:
       return fmt::format("{}{}, {}, {:g} kg, {}", word(kind),
-                         kind == MovementKind::swing ? fmt::format(" {:g} Hz", frequency_hz) : "",
-                         range, held_mass_kg, horizontal ? "horizontal" : "vertical");
+                         kind == MovementKind::swing ? fmt::format(" {:g} Hz", frequency_hz) : "", range, held_mass_kg,
+                         horizontal ? "horizontal" : "vertical");
     case MovementKind::isometric:
     case MovementKind::isokinetic:
       return fmt::format("{}{}, {}, {} effort to {:.0f} %", word(kind),
-                         kind == MovementKind::isokinetic
-                             ? fmt::format(" {:.0f} deg/s", degrees(speed_radps))
-                             : "",
+                         kind == MovementKind::isokinetic ? fmt::format(" {:.0f} deg/s", degrees(speed_radps)) : "",
                          range, direction, 100.0 * level);
   }
   return "?";
@@ -151,8 +143,7 @@ std::vector<Movement> free_movements(const UsedRange& range, const CatalogueOpti
     if (horizontal && !options.planes) continue;
     for (const double mass : options.held_masses_kg) {
       for (const double f : options.frequencies_hz) {
-        for (const auto& [from, to] :
-             {std::pair{low, high}, std::pair{low, middle}, std::pair{middle, high}}) {
+        for (const auto& [from, to] : {std::pair{low, high}, std::pair{low, middle}, std::pair{middle, high}}) {
           movements.push_back({.kind = MovementKind::swing,
                                .horizontal = horizontal,
                                .held_mass_kg = mass,
@@ -175,18 +166,14 @@ std::vector<Movement> free_movements(const UsedRange& range, const CatalogueOpti
   return movements;
 }
 
-/// Returns isometric contractions and, with a dynamometer, movements of constant speed, in one
-/// direction.
-std::vector<Movement> movements_on_device(bool positive,
-                                          const UsedRange& range,
-                                          const CatalogueOptions& options) {
+/// Returns isometric contractions and, with a dynamometer, movements of constant speed, in one direction.
+std::vector<Movement> movements_on_device(bool positive, const UsedRange& range, const CatalogueOptions& options) {
   const double low = range.low_rad, high = range.high_rad;
   const std::string direction = direction_name(options.coordinate, positive);
   std::vector<Movement> movements;
   for (const double level : options.isometric_levels) {
     for (int i = 0; i < options.angles; ++i) {
-      const double angle =
-          options.angles == 1 ? range.middle_rad() : low + (high - low) * i / (options.angles - 1);
+      const double angle = options.angles == 1 ? range.middle_rad() : low + (high - low) * i / (options.angles - 1);
       movements.push_back({.kind = MovementKind::isometric,
                            .lowest_rad = angle,
                            .highest_rad = angle,
@@ -212,26 +199,22 @@ std::vector<Movement> movements_on_device(bool positive,
 
 }  // namespace
 
-std::vector<Movement> movement_catalogue(double lowest_rad,
-                                         double highest_rad,
-                                         const CatalogueOptions& options) {
+std::vector<Movement> movement_catalogue(double lowest_rad, double highest_rad, const CatalogueOptions& options) {
   if (!(highest_rad > lowest_rad))
-    throw InvalidInput(fmt::format("design: the joint's range is {} to {} rad: nothing can move",
-                                   lowest_rad, highest_rad));
+    throw InvalidInput(
+        fmt::format("design: the joint's range is {} to {} rad: nothing can move", lowest_rad, highest_rad));
   const double margin = 0.1 * (highest_rad - lowest_rad);
   const UsedRange range{.low_rad = lowest_rad + margin, .high_rad = highest_rad - margin};
   std::vector<Movement> catalogue = free_movements(range, options);
   for (const bool positive : {true, false}) {
-    for (Movement& movement : movements_on_device(positive, range, options))
-      catalogue.push_back(std::move(movement));
+    for (Movement& movement : movements_on_device(positive, range, options)) catalogue.push_back(std::move(movement));
   }
   return catalogue;
 }
 
 std::string direction_name(const std::string& coordinate, bool positive) {
   const bool extends = coordinate.find("extension") != std::string::npos;
-  if (extends || coordinate.find("flex") != std::string::npos)
-    return positive != extends ? "flexion" : "extension";
+  if (extends || coordinate.find("flex") != std::string::npos) return positive != extends ? "flexion" : "extension";
   return positive ? "positive" : "negative";
 }
 
@@ -252,14 +235,11 @@ MovementModels movement_models(const Study& study, const model::BodyModel& given
   return {.vertical = in_plane(false), .horizontal = in_plane(true)};
 }
 
-MovementCourse movement_course(const Study& study,
-                               const MovementModels& models,
-                               const Movement& movement) {
+MovementCourse movement_course(const Study& study, const MovementModels& models, const Movement& movement) {
   model::BodyModel model = movement.horizontal ? models.horizontal : models.vertical;
   if (movement.held_mass_kg > 0.0) {
     const HeldMassSpec held = held_mass_place(study);
-    model =
-        dynamics::with_held_mass(std::move(model), held.body, held.p_BP_m, movement.held_mass_kg);
+    model = dynamics::with_held_mass(std::move(model), held.body, held.p_BP_m, movement.held_mass_kg);
   }
   MovementCourse course;
   course.movement = movement;
@@ -268,19 +248,18 @@ MovementCourse movement_course(const Study& study,
   Eigen::MatrixXd angle(n, 1);
   for (Eigen::Index i = 0; i < n; ++i) angle(i, 0) = angle_at(movement, course.time_s[i]);
   const kinematics::JointMotion motion =
-      kinematics::joint_motion(
-          model, TimeSeries(course.time_s, {{study.model.coordinate, Unit::radian}}, angle))
+      kinematics::joint_motion(model, TimeSeries(course.time_s, {{study.model.coordinate, Unit::radian}}, angle))
           .motion;
-  course.muscles = kinematics::lumped_muscles(kinematics::muscle_kinematics(model, motion),
-                                              muscle_groups(study, model), study.model.coordinate);
+  course.muscles = kinematics::lumped_muscles(kinematics::muscle_kinematics(model, motion), muscle_groups(study, model),
+                                              study.model.coordinate);
   if (by_device(movement.kind)) {
     course.effort.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) course.effort[i] = effort_at(movement, course.time_s[i]);
   } else {
     const auto& coordinate =
         model.coordinates[static_cast<std::size_t>(model.coordinate_index(study.model.coordinate))];
-    course.required_torque_nm = dynamics::inverse_dynamics(model, motion)
-                                    .column(dynamics::generalized_force_name(coordinate));
+    course.required_torque_nm =
+        dynamics::inverse_dynamics(model, motion).column(dynamics::generalized_force_name(coordinate));
   }
   return course;
 }
@@ -312,10 +291,10 @@ std::vector<double> capacities(const MovementCourse& course,
   for (std::size_t muscle = 0; muscle < channel_of.size(); ++muscle) {
     const auto k = static_cast<Eigen::Index>(muscle);
     capacity_nm[channel_of[muscle]] +=
-        course.muscles.moment_arm_m(i, k) *
-        identification::tension(1.0, course.muscles.length_m(i, k),
-                                course.muscles.velocity_mps(i, k), person.muscles[muscle])
-            .force_n;
+        course.muscles.moment_arm_m(i, k) * identification::tension(1.0, course.muscles.length_m(i, k),
+                                                                    course.muscles.velocity_mps(i, k),
+                                                                    person.muscles[muscle])
+                                                .force_n;
   }
   return capacity_nm;
 }
@@ -339,23 +318,18 @@ Demand demand_of(const MovementCourse& course,
 }
 
 /// Returns the activation of channel c at sample i that meets the demand.
-double activation_of(const Demand& d,
-                     std::size_t c,
-                     const MovementCourse& course,
-                     const MovementPerson& person,
-                     Eigen::Index i) {
+double activation_of(
+    const Demand& d, std::size_t c, const MovementCourse& course, const MovementPerson& person, Eigen::Index i) {
   const double capacity = d.capacity_nm[c];
   double a = person.co_contraction;
   if (course.effort.size() > 0) {
     if (is_agonist(capacity, course)) {
-      a += (course.movement.level - person.co_contraction) * course.effort[i] * d.share[c] /
-           d.most_share;
+      a += (course.movement.level - person.co_contraction) * course.effort[i] * d.share[c] / d.most_share;
     }
     return a;
   }
   const double smoothness = d.up > 0.0 && d.down > 0.0 ? 0.01 * d.total_nm : 0.0;
-  const double pull =
-      capacity > 0.0 ? positive_part(d.rest_nm, smoothness) : positive_part(-d.rest_nm, smoothness);
+  const double pull = capacity > 0.0 ? positive_part(d.rest_nm, smoothness) : positive_part(-d.rest_nm, smoothness);
   const double power = capacity > 0.0 ? d.up : d.down;
   if (power > 0.0) a += d.share[c] * d.share[c] * std::abs(capacity) * pull / power;
   return a;
@@ -386,16 +360,15 @@ identification::TrialData recorded_trial(const MovementCourse& course,
 
 }  // namespace
 
-std::optional<identification::TrialData> perform(
-    const MovementCourse& course,
-    const std::vector<identification::MuscleSetup>& muscles,
-    const MovementPerson& person) {
+std::optional<identification::TrialData> perform(const MovementCourse& course,
+                                                 const std::vector<identification::MuscleSetup>& muscles,
+                                                 const MovementPerson& person) {
   const Eigen::Index n = course.time_s.size();
   const std::vector<std::string> channels = channels_of(muscles);
   std::vector<std::size_t> channel_of;
   for (const identification::MuscleSetup& setup : muscles) {
-    channel_of.push_back(static_cast<std::size_t>(
-        std::find(channels.begin(), channels.end(), setup.emg_channel) - channels.begin()));
+    channel_of.push_back(
+        static_cast<std::size_t>(std::find(channels.begin(), channels.end(), setup.emg_channel) - channels.begin()));
   }
   std::vector<Share> shares;
   const std::string description = course.movement.description();
@@ -407,8 +380,7 @@ std::optional<identification::TrialData> perform(
     std::vector<double> share;
     for (const Share& of : shares) share.push_back(of(course.time_s[i]));
     const Demand demand =
-        demand_of(course, person, capacities(course, person, channel_of, channels.size(), i),
-                  std::move(share), i);
+        demand_of(course, person, capacities(course, person, channel_of, channels.size(), i), std::move(share), i);
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const double a = activation_of(demand, c, course, person, i);
       if (!(a <= person.most_activation + 1e-12)) return std::nullopt;

@@ -50,26 +50,23 @@ struct CatalogueOptions {
   std::string coordinate;   ///< Names the directions of effort.
 };
 
-/// Returns all combinations over the coordinate's range [rad] without a tenth at each end: swings
-/// over the whole and over either half, lowerings, isometric and isokinetic efforts in both
-/// directions.
+/// Returns all combinations over the coordinate's range [rad] without a tenth at each end: swings over the whole and
+/// over either half, lowerings, isometric and isokinetic efforts in both directions.
 [[nodiscard]] std::vector<Movement> movement_catalogue(double lowest_rad,
                                                        double highest_rad,
                                                        const CatalogueOptions& options = {});
 
-/// Returns "flexion" or "extension" if the coordinate's name says so, else "positive" or
-/// "negative".
+/// Returns "flexion" or "extension" if the coordinate's name says so, else "positive" or "negative".
 [[nodiscard]] std::string direction_name(const std::string& coordinate, bool positive);
 
 /// The part of a movement that is the same for every person, on a clock that begins before the
 /// trial because of the EMG's delay.
 struct MovementCourse {
   Movement movement;
-  Eigen::VectorXd time_s;             ///< From -0.4 s; the trial begins at 0.
-  kinematics::LumpedMuscles muscles;  ///< Kinematics of the study's muscles.
-  Eigen::VectorXd
-      required_torque_nm;  ///< For swing, lowering; empty where a device measures the torque.
-  Eigen::VectorXd effort;  ///< Share of `level`, 0..1, for isometric, isokinetic; else empty.
+  Eigen::VectorXd time_s;              ///< From -0.4 s; the trial begins at 0.
+  kinematics::LumpedMuscles muscles;   ///< Kinematics of the study's muscles.
+  Eigen::VectorXd required_torque_nm;  ///< For swing, lowering; empty where a device measures the torque.
+  Eigen::VectorXd effort;              ///< Share of `level`, 0..1, for isometric, isokinetic; else empty.
 };
 
 /// The study's model (`given`) in both planes of movement, with only the study's muscles. The
@@ -90,18 +87,16 @@ struct MovementPerson {
   std::vector<identification::MuscleValues> muscles;  ///< In the study's order.
   double emg_delay_s = identification::beliefs::kEmgDelay.value;
   double co_contraction = 0.05;  ///< Least activation of every muscle.
-  double synergy = 0.35;  ///< Spread of ln(share of each EMG channel), over trials and within.
+  double synergy = 0.35;         ///< Spread of ln(share of each EMG channel), over trials and within.
   double most_activation = 0.8;
   std::uint64_t seed = 1;
 };
 
-/// Returns the trial as `person` would perform it, ready for an estimator. The torque is shared
-/// among the EMG channels with the least sum of squares of activations about person-specific,
-/// slowly changing proportions. Muscles of one channel act as one. Empty if the trial needs an
-/// activation above the person's greatest.
-[[nodiscard]] std::optional<identification::TrialData> perform(
-    const MovementCourse& course,
-    const std::vector<identification::MuscleSetup>& muscles,
-    const MovementPerson& person);
+/// Returns the trial as `person` would perform it, ready for an estimator. The torque is shared among the EMG channels
+/// with the least sum of squares of activations about person-specific, slowly changing proportions. Muscles of one
+/// channel act as one. Empty if the trial needs an activation above the person's greatest.
+[[nodiscard]] std::optional<identification::TrialData> perform(const MovementCourse& course,
+                                                               const std::vector<identification::MuscleSetup>& muscles,
+                                                               const MovementPerson& person);
 
 }  // namespace myoid

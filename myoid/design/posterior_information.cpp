@@ -23,15 +23,10 @@ using identification::TrialData;
 namespace {
 
 /// Returns the trial with the noise of rectified EMG behind the filter of the envelopes.
-TrialData with_emg_noise(TrialData trial,
-                         const EstimatorOptions& options,
-                         double factor,
-                         std::uint64_t seed) {
+TrialData with_emg_noise(TrialData trial, const EstimatorOptions& options, double factor, std::uint64_t seed) {
   const Eigen::VectorXd& clock = trial.activation.time_s();
-  const double interval_s =
-      (clock[clock.size() - 1] - clock[0]) / static_cast<double>(clock.size() - 1);
-  const Eigen::VectorXd filter =
-      EnvelopeError(options.envelope_cutoff_hz, {}).from_white(interval_s);
+  const double interval_s = (clock[clock.size() - 1] - clock[0]) / static_cast<double>(clock.size() - 1);
+  const Eigen::VectorXd filter = EnvelopeError(options.envelope_cutoff_hz, {}).from_white(interval_s);
   Eigen::MatrixXd noisy = trial.activation.values();
   for (Eigen::Index c = 0; c < noisy.cols(); ++c) {
     const std::string& channel = trial.activation.channels()[static_cast<std::size_t>(c)].name;
@@ -52,10 +47,7 @@ PosteriorInformation::PosteriorInformation(StudyData muscles,
                                            EstimatorOptions options,
                                            const PlannedErrors& errors,
                                            identification::Believed believed)
-    : muscles_(std::move(muscles)),
-      options_(std::move(options)),
-      emg_factor_(errors.emg_factor),
-      believed_(believed) {
+    : muscles_(std::move(muscles)), options_(std::move(options)), emg_factor_(errors.emg_factor), believed_(believed) {
   // A movement is one trial, whose factor b of the torque's error is 1.
   noise_.setZero(identification::kNoiseFieldCount + 1);
   noise_[identification::kTorqueSd] = std::log(errors.torque_sd_nm);
@@ -70,9 +62,7 @@ PosteriorInformation::PosteriorInformation(StudyData muscles,
     quantities_.push_back(quantity.name);
 }
 
-Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial,
-                                         const Eigen::VectorXd& z,
-                                         std::uint64_t seed) const {
+Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial, const Eigen::VectorXd& z, std::uint64_t seed) const {
   StudyData one = muscles_;
   one.trials = {with_emg_noise(trial, options_, emg_factor_, seed)};
   Likelihood likelihood(one, options_, &session_);
@@ -81,16 +71,13 @@ Eigen::MatrixXd PosteriorInformation::of(const TrialData& trial,
   return likelihood.information_by_trial(z, noise_).front();
 }
 
-void join_strengths(const std::vector<identification::Unknown>& free,
-                    double strength_sd,
-                    Knowledge& known) {
+void join_strengths(const std::vector<identification::Unknown>& free, double strength_sd, Knowledge& known) {
   Eigen::MatrixXd precision = identification::prior_precision(free, strength_sd);
   for (Eigen::Index j = 0; j < precision.rows(); ++j) {
     if (!(precision(j, j) > 0.0)) precision(j, j) = known.precision(j, j);
   }
   known.precision = precision;
-  known.covariance =
-      precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
+  known.covariance = precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
 }  // namespace myoid

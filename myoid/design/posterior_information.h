@@ -26,14 +26,12 @@ struct PlannedErrors {
 ///
 ///   M = [L J, L S W]' A^-1 [L J, L S W],   unknowns and quantities, square
 ///
-/// A is the covariance of the run's own errors (Likelihood). Movements of one person share x, so
-/// their M add; each x has a prior precision of 1, and z its priors. The covariance of z is a block
-/// of the inverse.
+/// A is the covariance of the run's own errors (Likelihood). Movements of one person share x, so their M add; each x
+/// has a prior precision of 1, and z its priors. The covariance of z is a block of the inverse.
 class PosteriorInformation {
  public:
-  /// Prepares the likelihood. `session` holds all movements by a person with the starting values:
-  /// its lengths are the recorded lengths to which errors are relative. Geometry and scales that
-  /// are exact by `believed` have weight 0.
+  /// Prepares the likelihood. `session` holds all movements by a person with the starting values: its lengths are the
+  /// recorded lengths to which errors are relative. Geometry and scales that are exact by `believed` have weight 0.
   PosteriorInformation(identification::StudyData muscles,
                        std::vector<identification::TrialData> session,
                        identification::EstimatorOptions options,
@@ -59,8 +57,6 @@ class PosteriorInformation {
 };
 
 /// Gives the muscles' F_max the person's strength in common (identification::prior_precision).
-void join_strengths(const std::vector<identification::Unknown>& free,
-                    double strength_sd,
-                    Knowledge& known);
+void join_strengths(const std::vector<identification::Unknown>& free, double strength_sd, Knowledge& known);
 
 }  // namespace myoid

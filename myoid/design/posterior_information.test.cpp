@@ -18,14 +18,11 @@ using identification::StudyData;
 
 EstimatorOptions options_of(const StudyData& data) {
   EstimatorOptions options;
-  for (const identification::MuscleSetup& muscle : data.muscles)
-    options.gain_prior_sd[muscle.emg_channel] = 0.05;
+  for (const identification::MuscleSetup& muscle : data.muscles) options.gain_prior_sd[muscle.emg_channel] = 0.05;
   return options;
 }
 
-StudyData three_trials() {
-  return test::elbow_study({.trials = 3, .seconds = 8.0, .with_priors = true}).data;
-}
+StudyData three_trials() { return test::elbow_study({.trials = 3, .seconds = 8.0, .with_priors = true}).data; }
 
 PosteriorInformation informant(const StudyData& data, Believed believed, double emg_factor = 1.0) {
   return {data,
@@ -48,11 +45,10 @@ TEST(PosteriorInformation, OfASessionOfOneMovementIsThatOfTheLikelihoodOfItsReco
   // Schur's complement of the quantities, whose precision is 1 beforehand.
   const Eigen::MatrixXd of_unseen = m.bottomRightCorner(q, q) + Eigen::MatrixXd::Identity(q, q);
   const Eigen::MatrixXd left =
-      m.topLeftCorner(p, p) -
-      m.topRightCorner(p, q) * of_unseen.ldlt().solve(m.bottomLeftCorner(q, p));
+      m.topLeftCorner(p, p) - m.topRightCorner(p, q) * of_unseen.ldlt().solve(m.bottomLeftCorner(q, p));
   identification::NoiseValues noise(5);
-  noise << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3),
-      std::log(0.03), 0.0;  // kappa: at least a thousandth
+  noise << std::log(0.4), std::log(identification::beliefs::kTorqueNoiseTime.value), std::log(1e-3), std::log(0.03),
+      0.0;  // kappa: at least a thousandth
   const Eigen::MatrixXd whole = likelihood.information(z, noise).information;
   EXPECT_LT((left - whole).norm(), 1e-4 * whole.norm());
 }
@@ -91,8 +87,7 @@ TEST(PosteriorInformation, AStrongPersonIsStrongInEveryMuscle) {
   join_strengths(free, 0.5, known);
   std::vector<Eigen::Index> strength;
   for (std::size_t j = 0; j < free.size(); ++j) {
-    if (free[j].label.ends_with("max_isometric_force"))
-      strength.push_back(static_cast<Eigen::Index>(j));
+    if (free[j].label.ends_with("max_isometric_force")) strength.push_back(static_cast<Eigen::Index>(j));
   }
   ASSERT_EQ(strength.size(), 4U);
   const Eigen::MatrixXd of_strength = known.covariance(strength, strength);

@@ -21,14 +21,11 @@ struct Family {
 const std::vector<Family>& families() {
   static const std::vector<Family> list{
       {"biceps femoris",
-       {"bicepsfem", "bifem", "bicfem", "bflh", "bfsh", "bf", "lh", "lathams", "lateralham",
-        "hamlat"},
+       {"bicepsfem", "bifem", "bicfem", "bflh", "bfsh", "bf", "lh", "lathams", "lateralham", "hamlat"},
        {"bifem", "bflh", "bfsh"}},
       {"medial hamstrings", {"mh", "medham", "medialham", "hammed"}, {"semimem", "semiten"}, true},
       {"hamstrings", {"ham"}, {"ham", "semimem", "semiten", "bifem", "bflh", "bfsh"}, true},
-      {"brachioradialis",
-       {"brachiorad", "brachrad", "brd", "brachior"},
-       {"brd", "brachiorad", "brachior"}},
+      {"brachioradialis", {"brachiorad", "brachrad", "brd", "brachior"}, {"brd", "brachiorad", "brachior"}},
       {"brachialis", {"brachialis", "bra"}, {"bra"}},
       {"biceps brachii", {"biceps", "bicep", "bic", "bb"}, {"bic"}},
       {"triceps brachii", {"triceps", "tricep", "tric", "tri"}, {"tri"}},
@@ -40,8 +37,7 @@ const std::vector<Family>& families() {
        {"deltoidanterior", "anteriordeltoid", "deltant", "deltoida", "delta", "antdelt"},
        {"deltant", "delt1", "deltclav", "delt_ant", "delta"}},
       {"middle deltoid",
-       {"deltoidmiddle", "middledeltoid", "deltmed", "deltoidmed", "deltm", "deltoidlat", "deltlat",
-        "middelt"},
+       {"deltoidmiddle", "middledeltoid", "deltmed", "deltoidmed", "deltm", "deltoidlat", "deltlat", "middelt"},
        {"deltmid", "delt2", "deltmed", "deltm"}},
       {"posterior deltoid",
        {"deltoidposterior", "posteriordeltoid", "deltpost", "deltoidp", "deltp", "postdelt"},
@@ -52,12 +48,8 @@ const std::vector<Family>& families() {
       {"infraspinatus", {"infraspinatus", "infra", "infsp"}, {"infsp", "infra"}},
       {"supraspinatus", {"supraspinatus", "supra", "supsp"}, {"supsp", "supra"}},
       {"soleus", {"soleus", "sol"}, {"soleus", "sol"}},
-      {"gastrocnemius lateralis",
-       {"gastrocnemiuslat", "gaslat", "gl", "latgas", "lg"},
-       {"gaslat", "latgas"}},
-      {"gastrocnemius medialis",
-       {"gastrocnemiusmed", "gasmed", "gm", "medgas", "mg"},
-       {"gasmed", "medgas"}},
+      {"gastrocnemius lateralis", {"gastrocnemiuslat", "gaslat", "gl", "latgas", "lg"}, {"gaslat", "latgas"}},
+      {"gastrocnemius medialis", {"gastrocnemiusmed", "gasmed", "gm", "medgas", "mg"}, {"gasmed", "medgas"}},
       {"gastrocnemius", {"gastrocnemius", "gastroc", "gas"}, {"gas", "medgas", "latgas"}, true},
       {"tibialis anterior", {"tibialisanterior", "tibant", "ta", "tibialis"}, {"tibant"}},
       {"rectus femoris", {"rectusfemoris", "rectfem", "recfem", "rf"}, {"rectfem", "recfem"}},
@@ -79,8 +71,7 @@ struct Name {
 };
 
 Name name_of(std::string_view text) {
-  if (const auto colon = text.rfind(':');
-      colon != std::string_view::npos && colon + 1 < text.size())
+  if (const auto colon = text.rfind(':'); colon != std::string_view::npos && colon + 1 < text.size())
     text.remove_prefix(colon + 1);
   std::vector<std::string> words(1);
   char before = ' ';
@@ -90,16 +81,14 @@ Name name_of(std::string_view text) {
       words.emplace_back();
     } else {
       // "BicepsRight": a capital after a small letter begins a word.
-      if (std::isupper(u) != 0 && std::islower(static_cast<unsigned char>(before)) != 0)
-        words.emplace_back();
+      if (std::isupper(u) != 0 && std::islower(static_cast<unsigned char>(before)) != 0) words.emplace_back();
       words.back() += static_cast<char>(std::tolower(u));
     }
     before = c;
   }
   static const std::set<std::string, std::less<>> kNoMeaning{
-      "emg", "raw",     "env",   "envelope", "ch",     "channel", "sensor",
-      "im",  "v",       "mv",    "uv",       "m",      "muscle",  "of",
-      "the", "voltage", "imemg", "rms",      "avanti", "trigno",  "brachii"};
+      "emg", "raw",    "env", "envelope", "ch",      "channel", "sensor", "im",     "v",      "mv",     "uv",
+      "m",   "muscle", "of",  "the",      "voltage", "imemg",   "rms",    "avanti", "trigno", "brachii"};
   Name name;
   for (const std::string& word : words) {
     if (word.empty() || kNoMeaning.contains(word)) continue;
@@ -107,8 +96,7 @@ Name name_of(std::string_view text) {
       name.side = 'r';
     } else if (word == "l" || word == "lt" || word == "left") {
       name.side = 'l';
-    } else if (!std::all_of(word.begin(), word.end(),
-                            [](char c) { return c >= '0' && c <= '9'; }) ||
+    } else if (!std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }) ||
                !name.letters.empty()) {
       name.letters += word;
     }
@@ -116,9 +104,7 @@ Name name_of(std::string_view text) {
   return name;
 }
 
-bool begins_with_any(const std::string& text,
-                     const std::vector<std::string_view>& words,
-                     bool whole_if_short) {
+bool begins_with_any(const std::string& text, const std::vector<std::string_view>& words, bool whole_if_short) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) {
     if (whole_if_short && w.size() <= 2) return text == w;
     return text.starts_with(w);
@@ -133,8 +119,7 @@ const Family* family_of(const std::string& letters, bool channel) {
   return nullptr;
 }
 
-/// Returns the head or part of a muscle that a name states: 'l'ateral, l'o'ng, 'm'edial, 's'hort; '
-/// ' if none.
+/// Returns the head or part of a muscle that a name states: 'l'ateral, l'o'ng, 'm'edial, 's'hort; ' ' if none.
 char head_of(const std::string& letters, const std::string& family) {
   const auto has = [&](const char* word) { return letters.find(word) != std::string::npos; };
   const bool biceps = family == "biceps brachii";
@@ -168,12 +153,10 @@ std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& chann
       const Name other = name_of(muscle);
       // Models of both sides mark them by a last letter: "soleus_r".
       if (name.side != ' ' && other.side != ' ' && name.side != other.side) continue;
-      const bool same = wanted != nullptr && wanted->several
-                            ? begins_with_any(other.letters, wanted->in_models, false)
-                        : wanted != nullptr
-                            ? family_of(other.letters, false) == wanted
-                            : name.letters.size() > 2 && (other.letters.starts_with(name.letters) ||
-                                                          name.letters.starts_with(other.letters));
+      const bool same = wanted != nullptr && wanted->several ? begins_with_any(other.letters, wanted->in_models, false)
+                        : wanted != nullptr                  ? family_of(other.letters, false) == wanted
+                                            : name.letters.size() > 2 && (other.letters.starts_with(name.letters) ||
+                                                                          name.letters.starts_with(other.letters));
       if (!same) continue;
       pair.muscles.push_back(muscle);
       const char head = head_of(name.letters, pair.family);

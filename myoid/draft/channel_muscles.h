@@ -13,10 +13,9 @@ struct ChannelMuscles {
 };
 
 /// Pairs the channels with the model's muscles by their usual names: "Biceps_R" and
-/// BIClong, BICshort; "L TRICEPS LAT" and TRIlat, or all heads of the triceps where no other
-/// channel is on them. The name of a group ("MH", "quadriceps") means all of its muscles; an
-/// unusual name is compared letter by letter. A side that both state (_r, _l, right, left) must be
-/// the same. The result has every channel, in order.
+/// BIClong, BICshort; "L TRICEPS LAT" and TRIlat, or all heads of the triceps where no other channel is on them. The
+/// name of a group ("MH", "quadriceps") means all of its muscles; an unusual name is compared letter by letter. A side
+/// that both state (_r, _l, right, left) must be the same. The result has every channel, in order.
 [[nodiscard]] std::vector<ChannelMuscles> match_channels(const std::vector<std::string>& channels,
                                                          const std::vector<std::string>& muscles);
 

@@ -12,8 +12,7 @@ using ::testing::IsEmpty;
 const std::vector<std::string> kArm26{"TRIlong", "TRIlat", "TRImed", "BIClong", "BICshort", "BRA"};
 
 TEST(MatchChannels, AnElectrodeStandsForAllHeadsOfItsMuscle) {
-  const auto pairs =
-      match_channels({"biceps_brachii", "Triceps.IM EMG4", "lateral_of_nothing"}, kArm26);
+  const auto pairs = match_channels({"biceps_brachii", "Triceps.IM EMG4", "lateral_of_nothing"}, kArm26);
   EXPECT_THAT(pairs[0].muscles, ElementsAre("BIClong", "BICshort"));
   EXPECT_THAT(pairs[1].muscles, ElementsAre("TRIlong", "TRIlat", "TRImed"));
   EXPECT_THAT(pairs[2].muscles, IsEmpty());
@@ -35,17 +34,15 @@ TEST(MatchChannels, BrachialisBrachioradialisAndTheBicepsOfTheThighAreThreeMuscl
 }
 
 TEST(MatchChannels, SidesThatAreStatedMustAgree) {
-  const auto pairs =
-      match_channels({"soleus_l", "RightSoleus", "soleus"}, {"soleus_r", "soleus_l"});
+  const auto pairs = match_channels({"soleus_l", "RightSoleus", "soleus"}, {"soleus_r", "soleus_l"});
   EXPECT_THAT(pairs[0].muscles, ElementsAre("soleus_l"));
   EXPECT_THAT(pairs[1].muscles, ElementsAre("soleus_r"));
   EXPECT_THAT(pairs[2].muscles, ElementsAre("soleus_r", "soleus_l"));
 }
 
 TEST(MatchChannels, AGroupOfMusclesIsAllOfThemAndAShortNameIsOne) {
-  const std::vector<std::string> leg{"semimem_r",  "semiten_r", "bifemlh_r", "bifemsh_r",
-                                     "rect_fem_r", "vas_med_r", "vas_lat_r", "med_gas_r",
-                                     "lat_gas_r",  "soleus_r"};
+  const std::vector<std::string> leg{"semimem_r", "semiten_r", "bifemlh_r", "bifemsh_r", "rect_fem_r",
+                                     "vas_med_r", "vas_lat_r", "med_gas_r", "lat_gas_r", "soleus_r"};
   const auto pairs = match_channels({"MH", "BF", "GAS", "quadriceps", "VL", "SOL"}, leg);
   EXPECT_THAT(pairs[0].muscles, ElementsAre("semimem_r", "semiten_r"));
   EXPECT_THAT(pairs[1].muscles, ElementsAre("bifemlh_r", "bifemsh_r"));
@@ -56,8 +53,7 @@ TEST(MatchChannels, AGroupOfMusclesIsAllOfThemAndAShortNameIsOne) {
 }
 
 TEST(MatchChannels, ANameThatIsNoUsualOneIsComparedLetterByLetter) {
-  EXPECT_THAT(match_channels({"popliteus"}, {"popliteus_r"})[0].muscles,
-              ElementsAre("popliteus_r"));
+  EXPECT_THAT(match_channels({"popliteus"}, {"popliteus_r"})[0].muscles, ElementsAre("popliteus_r"));
   EXPECT_THAT(match_channels({"Voltage.1"}, {"popliteus_r"})[0].muscles, IsEmpty());
 }
 

@@ -19,9 +19,8 @@ constexpr std::array<std::string_view, 4> kUsual{"elbowflex", "elbow", "kneeangl
 
 std::size_t rank(const std::string& coordinate) {
   const std::string plain = recording::plain_label(coordinate);
-  const auto found = std::find_if(kUsual.begin(), kUsual.end(), [&](std::string_view word) {
-    return plain.find(word) != std::string::npos;
-  });
+  const auto found = std::find_if(kUsual.begin(), kUsual.end(),
+                                  [&](std::string_view word) { return plain.find(word) != std::string::npos; });
   return static_cast<std::size_t>(found - kUsual.begin());
 }
 
@@ -34,14 +33,12 @@ std::vector<std::string> movers(const model::BodyModel& model, const std::string
   constexpr Eigen::Index kPoses = 7;
   Eigen::MatrixXd q = model.default_q().transpose().replicate(kPoses, 1);
   for (Eigen::Index i = 0; i < kPoses; ++i)
-    q(i, model.coordinate_index(coordinate)) =
-        low + (high - low) * (static_cast<double>(i) + 0.5) / kPoses;
+    q(i, model.coordinate_index(coordinate)) = low + (high - low) * (static_cast<double>(i) + 0.5) / kPoses;
   std::vector<Channel> channels;
   for (const model::Coordinate& each : model.coordinates)
     channels.push_back({each.name, kinematics::coordinate_unit(each, 0)});
   const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(kPoses, 0.0, 6.0);
-  const kinematics::JointMotion motion =
-      kinematics::joint_motion(model, TimeSeries(clock, channels, q)).motion;
+  const kinematics::JointMotion motion = kinematics::joint_motion(model, TimeSeries(clock, channels, q)).motion;
   const kinematics::MuscleKinematics muscles = kinematics::muscle_kinematics(model, motion);
   const TimeSeries& arms = muscles.moment_arm.at(coordinate);
   std::vector<std::string> names;

@@ -9,8 +9,7 @@ namespace myoid {
 
 /// Finds the muscles whose moment arm about the coordinate exceeds 1 mm somewhere in its range, or
 /// within 1.5 rad (or m) of its default value.
-[[nodiscard]] std::vector<std::string> movers(const model::BodyModel& model,
-                                              const std::string& coordinate);
+[[nodiscard]] std::vector<std::string> movers(const model::BodyModel& model, const std::string& coordinate);
 
 /// Returns true for the usual names of the flexion of elbow, knee and ankle.
 [[nodiscard]] bool is_usual(const std::string& coordinate);

@@ -31,8 +31,8 @@ std::string small(std::string text) {
 bool is_bids_description(const fs::path& path) {
   const std::string name = path.filename().string();
   const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-  return ends("_channels.tsv") || ends("_electrodes.tsv") || ends("_events.tsv") ||
-         ends("_scans.tsv") || ends("_sessions.tsv") || name == "participants.tsv";
+  return ends("_channels.tsv") || ends("_electrodes.tsv") || ends("_events.tsv") || ends("_scans.tsv") ||
+         ends("_sessions.tsv") || name == "participants.tsv";
 }
 
 std::vector<std::string> words_of(const std::string& stem) {
@@ -71,8 +71,7 @@ void find_emg(const fs::path& path,
   const std::string name = small(path.filename().string());
   if (found.channels.empty() && (storage || format == FileFormat::text_table)) {
     const bool stated = storage && recording::stated_voltage(recording::read_storage(path));
-    const bool named = name.find("emg") != std::string::npos ||
-                       name.find("excitation") != std::string::npos ||
+    const bool named = name.find("emg") != std::string::npos || name.find("excitation") != std::string::npos ||
                        name.find("activation") != std::string::npos;
     if (!stated && !named) return;
     for (const Channel& c : analog.channels()) found.channels.push_back(c.name);
@@ -123,8 +122,7 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
       files.push_back(path);
       continue;
     }
-    for (auto it = fs::recursive_directory_iterator(
-             path, fs::directory_options::skip_permission_denied, error);
+    for (auto it = fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied, error);
          !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
       if (it.depth() > kDeep) it.disable_recursion_pending();
       if (!it->is_regular_file(error)) continue;
@@ -133,8 +131,7 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
       if (format == FileFormat::model) beside.models.push_back(it->path());
       if (format == FileFormat::set_up && !loads_data_file(it->path()).empty())
         beside.external_loads.push_back(it->path());
-      if (recording::is_recording(*format) && !is_bids_description(it->path()))
-        files.push_back(it->path());
+      if (recording::is_recording(*format) && !is_bids_description(it->path())) files.push_back(it->path());
     }
   }
   std::sort(files.begin(), files.end());
@@ -146,8 +143,7 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
 std::string guessed_use(const std::string& stem) {
   for (const std::string& word : words_of(stem)) {
     if (word.starts_with("mvc") || word.starts_with("mvic") || word == "max") return "mvc";
-    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical")
-      return "static";
+    if (word == "static" || word == "tpose" || word == "calibration" || word == "anatomical") return "static";
     if (word == "passive") return "passive";
   }
   return "calibration";

@@ -14,7 +14,7 @@ namespace myoid {
 /// The content of a file that a study can use.
 struct FoundRecording {
   std::filesystem::path path;
-  std::string stem;  ///< Small letters, words like "emg" and "markers" at its end removed.
+  std::string stem;                   ///< Small letters, words like "emg" and "markers" at its end removed.
   recording::MarkerSeries markers;    ///< Empty: none.
   std::vector<std::string> angles;    ///< Coordinates of the model.
   std::vector<std::string> channels;  ///< EMG.
@@ -33,8 +33,8 @@ struct FoundBeside {
 
 /// Finds the recordings among the files and in the folders and their folders, by name. Models and
 /// loads are added to `beside`.
-[[nodiscard]] std::vector<std::filesystem::path> recordings_in(
-    const std::vector<std::filesystem::path>& from, FoundBeside& beside);
+[[nodiscard]] std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesystem::path>& from,
+                                                               FoundBeside& beside);
 
 /// Returns the data file that an ExternalLoads file names; empty if it names none.
 [[nodiscard]] std::filesystem::path loads_data_file(const std::filesystem::path& external_loads);
@@ -46,9 +46,8 @@ struct FoundBeside {
 /// Returns the use that the trial's name suggests: "mvc", "static", "passive", else "calibration".
 [[nodiscard]] std::string guessed_use(const std::string& stem);
 
-/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all channels of a
-/// file with EMG in its name. Raw EMG crosses its median more than 30 times a second, an envelope
-/// does not.
+/// Adds the channels of a file that may be EMG (`recording::emg_channels`), or all channels of a file with EMG in its
+/// name. Raw EMG crosses its median more than 30 times a second, an envelope does not.
 void find_emg(const std::filesystem::path& path,
               const TimeSeries& analog,
               const std::vector<recording::PlateSetup>& plates,

@@ -57,8 +57,7 @@ TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
   FoundRecording unused;  // channels without an electrode do not vote
   Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(1000, 3);
   zeros.col(1) = x.col(0);
-  find_emg("a.csv", TimeSeries(t, {{"A", Unit::volt}, {"B", Unit::volt}, {"C", Unit::volt}}, zeros),
-           {}, unused);
+  find_emg("a.csv", TimeSeries(t, {{"A", Unit::volt}, {"B", Unit::volt}, {"C", Unit::volt}}, zeros), {}, unused);
   EXPECT_TRUE(unused.raw);
   FoundRecording envelope;
   const Eigen::VectorXd slow = 1.0 + (20.0 * t.array()).sin();

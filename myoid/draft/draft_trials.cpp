@@ -11,8 +11,7 @@
 namespace myoid {
 namespace {
 
-/// Returns the EMG file of a trial: the file itself, an equal stem, or one stem that begins with
-/// the other.
+/// Returns the EMG file of a trial: the file itself, an equal stem, or one stem that begins with the other.
 FoundRecording* emg_of(FoundRecording& motion, std::vector<FoundRecording>& found) {
   if (!motion.channels.empty()) return &motion;
   for (FoundRecording& f : found) {
@@ -32,8 +31,8 @@ void held_mass(const std::string& stem, bool own_model, DraftText& out) {
   const auto at = stem.find("kg");
   if (at == std::string::npos) return;
   std::size_t begin = at;
-  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 ||
-                       stem[begin - 1] == '.' || stem[begin - 1] == 'p'))
+  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 || stem[begin - 1] == '.' ||
+                       stem[begin - 1] == 'p'))
     --begin;
   std::string number = stem.substr(begin, at - begin);
   std::replace(number.begin(), number.end(), 'p', '.');
@@ -58,9 +57,8 @@ class TrialWriter {
     for (FoundRecording& f : found_) {
       if (f.markers.frame_count() == 0 || f.motion_taken) continue;
       if (!starts_from_markers(f, found_)) {
-        notes_.push_back(
-            fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
-                        in_quotes(around_.relative(f.path))));
+        notes_.push_back(fmt::format("# Not used: markers = {} (the trial starts from its joint angles)",
+                                     in_quotes(around_.relative(f.path))));
       } else {
         motion_trial(f, "markers");
       }
@@ -68,8 +66,7 @@ class TrialWriter {
     for (const FoundRecording& f : found_) {
       if (!f.channels.empty() && !f.emg_taken && !f.motion_taken) emg_trial(f);
     }
-    if (!any_calibration_)
-      out_.todo("no trial has use = \"calibration\", from which parameters are found");
+    if (!any_calibration_) out_.todo("no trial has use = \"calibration\", from which parameters are found");
     for (const std::string& note : notes_) out_.line(note);
     if (two_clocks_) clocks();
   }
@@ -95,11 +92,9 @@ class TrialWriter {
     two_clocks_ = two_clocks_ || (emg != nullptr && emg != &f);
     out_.line("use = " + in_quotes(use));
     any_calibration_ = any_calibration_ || use == "calibration";
-    if (without_emg)
-      out_.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
+    if (without_emg) out_.todo(fmt::format("no EMG was found for '{}'; it gives motion and torque only", f.stem));
     for (const std::filesystem::path& loads : around_.external_loads) {
-      if (trial_stem(loads) == f.stem)
-        out_.line("external_loads = " + in_quotes(around_.relative(loads)));
+      if (trial_stem(loads) == f.stem) out_.line("external_loads = " + in_quotes(around_.relative(loads)));
     }
     if (f.plates > 0) {
       out_.line(
@@ -115,10 +110,10 @@ class TrialWriter {
   void emg_trial(const FoundRecording& f) {
     const bool mvc = guessed_use(f.stem) == "mvc";
     if (!mvc)
-      out_.todo(fmt::format(
-          "'{}' has EMG and no motion: give it markers or motion; or take the # away if "
-          "it is a maximal contraction",
-          f.path.filename().string()));
+      out_.todo(
+          fmt::format("'{}' has EMG and no motion: give it markers or motion; or take the # away if "
+                      "it is a maximal contraction",
+                      f.path.filename().string()));
     const std::string remark = mvc ? "" : "# ";
     out_.line(remark + "[[trial]]");
     out_.line(remark + "name = " + in_quotes(unique(f.stem)));
@@ -147,17 +142,14 @@ class TrialWriter {
 
 }  // namespace
 
-bool starts_from_markers(const FoundRecording& recording,
-                         const std::vector<FoundRecording>& found) {
+bool starts_from_markers(const FoundRecording& recording, const std::vector<FoundRecording>& found) {
   return recording.markers.frame_count() > 0 &&
          std::none_of(found.begin(), found.end(), [&](const FoundRecording& other) {
            return !other.angles.empty() && other.stem == recording.stem;
          });
 }
 
-void draft_trials(std::vector<FoundRecording>& found,
-                  const TrialSurroundings& around,
-                  DraftText& out) {
+void draft_trials(std::vector<FoundRecording>& found, const TrialSurroundings& around, DraftText& out) {
   TrialWriter(found, around, out).write();
 }
 

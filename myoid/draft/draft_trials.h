@@ -13,21 +13,17 @@ namespace myoid {
 /// The facts of a draft that all its trials share.
 struct TrialSurroundings {
   std::vector<std::filesystem::path> external_loads;
-  bool own_model = false;  ///< The study names a model file.
+  bool own_model = false;                                             ///< The study names a model file.
   std::function<std::string(const std::filesystem::path&)> relative;  ///< A path as in the study.
 };
 
 /// Returns true for a recording from whose markers a trial starts: no joint angles are in it or in
 /// a recording of its name.
-[[nodiscard]] bool starts_from_markers(const FoundRecording& recording,
-                                       const std::vector<FoundRecording>& found);
+[[nodiscard]] bool starts_from_markers(const FoundRecording& recording, const std::vector<FoundRecording>& found);
 
-/// Writes the [[trial]] tables of a draft and marks the recordings that it takes: joint angles or
-/// markers with the EMG of the same name and its external loads, then EMG alone. EMG alone is a
-/// maximal contraction where its name says so, and else a remark: a movement must not define
-/// activation 1. The use of a trial follows from its name.
-void draft_trials(std::vector<FoundRecording>& found,
-                  const TrialSurroundings& around,
-                  DraftText& out);
+/// Writes the [[trial]] tables of a draft and marks the recordings that it takes: joint angles or markers with the EMG
+/// of the same name and its external loads, then EMG alone. EMG alone is a maximal contraction where its name says so,
+/// and else a remark: a movement must not define activation 1. The use of a trial follows from its name.
+void draft_trials(std::vector<FoundRecording>& found, const TrialSurroundings& around, DraftText& out);
 
 }  // namespace myoid

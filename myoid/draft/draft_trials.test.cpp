@@ -26,19 +26,16 @@ TEST(DraftText, QuotesAsTomlWritesThem) {
 }
 
 TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgCalledSoIsAMaximalContraction) {
-  std::vector<FoundRecording> files{found("flex_2p5kg.mot", true, false),
-                                    found("flex_2p5kg_emg.csv", false, true),
+  std::vector<FoundRecording> files{found("flex_2p5kg.mot", true, false), found("flex_2p5kg_emg.csv", false, true),
                                     found("mvc_emg.csv", false, true)};
   DraftText out;
-  draft_trials(
-      files,
-      {.external_loads = {},
-       .own_model = true,
-       .relative = [](const std::filesystem::path& path) { return "in/" + path.string(); }},
-      out);
-  EXPECT_THAT(out.toml,
-              HasSubstr("motion = \"in/flex_2p5kg.mot\"\nemg = \"in/flex_2p5kg_emg.csv\"\n"
-                        "use = \"calibration\""));
+  draft_trials(files,
+               {.external_loads = {},
+                .own_model = true,
+                .relative = [](const std::filesystem::path& path) { return "in/" + path.string(); }},
+               out);
+  EXPECT_THAT(out.toml, HasSubstr("motion = \"in/flex_2p5kg.mot\"\nemg = \"in/flex_2p5kg_emg.csv\"\n"
+                                  "use = \"calibration\""));
   EXPECT_THAT(out.toml, HasSubstr("# held_mass_kg = 2.5"));
   EXPECT_THAT(out.toml, HasSubstr("emg = \"in/mvc_emg.csv\"\nuse = \"mvc\""));
   EXPECT_THAT(out.toml, Not(HasSubstr("no trial has use")));
@@ -46,8 +43,7 @@ TEST(DraftTrials, MotionAndEmgOfOneNameAreATrialAndEmgCalledSoIsAMaximalContract
 }
 
 TEST(DraftTrials, EmgOfSomeMovementIsNotTakenForAMaximum) {
-  std::vector<FoundRecording> files{found("ik_walk.mot", true, false),
-                                    found("run_emg.csv", false, true)};
+  std::vector<FoundRecording> files{found("ik_walk.mot", true, false), found("run_emg.csv", false, true)};
   DraftText out;
   draft_trials(files,
                {.external_loads = {"in/grf_walk.xml", "in/grf_run.xml"},

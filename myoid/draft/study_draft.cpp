@@ -32,14 +32,12 @@ namespace fs = std::filesystem;
 
 class Draft {
  public:
-  Draft(fs::path folder, const DraftOptions& options)
-      : folder_(std::move(folder)), options_(options) {}
+  Draft(fs::path folder, const DraftOptions& options) : folder_(std::move(folder)), options_(options) {}
 
   StudyDraft write() {
     FoundBeside beside;
     const std::vector<fs::path> files = recordings_in(options_.from, beside);
-    for (const fs::path& loads : beside.external_loads)
-      loads_data_.insert(loads_data_file(loads).lexically_normal());
+    for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
     choose_model(beside.models);
     for (const fs::path& file : files) read(file);
     if (coordinate_.empty()) choose_coordinate();
@@ -48,9 +46,9 @@ class Draft {
         })) {
       std::vector<std::string> sources;
       for (const fs::path& path : options_.from) sources.push_back(path.string());
-      throw InvalidInput(fmt::format(
-          "no recording with markers, joint angles or EMG in {}; name files or folders with --from",
-          fmt::join(sources, ", ")));
+      throw InvalidInput(
+          fmt::format("no recording with markers, joint angles or EMG in {}; name files or folders with --from",
+                      fmt::join(sources, ", ")));
     }
     subject_table();
     model_table();
@@ -87,8 +85,7 @@ class Draft {
     } else if (models.size() > 1) {
       for (const fs::path& m : models) other_models_.push_back(relative(m));
     }
-    model_ = model_file_ ? model::read_osim(*model_file_)
-                         : model::parse_osim(model::arm4_osim(), "arm4.osim");
+    model_ = model_file_ ? model::read_osim(*model_file_) : model::parse_osim(model::arm4_osim(), "arm4.osim");
     coordinate_ = options_.coordinate;
     if (!coordinate_.empty()) (void)model_.coordinate_index(coordinate_);
   }
@@ -121,8 +118,7 @@ class Draft {
       note_up(path, file);
       f.markers = std::move(file.markers);
       for (const Channel& c : file.analog.channels()) {
-        if (format == recording::FileFormat::storage && model_.find_coordinate(c.name))
-          f.angles.push_back(c.name);
+        if (format == recording::FileFormat::storage && model_.find_coordinate(c.name)) f.angles.push_back(c.name);
       }
       if (f.angles.empty() && !file.analog.empty() && format != recording::FileFormat::bids_motion)
         find_emg(path, file.analog.series(), file.plates, f);
@@ -133,8 +129,7 @@ class Draft {
     if (loads_data_.contains(path.lexically_normal())) return;  // its ExternalLoads file names it
     if (f.markers.frame_count() == 0 && f.angles.empty() && f.channels.empty()) {
       draft_.notes.push_back(
-          fmt::format("{}: no markers, no coordinate of the model, no EMG; not used",
-                      path.filename().string()));
+          fmt::format("{}: no markers, no coordinate of the model, no EMG; not used", path.filename().string()));
       return;
     }
     if (f.markers.frame_count() > 0) {
@@ -146,8 +141,8 @@ class Draft {
         if (model_.find_marker(name) || match.same.contains(name)) ++known;
       }
       for (const auto& [name, like] : match.similar) {
-        const bool taken = std::any_of(similar_.begin(), similar_.end(),
-                                       [&](const auto& pair) { return pair.second == like; });
+        const bool taken =
+            std::any_of(similar_.begin(), similar_.end(), [&](const auto& pair) { return pair.second == like; });
         if (!taken) similar_.emplace(name, like);
       }
       for (std::string& name : f.markers.names) {
@@ -205,12 +200,10 @@ class Draft {
     } else {
       line("builtin = \"arm4\"");
       if (!other_models_.empty())
-        todo(
-            fmt::format("or one of the models that were found: file = {}", list_of(other_models_)));
+        todo(fmt::format("or one of the models that were found: file = {}", list_of(other_models_)));
     }
     if (guessed_coordinate_)
-      todo("which joint? free coordinates: " +
-           fmt::format("{}", fmt::join(free_coordinates(), ", ")));
+      todo("which joint? free coordinates: " + fmt::format("{}", fmt::join(free_coordinates(), ", ")));
     line("coordinate = " + in_quotes(coordinate_));
     line("");
   }
@@ -241,8 +234,7 @@ class Draft {
                     up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
     if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
     if (!file_up_.empty() && file_up_ != std::string(1, up_))
-      todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_,
-                       file_up_because_));
+      todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_, file_up_because_));
   }
 
   void marker_names() {
@@ -258,8 +250,7 @@ class Draft {
     }
     if (similar_.empty()) return;
     std::vector<std::string> pairs;
-    for (const auto& [name, like] : similar_)
-      pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
+    for (const auto& [name, like] : similar_) pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
     todo("are these the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
   }
@@ -333,17 +324,14 @@ class Draft {
                  [&](const std::string& muscle) { return !covered.contains(muscle); });
     if (!left.empty()) without_electrode(left, first);
     if (!unused.empty()) {
-      line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_,
-                       fmt::join(unused, ", ")));
+      line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_, fmt::join(unused, ", ")));
       line("");
     }
   }
 
   /// Writes a table to fill in, where no channel is named like a muscle.
-  void unknown_pairs(const std::vector<std::string>& channels,
-                     const std::vector<std::string>& able) {
-    todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs",
-                     coordinate_));
+  void unknown_pairs(const std::vector<std::string>& channels, const std::vector<std::string>& able) {
+    todo(fmt::format("no channel's name is that of a muscle that moves {}; name the pairs", coordinate_));
     line("[[muscle]]");
     line("name = \"TODO\"");
     line(fmt::format("osim = [\"TODO\"]   # of {}", fmt::join(able, ", ")));

@@ -26,7 +26,6 @@ struct StudyDraft {
 /// the model's markers on the first complete frame. Open questions stand in lines with TODO.
 /// Paths are written relative to `folder`. Throws ReadError or ModelError if the model cannot be
 /// read, InvalidInput if there is no recording.
-[[nodiscard]] StudyDraft draft_study(const std::filesystem::path& folder,
-                                     const DraftOptions& options);
+[[nodiscard]] StudyDraft draft_study(const std::filesystem::path& folder, const DraftOptions& options);
 
 }  // namespace myoid

@@ -25,8 +25,7 @@ void write_trial(const std::filesystem::path& folder, const std::string& stem) {
   std::string motion =
       "Coordinates\nversion=1\nnRows=400\nnColumns=2\ninDegrees=no\nendheader\ntime\telbow_"
       "flexion\n";
-  for (int i = 0; i < 400; ++i)
-    motion += fmt::format("{:.2f}\t{:.6f}\n", 0.01 * i, 1.0 + 0.5 * std::sin(0.06 * i));
+  for (int i = 0; i < 400; ++i) motion += fmt::format("{:.2f}\t{:.6f}\n", 0.01 * i, 1.0 + 0.5 * std::sin(0.06 * i));
   recording::write_file(folder / (stem + "_angles.mot"), motion);
   std::string emg = "time,Biceps Brachii [mV],Triceps [mV],Soleus [mV]\n";
   for (int i = 0; i < 4000; ++i) {
@@ -77,8 +76,7 @@ TEST(StudyDraft, WhereNoChannelIsKnownTheCheckSaysWhatToFillIn) {
   const test::TemporaryFolder folder;
   write_trial(folder.path(), "a");
   std::string text = "time,V1 [V],V2 [V]\n";
-  for (int i = 0; i < 4000; ++i)
-    text += fmt::format("{:.3f},{:.5f},0.1\n", 0.001 * i, std::sin(0.7 * i));
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.3f},{:.5f},0.1\n", 0.001 * i, std::sin(0.7 * i));
   recording::write_file(folder / "a_emg.csv", text);
   const StudyDraft draft = draft_study(folder.path(), {.from = {folder.path()}});
   EXPECT_THAT(draft.todo, Contains(HasSubstr("name the pairs")));

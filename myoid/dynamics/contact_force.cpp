@@ -43,9 +43,7 @@ double together(double a, double b) { return a != 0.0 || b != 0.0 ? 2.0 * a * b 
 
 }  // namespace
 
-void append_contact(const model::Contact& c,
-                    const model::BodyState& state,
-                    std::vector<model::BodyWrench>& wrenches) {
+void append_contact(const model::Contact& c, const model::BodyState& state, std::vector<model::BodyWrench>& wrenches) {
   Touch t = touch_of(c, state);
   if (!c.smoothing && t.depth_m <= 0.0) return;
   const auto& [first, second] = c.materials;
@@ -63,8 +61,8 @@ void append_contact(const model::Contact& c,
   if (c.smoothing) {
     const model::Contact::Smoothing& s = *c.smoothing;
     const double depth = std::sqrt(t.depth_m * t.depth_m + s.constant);
-    const double hertz = 4.0 / 3.0 * k * std::sqrt(t.radius_m * k) * std::pow(depth, 1.5) *
-                         (0.5 + 0.5 * std::tanh(s.hertz * t.depth_m));
+    const double hertz =
+        4.0 / 3.0 * k * std::sqrt(t.radius_m * k) * std::pow(depth, 1.5) * (0.5 + 0.5 * std::tanh(s.hertz * t.depth_m));
     force = hertz * (1.0 + 1.5 * dissipation * approach) *
             (0.5 + 0.5 * std::tanh(s.hunt_crossley * (approach + 2.0 / (3.0 * dissipation))));
     slip = std::sqrt(sliding.squaredNorm() + s.constant);
@@ -79,8 +77,7 @@ void append_contact(const model::Contact& c,
     const double uv = together(first.viscous_friction, second.viscous_friction);
     const double relative = slip / c.transition_velocity_mps;
     const double friction =
-        force * (std::min(relative, 1.0) * (ud + 2.0 * (us - ud) / (1.0 + relative * relative)) +
-                 uv * slip);
+        force * (std::min(relative, 1.0) * (ud + 2.0 * (us - ud) / (1.0 + relative * relative)) + uv * slip);
     on_other += friction / slip * sliding;
   }
   const auto wrench = [&](model::BodyIndex body, const Vec3& f_G) {

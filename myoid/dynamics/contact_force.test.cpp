@@ -24,8 +24,7 @@ struct Ball {
   Ball() {
     contact.sphere_body = 1;
     contact.radius_m = 0.1;
-    contact.X_BO.R =
-        Eigen::AngleAxisd(-0.5 * kPi, Vec3::UnitZ()).toRotationMatrix();  // x of the floor is down
+    contact.X_BO.R = Eigen::AngleAxisd(-0.5 * kPi, Vec3::UnitZ()).toRotationMatrix();  // x of the floor is down
     contact.materials.fill({.stiffness = 1e6,
                             .dissipation = 2.0,
                             .static_friction = 0.8,
@@ -53,9 +52,7 @@ struct Ball {
 };
 
 // Two surfaces of modulus E: each gives way by half, 4/3 sqrt(R) (E^(2/3) x / 2)^(3/2).
-double hertz(double depth_m) {
-  return 4.0 / 3.0 * std::sqrt(0.1) * 1e6 * std::pow(0.5 * depth_m, 1.5);
-}
+double hertz(double depth_m) { return 4.0 / 3.0 * std::sqrt(0.1) * 1e6 * std::pow(0.5 * depth_m, 1.5); }
 
 TEST(Contact, PushesAsHertzSaysWhereTheBallOverlapsTheGroundAndNotAbove) {
   const Ball ball;
@@ -68,8 +65,7 @@ TEST(Contact, PushesAsHertzSaysWhereTheBallOverlapsTheGroundAndNotAbove) {
 TEST(Contact, ResistsTheApproachAndNeverPulls) {
   const Ball ball;
   const double rest = hertz(0.002);
-  EXPECT_NEAR(ball.force(0.098, Vec3(0.0, -0.1, 0.0)).y(), rest * (1.0 + 1.5 * 2.0 * 0.1),
-              1e-9 * rest);
+  EXPECT_NEAR(ball.force(0.098, Vec3(0.0, -0.1, 0.0)).y(), rest * (1.0 + 1.5 * 2.0 * 0.1), 1e-9 * rest);
   EXPECT_EQ(ball.force(0.098, Vec3(0.0, 5.0, 0.0)).y(), 0.0);
 }
 

@@ -23,21 +23,18 @@ constexpr double kFarAway_m = 1000.0;
 std::vector<Eigen::Index> columns_of(const TimeSeries& data, const std::string& identifier) {
   std::vector<Eigen::Index> columns;
   for (std::size_t c = 0; c < data.channels().size(); ++c) {
-    if (data.channels()[c].name.starts_with(identifier))
-      columns.push_back(static_cast<Eigen::Index>(c));
+    if (data.channels()[c].name.starts_with(identifier)) columns.push_back(static_cast<Eigen::Index>(c));
   }
   return columns;
 }
 
-/// Returns the beginning of the names of a force's, point's or torque's columns. A
-/// <PrescribedForce>, the form of documents before 20301, names columns by its functions: the
-/// column of x, or "#" and its number.
+/// Returns the beginning of the names of a force's, point's or torque's columns. A <PrescribedForce>, the form of
+/// documents before 20301, names columns by its functions: the column of x, or "#" and its number.
 std::string identifier_of(const OsimXml& xml,
                           pugi::xml_node node,
                           const std::string& quantity,
                           const TimeSeries& data) {
-  if (std::string_view(node.name()) == "ExternalForce")
-    return xml.word(node, (quantity + "_identifier").c_str());
+  if (std::string_view(node.name()) == "ExternalForce") return xml.word(node, (quantity + "_identifier").c_str());
   const std::string set_name = quantity + "Functions";
   auto set = node.child(set_name.c_str());
   if (!set) set = node.find_child_by_attribute("name", set_name.c_str());
@@ -48,8 +45,8 @@ std::string identifier_of(const OsimXml& xml,
     const auto column = recording::parse_number(name.substr(1));
     const auto count = static_cast<double>(data.channel_count());
     if (!column || !(*column >= 1.0 && *column <= count)) {
-      xml.fail(function, fmt::format("PrescribedForce '{}': function '{}', expected #1 to #{}",
-                                     OsimXml::name_of(node), name, count));
+      xml.fail(function, fmt::format("PrescribedForce '{}': function '{}', expected #1 to #{}", OsimXml::name_of(node),
+                                     name, count));
     }
     name = data.channels()[static_cast<std::size_t>(*column) - 1].name;
   }
@@ -66,24 +63,20 @@ Eigen::MatrixX3d values_of(const OsimXml& xml,
   if (identifier.empty() || identifier == "Unassigned") return {};
   const auto columns = columns_of(data, identifier);
   if (columns.size() != 3) {
-    xml.fail(node,
-             fmt::format("{} '{}': the {} identifier '{}' begins {} columns of {}, expected 3; its "
-                         "columns are {}",
-                         node.name(), OsimXml::name_of(node), quantity, identifier, columns.size(),
-                         file.string(), channel_names(data)));
+    xml.fail(node, fmt::format("{} '{}': the {} identifier '{}' begins {} columns of {}, expected 3; its "
+                               "columns are {}",
+                               node.name(), OsimXml::name_of(node), quantity, identifier, columns.size(), file.string(),
+                               channel_names(data)));
   }
   Eigen::MatrixX3d values(data.sample_count(), 3);
-  for (Eigen::Index k = 0; k < 3; ++k)
-    values.col(k) = data.values().col(columns[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < 3; ++k) values.col(k) = data.values().col(columns[static_cast<std::size_t>(k)]);
   return values;
 }
 
-/// Replaces points without meaning, where no load acts, by straight lines between points under
-/// load.
+/// Replaces points without meaning, where no load acts, by straight lines between points under load.
 Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_loaded) {
   const auto bad = [&](Eigen::Index i) {
-    return !point.row(i).allFinite() ||
-           (!is_loaded[static_cast<std::size_t>(i)] && point.row(i).norm() > kFarAway_m);
+    return !point.row(i).allFinite() || (!is_loaded[static_cast<std::size_t>(i)] && point.row(i).norm() > kFarAway_m);
   };
   const Eigen::Index n = point.rows();
   Eigen::Index mended = 0;
@@ -142,9 +135,8 @@ void check_finite(const Eigen::MatrixX3d& values,
                   const std::filesystem::path& file) {
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     if (values.row(i).allFinite()) continue;
-    throw InvalidInput(fmt::format(
-        "{}: the {} is not a number at {} s; fill the gap (0 where nothing is measured)",
-        file.string(), what, data.time_s()[i]));
+    throw InvalidInput(fmt::format("{}: the {} is not a number at {} s; fill the gap (0 where nothing is measured)",
+                                   file.string(), what, data.time_s()[i]));
   }
 }
 
@@ -167,8 +159,7 @@ ExternalForce read_force(const OsimXml& xml,
   Eigen::MatrixX3d p = values_of(xml, node, "point", data, file);
   const Eigen::MatrixX3d t = values_of(xml, node, "torque", data, file);
   if (f.rows() == 0 && t.rows() == 0) {
-    xml.fail(node, fmt::format("{} '{}' names neither columns of a force nor of a torque",
-                               node.name(), force.name));
+    xml.fail(node, fmt::format("{} '{}' names neither columns of a force nor of a torque", node.name(), force.name));
   }
   check_finite(f, data, "force of '" + force.name + "'", file);
   check_finite(t, data, "torque of '" + force.name + "'", file);
@@ -178,21 +169,19 @@ ExternalForce read_force(const OsimXml& xml,
       const Eigen::VectorXd size = f.rowwise().norm();
       // An empty plate's noise is up to a thousandth of the peak.
       const double least = 1e-3 * size.maxCoeff();
-      for (Eigen::Index i = 0; i < size.size(); ++i)
-        is_loaded[static_cast<std::size_t>(i)] = size[i] > least;
+      for (Eigen::Index i = 0; i < size.size(); ++i) is_loaded[static_cast<std::size_t>(i)] = size[i] > least;
     }
     for (Eigen::Index i = 0; i < p.rows(); ++i) {
       if (is_loaded[static_cast<std::size_t>(i)] && !p.row(i).allFinite()) {
-        throw InvalidInput(
-            fmt::format("{}: the point of '{}' is not a number at {} s, while its force acts",
-                        file.string(), force.name, data.time_s()[i]));
+        throw InvalidInput(fmt::format("{}: the point of '{}' is not a number at {} s, while its force acts",
+                                       file.string(), force.name, data.time_s()[i]));
       }
     }
     if (const Eigen::Index mended = mend_points(p, is_loaded); mended > 0) {
-      notes.push_back(fmt::format(
-          "{}: the point of '{}' means nothing in {} rows where no force acts; straight lines "
-          "between the others stand there",
-          file.string(), force.name, mended));
+      notes.push_back(
+          fmt::format("{}: the point of '{}' means nothing in {} rows where no force acts; straight lines "
+                      "between the others stand there",
+                      file.string(), force.name, mended));
     }
     force.point = fit(clock, p);
   }
@@ -233,8 +222,7 @@ void ExternalLoads::append_wrenches(const model::BodyState& state,
     if (force.force) {
       wrench.f_G = R_GE * force.force->at(time_s);
       if (force.point) {
-        const Vec3 p_G =
-            state.X_GB[static_cast<std::size_t>(force.point_frame)] * force.point->at(time_s);
+        const Vec3 p_G = state.X_GB[static_cast<std::size_t>(force.point_frame)] * force.point->at(time_s);
         wrench.m_G = (p_G - X_GB.p).cross(wrench.f_G);
       }
     }
@@ -243,15 +231,12 @@ void ExternalLoads::append_wrenches(const model::BodyState& state,
   }
 }
 
-ExternalLoads read_external_loads(const model::BodyModel& model,
-                                  const std::filesystem::path& path) {
+ExternalLoads read_external_loads(const model::BodyModel& model, const std::filesystem::path& path) {
   const std::string text = recording::read_text_file(path);
   OsimXml xml(text, path, OsimXml::Root::any);
   const auto set = xml.root().child("ExternalLoads");
   if (!set) {
-    xml.fail(
-        xml.root(),
-        "expected <ExternalLoads>; this is another kind of file (give the .xml, not the data)");
+    xml.fail(xml.root(), "expected <ExternalLoads>; this is another kind of file (give the .xml, not the data)");
   }
   xml.set_prototypes(set.child("defaults"));
   const std::string name = xml.word(set, "datafile");
@@ -260,20 +245,17 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
   }
   const recording::NamedFile named = recording::find_named_file(path.parent_path(), name);
   if (!named.exists) {
-    xml.fail(set.child("datafile"),
-             fmt::format("<datafile> names '{}', and there is no such file; a file of that name "
-                         "beside this one or one folder up would be taken",
-                         name));
+    xml.fail(set.child("datafile"), fmt::format("<datafile> names '{}', and there is no such file; a file of that name "
+                                                "beside this one or one folder up would be taken",
+                                                name));
   }
   const std::filesystem::path& file = named.path;
   const recording::Storage table = recording::read_storage(file);
   const TimeSeries& data = table.data;
   if (data.empty()) throw InvalidInput(fmt::format("{}: there are no rows", file.string()));
   ExternalLoads loads;
-  if (!named.note.empty())
-    loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
-  for (const recording::Repair& repair : table.repairs)
-    loads.notes.push_back(recording::to_string(file, repair));
+  if (!named.note.empty()) loads.notes.push_back(fmt::format("{}: <datafile>: {}", path.string(), named.note));
+  for (const recording::Repair& repair : table.repairs) loads.notes.push_back(recording::to_string(file, repair));
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;
@@ -281,24 +263,21 @@ ExternalLoads read_external_loads(const model::BodyModel& model,
   for (const auto node : OsimXml::objects(set)) {
     const std::string_view kind = node.name();
     const bool is_old = kind == "PrescribedForce";
-    if (kind != "ExternalForce" && !is_old)
-      xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", kind));
+    if (kind != "ExternalForce" && !is_old) xml.fail(node, fmt::format("expected <ExternalForce>, found <{}>", kind));
     if (xml.flag(node, "isDisabled", false) || !xml.flag(node, "appliesForce", true)) {
-      loads.notes.push_back(
-          fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
+      loads.notes.push_back(fmt::format("{}: '{}' is switched off", path.string(), OsimXml::name_of(node)));
       continue;
     }
     constexpr int kFirstOfExternalForces = 20301;
     if (is_old && xml.version() >= kFirstOfExternalForces) {
-      loads.notes.push_back(fmt::format(
-          "{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim "
-          "converts it only where the document's version ({}) is before that",
-          path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version()));
+      loads.notes.push_back(
+          fmt::format("{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim "
+                      "converts it only where the document's version ({}) is before that",
+                      path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version()));
     }
     loads.forces.push_back(read_force(xml, node, model, data, clock, file, loads.notes));
   }
-  if (loads.forces.empty())
-    loads.notes.push_back(fmt::format("{}: no external force acts", path.string()));
+  if (loads.forces.empty()) loads.notes.push_back(fmt::format("{}: no external force acts", path.string()));
   return loads;
 }
 

@@ -45,20 +45,15 @@ struct ExternalLoads {
   /// Puts the data on another clock.
   void set_clock(double offset_s, double drift_ppm);
 
-  /// Appends the wrenches about the origins of the loaded bodies, in ground, at the posture in
-  /// `state` (compute_poses).
-  void append_wrenches(const model::BodyState& state,
-                       double time_s,
-                       std::vector<model::BodyWrench>& wrenches) const;
+  /// Appends the wrenches about the origins of the loaded bodies, in ground, at the posture in `state` (compute_poses).
+  void append_wrenches(const model::BodyState& state, double time_s, std::vector<model::BodyWrench>& wrenches) const;
 };
 
-/// Reads <ExternalLoads> of OpenSim and the data file that the element names (relative to its own
-/// file). Each ExternalForce takes the columns that begin with its identifier: three for each of
-/// force, point and torque. Straight lines between the points under load replace points that are
-/// NaN or kilometers away while no force acts, with a note. Throws ReadError with the line for bad
-/// XML, an unknown body or an identifier without its three columns; InvalidInput for a force that
-/// is NaN.
-[[nodiscard]] ExternalLoads read_external_loads(const model::BodyModel& model,
-                                                const std::filesystem::path& path);
+/// Reads <ExternalLoads> of OpenSim and the data file that the element names (relative to its own file). Each
+/// ExternalForce takes the columns that begin with its identifier: three for each of force, point and torque. Straight
+/// lines between the points under load replace points that are NaN or kilometers away while no force acts, with a note.
+/// Throws ReadError with the line for bad XML, an unknown body or an identifier without its three columns; InvalidInput
+/// for a force that is NaN.
+[[nodiscard]] ExternalLoads read_external_loads(const model::BodyModel& model, const std::filesystem::path& path);
 
 }  // namespace myoid::dynamics

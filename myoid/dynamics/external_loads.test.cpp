@@ -27,9 +27,7 @@ class Loads : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   void write_set(const std::string& body, const std::string& more) const {
     write("loads.xml",
           "<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\">\n"
@@ -39,9 +37,7 @@ class Loads : public ::testing::Test {
               "</ExternalForce></objects><datafile>loads.mot</datafile></ExternalLoads>\n"
               "</OpenSimDocument>\n");
   }
-  [[nodiscard]] ExternalLoads read() const {
-    return read_external_loads(arm_, folder_ / "loads.xml");
-  }
+  [[nodiscard]] ExternalLoads read() const { return read_external_loads(arm_, folder_ / "loads.xml"); }
 
   static constexpr const char* kIdentifiers =
       "<force_expressed_in_body>ground</force_expressed_in_body>"
@@ -61,9 +57,8 @@ class Loads : public ::testing::Test {
 
 TEST_F(Loads, AForceAtAPointOfGroundTurnsAboutTheBodysOrigin) {
   write_set(body_, kIdentifiers);
-  write("loads.mot",
-        data("0\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n0.1\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n"
-             "0.2\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n0.3\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n"));
+  write("loads.mot", data("0\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n0.1\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n"
+                          "0.2\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n0.3\t1\t2\t3\t0.1\t0.2\t0.3\t0\t0.5\t0\n"));
   const ExternalLoads loads = read();
   model::BodyState state = model::make_state(arm_);
   model::compute_poses(arm_, arm_.default_q(), state);
@@ -78,13 +73,12 @@ TEST_F(Loads, AForceAtAPointOfGroundTurnsAboutTheBodysOrigin) {
 
 TEST_F(Loads, GeneralizedForcesBalanceTheLoadByVirtualWork) {
   // Expressed in the body itself, at its own point: tau of the load is -J' f.
-  write_set(body_, "<force_expressed_in_body>" + body_ + "</force_expressed_in_body>" +
-                       "<point_expressed_in_body>" + body_ + "</point_expressed_in_body>" +
+  write_set(body_, "<force_expressed_in_body>" + body_ + "</force_expressed_in_body>" + "<point_expressed_in_body>" +
+                       body_ + "</point_expressed_in_body>" +
                        "<force_identifier>f_v</force_identifier>"
                        "<point_identifier>f_p</point_identifier>");
   std::string rows;
-  for (int i = 0; i < 8; ++i)
-    rows += std::to_string(0.1 * i) + "\t4\t-5\t6\t0.01\t-0.2\t0.02\t0\t0\t0\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(0.1 * i) + "\t4\t-5\t6\t0.01\t-0.2\t0.02\t0\t0\t0\n";
   write("loads.mot", data(rows));
   const ExternalLoads loads = read();
   const auto n = static_cast<Eigen::Index>(arm_.coordinates.size());
@@ -94,24 +88,21 @@ TEST_F(Loads, GeneralizedForcesBalanceTheLoadByVirtualWork) {
   for (int i = 0; i < 8; ++i) q.row(i) = (arm_.default_q().array() + 0.1 * i).transpose();
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(8, 0.0, 0.7);
   const kinematics::JointMotion motion = kinematics::joint_motion(arm_, {t, channels, q}).motion;
-  const Eigen::MatrixXd with =
-      inverse_dynamics(arm_, motion, {.loads = &loads, .passive_forces = false}).values();
+  const Eigen::MatrixXd with = inverse_dynamics(arm_, motion, {.loads = &loads, .passive_forces = false}).values();
   const Eigen::MatrixXd without = inverse_dynamics(arm_, motion).values();
   model::BodyState state = model::make_state(arm_);
   model::compute_poses(arm_, motion.q.values().row(3).transpose(), state);
   const auto b = static_cast<model::BodyIndex>(arm_.bodies.size()) - 1;
-  const Eigen::VectorXd expected =
-      -model::station_jacobian(arm_, state, b, Vec3(0.01, -0.2, 0.02)).transpose() *
-      (state.X_GB.back().R * Vec3(4.0, -5.0, 6.0));
+  const Eigen::VectorXd expected = -model::station_jacobian(arm_, state, b, Vec3(0.01, -0.2, 0.02)).transpose() *
+                                   (state.X_GB.back().R * Vec3(4.0, -5.0, 6.0));
   EXPECT_LT((with.row(3) - without.row(3) - expected.transpose()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(expected.norm(), 0.1);
 }
 
 TEST_F(Loads, APointThatIsNoNumberWhileUnloadedIsMendedAndSaid) {
   write_set(body_, kIdentifiers);
-  write("loads.mot",
-        data("0\t0\t500\t0\t0.1\t0\t0\t0\t0\t0\n0.1\t0\t0.01\t0\tNaN\tNaN\tNaN\t0\t0\t0\n"
-             "0.2\t0\t0\t0\t1e9\t0\t0\t0\t0\t0\n0.3\t0\t500\t0\t0.4\t0\t0\t0\t0\t0\n"));
+  write("loads.mot", data("0\t0\t500\t0\t0.1\t0\t0\t0\t0\t0\n0.1\t0\t0.01\t0\tNaN\tNaN\tNaN\t0\t0\t0\n"
+                          "0.2\t0\t0\t0\t1e9\t0\t0\t0\t0\t0\n0.3\t0\t500\t0\t0.4\t0\t0\t0\t0\t0\n"));
   const ExternalLoads loads = read();
   // What the table's reader says, and what became of it.
   ASSERT_EQ(loads.notes.size(), 2U);
@@ -132,8 +123,8 @@ TEST_F(Loads, WhatCannotBeUsedIsNamedWithItsLine) {
   };
   write("loads.mot", data("0\t0\t5\t0\t0\t0\t0\t0\t0\t0\n0.1\t0\t5\t0\tNaN\t0\t0\t0\t0\t0\n"));
   write_set("foot", kIdentifiers);
-  EXPECT_THAT(message(), ::testing::AllOf(::testing::HasSubstr("loads.xml:4"),
-                                          ::testing::HasSubstr("no body of the model")));
+  EXPECT_THAT(message(),
+              ::testing::AllOf(::testing::HasSubstr("loads.xml:4"), ::testing::HasSubstr("no body of the model")));
   write_set(body_, "<force_identifier>g_v</force_identifier>");
   EXPECT_THAT(message(), ::testing::HasSubstr("begins 0 columns"));
   write_set(body_, kIdentifiers);
@@ -146,8 +137,7 @@ TEST_F(Loads, WhatCannotBeUsedIsNamedWithItsLine) {
 TEST_F(Loads, AForceInTheBodysOwnFrameTurnsWithTheBody) {
   write("loads.mot", data("0 10 0 0 0.1 0 0 0 0 2\n1 10 0 0 0.1 0 0 0 0 2\n2 10 0 0 0.1 0 0 0 0 "
                           "2\n3 10 0 0 0.1 0 0 0 0 2\n"));
-  write_set(body_, "<force_expressed_in_body>" + body_ +
-                       "</force_expressed_in_body><point_expressed_in_body>" + body_ +
+  write_set(body_, "<force_expressed_in_body>" + body_ + "</force_expressed_in_body><point_expressed_in_body>" + body_ +
                        "</point_expressed_in_body><force_identifier>f_v</force_identifier>"
                        "<point_identifier>f_p</point_identifier>"
                        "<torque_identifier>f_t</torque_identifier>");

@@ -27,8 +27,7 @@ void ForwardDynamics::set(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot,
   const Eigen::VectorXd weight = model::inverse_dynamics(*model_, q, rest, rest, {}, state_);
   mass_.resize(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    mass_.col(k) =
-        model::inverse_dynamics(*model_, q, rest, Eigen::VectorXd::Unit(n, k), {}, state_) - weight;
+    mass_.col(k) = model::inverse_dynamics(*model_, q, rest, Eigen::VectorXd::Unit(n, k), {}, state_) - weight;
   }
   model::compute_velocities(*model_, qdot, state_);
   constraints_ = model::acceleration_constraints(*model_, state_, time_s);
@@ -53,18 +52,15 @@ ForwardDynamics::Solution ForwardDynamics::solve(const Eigen::VectorXd& tau,
                                                  const std::vector<model::BodyWrench>& wrenches) {
   const Eigen::VectorXd q = state_.q, qdot = state_.qdot;
   const Eigen::VectorXd driving =
-      tau -
-      model::inverse_dynamics(*model_, q, qdot, Eigen::VectorXd::Zero(q.size()), wrenches, state_);
+      tau - model::inverse_dynamics(*model_, q, qdot, Eigen::VectorXd::Zero(q.size()), wrenches, state_);
   Solution solution;
   solution.qddot = particular_;
   if (allowed_.cols() > 0) {
-    solution.qddot +=
-        allowed_ * factor_.solve(allowed_.transpose() * (driving - mass_ * particular_));
+    solution.qddot += allowed_ * factor_.solve(allowed_.transpose() * (driving - mass_ * particular_));
   }
   solution.multipliers.resize(constraints_.A.rows());
   if (solution.multipliers.size() > 0) {
-    solution.multipliers =
-        math::shortest_solution(constraints_.A.transpose(), mass_ * solution.qddot - driving, 1e-9);
+    solution.multipliers = math::shortest_solution(constraints_.A.transpose(), mass_ * solution.qddot - driving, 1e-9);
   }
   return solution;
 }

@@ -13,13 +13,11 @@ namespace myoid::dynamics {
 ///
 ///   M qddot + C - gravity = tau + external + A' lambda,   A qddot = b
 ///
-/// A and b as in model::acceleration_constraints: couplers, closed loops, locks, prescribed
-/// coordinates. For redundant constraints lambda is the shortest solution, as in Simbody. One
-/// object per thread.
+/// A and b as in model::acceleration_constraints: couplers, closed loops, locks, prescribed coordinates. For redundant
+/// constraints lambda is the shortest solution, as in Simbody. One object per thread.
 class ForwardDynamics {
  public:
-  explicit ForwardDynamics(const model::BodyModel& model)
-      : model_(&model), state_(model::make_state(model)) {}
+  explicit ForwardDynamics(const model::BodyModel& model) : model_(&model), state_(model::make_state(model)) {}
 
   /// Sets the state for `solve`; q must meet the constraints. Throws ModelError, naming a
   /// coordinate, if a motion that the constraints allow moves no mass.
@@ -31,10 +29,8 @@ class ForwardDynamics {
     Eigen::VectorXd qddot;
     Eigen::VectorXd multipliers;  ///< lambda, in the rows' order.
   };
-  /// Solves. `tau`: forces along coordinates [N m, N]; `wrenches`: forces on bodies other than
-  /// gravity.
-  [[nodiscard]] Solution solve(const Eigen::VectorXd& tau,
-                               const std::vector<model::BodyWrench>& wrenches);
+  /// Solves. `tau`: forces along coordinates [N m, N]; `wrenches`: forces on bodies other than gravity.
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& tau, const std::vector<model::BodyWrench>& wrenches);
 
  private:
   const model::BodyModel* model_;

@@ -34,14 +34,12 @@ TEST(ForwardDynamics, UndoesInverseDynamics) {
 TEST(ForwardDynamics, SolvesTheEquationsOfMotionWithConstraints) {
   model::BodyModel m = test::crooked_tree(3);
   test::Uniform u(9);
-  m.couplers.push_back({.name = "coupler",
-                        .dependent = 2,
-                        .independent = 1,
-                        .function = model::Polynomial{{0.3, -0.5, 0.2, 0.1}}});
-  m.constraints.push_back({"rod", "ConstantDistanceConstraint",
-                           model::DistanceConstraint{1, 3, u.vec(), u.vec(), 0.5}});
-  m.constraints.push_back({"line", "PointOnLineConstraint",
-                           model::LineConstraint{4, 3, u.vec().normalized(), u.vec(), u.vec()}});
+  m.couplers.push_back(
+      {.name = "coupler", .dependent = 2, .independent = 1, .function = model::Polynomial{{0.3, -0.5, 0.2, 0.1}}});
+  m.constraints.push_back(
+      {"rod", "ConstantDistanceConstraint", model::DistanceConstraint{1, 3, u.vec(), u.vec(), 0.5}});
+  m.constraints.push_back(
+      {"line", "PointOnLineConstraint", model::LineConstraint{4, 3, u.vec().normalized(), u.vec(), u.vec()}});
   m.coordinates[7].locked = true;
   m = model::finalize(m);
   const Eigen::VectorXd q = test::random_vector(12, u), qdot = 3.0 * test::random_vector(12, u),
@@ -49,12 +47,10 @@ TEST(ForwardDynamics, SolvesTheEquationsOfMotionWithConstraints) {
   const std::vector<model::BodyWrench> wrenches{{2, u.vec(), u.vec()}};
   ForwardDynamics dynamics(m);
   dynamics.set(q, qdot, 0.0);
-  const model::AccelerationConstraints rows =
-      model::acceleration_constraints(m, dynamics.state(), 0.0);
+  const model::AccelerationConstraints rows = model::acceleration_constraints(m, dynamics.state(), 0.0);
   const auto solution = dynamics.solve(tau, wrenches);
   model::BodyState state = model::make_state(m);
-  const Eigen::VectorXd needed =
-      model::inverse_dynamics(m, q, qdot, solution.qddot, wrenches, state);
+  const Eigen::VectorXd needed = model::inverse_dynamics(m, q, qdot, solution.qddot, wrenches, state);
   // Round-off, as above.
   EXPECT_LT((needed - tau - rows.A.transpose() * solution.multipliers).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_LT((rows.A * solution.qddot - rows.b).cwiseAbs().maxCoeff(), 1e-8);
@@ -79,9 +75,8 @@ model::BodyModel hanging_mass(int rods) {
   m.joints.push_back(joint);
   m.coordinates = {{.name = "x", .joint = 0}, {.name = "y", .joint = 0}};
   for (int k = 0; k < rods; ++k) {
-    m.constraints.push_back(
-        {"rod" + std::to_string(k), "ConstantDistanceConstraint",
-         model::DistanceConstraint{.body1 = 0, .body2 = 1, .distance_m = kLength_m}});
+    m.constraints.push_back({"rod" + std::to_string(k), "ConstantDistanceConstraint",
+                             model::DistanceConstraint{.body1 = 0, .body2 = 1, .distance_m = kLength_m}});
   }
   return model::finalize(m);
 }

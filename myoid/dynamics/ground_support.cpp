@@ -33,8 +33,7 @@ Root root_of(const model::BodyModel& model) {
     if (joint.parent != 0) continue;
     for (const int c : joint.coordinates) {
       const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(c)];
-      if (coordinate.motion != model::MotionType::translational || model.is_constrained(c))
-        continue;
+      if (coordinate.motion != model::MotionType::translational || model.is_constrained(c)) continue;
       const double along = std::abs(state.H_v_G[static_cast<std::size_t>(c)].dot(down));
       if (along <= best) continue;
       best = along;
@@ -70,14 +69,13 @@ std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& mode
 std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model) {
   const Root root = root_of(model);
   if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
-  return UnsupportedWeight{model.coordinates[static_cast<std::size_t>(root.coordinate)].name,
-                           root.weight_n, root.weight_n};
+  return UnsupportedWeight{model.coordinates[static_cast<std::size_t>(root.coordinate)].name, root.weight_n,
+                           root.weight_n};
 }
 
 std::string UncarriedTime::sentence() const {
   std::vector<std::string> times;
-  for (const Stretch& s : stretches)
-    times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
+  for (const Stretch& s : stretches) times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
   return fmt::format(
       "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "
       "{:.0f} "
@@ -88,8 +86,7 @@ std::string UncarriedTime::sentence() const {
       100.0 * share, fmt::join(times, ", "), coordinate, force_n, weight_n);
 }
 
-std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
-                                            const TimeSeries& generalized_forces) {
+std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model, const TimeSeries& generalized_forces) {
   constexpr double kUncarried = 0.5, kAffected = 0.25;  // of the weight
   constexpr double kBriefest_s = 0.05;
   constexpr double kThroughout = 0.9;
@@ -100,11 +97,7 @@ std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
   const Eigen::VectorXd& t = generalized_forces.time_s();
   if (!column || t.size() < 2) return std::nullopt;
   const Eigen::VectorXd force = generalized_forces.values().col(*column).cwiseAbs();
-  UncarriedTime found{.stretches = {},
-                      .share = 0.0,
-                      .coordinate = c.name,
-                      .force_n = 0.0,
-                      .weight_n = root.weight_n};
+  UncarriedTime found{.stretches = {}, .share = 0.0, .coordinate = c.name, .force_n = 0.0, .weight_n = root.weight_n};
   const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root.weight_n; };
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
@@ -139,8 +132,7 @@ bool bears_the_body(const model::BodyModel& model,
   const double g = model.gravity_G.norm();
   if (!(g > 0.0)) return false;
   const Vec3 up = -model.gravity_G / g;
-  const int joint =
-      model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))].joint;
+  const int joint = model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))].joint;
   const std::vector<bool> moved = moved_bodies(model, joint);
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, q, state);
@@ -156,12 +148,10 @@ bool bears_the_body(const model::BodyModel& model,
 }
 
 bool stands(const model::BodyModel& model, const Eigen::VectorXd& q) {
-  return std::any_of(model.coordinates.begin(), model.coordinates.end(),
-                     [&](const model::Coordinate& c) {
-                       return c.motion != model::MotionType::translational &&
-                              model.joints[static_cast<std::size_t>(c.joint)].parent != 0 &&
-                              bears_the_body(model, c.name, q, 0.0);
-                     });
+  return std::any_of(model.coordinates.begin(), model.coordinates.end(), [&](const model::Coordinate& c) {
+    return c.motion != model::MotionType::translational &&
+           model.joints[static_cast<std::size_t>(c.joint)].parent != 0 && bears_the_body(model, c.name, q, 0.0);
+  });
 }
 
 }  // namespace myoid::dynamics

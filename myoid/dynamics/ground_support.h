@@ -15,17 +15,15 @@ struct UnsupportedWeight {
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< Its mean generalized force.
   double weight_n = 0.0;   ///< Weight of all bodies.
-  /// Describes the finding. `given_by` names the input for a ground reaction: a study's keys, a
-  /// command's option.
-  [[nodiscard]] std::string sentence(
-      const std::string& given_by = "external_loads or force_plates") const;
+  /// Describes the finding. `given_by` names the input for a ground reaction: a study's keys, a command's option.
+  [[nodiscard]] std::string sentence(const std::string& given_by = "external_loads or force_plates") const;
 };
 
 /// Returns the model's free translation along gravity with its mean generalized force, if this
 /// force is half of the weight or more: no measured force carries the body. Empty for a model that
 /// is fixed to the ground or carried by the loads.
-[[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(
-    const model::BodyModel& model, const TimeSeries& generalized_forces);
+[[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model,
+                                                                  const TimeSeries& generalized_forces);
 
 /// Returns the translation for a motion without any load; it then carries the whole weight.
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model);
@@ -41,25 +39,22 @@ struct UncarriedTime {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Returns the stretches in which the model's free translation along gravity bears half of the
-/// weight for 50 ms or more; each extends while the translation bears a quarter. In flight the
-/// translation bears no weight. Empty without such a stretch, and with more than nine tenths of the
-/// time in stretches, as for people who sit, lie or hang.
+/// Returns the stretches in which the model's free translation along gravity bears half of the weight for 50 ms or
+/// more; each extends while the translation bears a quarter. In flight the translation bears no weight. Empty without
+/// such a stretch, and with more than nine tenths of the time in stretches, as for people who sit, lie or hang.
 /// people who sit, lie or hang.
 [[nodiscard]] std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
                                                           const TimeSeries& generalized_forces);
 
-/// Returns true if a ground reaction would act on the coordinate, which then lies between the
-/// ground and the rest of the body: the model is most of a person (three quarters of
-/// `body_mass_kg`, or of 75 kg), and the part that the coordinate moves reaches lower than all
-/// other parts in this posture.
+/// Returns true if a ground reaction would act on the coordinate, which then lies between the ground and the rest of
+/// the body: the model is most of a person (three quarters of `body_mass_kg`, or of 75 kg), and the part that the
+/// coordinate moves reaches lower than all other parts in this posture.
 [[nodiscard]] bool bears_the_body(const model::BodyModel& model,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& q,
                                   double body_mass_kg);
 
-/// Returns true if bears_the_body holds for a joint beyond the joint to the ground: the model
-/// stands.
+/// Returns true if bears_the_body holds for a joint beyond the joint to the ground: the model stands.
 [[nodiscard]] bool stands(const model::BodyModel& model, const Eigen::VectorXd& q);
 
 }  // namespace myoid::dynamics

@@ -27,13 +27,11 @@ model::BodyModel standing_person(double trunk_kg) {
     return joint;
   };
   model.joints = {test::vertical_slider(), hinge("hip", 1, 2, 1, Vec3::Zero()),
-                  hinge("knee", 2, 3, 2, Vec3(0.0, -0.4, 0.0)),
-                  hinge("shoulder", 1, 4, 3, Vec3(0.0, 0.5, 0.0))};
-  model.coordinates = {
-      {.name = "pelvis_ty", .joint = 0, .motion = model::MotionType::translational},
-      {.name = "hip_flexion", .joint = 1},
-      {.name = "knee_angle", .joint = 2},
-      {.name = "arm_flex", .joint = 3}};
+                  hinge("knee", 2, 3, 2, Vec3(0.0, -0.4, 0.0)), hinge("shoulder", 1, 4, 3, Vec3(0.0, 0.5, 0.0))};
+  model.coordinates = {{.name = "pelvis_ty", .joint = 0, .motion = model::MotionType::translational},
+                       {.name = "hip_flexion", .joint = 1},
+                       {.name = "knee_angle", .joint = 2},
+                       {.name = "arm_flex", .joint = 3}};
   return model::finalize(std::move(model));
 }
 

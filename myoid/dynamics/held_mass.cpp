@@ -8,20 +8,15 @@
 
 namespace myoid::dynamics {
 
-model::BodyModel with_held_mass(model::BodyModel model,
-                                std::string_view body,
-                                const Vec3& p_BP_m,
-                                double mass_kg) {
+model::BodyModel with_held_mass(model::BodyModel model, std::string_view body, const Vec3& p_BP_m, double mass_kg) {
   if (!(mass_kg >= 0.0) || !std::isfinite(mass_kg)) {
     throw InvalidInput(fmt::format("held mass: found {} kg, expected 0 or more", mass_kg));
   }
   const auto index = model.find_body(body);
   if (!index || *index == 0) {
     std::string names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i)
-      names += (i == 1 ? "" : ", ") + model.bodies[i].name;
-    throw ModelError(
-        fmt::format("held mass: the model has no body '{}'; there are {}", body, names));
+    for (std::size_t i = 1; i < model.bodies.size(); ++i) names += (i == 1 ? "" : ", ") + model.bodies[i].name;
+    throw ModelError(fmt::format("held mass: the model has no body '{}'; there are {}", body, names));
   }
   if (mass_kg == 0.0) return model;
   model::Body& carrier = model.bodies[static_cast<std::size_t>(*index)];

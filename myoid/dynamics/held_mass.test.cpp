@@ -10,8 +10,7 @@ namespace {
 
 model::BodyModel pendulum() {
   model::BodyModel m;
-  m.bodies = {{.name = "ground"},
-              {.name = "forearm", .mass_kg = 1.5, .p_BBcm_B = {0.0, -0.18, 0.0}}};
+  m.bodies = {{.name = "ground"}, {.name = "forearm", .mass_kg = 1.5, .p_BBcm_B = {0.0, -0.18, 0.0}}};
   m.bodies[1].I_BBcm_B = Vec3(0.02, 0.001, 0.02).asDiagonal();
   m.coordinates = {{.name = "q", .joint = 0}};
   model::Joint joint;
@@ -36,12 +35,11 @@ TEST(WithHeldMass, AddsTheTorqueOfAPointMassOnAPendulum) {
   const double q = 0.7;
   const double qddot = 3.0;
   model::BodyState state = model::make_state(loaded);
-  const Eigen::VectorXd tau = model::inverse_dynamics(
-      loaded, Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, 1.2),
-      Eigen::VectorXd::Constant(1, qddot), {}, state);
+  const Eigen::VectorXd tau =
+      model::inverse_dynamics(loaded, Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, 1.2),
+                              Eigen::VectorXd::Constant(1, qddot), {}, state);
   const double inertia = 0.02 + 1.5 * 0.18 * 0.18 + held_kg * d_m * d_m;
-  const double expected =
-      inertia * qddot + (1.5 * 0.18 + held_kg * d_m) * kStandardGravity * std::sin(q);
+  const double expected = inertia * qddot + (1.5 * 0.18 + held_kg * d_m) * kStandardGravity * std::sin(q);
   EXPECT_NEAR(tau[0], expected, 1e-13 * expected * 10.0);  // round-off of some twenty products
 }
 

@@ -17,15 +17,13 @@ constexpr std::array kMoment{"Mx", "My", "Mz"};
 
 Eigen::MatrixX3d three(const TimeSeries& wrench, const std::array<const char*, 3>& names) {
   Eigen::MatrixX3d values(wrench.sample_count(), 3);
-  for (Eigen::Index k = 0; k < 3; ++k)
-    values.col(k) = wrench.column(names[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < 3; ++k) values.col(k) = wrench.column(names[static_cast<std::size_t>(k)]);
   return values;
 }
 
 LoadColumns splines_through(const Eigen::VectorXd& time_s, const Eigen::MatrixX3d& values) {
   LoadColumns columns;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    columns.splines.push_back(math::Spline::interpolate(time_s, values.col(k), 3));
+  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(math::Spline::interpolate(time_s, values.col(k), 3));
   return columns;
 }
 
@@ -44,8 +42,8 @@ ExternalForce instrument_load(const model::BodyModel& object,
   const double slack = 2.0 * object_q.mean_interval_s();
   if (wrench.empty() || wrench.time_s()[0] > clock[0] + slack ||
       wrench.time_s()[wrench.sample_count() - 1] < clock[n - 1] - slack) {
-    throw InvalidInput(fmt::format("{}: the load does not cover the time of the motion, {} to {} s",
-                                   name, clock[0], clock[n - 1]));
+    throw InvalidInput(
+        fmt::format("{}: the load does not cover the time of the motion, {} to {} s", name, clock[0], clock[n - 1]));
   }
   Eigen::MatrixXd q(n, static_cast<Eigen::Index>(object.coordinates.size()));
   for (std::size_t c = 0; c < object.coordinates.size(); ++c)

@@ -11,9 +11,8 @@ namespace myoid::dynamics {
 /// Returns the load that an instrumented object (a handle with a load cell) exerts on a body of the
 /// person, for inverse dynamics. The object has a separate model, whose coordinates `object_q` [rad
 /// | m] follow the object's markers; the cell is the body `frame` of that model. `wrench` has Fx,
-/// Fy, Fz [N], Mx, My, Mz [N m] in the cell's axes about its origin. The wrench is interpolated to
-/// the clock of `object_q`: low-pass it first. In ground, with the cell's pose (R, p) of each
-/// instant:
+/// Fy, Fz [N], Mx, My, Mz [N m] in the cell's axes about its origin. The wrench is interpolated to the clock of
+/// `object_q`: low-pass it first. In ground, with the cell's pose (R, p) of each instant:
 ///
 ///   force R F at the point p, moment R M
 ///

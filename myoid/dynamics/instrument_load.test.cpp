@@ -57,8 +57,7 @@ TimeSeries wrench(double end_s = 1.0) {
 
 TEST(InstrumentLoad, FollowsTheCellInGround) {
   const model::BodyModel object = handle();
-  const ExternalForce load =
-      instrument_load(object, turning(), *object.find_body("cell"), wrench(), 3, "grip");
+  const ExternalForce load = instrument_load(object, turning(), *object.find_body("cell"), wrench(), 3, "grip");
   EXPECT_EQ(load.body, 3);
   EXPECT_EQ(load.force_frame, 0);
   for (const double t : {0.25, 0.5, 0.8}) {
@@ -92,8 +91,7 @@ TEST(InstrumentLoad, InThePersonsOwnModelItIsTheSameWrench) {
 
 TEST(InstrumentLoad, RefusesALoadThatEndsBeforeTheMotion) {
   const model::BodyModel object = handle();
-  EXPECT_THROW(static_cast<void>(instrument_load(object, turning(), *object.find_body("cell"),
-                                                 wrench(0.5), 1, "grip")),
+  EXPECT_THROW(static_cast<void>(instrument_load(object, turning(), *object.find_body("cell"), wrench(0.5), 1, "grip")),
                InvalidInput);
 }
 

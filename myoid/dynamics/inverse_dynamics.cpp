@@ -32,29 +32,24 @@ TimeSeries inverse_dynamics(const model::BodyModel& model,
         model::compute_poses(model, q, state);
         model::compute_velocities(model, qdot, state);
       }
-      if (options.loads != nullptr)
-        options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
-      if (passive)
-        append_passive_forces(model, state, generalized, wrenches, motion.q.time_s()[frame]);
-      Eigen::VectorXd moments = model::inverse_dynamics(
-          model, q, qdot, motion.qddot.values().row(frame).transpose(), wrenches, state);
+      if (options.loads != nullptr) options.loads->append_wrenches(state, motion.q.time_s()[frame], wrenches);
+      if (passive) append_passive_forces(model, state, generalized, wrenches, motion.q.time_s()[frame]);
+      Eigen::VectorXd moments =
+          model::inverse_dynamics(model, q, qdot, motion.qddot.values().row(frame).transpose(), wrenches, state);
       if (by_speeds) moments = kinematics::rates_of_speeds(model, q).transpose() * moments;
       tau.row(frame) = (moments - generalized).transpose();
     }
   });
   std::vector<Channel> channels;
   for (const model::Coordinate& coordinate : model.coordinates) {
-    channels.push_back(
-        {generalized_force_name(coordinate), coordinate.motion == model::MotionType::translational
-                                                 ? Unit::newton
-                                                 : Unit::newton_meter});
+    channels.push_back({generalized_force_name(coordinate),
+                        coordinate.motion == model::MotionType::translational ? Unit::newton : Unit::newton_meter});
   }
   return {motion.q.time_s(), std::move(channels), std::move(tau)};
 }
 
 std::string generalized_force_name(const model::Coordinate& coordinate) {
-  return coordinate.name +
-         (coordinate.motion == model::MotionType::rotational ? "_moment" : "_force");
+  return coordinate.name + (coordinate.motion == model::MotionType::rotational ? "_moment" : "_force");
 }
 
 }  // namespace myoid::dynamics

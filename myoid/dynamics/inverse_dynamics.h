@@ -10,7 +10,7 @@ namespace myoid::dynamics {
 
 struct InverseDynamicsOptions {
   const ExternalLoads* loads = nullptr;  ///< Measured forces on bodies; not owned.
-  bool passive_forces = false;  ///< Includes the model's limit forces, springs and ligaments.
+  bool passive_forces = false;           ///< Includes the model's limit forces, springs and ligaments.
 };
 
 /// Returns the generalized forces that a motion requires: tau = M qddot + C(q, qdot) - gravity -

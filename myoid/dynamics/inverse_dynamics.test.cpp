@@ -33,14 +33,13 @@ TEST(InverseDynamics, OfArm26IsOpenSimsAwayFromTheEnds) {
   const auto folder = test::data_folder() / "opensim/trial_arm26";
   MYOID_REQUIRE_DATA(folder);
   const model::BodyModel m = model::read_osim(folder / "model.osim");
-  const TimeSeries q = recording::to_si(recording::read_storage(folder / "opensim/ik.mot"),
-                                        [](const std::string&) { return true; });
+  const TimeSeries q =
+      recording::to_si(recording::read_storage(folder / "opensim/ik.mot"), [](const std::string&) { return true; });
   const TimeSeries ours = inverse_dynamics(m, kinematics::joint_motion(m, q).motion);
   const TimeSeries theirs = recording::read_storage(folder / "opensim/id_unfiltered.sto").data;
   for (const char* name : {"r_shoulder_elev_moment", "r_elbow_flex_moment"}) {
     const Eigen::VectorXd difference = (ours.column(name) - theirs.column(name)).segment(10, 100);
-    // Angles have 8 decimals of a degree: 2e-10 rad / h^2 * inertia 0.3 = 1e-6; the spline's
-    // round-off the rest.
+    // Angles have 8 decimals of a degree: 2e-10 rad / h^2 * inertia 0.3 = 1e-6; the spline's round-off the rest.
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 2e-5) << name;
   }
 }
@@ -52,23 +51,18 @@ TEST(InverseDynamics, OfTheRajagopalModelIsOpenSimsAlsoWhereAxesShareACoordinate
   MYOID_REQUIRE_DATA(folder);
   const auto worst = [&](const model::Compat& compat) {
     const model::BodyModel m = model::read_osim(folder / "model.osim", {.compat = compat});
-    const TimeSeries q =
-        recording::to_si(recording::read_storage(folder / "opensim/smooth_Kinematics_q.sto"),
-                         [&](const std::string& name) {
-                           const auto c = m.find_coordinate(name);
-                           return c && m.coordinates[static_cast<std::size_t>(*c)].motion ==
-                                           model::MotionType::rotational;
-                         });
+    const TimeSeries q = recording::to_si(
+        recording::read_storage(folder / "opensim/smooth_Kinematics_q.sto"), [&](const std::string& name) {
+          const auto c = m.find_coordinate(name);
+          return c && m.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
+        });
     const TimeSeries ours = inverse_dynamics(m, kinematics::joint_motion(m, q).motion);
-    const TimeSeries theirs =
-        recording::read_storage(folder / "opensim/id_muscles_excluded.sto").data;
+    const TimeSeries theirs = recording::read_storage(folder / "opensim/id_muscles_excluded.sto").data;
     double relative = 0.0;
     for (const Channel& channel : theirs.channels()) {
       const Eigen::VectorXd reference = theirs.column(channel.name);
-      const Eigen::VectorXd difference =
-          (ours.column(channel.name) - reference).segment(10, reference.size() - 20);
-      relative =
-          std::max(relative, difference.cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff());
+      const Eigen::VectorXd difference = (ours.column(channel.name) - reference).segment(10, reference.size() - 20);
+      relative = std::max(relative, difference.cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff());
     }
     return relative;
   };

@@ -28,9 +28,7 @@ std::vector<bool> moved_bodies(const model::BodyModel& model, int joint) {
   return moved;
 }
 
-JointCapacity joint_capacity(const model::BodyModel& model,
-                             const std::string& coordinate,
-                             double body_mass_kg) {
+JointCapacity joint_capacity(const model::BodyModel& model, const std::string& coordinate, double body_mass_kg) {
   constexpr int kSteps = 12;
   const int index = model.coordinate_index(coordinate);
   const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(index)];
@@ -47,8 +45,7 @@ JointCapacity joint_capacity(const model::BodyModel& model,
     double negative = 0.0;
     for (std::size_t m = 0; m < model.muscles.size(); ++m) {
       const model::PathResult path = model::compute_path(model, static_cast<int>(m), state);
-      const double torque =
-          path.moment_arm_m[index] * model.muscles[m].properties.max_isometric_force_n;
+      const double torque = path.moment_arm_m[index] * model.muscles[m].properties.max_isometric_force_n;
       if (!std::isfinite(torque)) continue;
       (torque > 0.0 ? positive : negative) += std::abs(torque);
     }
@@ -65,13 +62,11 @@ JointCapacity joint_capacity(const model::BodyModel& model,
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     mass += model.bodies[b].mass_kg;
     if (moved[b])
-      capacity.lever_m =
-          std::max(capacity.lever_m, (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm());
+      capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm());
   }
   for (const model::Marker& marker : model.markers) {
     const auto b = static_cast<std::size_t>(marker.body);
-    if (moved[b])
-      capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * marker.p_BM - center).norm());
+    if (moved[b]) capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * marker.p_BM - center).norm());
   }
   capacity.lever_m = std::min(capacity.lever_m, kLongestLever_m);
   capacity.body_mass_kg = body_mass_kg > 0.0 ? body_mass_kg : std::max(mass, kLightBody_kg);

@@ -11,8 +11,7 @@ struct JointCapacity {
   /// Torque of all muscles of the positive direction at F_max, at the angle of its maximum.
   double positive_nm = 0.0;
   double negative_nm = 0.0;  ///< Torque in the negative direction, as a magnitude.
-  /// Distance from the joint to the farthest body or marker that the joint moves, at most
-  /// kLongestLever_m.
+  /// Distance from the joint to the farthest body or marker that the joint moves, at most kLongestLever_m.
   double lever_m = 0.0;
   double body_mass_kg = 0.0;  ///< Given mass or mass of the model's bodies, at least kLightBody_kg.
 

@@ -32,8 +32,7 @@ TEST(JointCapacity, IsWhatTheMusclesDoWhereTheyDoMost) {
 }
 
 TEST(JointCapacity, NobodyMakesMoreThanMusclesInLengtheningAndTheirOwnWeight) {
-  const JointCapacity c{
-      .positive_nm = 100.0, .negative_nm = 50.0, .lever_m = 0.3, .body_mass_kg = 80.0};
+  const JointCapacity c{.positive_nm = 100.0, .negative_nm = 50.0, .lever_m = 0.3, .body_mass_kg = 80.0};
   EXPECT_NEAR(c.greatest_nm(), 3.75 * 100.0 + 80.0 * kStandardGravity * 0.3, 1e-9);
 }
 
@@ -43,8 +42,7 @@ TEST(JointCapacity, RefusesACoordinateThatTheModelLacks) {
 
 TEST(MovedBodies, AreThoseBeyondTheJoint) {
   const model::BodyModel model = test::built_in_arm();
-  const int elbow =
-      model.coordinates[static_cast<std::size_t>(model.coordinate_index("elbow_flexion"))].joint;
+  const int elbow = model.coordinates[static_cast<std::size_t>(model.coordinate_index("elbow_flexion"))].joint;
   const std::vector<bool> moved = moved_bodies(model, elbow);
   EXPECT_TRUE(moved[static_cast<std::size_t>(*model.find_body("forearm_hand"))]);
   EXPECT_FALSE(moved[static_cast<std::size_t>(*model.find_body("upper_arm"))]);

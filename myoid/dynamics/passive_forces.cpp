@@ -16,10 +16,7 @@ double smooth_step(double s) {
 }
 
 /// Returns the wrench on a body of a force at a point of ground.
-model::BodyWrench wrench_at(const model::BodyState& state,
-                            model::BodyIndex body,
-                            const Vec3& p_G,
-                            const Vec3& f_G) {
+model::BodyWrench wrench_at(const model::BodyState& state, model::BodyIndex body, const Vec3& p_G, const Vec3& f_G) {
   return {body, f_G, (p_G - state.X_GB[at(body)].p).cross(f_G)};
 }
 
@@ -27,11 +24,8 @@ Vec3 point_velocity(const model::BodyState& state, model::BodyIndex body, const 
   return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
 }
 
-/// Adds a bushing's force by virtual work on the body-fixed X-Y-Z angles and the translation of
-/// frame 2 in frame 1.
-void append(const model::Bushing& b,
-            const model::BodyState& state,
-            std::vector<model::BodyWrench>& wrenches) {
+/// Adds a bushing's force by virtual work on the body-fixed X-Y-Z angles and the translation of frame 2 in frame 1.
+void append(const model::Bushing& b, const model::BodyState& state, std::vector<model::BodyWrench>& wrenches) {
   const Pose X_GF1 = state.X_GB[at(b.body1)] * b.X_BF1;
   const Pose X_GF2 = state.X_GB[at(b.body2)] * b.X_BF2;
   const Mat3 R = X_GF1.R.transpose() * X_GF2.R;
@@ -46,14 +40,11 @@ void append(const model::Bushing& b,
   const Mat3 inverse = axes.inverse();
   const Vec3 w_F1 = X_GF1.R.transpose() * (state.w_GB[at(b.body2)] - state.w_GB[at(b.body1)]);
   const Vec3 angle_rate = inverse * w_F1;
-  const Vec3 shift_rate = X_GF1.R.transpose() * (point_velocity(state, b.body2, X_GF2.p) -
-                                                 point_velocity(state, b.body1, X_GF2.p));
-  Vec3 moment =
-      -(b.rotational_stiffness.cwiseProduct(angle) + b.rotational_damping.cwiseProduct(angle_rate));
-  Vec3 force = -(b.translational_stiffness.cwiseProduct(shift) +
-                 b.translational_damping.cwiseProduct(shift_rate));
-  const std::array<double, 6> deflection{angle[0], angle[1], angle[2],
-                                         shift[0], shift[1], shift[2]};
+  const Vec3 shift_rate =
+      X_GF1.R.transpose() * (point_velocity(state, b.body2, X_GF2.p) - point_velocity(state, b.body1, X_GF2.p));
+  Vec3 moment = -(b.rotational_stiffness.cwiseProduct(angle) + b.rotational_damping.cwiseProduct(angle_rate));
+  Vec3 force = -(b.translational_stiffness.cwiseProduct(shift) + b.translational_damping.cwiseProduct(shift_rate));
+  const std::array<double, 6> deflection{angle[0], angle[1], angle[2], shift[0], shift[1], shift[2]};
   for (std::size_t k = 0; k < 6; ++k) {
     double back = 0.0;
     if (!b.functions.empty()) back += evaluate(b.functions[k], deflection[k]).value;
@@ -96,15 +87,13 @@ void append(const model::PrescribedForce& f,
   const Pose X_GF = state.X_GB[at(f.body)] * f.X_BF;
   const auto vector = [&](const std::vector<model::Function>& functions) {
     Vec3 v;
-    for (std::size_t k = 0; k < 3; ++k)
-      v[static_cast<Eigen::Index>(k)] = evaluate(functions[k], time_s).value;
+    for (std::size_t k = 0; k < 3; ++k) v[static_cast<Eigen::Index>(k)] = evaluate(functions[k], time_s).value;
     return v;
   };
   const auto in_ground = [&](const Vec3& v) -> Vec3 { return f.force_is_global ? v : X_GF.R * v; };
   if (!f.force.empty()) {
     Vec3 point = X_GF.p;
-    if (!f.point.empty())
-      point = f.point_is_global ? vector(f.point) : Vec3(X_GF * vector(f.point));
+    if (!f.point.empty()) point = f.point_is_global ? vector(f.point) : Vec3(X_GF * vector(f.point));
     wrenches.push_back(wrench_at(state, f.body, point, in_ground(vector(f.force))));
   }
   if (!f.torque.empty()) wrenches.push_back({f.body, Vec3::Zero(), in_ground(vector(f.torque))});
@@ -115,8 +104,8 @@ void append(const model::PrescribedForce& f,
 double limit_force(const model::CoordinateLimitForce& f, double q, double qdot) {
   const double up = smooth_step((q - f.upper_limit) / f.transition);
   const double low = smooth_step((f.lower_limit - q) / f.transition);
-  return -up * f.upper_stiffness * (q - f.upper_limit) +
-         low * f.lower_stiffness * (f.lower_limit - q) - f.damping * (up + low) * qdot;
+  return -up * f.upper_stiffness * (q - f.upper_limit) + low * f.lower_stiffness * (f.lower_limit - q) -
+         f.damping * (up + low) * qdot;
 }
 
 void append_passive_forces(const model::BodyModel& model,
@@ -128,23 +117,19 @@ void append_passive_forces(const model::BodyModel& model,
   model::PathResult path;
   for (const model::PassiveForce& force : model.passive_forces) {
     if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
-      generalized[limit->coordinate] +=
-          limit_force(*limit, state.q[limit->coordinate], state.qdot[limit->coordinate]);
+      generalized[limit->coordinate] += limit_force(*limit, state.q[limit->coordinate], state.qdot[limit->coordinate]);
     } else if (const auto* spring = std::get_if<model::CoordinateSpring>(&force.law)) {
-      generalized[spring->coordinate] -=
-          spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
-          spring->viscosity * state.qdot[spring->coordinate];
+      generalized[spring->coordinate] -= spring->stiffness * (state.q[spring->coordinate] - spring->rest) +
+                                         spring->viscosity * state.qdot[spring->coordinate];
     } else if (const auto* formula = std::get_if<model::CoordinateFormula>(&force.law)) {
-      const std::array<double, 2> at_state{state.q[formula->coordinate],
-                                           state.qdot[formula->coordinate]};
+      const std::array<double, 2> at_state{state.q[formula->coordinate], state.qdot[formula->coordinate]};
       generalized[formula->coordinate] += formula->force(at_state);
     } else if (const auto* bushing = std::get_if<model::Bushing>(&force.law)) {
       append(*bushing, state, wrenches);
     } else if (const auto* point = std::get_if<model::PointSpring>(&force.law)) {
       append_pull(
           state, point->body1, point->p_B1, point->body2, point->p_B2,
-          [&](double d, double) { return point->stiffness_npm * (d - point->rest_length_m); },
-          wrenches);
+          [&](double d, double) { return point->stiffness_npm * (d - point->rest_length_m); }, wrenches);
     } else if (const auto* pair = std::get_if<model::PointFormula>(&force.law)) {
       append_pull(
           state, pair->body1, pair->p_B1, pair->body2, pair->p_B2,
@@ -160,14 +145,12 @@ void append_passive_forces(const model::BodyModel& model,
       model::compute_path(model, line->path, state, workspace, path);
       const double stretch = path.length_m - line->rest_length_m;
       if (stretch <= 0.0) continue;
-      generalized += path.moment_arm_m *
-                     (line->stiffness_npm * stretch * (1.0 + line->dissipation * path.speed_mps));
+      generalized += path.moment_arm_m * (line->stiffness_npm * stretch * (1.0 + line->dissipation * path.speed_mps));
     } else if (const auto* ligament = std::get_if<model::Ligament>(&force.law)) {
       model::compute_path(model, ligament->path, state, workspace, path);
       if (path.length_m <= ligament->rest_length_m) continue;
-      generalized +=
-          path.moment_arm_m * ligament->scale_n *
-          evaluate(ligament->force_length, path.length_m / ligament->rest_length_m).value;
+      generalized += path.moment_arm_m * ligament->scale_n *
+                     evaluate(ligament->force_length, path.length_m / ligament->rest_length_m).value;
     }
   }
 }

@@ -7,10 +7,9 @@
 
 namespace myoid::dynamics {
 
-/// Adds the model's passive forces (limit forces, springs, bushings, formulas, ligaments, contacts,
-/// forces over time) at the posture and speeds of `state` (compute_poses, compute_velocities) and
-/// at this time. `generalized` receives forces along coordinates [N m, N], `wrenches` forces on
-/// bodies, about the body origins.
+/// Adds the model's passive forces (limit forces, springs, bushings, formulas, ligaments, contacts, forces over time)
+/// at the posture and speeds of `state` (compute_poses, compute_velocities) and at this time. `generalized` receives
+/// forces along coordinates [N m, N], `wrenches` forces on bodies, about the body origins.
 void append_passive_forces(const model::BodyModel& model,
                            const model::BodyState& state,
                            Eigen::VectorXd& generalized,

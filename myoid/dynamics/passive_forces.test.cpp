@@ -45,26 +45,22 @@ TEST(PassiveForces, SpringsAndBushingsGiveThePowerTheirEnergyLoses) {
   model::BodyModel arm = bare_arm();
   const auto hand = static_cast<int>(arm.bodies.size()) - 1;
   const Pose X1{Mat3::Identity(), Vec3(0.02, 0.1, -0.03)};
-  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
-                Vec3(-0.01, 0.05, 0.02)};
+  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(), Vec3(-0.01, 0.05, 0.02)};
   arm.passive_forces.push_back(
       {"bushing", "BushingForce",
-       model::Bushing{0, hand, X1, X2, Vec3(3.0, 5.0, 7.0), Vec3(100.0, 200.0, 300.0), Vec3::Zero(),
-                      Vec3::Zero()}});
-  arm.passive_forces.push_back(
-      {"spring", "PointToPointSpring", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
+       model::Bushing{0, hand, X1, X2, Vec3(3.0, 5.0, 7.0), Vec3(100.0, 200.0, 300.0), Vec3::Zero(), Vec3::Zero()}});
+  arm.passive_forces.push_back({"spring", "PointToPointSpring", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
   const auto energy = [&](const Eigen::VectorXd& q) {
     model::BodyState s = model::make_state(arm);
     model::compute_poses(arm, q, s);
     const Pose X_GF1 = X1;
     const Pose X_GF2 = s.X_GB[static_cast<std::size_t>(hand)] * X2;
     const Mat3 R = X_GF1.R.transpose() * X_GF2.R;
-    const Vec3 angle =
-        Vec3(std::atan2(-R(1, 2), R(2, 2)), std::asin(R(0, 2)), std::atan2(-R(0, 1), R(0, 0)));
+    const Vec3 angle = Vec3(std::atan2(-R(1, 2), R(2, 2)), std::asin(R(0, 2)), std::atan2(-R(0, 1), R(0, 0)));
     const Vec3 shift = X_GF1.R.transpose() * (X_GF2.p - X_GF1.p);
     const double stretch = shift.norm() - 0.05;
-    return 0.5 * (Vec3(3.0, 5.0, 7.0).dot(angle.cwiseAbs2()) +
-                  Vec3(100.0, 200.0, 300.0).dot(shift.cwiseAbs2()) + 250.0 * stretch * stretch);
+    return 0.5 * (Vec3(3.0, 5.0, 7.0).dot(angle.cwiseAbs2()) + Vec3(100.0, 200.0, 300.0).dot(shift.cwiseAbs2()) +
+                  250.0 * stretch * stretch);
   };
   const auto n = static_cast<Eigen::Index>(arm.coordinates.size());
   const Eigen::VectorXd q = arm.default_q() + Eigen::VectorXd::LinSpaced(n, 0.2, 0.5);
@@ -110,11 +106,10 @@ TEST(PassiveForces, PathSpringsAndLigamentsPullAlongTheirPathByTheirLaw) {
     double tension_n;
   };
   const model::Function curve(model::make_piecewise_linear({0.0, 1.0, 2.0}, {0.0, 0.0, 4.0}));
-  const Case cases[] = {
-      {{"spring", "PathSpring", model::PathSpring{path, 300.0, 0.9 * length, 0.4}},
-       300.0 * 0.1 * length * (1.0 + 0.4 * speed)},
-      {{"slack", "PathSpring", model::PathSpring{path, 300.0, 1.1 * length, 0.4}}, 0.0},
-      {{"band", "Ligament", model::Ligament{path, 0.8 * length, 50.0, curve}}, 50.0 * 4.0 * 0.25}};
+  const Case cases[] = {{{"spring", "PathSpring", model::PathSpring{path, 300.0, 0.9 * length, 0.4}},
+                         300.0 * 0.1 * length * (1.0 + 0.4 * speed)},
+                        {{"slack", "PathSpring", model::PathSpring{path, 300.0, 1.1 * length, 0.4}}, 0.0},
+                        {{"band", "Ligament", model::Ligament{path, 0.8 * length, 50.0, curve}}, 50.0 * 4.0 * 0.25}};
   for (const Case& c : cases) {
     arm.passive_forces = {c.force};
     Eigen::VectorXd generalized = Eigen::VectorXd::Zero(n);
@@ -144,8 +139,7 @@ TEST(PassiveForces, FormulasAndFunctionsOfSpringsAreTheSprings) {
                            model::inverse_dynamics(arm, q, u, zero, {}, scratch));
   };
   const Pose X1{Mat3::Identity(), Vec3(0.02, 0.1, -0.03)};
-  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
-                Vec3(-0.01, 0.05, 0.02)};
+  const Pose X2{Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(), Vec3(-0.01, 0.05, 0.02)};
   const model::Bushing linear{.body1 = 0,
                               .body2 = hand,
                               .X_BF1 = X1,
@@ -155,8 +149,7 @@ TEST(PassiveForces, FormulasAndFunctionsOfSpringsAreTheSprings) {
   model::Bushing functions = linear, formulas = linear;
   functions.rotational_stiffness = functions.translational_stiffness = Vec3::Zero();
   formulas.rotational_stiffness = formulas.translational_stiffness = Vec3::Zero();
-  const std::vector<std::string> names{"theta_x", "theta_y", "theta_z",
-                                       "delta_x", "delta_y", "delta_z"};
+  const std::vector<std::string> names{"theta_x", "theta_y", "theta_z", "delta_x", "delta_y", "delta_z"};
   const double stiffness[] = {3.0, 5.0, 7.0, 100.0, 200.0, 300.0};
   for (std::size_t k = 0; k < 6; ++k) {
     functions.functions.emplace_back(model::Linear{stiffness[k], 0.0});
@@ -167,21 +160,18 @@ TEST(PassiveForces, FormulasAndFunctionsOfSpringsAreTheSprings) {
   EXPECT_LT((generalized({"b", "", functions}) - expected).norm(), 1e-12);
   EXPECT_LT((generalized({"b", "", formulas}) - expected).norm(), 1e-12);
 
-  const Eigen::VectorXd spring =
-      generalized({"s", "", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
+  const Eigen::VectorXd spring = generalized({"s", "", model::PointSpring{0, hand, X1.p, X2.p, 250.0, 0.05}});
   EXPECT_LT((generalized({"s", "",
-                          model::PointFormula{0, hand, X1.p, X2.p,
-                                              model::Expression("250*(d-0.05)", {"d", "ddot"})}}) -
+                          model::PointFormula{0, hand, X1.p, X2.p, model::Expression("250*(d-0.05)", {"d", "ddot"})}}) -
              spring)
                 .norm(),
             1e-12);
   const Eigen::VectorXd turn = generalized({"c", "", model::CoordinateSpring{1, 8.0, 0.3, 0.2}});
-  EXPECT_LT((generalized({"c", "",
-                          model::CoordinateFormula{
-                              1, model::Expression("-8*(q-0.3)-0.2*qdot", {"q", "qdot"})}}) -
-             turn)
-                .norm(),
-            1e-13);
+  EXPECT_LT(
+      (generalized({"c", "", model::CoordinateFormula{1, model::Expression("-8*(q-0.3)-0.2*qdot", {"q", "qdot"})}}) -
+       turn)
+          .norm(),
+      1e-13);
 }
 
 TEST(PassiveForces, AForceOverTimeActsAtItsPointInItsFrame) {

@@ -18,17 +18,12 @@ Eigen::Index rows_of(const AnalogCounts& counts) {
 
 /// Converts rows [first, first + count) of one column.
 template <typename Out>
-void convert(const AnalogCounts& counts,
-             Eigen::Index column,
-             Eigen::Index first,
-             Eigen::Index count,
-             bool to_si,
-             Out&& out) {
+void convert(
+    const AnalogCounts& counts, Eigen::Index column, Eigen::Index first, Eigen::Index count, bool to_si, Out&& out) {
   const CountScale& scale = counts.scales[static_cast<std::size_t>(column)];
   std::visit(
       [&](const auto& values) {
-        const auto stored =
-            values.col(column).segment(first, count).template cast<double>().array();
+        const auto stored = values.col(column).segment(first, count).template cast<double>().array();
         if (to_si) {
           out = (scale.base + (stored - scale.offset) * scale.scale * scale.to_si).matrix();
         } else {
@@ -45,12 +40,12 @@ double time_of(const RecordClock& clock, Eigen::Index sample) {
 
 void require_times(const RecordClock& clock, Eigen::Index samples) {
   if (static_cast<Eigen::Index>(clock.begin_s.size()) * clock.per_record != samples)
-    throw InvalidInput(fmt::format("{} records of {} samples for {} samples", clock.begin_s.size(),
-                                   clock.per_record, samples));
+    throw InvalidInput(
+        fmt::format("{} records of {} samples for {} samples", clock.begin_s.size(), clock.per_record, samples));
   for (Eigen::Index i = 1; i < samples; ++i) {
     if (!(time_of(clock, i) > time_of(clock, i - 1)))
-      throw InvalidInput(fmt::format("time does not increase: {} s after {} s", time_of(clock, i),
-                                     time_of(clock, i - 1)));
+      throw InvalidInput(
+          fmt::format("time does not increase: {} s after {} s", time_of(clock, i), time_of(clock, i - 1)));
   }
 }
 
@@ -60,32 +55,25 @@ AnalogChannels::AnalogChannels(TimeSeries series) : series_(std::move(series)) {
 
 AnalogChannels::AnalogChannels(std::vector<Channel> channels, AnalogCounts counts)
     : channels_(std::move(channels)), counts_(std::move(counts)) {
-  const auto columns = static_cast<std::size_t>(
-      std::visit([](const auto& values) { return values.cols(); }, counts_->values));
-  if (columns != channels_.size() || columns != counts_->scales.size() ||
-      !(counts_->rate_hz > 0.0)) {
-    throw InvalidInput(fmt::format("{} columns of counts, {} channels, {} scales, {} Hz", columns,
-                                   channels_.size(), counts_->scales.size(), counts_->rate_hz));
+  const auto columns =
+      static_cast<std::size_t>(std::visit([](const auto& values) { return values.cols(); }, counts_->values));
+  if (columns != channels_.size() || columns != counts_->scales.size() || !(counts_->rate_hz > 0.0)) {
+    throw InvalidInput(fmt::format("{} columns of counts, {} channels, {} scales, {} Hz", columns, channels_.size(),
+                                   counts_->scales.size(), counts_->rate_hz));
   }
   if (counts_->records) require_times(*counts_->records, rows_of(*counts_));
   // Names follow the rules of a TimeSeries.
-  static_cast<void>(
-      TimeSeries(Eigen::VectorXd::Zero(1), channels_,
-                 Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(channels_.size()))));
+  static_cast<void>(TimeSeries(Eigen::VectorXd::Zero(1), channels_,
+                               Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(channels_.size()))));
 }
 
-const std::vector<Channel>& AnalogChannels::channels() const {
-  return counts_ ? channels_ : series_.channels();
-}
+const std::vector<Channel>& AnalogChannels::channels() const { return counts_ ? channels_ : series_.channels(); }
 
-Eigen::Index AnalogChannels::sample_count() const {
-  return counts_ ? rows_of(*counts_) : series_.sample_count();
-}
+Eigen::Index AnalogChannels::sample_count() const { return counts_ ? rows_of(*counts_) : series_.sample_count(); }
 
 std::optional<Eigen::Index> AnalogChannels::find(std::string_view name) const {
   const std::vector<Channel>& list = channels();
-  const auto it =
-      std::find_if(list.begin(), list.end(), [&](const Channel& c) { return c.name == name; });
+  const auto it = std::find_if(list.begin(), list.end(), [&](const Channel& c) { return c.name == name; });
   if (it == list.end()) return std::nullopt;
   return static_cast<Eigen::Index>(it - list.begin());
 }
@@ -94,9 +82,8 @@ Eigen::VectorXd AnalogChannels::time_s(Eigen::Index first, Eigen::Index count) c
   if (!counts_) return series_.time_s().segment(first, count);
   Eigen::VectorXd time(count);
   for (Eigen::Index i = 0; i < count; ++i)
-    time[i] = counts_->records
-                  ? time_of(*counts_->records, first + i)
-                  : (counts_->first_sample + static_cast<double>(first + i)) / counts_->rate_hz;
+    time[i] = counts_->records ? time_of(*counts_->records, first + i)
+                               : (counts_->first_sample + static_cast<double>(first + i)) / counts_->rate_hz;
   return time;
 }
 
@@ -117,8 +104,7 @@ Eigen::MatrixXd AnalogChannels::rows(Eigen::Index first,
 
 TimeSeries AnalogChannels::converted(const std::vector<Eigen::Index>& columns) const {
   std::vector<Channel> chosen;
-  for (const Eigen::Index column : columns)
-    chosen.push_back(channels_[static_cast<std::size_t>(column)]);
+  for (const Eigen::Index column : columns) chosen.push_back(channels_[static_cast<std::size_t>(column)]);
   return {time_s(), std::move(chosen), rows(0, sample_count(), columns)};
 }
 
@@ -138,8 +124,7 @@ std::vector<Eigen::Index> AnalogChannels::columns_of(const std::vector<std::stri
   for (const std::string& name : names) {
     const auto column = find(name);
     if (!column) {
-      const TimeSeries list(Eigen::VectorXd::Zero(1), channels(),
-                            Eigen::MatrixXd::Zero(1, channel_count()));
+      const TimeSeries list(Eigen::VectorXd::Zero(1), channels(), Eigen::MatrixXd::Zero(1, channel_count()));
       columns.push_back(list.index(name));  // throws, listing the available names
     } else {
       columns.push_back(*column);

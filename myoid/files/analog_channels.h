@@ -54,9 +54,7 @@ class AnalogChannels {
 
   [[nodiscard]] const std::vector<Channel>& channels() const;
   [[nodiscard]] Eigen::Index sample_count() const;
-  [[nodiscard]] Eigen::Index channel_count() const {
-    return static_cast<Eigen::Index>(channels().size());
-  }
+  [[nodiscard]] Eigen::Index channel_count() const { return static_cast<Eigen::Index>(channels().size()); }
   [[nodiscard]] bool empty() const { return sample_count() == 0; }
   [[nodiscard]] std::optional<Eigen::Index> find(std::string_view name) const;
 

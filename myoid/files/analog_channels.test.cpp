@@ -34,8 +34,7 @@ TEST(AnalogChannels, CountsBecomeSamplesInSiOnTheirClock) {
 }
 
 TEST(AnalogChannels, DoublesStayAsTheyAre) {
-  const TimeSeries series(Eigen::Vector2d(0.0, 1.0), {{"E", Unit::volt}},
-                          Eigen::Vector2d(3.0, 4.0));
+  const TimeSeries series(Eigen::Vector2d(0.0, 1.0), {{"E", Unit::volt}}, Eigen::Vector2d(3.0, 4.0));
   const AnalogChannels channels(series);
   EXPECT_FALSE(channels.empty());
   EXPECT_EQ(channels.series().values(), series.values());
@@ -46,8 +45,7 @@ TEST(AnalogChannels, DoublesStayAsTheyAre) {
 
 TEST(AnalogChannels, ColumnsWithoutANameOrTwiceAreRefused) {
   EXPECT_THROW(AnalogChannels({{"E", Unit::volt}}, three_counts()), InvalidInput);
-  EXPECT_THROW(AnalogChannels({{"E", Unit::volt}, {"E", Unit::volt}}, three_counts()),
-               InvalidInput);
+  EXPECT_THROW(AnalogChannels({{"E", Unit::volt}, {"E", Unit::volt}}, three_counts()), InvalidInput);
 }
 
 }  // namespace

@@ -6,19 +6,16 @@
 
 namespace myoid::recording {
 
-/// Writes a file completely or not at all: into a temporary file of the same folder, flushed to the
-/// disk, then renamed. Creates missing parent folders. For a symbolic link, the target is replaced
-/// and the link stays; an existing file keeps its permissions. A pipe or a device such as
-/// /dev/stdout is written to directly. Throws InvalidInput with the cause (disk full, no
-/// permission, a folder of that name) and leaves an existing file unchanged.
+/// Writes a file completely or not at all: into a temporary file of the same folder, flushed to the disk, then renamed.
+/// Creates missing parent folders. For a symbolic link, the target is replaced and the link stays; an existing file
+/// keeps its permissions. A pipe or a device such as /dev/stdout is written to directly. Throws InvalidInput with the
+/// cause (disk full, no permission, a folder of that name) and leaves an existing file unchanged.
 ///
 /// `Flush::later` lets the system choose when to write to the disk, which is many times faster for
 /// many files. A loss of power within seconds may leave such a file empty or, where it replaces
 /// another, missing: only for results that can be computed again.
 enum class Flush { now, later };
-void write_file(const std::filesystem::path& path,
-                std::string_view content,
-                Flush flush = Flush::now);
+void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::now);
 
 /// Returns true if a file of this name is the temporary one of `write_file`:
 /// ".ik.mot.myoid-part.a1B2c3".

@@ -35,8 +35,7 @@ TEST(WriteFile, LeavesNothingBehindWhenItFails) {
   EXPECT_THROW(write_file(folder / "taken", "x"),
                InvalidInput);  // a folder is no file
   std::size_t entries = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
-    entries += entry.exists() ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) entries += entry.exists() ? 1 : 0;
   EXPECT_EQ(entries, 1U);
 }
 
@@ -70,8 +69,7 @@ TEST(WriteFile, KeepsThePermissionsOfTheFileItReplaces) {
   write_file(folder / "a.txt", "one");
   fs::permissions(folder / "a.txt", fs::perms::owner_read | fs::perms::owner_write);
   write_file(folder / "a.txt", "two");
-  EXPECT_EQ(fs::status(folder / "a.txt").permissions(),
-            fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::status(folder / "a.txt").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST(WriteFile, WritesIntoAPipe) {
@@ -90,9 +88,9 @@ TEST(WriteFile, WritesIntoAPipe) {
 }
 
 std::size_t temporaries_in(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(std::count_if(
-      std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator(),
-      [](const auto& entry) { return is_temporary(entry.path().filename()); }));
+  return static_cast<std::size_t>(
+      std::count_if(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator(),
+                    [](const auto& entry) { return is_temporary(entry.path().filename()); }));
 }
 
 TEST(WriteFile, AKilledProcessLeavesOneTemporaryFileWhichIsSwept) {

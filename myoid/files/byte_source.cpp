@@ -22,8 +22,7 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
                     "there is no such file; check the path (paths inside a file are relative to "
                     "that file's folder)");
   }
-  if (std::filesystem::is_directory(status))
-    throw ReadError(path, 0, "this is a folder; name a file inside it");
+  if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   if (!std::filesystem::is_regular_file(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -42,8 +41,7 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
 
 ByteSource::ByteSource(std::span<const std::byte> memory, std::filesystem::path path)
     : path_(std::move(path)), memory_(memory), size_(memory.size()) {
-  if (size_ == 0)
-    throw ReadError(path_, 0, "the file is empty; export it again from the program that made it");
+  if (size_ == 0) throw ReadError(path_, 0, "the file is empty; export it again from the program that made it");
 }
 
 ByteSource::~ByteSource() {
@@ -54,12 +52,10 @@ std::span<const std::byte> ByteSource::view(std::uint64_t offset, std::size_t co
   if (descriptor_ < 0) return memory_.subspan(offset, count);
   if (buffer_.size() < count) buffer_.resize(count);
   for (std::size_t done = 0; done < count;) {
-    const ssize_t got =
-        pread(descriptor_, buffer_.data() + done, count - done, static_cast<off_t>(offset + done));
+    const ssize_t got = pread(descriptor_, buffer_.data() + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw ReadError(path_, 0, fmt::format("reading failed: {}", std::strerror(errno)));
-    if (got == 0)
-      throw ReadError(path_, 0, "the file became shorter while it was read; copy it again");
+    if (got == 0) throw ReadError(path_, 0, "the file became shorter while it was read; copy it again");
     done += static_cast<std::size_t>(got);
   }
   return {buffer_.data(), count};
@@ -71,8 +67,7 @@ std::string read_bytes(const std::filesystem::path& path) {
   bytes.reserve(source.size());
   constexpr std::uint64_t kChunk = std::uint64_t{1} << 20U;
   for (std::uint64_t at = 0; at < source.size(); at += kChunk) {
-    const auto part =
-        source.view(at, static_cast<std::size_t>(std::min(kChunk, source.size() - at)));
+    const auto part = source.view(at, static_cast<std::size_t>(std::min(kChunk, source.size() - at)));
     bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
   }
   return bytes;

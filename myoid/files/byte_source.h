@@ -9,8 +9,7 @@
 
 namespace myoid::recording {
 
-/// Reads the bytes of a file, or of memory, part by part, so that large recordings need not be in
-/// memory twice.
+/// Reads the bytes of a file, or of memory, part by part, so that large recordings need not be in memory twice.
 class ByteSource {
  public:
   /// Throws ReadError with the remedy if the file is missing, a folder, unreadable or empty.

@@ -15,15 +15,13 @@ std::string small_letters(std::string text) {
 
 std::string listed(const std::vector<std::string_view>& endings) {
   if (endings.size() < 2) return fmt::format("{}", fmt::join(endings, ""));
-  return fmt::format("{} and {}", fmt::join(endings.begin(), endings.end() - 1, ", "),
-                     endings.back());
+  return fmt::format("{} and {}", fmt::join(endings.begin(), endings.end() - 1, ", "), endings.back());
 }
 
 std::vector<std::string_view> written_endings() {
   std::vector<std::string_view> endings;
   for (const FormatEntry& entry : file_formats()) {
-    if (is_recording(entry.format))
-      endings.insert(endings.end(), entry.written.begin(), entry.written.end());
+    if (is_recording(entry.format)) endings.insert(endings.end(), entry.written.begin(), entry.written.end());
   }
   return endings;
 }
@@ -146,8 +144,7 @@ const std::vector<FormatEntry>& file_formats() {
 
 const FormatEntry& format_entry(FileFormat format) {
   const auto& table = file_formats();
-  return *std::find_if(table.begin(), table.end(),
-                       [&](const FormatEntry& entry) { return entry.format == format; });
+  return *std::find_if(table.begin(), table.end(), [&](const FormatEntry& entry) { return entry.format == format; });
 }
 
 std::optional<FileFormat> format_of(const std::filesystem::path& path) {
@@ -160,9 +157,7 @@ bool is_recording(FileFormat format) {
   return entry.markers || entry.channels;
 }
 
-std::string extension_of(const std::filesystem::path& path) {
-  return small_letters(path.extension().string());
-}
+std::string extension_of(const std::filesystem::path& path) { return small_letters(path.extension().string()); }
 
 std::string endings_text(bool (*accepts)(const FormatEntry&)) {
   std::vector<std::string_view> endings;
@@ -187,25 +182,22 @@ std::string wrong_kind(const std::filesystem::path& path,
                        const std::vector<FileFormat>& wanted,
                        std::string_view expected) {
   const auto [entry, ending] = named_ending(path);
-  if (entry == nullptr || std::find(wanted.begin(), wanted.end(), entry->format) != wanted.end())
-    return {};
-  return fmt::format("this is a {} file ({}), but {} is expected here: were two options mixed up?",
-                     ending, entry->kind, expected);
+  if (entry == nullptr || std::find(wanted.begin(), wanted.end(), entry->format) != wanted.end()) return {};
+  return fmt::format("this is a {} file ({}), but {} is expected here: were two options mixed up?", ending, entry->kind,
+                     expected);
 }
 
 std::string file_formats_markdown() {
   const auto code = [](const std::vector<std::string_view>& words) {
     std::string text;
-    for (const std::string_view word : words)
-      text += fmt::format("{}`{}`", text.empty() ? "" : ", ", word);
+    for (const std::string_view word : words) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", word);
     return text.empty() ? std::string("–") : text;
   };
   const auto unit = [&](std::string_view name) { return name.empty() ? code({}) : code({name}); };
-  std::string text =
-      "| ending | holds | written as | reader | writer |\n| --- | --- | --- | --- | --- |\n";
+  std::string text = "| ending | holds | written as | reader | writer |\n| --- | --- | --- | --- | --- |\n";
   for (const FormatEntry& entry : file_formats())
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", code(entry.endings), entry.holds,
-                        code(entry.written), unit(entry.reader), unit(entry.writer));
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", code(entry.endings), entry.holds, code(entry.written),
+                        unit(entry.reader), unit(entry.writer));
   return text;
 }
 

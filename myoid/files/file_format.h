@@ -56,8 +56,7 @@ struct FormatEntry {
 /// Returns the ending of a name in small letters with its point: ".c3d".
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 
-/// Returns the endings of all formats that `listed` accepts, in the order of the table: ".c3d, .trc
-/// and .sto".
+/// Returns the endings of all formats that `listed` accepts, in the order of the table: ".c3d, .trc and .sto".
 [[nodiscard]] std::string endings_text(bool (*listed)(const FormatEntry&));
 
 /// Returns the endings of all formats of which EMG is read.
@@ -69,9 +68,8 @@ struct FormatEntry {
 /// Returns true if Myoid writes recordings under this ending (in small letters).
 [[nodiscard]] bool is_written_ending(std::string_view ending);
 
-/// Returns an empty text if the name's ending belongs to one of the formats `wanted` or to no
-/// format; else "this is a .trc file (markers), but EXPECTED is expected here: were two options
-/// mixed up?".
+/// Returns an empty text if the name's ending belongs to one of the formats `wanted` or to no format; else "this is a
+/// .trc file (markers), but EXPECTED is expected here: were two options mixed up?".
 [[nodiscard]] std::string wrong_kind(const std::filesystem::path& path,
                                      const std::vector<FileFormat>& wanted,
                                      std::string_view expected);

@@ -41,8 +41,7 @@ TEST(FileFormat, AnEndingBelongsToOneFormat) {
       EXPECT_TRUE(seen.insert(ending).second) << ending;
       EXPECT_EQ(format_of("a/lift" + std::string(ending)), entry.format) << ending;
     }
-    for (const std::string_view ending : entry.written)
-      EXPECT_THAT(entry.endings, ::testing::Contains(ending));
+    for (const std::string_view ending : entry.written) EXPECT_THAT(entry.endings, ::testing::Contains(ending));
   }
 }
 
@@ -60,8 +59,7 @@ TEST(FileFormat, TheListsOfEndingsComeFromTheTable) {
   EXPECT_TRUE(is_written_ending(".csv"));
   EXPECT_FALSE(is_written_ending(".tsv"));
   EXPECT_FALSE(is_written_ending(".osim"));
-  EXPECT_EQ(endings_text([](const FormatEntry& e) { return e.format == FileFormat::edf; }),
-            ".edf and .bdf");
+  EXPECT_EQ(endings_text([](const FormatEntry& e) { return e.format == FileFormat::edf; }), ".edf and .bdf");
 }
 
 TEST(WrongKind, NamesTheKindOfTheFileAndTheOneExpected) {

@@ -20,13 +20,12 @@ namespace {
 /// so that the pattern fits.
 std::string temporary_pattern(const std::filesystem::path& target) {
   constexpr std::size_t kLongest = 200;
-  const std::string name = "." + target.filename().string().substr(0, kLongest) +
-                           std::string(kTemporaryMark) + std::string(kTemporaryRandom);
+  const std::string name = "." + target.filename().string().substr(0, kLongest) + std::string(kTemporaryMark) +
+                           std::string(kTemporaryRandom);
   return (target.parent_path() / name).string();
 }
 
-/// Opens a temporary file and locks it, so that no other process sweeps it away; returns -1 with
-/// errno on failure.
+/// Opens a temporary file and locks it, so that no other process sweeps it away; returns -1 with errno on failure.
 int open_temporary(const std::filesystem::path& target, std::string& name) {
   for (;;) {
     name = temporary_pattern(target);
@@ -63,8 +62,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
 
 }  // namespace
 
-FileInParts::FileInParts(std::filesystem::path path, Flush flush)
-    : path_(std::move(path)), flush_(flush) {
+FileInParts::FileInParts(std::filesystem::path path, Flush flush) : path_(std::move(path)), flush_(flush) {
   if (path_.empty()) throw InvalidInput("the name of the file to write is empty");
   // A path that neither exists nor is a link is its own end.
   struct stat existing {};
@@ -102,9 +100,8 @@ FileInParts::~FileInParts() {
 }
 
 void FileInParts::fail(std::string_view what, int cause) {
-  throw InvalidInput(
-      fmt::format("{}: {}: {}{}", path_.string(), what, std::strerror(cause),
-                  cause == ENOSPC ? "; free some space or choose another folder" : ""));
+  throw InvalidInput(fmt::format("{}: {}: {}{}", path_.string(), what, std::strerror(cause),
+                                 cause == ENOSPC ? "; free some space or choose another folder" : ""));
 }
 
 void FileInParts::append(std::string_view piece) {
@@ -118,8 +115,7 @@ void FileInParts::finish() {
     if (close(descriptor) != 0) fail("writing failed", errno);
     return;
   }
-  if (fchmod(descriptor, permissions_) != 0 || (flush_ == Flush::now && fsync(descriptor) != 0))
-    cause = errno;
+  if (fchmod(descriptor, permissions_) != 0 || (flush_ == Flush::now && fsync(descriptor) != 0)) cause = errno;
   // A close reports late errors of the disk; the other descriptor keeps the lock.
   if (close(dup(descriptor)) != 0 && cause == 0) cause = errno;
   // Some file systems flush a file that replaces another, but not a file under a free name.

@@ -20,8 +20,8 @@ bool valid_utf8(std::string_view text) {
     }
     // Overlong forms, surrogates and numbers beyond the last code point are no UTF-8.
     const auto second = more > 0 ? static_cast<unsigned char>(text[i + 1]) : 0;
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
+        (lead == 0xF4 && second > 0x8F))
       return false;
     i += more + 1;
   }
@@ -90,8 +90,7 @@ std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
       Word{"inches", {Unit::meter, 0.0254}},
       Word{"inch", {Unit::meter, 0.0254}},
   };
-  // "mV" and "MV", "N" and "n" differ by case; in capitals or small letters only, the usual unit is
-  // meant.
+  // "mV" and "MV", "N" and "n" differ by case; in capitals or small letters only, the usual unit is meant.
   if (word == "mv") return ScaledUnit{Unit::volt, 1e-3};
   for (const Word& entry : kWords) {
     if (entry.text == word) return entry.unit;

@@ -64,8 +64,7 @@ std::optional<FolderOwner> read_owner(int descriptor) {
   return parse_owner({text.data(), static_cast<std::size_t>(size)});
 }
 
-/// Waits for the owner of a file that another process holds: the owner locks the file an instant
-/// before it signs.
+/// Waits for the owner of a file that another process holds: the owner locks the file an instant before it signs.
 std::optional<FolderOwner> await_owner(int descriptor) {
   std::optional<FolderOwner> owner = read_owner(descriptor);
   for (int i = 0; i < 50 && !owner; ++i) {
@@ -76,9 +75,9 @@ std::optional<FolderOwner> await_owner(int descriptor) {
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::optional<FolderOwner>& owner) {
-  throw InvalidInput(fmt::format(
-      "another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
-      folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
+  throw InvalidInput(
+      fmt::format("another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
+                  folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
 }
 
 /// Returns true if the owner is on another host or still runs; for file systems without locks.
@@ -92,8 +91,8 @@ bool may_live(const std::optional<FolderOwner>& owner) {
 bool is_still(const fs::path& path, int descriptor) {
   struct stat opened {};
   struct stat named {};
-  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -108,13 +107,11 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
   for (int i = 0; i < kTries; ++i) {
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor < 0) {
-      throw InvalidInput(fmt::format("cannot write into the folder {}: {}", folder_.string(),
-                                     std::strerror(errno)));
+      throw InvalidInput(fmt::format("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno)));
     }
     const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     const int cause = locked ? 0 : errno;
-    const std::optional<FolderOwner> owner =
-        cause == EWOULDBLOCK ? await_owner(descriptor) : read_owner(descriptor);
+    const std::optional<FolderOwner> owner = cause == EWOULDBLOCK ? await_owner(descriptor) : read_owner(descriptor);
     if (cause == EWOULDBLOCK || (!locked && may_live(owner))) {
       close(descriptor);
       refuse_folder(folder_, owner);
@@ -139,15 +136,13 @@ FolderLock::~FolderLock() {
 void FolderLock::sign(std::string_view command, bool from_empty) {
   std::string line(command.substr(0, 4096));
   std::replace(line.begin(), line.end(), '\n', ' ');
-  const std::string text =
-      fmt::format("process: {}\nhost: {}\nsince: {}\ncommand: {}\nfrom_empty: {}\n", getpid(),
-                  this_host(), now_utc(), line, from_empty ? "yes" : "no");
+  const std::string text = fmt::format("process: {}\nhost: {}\nsince: {}\ncommand: {}\nfrom_empty: {}\n", getpid(),
+                                       this_host(), now_utc(), line, from_empty ? "yes" : "no");
   signed_ = true;
   from_empty_ = from_empty;
   if (ftruncate(descriptor_, 0) != 0 ||
       pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
-    throw InvalidInput(
-        fmt::format("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno)));
+    throw InvalidInput(fmt::format("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno)));
 }
 
 bool holds_content(const fs::path& folder, std::string_view unless_only) {

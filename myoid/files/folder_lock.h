@@ -15,15 +15,13 @@ struct FolderOwner {
   std::string command;      ///< The command line.
   bool from_empty = false;  ///< The folder was empty when the command began.
 
-  /// Returns "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out
-  /// results".
+  /// Returns "process 4711 on 'lab3' since 2026-05-07 14:03:22 UTC: myoid run study.toml --out results".
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Reserves a folder for one process; a second process that asks for the folder is refused. The
-/// lock is the kernel's (flock on a file in the folder), so it ends with the process in every case;
-/// the file names the owner. If the file system has no such locks, the owner's process number and
-/// host decide.
+/// Reserves a folder for one process; a second process that asks for the folder is refused. The lock is the kernel's
+/// (flock on a file in the folder), so it ends with the process in every case; the file names the owner. If the file
+/// system has no such locks, the owner's process number and host decide.
 ///
 /// A folder that was empty belongs to the command that began to fill it until that command calls
 /// `finish`. If the command is killed, or stopped by an error such as a full disk, the file stays,
@@ -35,8 +33,7 @@ class FolderLock {
   /// Takes an existing folder. Throws InvalidInput if another process holds it, naming the owner,
   /// or if the folder cannot be written.
   explicit FolderLock(std::filesystem::path folder);
-  /// Releases the folder and removes the file, except after unfinished results in a folder that was
-  /// empty.
+  /// Releases the folder and removes the file, except after unfinished results in a folder that was empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -60,7 +57,6 @@ class FolderLock {
 
 /// Returns true if the folder holds anything but locks, half-written files of killed processes, and
 /// an entry named `unless_only`.
-[[nodiscard]] bool holds_content(const std::filesystem::path& folder,
-                                 std::string_view unless_only = "");
+[[nodiscard]] bool holds_content(const std::filesystem::path& folder, std::string_view unless_only = "");
 
 }  // namespace myoid::recording

@@ -8,8 +8,7 @@
 namespace myoid::recording {
 
 std::string plain_label(std::string_view label) {
-  if (const auto colon = label.rfind(':'); colon != std::string_view::npos)
-    label.remove_prefix(colon + 1);
+  if (const auto colon = label.rfind(':'); colon != std::string_view::npos) label.remove_prefix(colon + 1);
   std::string plain;
   for (const char c : label) {
     if (c == ' ' || c == '\t' || c == '_' || c == '-' || c == '.') continue;
@@ -18,8 +17,7 @@ std::string plain_label(std::string_view label) {
   return plain;
 }
 
-LabelMatch match_labels(const std::vector<std::string>& found,
-                        const std::vector<std::string>& wanted) {
+LabelMatch match_labels(const std::vector<std::string>& found, const std::vector<std::string>& wanted) {
   const std::set<std::string> has(found.begin(), found.end());
   const std::set<std::string> wants(wanted.begin(), wanted.end());
   std::map<std::string, std::vector<std::string>> spare;    // names of the file, by plain label
@@ -34,8 +32,7 @@ LabelMatch match_labels(const std::vector<std::string>& found,
   std::set<std::string> taken;
   for (const auto& [plain, names] : spare) {
     const auto other = missing.find(plain);
-    if (plain.empty() || other == missing.end() || names.size() != 1 || other->second.size() != 1)
-      continue;
+    if (plain.empty() || other == missing.end() || names.size() != 1 || other->second.size() != 1) continue;
     match.same[names.front()] = other->second.front();
     taken.insert(other->second.front());
   }

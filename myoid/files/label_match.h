@@ -18,8 +18,7 @@ struct LabelMatch {
 };
 
 /// Pairs `found` with `wanted`; names that are equal take no part.
-[[nodiscard]] LabelMatch match_labels(const std::vector<std::string>& found,
-                                      const std::vector<std::string>& wanted);
+[[nodiscard]] LabelMatch match_labels(const std::vector<std::string>& found, const std::vector<std::string>& wanted);
 
 /// Returns the letters and digits of a label in small letters, without the part up to the last ':'.
 [[nodiscard]] std::string plain_label(std::string_view label);

@@ -8,8 +8,7 @@ namespace {
 using Map = std::map<std::string, std::string>;
 
 TEST(MatchLabels, CapitalsBlanksAndPrefixesDoNotMatter) {
-  const LabelMatch match =
-      match_labels({"Joe:R.Shoulder", "r elbow", "wrist"}, {"r_shoulder", "R_ELBOW", "wrist"});
+  const LabelMatch match = match_labels({"Joe:R.Shoulder", "r elbow", "wrist"}, {"r_shoulder", "R_ELBOW", "wrist"});
   EXPECT_EQ(match.same, (Map{{"Joe:R.Shoulder", "r_shoulder"}, {"r elbow", "R_ELBOW"}}));
   EXPECT_TRUE(match.similar.empty());
 }

@@ -10,18 +10,14 @@
 
 namespace myoid::recording {
 
-/// Marker positions over time, in the laboratory's frame. A missing marker is NaN in all three
-/// coordinates.
+/// Marker positions over time, in the laboratory's frame. A missing marker is NaN in all three coordinates.
 struct MarkerSeries {
   Eigen::VectorXd time_s;          ///< Strictly increasing.
   std::vector<std::string> names;  ///< Unique.
-  Eigen::MatrixXd
-      positions_m;  ///< Frames x (3 markers): x, y, z of the first marker, then the second, ...
+  Eigen::MatrixXd positions_m;     ///< Frames x (3 markers): x, y, z of the first marker, then the second, ...
 
   [[nodiscard]] Eigen::Index frame_count() const { return time_s.size(); }
-  [[nodiscard]] Eigen::Index marker_count() const {
-    return static_cast<Eigen::Index>(names.size());
-  }
+  [[nodiscard]] Eigen::Index marker_count() const { return static_cast<Eigen::Index>(names.size()); }
   [[nodiscard]] Vec3 position(Eigen::Index frame, Eigen::Index marker) const {
     return positions_m.block<1, 3>(frame, 3 * marker).transpose();
   }

@@ -66,9 +66,7 @@ bool is_windows_path(std::string_view name) {
   return drive || text.starts_with("//");
 }
 
-fs::path native_path(const fs::path& folder, std::string_view name) {
-  return folder / with_slashes(name);
-}
+fs::path native_path(const fs::path& folder, std::string_view name) { return folder / with_slashes(name); }
 
 std::string last_part(std::string_view name) {
   const auto parts = parts_of(with_slashes(name));
@@ -83,9 +81,9 @@ NamedFile find_named_file(const fs::path& folder, std::string_view name) {
   while (!parts.empty()) {
     for (const fs::path& place : {folder, up}) {
       if (const auto found = file_at(place, parts)) {
-        return {found->lexically_normal(), true,
-                fmt::format("'{}' is not on this computer; {} is taken", trim(name),
-                            found->lexically_normal().string())};
+        return {
+            found->lexically_normal(), true,
+            fmt::format("'{}' is not on this computer; {} is taken", trim(name), found->lexically_normal().string())};
       }
     }
     parts.erase(parts.begin());

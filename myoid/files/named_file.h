@@ -19,16 +19,13 @@ struct NamedFile {
 /// folder up. Case is ignored if only one file fits. Does not throw for missing files.
 [[nodiscard]] NamedFile find_named_file(const std::filesystem::path& folder, std::string_view name);
 
-/// Returns the name with / between folders, relative to `folder` unless it is absolute on this
-/// system.
-[[nodiscard]] std::filesystem::path native_path(const std::filesystem::path& folder,
-                                                std::string_view name);
+/// Returns the name with / between folders, relative to `folder` unless it is absolute on this system.
+[[nodiscard]] std::filesystem::path native_path(const std::filesystem::path& folder, std::string_view name);
 
 /// Returns the last part of a name with / or \ between folders.
 [[nodiscard]] std::string last_part(std::string_view name);
 
-/// Returns true for "C:\trial" or "\\server\trial", which are absolute on Windows; tested on every
-/// system.
+/// Returns true for "C:\trial" or "\\server\trial", which are absolute on Windows; tested on every system.
 [[nodiscard]] bool is_windows_path(std::string_view name);
 
 }  // namespace myoid::recording

@@ -19,9 +19,7 @@ class NamedFiles : public ::testing::Test {
     for (const char* name : {"setup/ik.mot", "setup/data/grf.mot", "model.osim", "setup/Walk.TRC"})
       std::ofstream(folder_ / name) << "x";
   }
-  [[nodiscard]] NamedFile find(const char* name) const {
-    return find_named_file(folder_ / "setup", name);
-  }
+  [[nodiscard]] NamedFile find(const char* name) const { return find_named_file(folder_ / "setup", name); }
   test::TemporaryFolder temporary_;
   fs::path folder_ = temporary_.path();
 };
@@ -37,12 +35,10 @@ TEST_F(NamedFiles, ANameThatHoldsIsTakenWithoutANote) {
 
 TEST_F(NamedFiles, ANameFromAnotherComputerStandsForTheFileBesideOrOneFolderUp) {
   for (const auto& [name, place] :
-       {std::pair{"C:\\Users\\jane\\trial\\ik.mot", "setup/ik.mot"},
-        std::pair{"D:/work/ik.mot", "setup/ik.mot"},
+       {std::pair{"C:\\Users\\jane\\trial\\ik.mot", "setup/ik.mot"}, std::pair{"D:/work/ik.mot", "setup/ik.mot"},
         std::pair{"\\\\server\\share\\walk\\ik.mot", "setup/ik.mot"},
         std::pair{"C:\\Users/jane\\data\\grf.mot", "setup/data/grf.mot"},
-        std::pair{"/home/jane/models/model.osim", "model.osim"},
-        std::pair{"..\\..\\models\\model.osim", "model.osim"},
+        std::pair{"/home/jane/models/model.osim", "model.osim"}, std::pair{"..\\..\\models\\model.osim", "model.osim"},
         std::pair{"c:\\trial\\walk.trc", "setup/Walk.TRC"}}) {
     const NamedFile found = find(name);
     EXPECT_TRUE(found.exists) << name;

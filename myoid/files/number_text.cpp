@@ -4,9 +4,7 @@
 
 namespace myoid::recording {
 
-char* put_number(char* at, double value) {
-  return std::to_chars(at, at + NumberText::kRoom, value).ptr;
-}
+char* put_number(char* at, double value) { return std::to_chars(at, at + NumberText::kRoom, value).ptr; }
 
 NumberText::NumberText(std::size_t count) {
   constexpr std::size_t kWorthKeeping = 100'000;

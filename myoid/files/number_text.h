@@ -23,11 +23,9 @@ class NumberText {
   /// Prepares for about `count` numbers: a small count does not justify the memory.
   explicit NumberText(std::size_t count);
 
-  /// Announces a number that is put soon: fetching its text from memory takes longer than copying
-  /// it.
+  /// Announces a number that is put soon: fetching its text from memory takes longer than copying it.
   void announce(double value) const {
-    if (unasked_ == 0 && !kept_.empty())
-      __builtin_prefetch(&kept_[index_of(std::bit_cast<std::uint64_t>(value))]);
+    if (unasked_ == 0 && !kept_.empty()) __builtin_prefetch(&kept_[index_of(std::bit_cast<std::uint64_t>(value))]);
   }
 
   /// Writes the number at a place with kRoom bytes; returns the place behind it.
@@ -51,9 +49,7 @@ class NumberText {
     std::array<char, 23> text{'0'};
     std::uint8_t size = 1;
   };
-  static std::size_t index_of(std::uint64_t bits) {
-    return (bits * 0x9E3779B97F4A7C15ULL) >> (64 - kIndexBits);
-  }
+  static std::size_t index_of(std::uint64_t bits) { return (bits * 0x9E3779B97F4A7C15ULL) >> (64 - kIndexBits); }
   [[nodiscard]] char* put_unasked(char* at, double value);
   [[nodiscard]] static char* put_and_keep(char* at, double value, Kept& kept);
   /// Stops looking up numbers for a while if too few of the current window were kept.

@@ -31,15 +31,13 @@ TEST(NumberText, OfANumberThatComesAgainIsAsOfOneThatIsNew) {
 }
 
 TEST(NumberText, ReadsBackWhetherNumbersRepeatOrNot) {
-  // Counts of a converter, then numbers that never repeat, then counts again: the look-up pauses
-  // and resumes.
+  // Counts of a converter, then numbers that never repeat, then counts again: the look-up pauses and resumes.
   std::mt19937_64 engine(7);
   NumberText numbers(1'000'000);
   for (int i = 0; i < 60'000; ++i) {
     const bool repeats = i < 20'000 || i > 40'000;
     const auto drawn = static_cast<double>(engine() >> 11);
-    const double value =
-        repeats ? std::fmod(drawn, 4096.0) * 3.0517578125e-7 - 1e-3 : drawn * 1e-17;
+    const double value = repeats ? std::fmod(drawn, 4096.0) * 3.0517578125e-7 - 1e-3 : drawn * 1e-17;
     ASSERT_EQ(*parse_number(text_of(numbers, value)), value);
   }
 }

@@ -41,15 +41,11 @@ void ResultFolder::make() {
   fs::create_directories(path_, error);
   if (error) {
     remove_empty(made_);
-    throw InvalidInput(
-        fmt::format("cannot create the folder {}: {}", path_.string(), error.message()));
+    throw InvalidInput(fmt::format("cannot create the folder {}: {}", path_.string(), error.message()));
   }
 }
 
-ResultFolder::ResultFolder(fs::path folder,
-                           const std::string& command,
-                           bool overwrite,
-                           std::string_view unless_only)
+ResultFolder::ResultFolder(fs::path folder, const std::string& command, bool overwrite, std::string_view unless_only)
     : path_(std::move(folder)) {
   make();
   try {
@@ -60,19 +56,15 @@ ResultFolder::ResultFolder(fs::path folder,
   }
   const std::optional<FolderOwner>& dead = lock_->left_behind();
   const bool empty = !holds_content(path_, unless_only);
-  const bool unfinished =
-      dead && dead->from_empty && command_word(dead->command) == command_word(command);
+  const bool unfinished = dead && dead->from_empty && command_word(dead->command) == command_word(command);
   if (!overwrite && !empty && !unfinished) {
-    throw InvalidInput(fmt::format(
-        "the folder {} is not empty; give --overwrite to write into it, or another --out",
-        path_.string()));
+    throw InvalidInput(
+        fmt::format("the folder {} is not empty; give --overwrite to write into it, or another --out", path_.string()));
   }
   const std::size_t swept = sweep_temporaries(path_);
   if (dead) {
-    note_ =
-        fmt::format("note: the folder {} is taken over from a command that did not finish ({}){}",
-                    path_.string(), dead->sentence(),
-                    swept > 0 ? fmt::format("; {} half-written files are removed", swept) : "");
+    note_ = fmt::format("note: the folder {} is taken over from a command that did not finish ({}){}", path_.string(),
+                        dead->sentence(), swept > 0 ? fmt::format("; {} half-written files are removed", swept) : "");
   }
   lock_->sign(command, empty || unfinished);
 }

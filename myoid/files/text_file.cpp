@@ -22,9 +22,8 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Writes the eight decimal digits of a number below 10^8 with leading zeros: halves, then
-/// quarters, then single digits in the bytes of one word (c / 100 = c * 10486 >> 20 for c < 10^4, c
-/// / 10 = c * 103 >> 10 for c < 100).
+/// Writes the eight decimal digits of a number below 10^8 with leading zeros: halves, then quarters, then single digits
+/// in the bytes of one word (c / 100 = c * 10486 >> 20 for c < 10^4, c / 10 = c * 103 >> 10 for c < 100).
 inline void put_eight(char* at, std::uint32_t number) {
   std::uint64_t v = number / 10000 | std::uint64_t{number % 10000} << 32U;
   const std::uint64_t hundreds = ((v * 10486) >> 20U) & 0x7F0000007FU;
@@ -86,29 +85,22 @@ std::string read_text_file(const std::filesystem::path& path) {
                     "there is no such file; check the path (paths inside a file are relative to "
                     "that file's folder)");
   }
-  if (std::filesystem::is_directory(status))
-    throw ReadError(path, 0, "this is a folder; name a file inside it");
+  if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   // A pipe ends; a device may not end.
   if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   if (!error) text.reserve(size);
   char buffer[1 << 16];
-  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;)
-    text.append(buffer, got);
-  if (std::ferror(file.get()) != 0)
-    throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
-  if (text.empty())
-    throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
+  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
+  if (text.empty()) throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     auto decoded = from_utf16(text);
-    if (!decoded)
-      throw ReadError(path, 0,
-                      "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");
+    if (!decoded) throw ReadError(path, 0, "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");
     text = *std::move(decoded);
   }
   if (std::string_view(text).substr(0, 4096).find('\0') != std::string_view::npos) {
@@ -120,9 +112,7 @@ std::string read_text_file(const std::filesystem::path& path) {
 std::vector<std::string_view> split_lines(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   // A character is searched for again only once its last place is passed.
-  const auto next = [&](char c, std::size_t from) {
-    return std::min(text.find(c, from), text.size());
-  };
+  const auto next = [&](char c, std::size_t from) { return std::min(text.find(c, from), text.size()); };
   std::vector<std::string_view> lines;
   std::size_t feed = next('\n', 0), carriage = next('\r', 0);
   for (std::size_t begin = 0; begin < text.size();) {
@@ -136,19 +126,16 @@ std::vector<std::string_view> split_lines(std::string_view text) {
   return lines;
 }
 
-bool ends_with_line(std::string_view text) {
-  return text.empty() || text.back() == '\n' || text.back() == '\r';
-}
+bool ends_with_line(std::string_view text) { return text.empty() || text.back() == '\n' || text.back() == '\r'; }
 
 bool looks_cut(std::string_view last, std::string_view before) {
   const auto decimals = [](std::string_view line) {
     line = trim(line);
     std::size_t digits = 0;
-    while (digits < line.size() && line[line.size() - 1 - digits] >= '0' &&
-           line[line.size() - 1 - digits] <= '9')
+    while (digits < line.size() && line[line.size() - 1 - digits] >= '0' && line[line.size() - 1 - digits] <= '9')
       ++digits;
-    const bool fraction = digits < line.size() && (line[line.size() - 1 - digits] == '.' ||
-                                                   line[line.size() - 1 - digits] == ',');
+    const bool fraction =
+        digits < line.size() && (line[line.size() - 1 - digits] == '.' || line[line.size() - 1 - digits] == ',');
     return fraction ? digits : 0;
   };
   return decimals(last) < decimals(before);
@@ -200,8 +187,7 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::optional<double> parse_comma_number(std::string_view text) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string_view::npos || text.find('.') != std::string_view::npos)
-    return std::nullopt;
+  if (comma == std::string_view::npos || text.find('.') != std::string_view::npos) return std::nullopt;
   std::string mended(text);
   mended[comma] = '.';
   return parse_number(mended);
@@ -216,15 +202,12 @@ std::string format_number(double value) {
 char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   constexpr std::array<double, 15> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
-  constexpr std::array<std::int64_t, 9> kTens{1,      10,      100,      1000,     10000,
-                                              100000, 1000000, 10000000, 100000000};
-  constexpr std::size_t kWidest =
-      64;  // the text is written at once; there is room behind the number
+  constexpr std::array<std::int64_t, 9> kTens{1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+  constexpr std::size_t kWidest = 64;  // the text is written at once; there is room behind the number
   const double size = std::abs(value);
   if (decimals >= 0 && decimals <= 14 && size < 1e15 && width <= kWidest) {
-    // Whole part and fraction are separate: the whole part is exact. The product of the fraction
-    // and the power is off by less than 2e-16 of the power, so that its rounding is certain unless
-    // it ends that close to one half.
+    // Whole part and fraction are separate: the whole part is exact. The product of the fraction and the power is off
+    // by less than 2e-16 of the power, so that its rounding is certain unless it ends that close to one half.
     const double power = kPower[static_cast<std::size_t>(decimals)];
     auto whole = static_cast<std::int64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * power;
@@ -237,14 +220,12 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
         ++whole;
       }
       const bool negative = std::signbit(value);
-      std::size_t needed =
-          static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
+      std::size_t needed = static_cast<std::size_t>(decimals) + (decimals > 0 ? 2 : 1) + (negative ? 1 : 0);
       for (std::int64_t w = whole; w >= 10; w /= 10) ++needed;
       char* const end = at + std::max(needed, width);
       std::memset(at, ' ', 16);
       if (width > 16) std::memset(at + 16, ' ', kWidest - 16);
-      // The fraction is written from its first digit in groups of eight; the surplus goes behind
-      // the end.
+      // The fraction is written from its first digit in groups of eight; the surplus goes behind the end.
       char* begin = end - decimals;
       if (decimals <= 8) {
         put_eight(begin, static_cast<std::uint32_t>(count * kTens[8 - decimals]));
@@ -260,10 +241,9 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
       return end;
     }
   }
-  char* const stop =
-      std::isnan(value)
-          ? std::copy_n("NaN", 3, at)
-          : std::to_chars(at, at + kFixedRoom, value, std::chars_format::fixed, decimals).ptr;
+  char* const stop = std::isnan(value)
+                         ? std::copy_n("NaN", 3, at)
+                         : std::to_chars(at, at + kFixedRoom, value, std::chars_format::fixed, decimals).ptr;
   const auto count = static_cast<std::size_t>(stop - at);
   if (count >= width) return stop;
   std::memmove(at + (width - count), at, count);
@@ -272,8 +252,7 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
 }  // namespace myoid::recording

@@ -31,10 +31,8 @@ struct Repair {
 [[nodiscard]] bool looks_cut(std::string_view last, std::string_view before);
 
 /// Notes of readers that leave out or keep a last row without a line end.
-inline constexpr std::string_view kLastRowLeftOut =
-    "the last row has no line end and may be cut off; left out";
-inline constexpr std::string_view kLastRowKept =
-    "the last row has no line end; its last number may be cut off";
+inline constexpr std::string_view kLastRowLeftOut = "the last row has no line end and may be cut off; left out";
+inline constexpr std::string_view kLastRowKept = "the last row has no line end; its last number may be cut off";
 
 /// Removes blanks, tabs and carriage returns at both ends.
 [[nodiscard]] std::string_view trim(std::string_view text);

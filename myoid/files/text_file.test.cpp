@@ -35,15 +35,13 @@ TEST(ParseNumber, TakesTheFormsThatOccurAndNothingElse) {
 }
 
 TEST(FormatNumber, ReadsBackToTheSameDouble) {
-  for (const double x : {0.1, 1.0 / 3.0, -2.5e-17, 1e300})
-    EXPECT_EQ(parse_number(format_number(x)), x);
+  for (const double x : {0.1, 1.0 / 3.0, -2.5e-17, 1e300}) EXPECT_EQ(parse_number(format_number(x)), x);
 }
 
 // The C library rounds correctly too: both texts agree for every number, halves included.
 TEST(AppendFixed, WritesWhatTheCLibraryWrites) {
   math::Random random(3);
-  std::vector<double> values{0.0,    -0.0,          0.5,  1.5,  2.5,   0.125, -0.375,
-                             1e-300, 999.999999995, 1e14, 3e15, -1e22, 1e300};
+  std::vector<double> values{0.0, -0.0, 0.5, 1.5, 2.5, 0.125, -0.375, 1e-300, 999.999999995, 1e14, 3e15, -1e22, 1e300};
   for (int i = 0; i < 20000; ++i) {
     const double size = std::pow(10.0, 24.0 * random.uniform() - 12.0);
     values.push_back((2.0 * random.uniform() - 1.0) * size);
@@ -83,9 +81,7 @@ TEST(LooksCut, ComparesTheDecimalsOfTheLastNumbers) {
   EXPECT_FALSE(looks_cut("", ""));
 }
 
-TEST(TextFile, ADeviceThatNeverEndsIsRefused) {
-  EXPECT_THROW((void)read_text_file("/dev/zero"), ReadError);
-}
+TEST(TextFile, ADeviceThatNeverEndsIsRefused) { EXPECT_THROW((void)read_text_file("/dev/zero"), ReadError); }
 
 }  // namespace
 }  // namespace myoid::recording

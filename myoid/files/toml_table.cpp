@@ -26,8 +26,7 @@ const toml::node* TomlTable::find(std::string_view key) {
 void TomlTable::fail(std::string_view key, const std::string& message) const {
   const toml::node* node = table_->get(key);
   const auto line = node != nullptr ? node->source().begin.line : table_->source().begin.line;
-  throw ReadError(file_, static_cast<std::size_t>(line),
-                  fmt::format("{} {}: {}", where_, key, message));
+  throw ReadError(file_, static_cast<std::size_t>(line), fmt::format("{} {}: {}", where_, key, message));
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
@@ -87,8 +86,7 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
-  if (const auto* value = node->as_table())
-    return TomlTable(*value, file_, fmt::format("[{}]", key));
+  if (const auto* value = node->as_table()) return TomlTable(*value, file_, fmt::format("[{}]", key));
   fail(key, fmt::format("expected a table, [{}]", key));
 }
 
@@ -126,8 +124,8 @@ std::string TomlTable::choice(std::string_view key,
     std::vector<std::string> named;
     std::copy_if(allowed.begin(), allowed.end(), std::back_inserter(named),
                  [](const std::string& word) { return !word.empty(); });
-    fail(key, fmt::format("found \"{}\", expected {}{}", value, named.size() > 1 ? "one of " : "",
-                          fmt::join(named, ", ")));
+    fail(key,
+         fmt::format("found \"{}\", expected {}{}", value, named.size() > 1 ? "one of " : "", fmt::join(named, ", ")));
   }
   return value;
 }
@@ -160,9 +158,8 @@ namespace {
 
 /// Returns a key without '_' and without a unit at its end: "high_pass" and "highpass_hz" agree.
 std::string plain_key(std::string_view key) {
-  static constexpr std::array<std::string_view, 16> kUnits{"hz",  "s",     "ms",  "m",  "mm", "cm",
-                                                           "kg",  "n",     "nm",  "v",  "mv", "uv",
-                                                           "deg", "degps", "rad", "ppm"};
+  static constexpr std::array<std::string_view, 16> kUnits{"hz", "s", "ms", "m",  "mm",  "cm",    "kg",  "n",
+                                                           "nm", "v", "mv", "uv", "deg", "degps", "rad", "ppm"};
   const std::size_t last = key.rfind('_');
   if (last != std::string_view::npos && last > 0 &&
       std::find(kUnits.begin(), kUnits.end(), key.substr(last + 1)) != kUnits.end())
@@ -173,14 +170,12 @@ std::string plain_key(std::string_view key) {
 }
 
 /// Returns the known key that resembles an unknown one.
-std::optional<std::string> nearest_key(std::string_view key,
-                                       const std::vector<std::string>& known) {
+std::optional<std::string> nearest_key(std::string_view key, const std::vector<std::string>& known) {
   std::vector<std::string> plain;
   for (const std::string& k : known) plain.push_back(plain_key(k));
   const auto near = nearest_word(plain_key(key), plain);
   if (!near) return nearest_word(key, known);
-  return known[static_cast<std::size_t>(std::find(plain.begin(), plain.end(), *near) -
-                                        plain.begin())];
+  return known[static_cast<std::size_t>(std::find(plain.begin(), plain.end(), *near) - plain.begin())];
 }
 
 }  // namespace
@@ -243,8 +238,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
       // toml++ skips blanks and line ends behind a backslash and looks up the character after them.
       const std::size_t after = escape ? text.find_first_not_of(" \t\r\n", i + 1) : text.npos;
       if (after != text.npos && after > i + 1 && static_cast<unsigned char>(text[after]) >= 0x80U)
-        throw ReadError(file, line,
-                        "not valid TOML: a letter beyond ASCII first after a backslash and blanks");
+        throw ReadError(file, line, "not valid TOML: a letter beyond ASCII first after a backslash and blanks");
       if (escape && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80U) {
         if (text[i + 1] != '\n') ++i;
       } else if (escape) {
@@ -259,19 +253,15 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
                         "not valid TOML: a letter beyond ASCII outside of quotes; put the name or "
                         "text in quotes");
       }
-      if (c != '\t' && c != '\n' && c != '\r' &&
-          (static_cast<unsigned char>(c) < 0x20U || c == 0x7f))
+      if (c != '\t' && c != '\n' && c != '\r' && (static_cast<unsigned char>(c) < 0x20U || c == 0x7f))
         throw ReadError(file, line,
-                        fmt::format("not valid TOML: a byte {:#04x}, which is no text",
-                                    static_cast<unsigned>(c)));
+                        fmt::format("not valid TOML: a byte {:#04x}, which is no text", static_cast<unsigned>(c)));
       if (c == '#') in = In::remark;
       // toml++ looks through a number to its end; these characters are no numbers.
       const bool opens = std::string_view("\n=[,{").find(before) != std::string_view::npos;
       if (place.in_value && (c == '=' || ((c == '[' || c == '{') && !opens)))
-        throw ReadError(file, line,
-                        fmt::format("not valid TOML: a '{}' in the middle of a value", c));
-      // Elsewhere a quote is a mistake and opens no text; after a point it opens one only in a
-      // dotted key.
+        throw ReadError(file, line, fmt::format("not valid TOML: a '{}' in the middle of a value", c));
+      // Elsewhere a quote is a mistake and opens no text; after a point it opens one only in a dotted key.
       const bool begins = opens || (before == '.' && !place.in_value);
       place.pass(c);
       if (c != ' ' && c != '\t' && c != '\r') before = c;
@@ -290,8 +280,7 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file) {
-  if (const std::string other = wrong_kind(file, {FileFormat::toml}, "a study or protocol (.toml)");
-      !other.empty())
+  if (const std::string other = wrong_kind(file, {FileFormat::toml}, "a study or protocol (.toml)"); !other.empty())
     throw ReadError(file, 0, other);
   refuse_letters_outside_quotes(text, file);
   try {
@@ -302,8 +291,7 @@ toml::table parse_toml(std::string_view text, const std::filesystem::path& file)
   }
 }
 
-std::optional<std::string> nearest_word(std::string_view word,
-                                        const std::vector<std::string>& candidates) {
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

@@ -25,8 +25,7 @@ class TomlTable {
   /// Makes the key a known one and returns whether the table has it.
   bool asked(std::string_view key) { return find(key) != nullptr; }
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
-  [[nodiscard]] std::optional<double> number(
-      std::string_view key);  ///< A finite number; integers are accepted.
+  [[nodiscard]] std::optional<double> number(std::string_view key);  ///< A finite number; integers are accepted.
   [[nodiscard]] std::optional<bool> flag(std::string_view key);
   /// Returns a string or an array of strings as a list.
   [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key);
@@ -43,8 +42,7 @@ class TomlTable {
                                    std::string_view otherwise,
                                    const std::vector<std::string>& allowed);
 
-  /// Returns a number, or `otherwise` without the key; throws unless it is within `lower` to
-  /// `upper` [unit].
+  /// Returns a number, or `otherwise` without the key; throws unless it is within `lower` to `upper` [unit].
   [[nodiscard]] double number_within(
       std::string_view key, double otherwise, double lower, double upper, std::string_view unit);
 
@@ -73,8 +71,7 @@ class TomlTable {
 /// Parses a TOML text. Throws ReadError with the line of the first syntax error.
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::filesystem::path& file);
 
-/// Returns the candidate nearest to `word` by edit distance if it is near enough for a slip of the
-/// pen.
+/// Returns the candidate nearest to `word` by edit distance if it is near enough for a slip of the pen.
 [[nodiscard]] std::optional<std::string> nearest_word(std::string_view word,
                                                       const std::vector<std::string>& candidates);
 

@@ -10,9 +10,7 @@
 namespace myoid::forces {
 namespace {
 
-bool is_path(const Actuator& a) {
-  return a.kind == Actuator::Kind::muscle || a.kind == Actuator::Kind::path;
-}
+bool is_path(const Actuator& a) { return a.kind == Actuator::Kind::muscle || a.kind == Actuator::Kind::path; }
 
 double opensim_point_speed(const model::PointActuator& p, const model::BodyState& state) {
   const Vec3 arm_G = state.X_GB[at(p.body)].R * p.point;
@@ -38,8 +36,7 @@ Actuation actuation(const model::BodyModel& model,
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();
       const Eigen::VectorXd qdot = motion.qdot.values().row(i).transpose();
-      model::compute_poses(model, model::assemble(model, motion.q.values().row(i).transpose()).q,
-                           state);
+      model::compute_poses(model, model::assemble(model, motion.q.values().row(i).transpose()).q, state);
       model::compute_velocities(model, qdot, state);
       for (Eigen::Index k = 0; k < force.cols(); ++k) {
         const Actuator& a = actuators[at(k)];

@@ -8,9 +8,8 @@
 namespace myoid::forces {
 
 struct ActuationOptions {
-  /// True, as OpenSim 4.5.2: a point actuator's speed is the length of its point's velocity, and
-  /// the axis of a torque actuator is fixed in ground. False: both speeds are the rate at which the
-  /// actuator works.
+  /// True, as OpenSim 4.5.2: a point actuator's speed is the length of its point's velocity, and the axis of a torque
+  /// actuator is fixed in ground. False: both speeds are the rate at which the actuator works.
   bool speeds_of_opensim = false;
   Progress progress{};
 };

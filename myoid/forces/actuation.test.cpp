@@ -24,8 +24,7 @@ model::BodyModel driven_tree() {
   m.muscles.push_back(muscle);
   m.actuators.push_back({{.name = "motor"}, 4});
   const Vec3 rocket_point = u.vec();
-  m.point_actuators.push_back(
-      {{.name = "rocket"}, 3, rocket_point, false, u.vec().normalized(), false});
+  m.point_actuators.push_back({{.name = "rocket"}, 3, rocket_point, false, u.vec().normalized(), false});
   m.torque_actuators.push_back({{.name = "wheel"}, 4, 2, u.vec().normalized(), false});
   m.force_order = {"muscle", "motor", "rocket", "wheel"};
   return model::finalize(m);
@@ -63,18 +62,16 @@ TEST(Actuation, PowersAreTheWorkOfTheForcesOnTheBodies) {
     const double force = forces.column(a.name)[0];
     std::vector<model::BodyWrench> wrenches;
     columns.append_wrenches(a, force, state, wrenches);
-    double power_w = a.kind == Actuator::Kind::coordinate
-                         ? force * motion.qdot.values()(0, m.actuators[a.index].coordinate)
-                         : 0.0;
+    double power_w =
+        a.kind == Actuator::Kind::coordinate ? force * motion.qdot.values()(0, m.actuators[a.index].coordinate) : 0.0;
     for (const model::BodyWrench& w : wrenches) {
       const auto b = static_cast<std::size_t>(w.body);
       power_w += w.f_G.dot(state.v_GB[b]) + w.m_G.dot(state.w_GB[b]);
     }
-    EXPECT_NEAR(result.power_w.column(a.name)[0], power_w, 1e-10 * (1.0 + std::abs(power_w)))
-        << a.name;
+    EXPECT_NEAR(result.power_w.column(a.name)[0], power_w, 1e-10 * (1.0 + std::abs(power_w))) << a.name;
   }
-  EXPECT_NEAR(result.power_w.column("muscle")[0],
-              -forces.column("muscle")[0] * result.speed.column("muscle")[0], 1e-12);
+  EXPECT_NEAR(result.power_w.column("muscle")[0], -forces.column("muscle")[0] * result.speed.column("muscle")[0],
+              1e-12);
 }
 
 // The powers of all actuators and of gravity change the kinetic energy at the rate that forward
@@ -109,8 +106,7 @@ TEST(Actuation, HasOpensimsSpeedsOfPointsAndTorques) {
   const Eigen::VectorXd qdot = motion.qdot.values().row(0).transpose();
   const Vec3 v = model::station_jacobian(m, state, 3, m.point_actuators[0].point) * qdot;
   EXPECT_NEAR(result.speed.column("rocket")[0], v.norm(), 1e-10);
-  EXPECT_NEAR(result.speed.column("wheel")[0],
-              m.torque_actuators[0].axis.dot(state.w_GB[4] - state.w_GB[2]), 1e-10);
+  EXPECT_NEAR(result.speed.column("wheel")[0], m.torque_actuators[0].axis.dot(state.w_GB[4] - state.w_GB[2]), 1e-10);
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ Vec3 angular_column(const model::BodyModel& model,
 }
 
 const model::MusclePath& path_of(const model::BodyModel& model, const Actuator& a) {
-  return a.kind == Actuator::Kind::muscle ? model.muscles[a.index].path
-                                          : model.path_actuators[a.index].path;
+  return a.kind == Actuator::Kind::muscle ? model.muscles[a.index].path : model.path_actuators[a.index].path;
 }
 
 /// Returns a point actuator's point in its body and its direction in ground.
@@ -62,11 +61,9 @@ std::vector<Actuator> actuators_of(const model::BodyModel& model) {
   add(Actuator::Kind::torque, model.torque_actuators);
   add(Actuator::Kind::path, model.path_actuators);
   const auto place = [&](const Actuator& a) {
-    return std::find(model.force_order.begin(), model.force_order.end(), a.name) -
-           model.force_order.begin();
+    return std::find(model.force_order.begin(), model.force_order.end(), a.name) - model.force_order.begin();
   };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
+  std::stable_sort(all.begin(), all.end(), [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
   return all;
 }
 
@@ -86,8 +83,7 @@ double actuator_strength(const model::BodyModel& model, const Actuator& a) {
   return 0.0;
 }
 
-const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a,
-                                                      const model::BodyState& state) {
+const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a, const model::BodyState& state) {
   const model::BodyModel& model = *model_;
   column_.setZero(static_cast<Eigen::Index>(model.coordinates.size()));
   switch (a.kind) {
@@ -110,8 +106,7 @@ const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a,
       const model::TorqueActuator& t = model.torque_actuators[a.index];
       const Vec3 axis = axis_of(t, state);
       for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
-        column_[c] = axis.dot(angular_column(model, state, t.body_a, c) -
-                              angular_column(model, state, t.body_b, c));
+        column_[c] = axis.dot(angular_column(model, state, t.body_a, c) - angular_column(model, state, t.body_b, c));
       }
       break;
     }

@@ -19,8 +19,7 @@ struct Actuator {
 /// Returns all actuators of a model, in the order of the file's force set.
 [[nodiscard]] std::vector<Actuator> actuators_of(const model::BodyModel& model);
 
-/// Returns the force at control 1: a muscle's greatest isometric force, an actuator's optimal
-/// force.
+/// Returns the force at control 1: a muscle's greatest isometric force, an actuator's optimal force.
 [[nodiscard]] double actuator_strength(const model::BodyModel& model, const Actuator& actuator);
 
 /// The forces of actuators at a posture; one per thread. `compute_poses` (for path().speed_mps also
@@ -29,10 +28,8 @@ class ActuatorColumns {
  public:
   explicit ActuatorColumns(const model::BodyModel& model) : model_(&model) {}
 
-  /// Returns the generalized forces at a force of 1 N (1 N m), by every coordinate alone. Valid
-  /// until the next call.
-  [[nodiscard]] const Eigen::VectorXd& of_unit_force(const Actuator& actuator,
-                                                     const model::BodyState& state);
+  /// Returns the generalized forces at a force of 1 N (1 N m), by every coordinate alone. Valid until the next call.
+  [[nodiscard]] const Eigen::VectorXd& of_unit_force(const Actuator& actuator, const model::BodyState& state);
   /// Returns the path of the last muscle or path actuator.
   [[nodiscard]] const model::PathResult& path() const { return path_; }
   /// Adds its wrenches on bodies at this force; a force along a coordinate acts on none. Paths

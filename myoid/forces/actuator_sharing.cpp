@@ -19,11 +19,7 @@ constexpr double kSteepest = 1e8;  ///< Limit of a control's slope, infinite at 
 class Dual {
  public:
   Dual(Eigen::MatrixXd a, Eigen::VectorXd b, Eigen::VectorXd lower, Eigen::VectorXd upper, double p)
-      : a_(std::move(a)),
-        b_(std::move(b)),
-        lower_(std::move(lower)),
-        upper_(std::move(upper)),
-        p_(p) {
+      : a_(std::move(a)), b_(std::move(b)), lower_(std::move(lower)), upper_(std::move(upper)), p_(p) {
     x_.resize(a_.cols());
     slope_.resize(a_.cols());
   }
@@ -56,11 +52,9 @@ class Dual {
   }
 
   [[nodiscard]] Eigen::MatrixXd curvature(bool all_free) const {
-    const Eigen::VectorXd slope =
-        all_free ? Eigen::VectorXd::Constant(x_.size(), 0.5).eval() : slope_;
+    const Eigen::VectorXd slope = all_free ? Eigen::VectorXd::Constant(x_.size(), 0.5).eval() : slope_;
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(a_.rows(), a_.rows());
-    h.selfadjointView<Eigen::Lower>().rankUpdate(
-        Eigen::MatrixXd(a_ * slope.cwiseSqrt().asDiagonal()));
+    h.selfadjointView<Eigen::Lower>().rankUpdate(Eigen::MatrixXd(a_ * slope.cwiseSqrt().asDiagonal()));
     return h;
   }
 
@@ -89,8 +83,7 @@ Maximum maximize(Dual& dual, Eigen::VectorXd lambda) {
   const Eigen::Index m = dual.b().size();
   dual.evaluate(best.lambda);
   // Round-off of a row's sum.
-  const double tolerance =
-      1e-14 * std::max(dual.b().cwiseAbs().maxCoeff(), dual.a().cwiseAbs().maxCoeff());
+  const double tolerance = 1e-14 * std::max(dual.b().cwiseAbs().maxCoeff(), dual.a().cwiseAbs().maxCoeff());
   const double size = std::max(dual.curvature(true).diagonal().mean(), 1e-300);
   double damping = 1e-12;
   int stalls = 0;
@@ -110,8 +103,7 @@ Maximum maximize(Dual& dual, Eigen::VectorXd lambda) {
       const Eigen::VectorXd next = best.lambda + share * step;
       dual.evaluate(next);
       const double gap_then = dual.gap().cwiseAbs().maxCoeff();
-      if (dual.value() >= value + 1e-4 * share * rise ||
-          (gap_then < 0.9 * gap && dual.value() >= value - round_off)) {
+      if (dual.value() >= value + 1e-4 * share * rise || (gap_then < 0.9 * gap && dual.value() >= value - round_off)) {
         stalls = gap_then < 0.5 * gap ? 0 : stalls + 1;
         best.lambda = next;
         damping = std::max(0.1 * damping, 1e-12);
@@ -132,10 +124,8 @@ Maximum maximize(Dual& dual, Eigen::VectorXd lambda) {
 
 void check(const ActuatorProblem& problem) {
   const Eigen::Index n = problem.forces.cols();
-  if (problem.required.size() != problem.forces.rows() || problem.lower.size() != n ||
-      problem.upper.size() != n) {
-    throw InvalidInput(fmt::format("actuators: sizes disagree for {} actuators and {} rows", n,
-                                   problem.forces.rows()));
+  if (problem.required.size() != problem.forces.rows() || problem.lower.size() != n || problem.upper.size() != n) {
+    throw InvalidInput(fmt::format("actuators: sizes disagree for {} actuators and {} rows", n, problem.forces.rows()));
   }
   if (!(problem.exponent > 1.0))
     throw InvalidInput(fmt::format("actuators: exponent {}, expected above 1", problem.exponent));
@@ -151,8 +141,7 @@ double certificate(const ActuatorProblem& problem, const ActuatorSolution& s) {
   double worst = 0.0;
   const Eigen::VectorXd gap = problem.required - problem.forces * x;
   for (Eigen::Index k = 0; k < gap.size(); ++k) {
-    const double scale =
-        std::max(std::abs(problem.required[k]), problem.forces.row(k).cwiseAbs().dot(x.cwiseAbs()));
+    const double scale = std::max(std::abs(problem.required[k]), problem.forces.row(k).cwiseAbs().dot(x.cwiseAbs()));
     if (scale > 0.0) worst = std::max(worst, std::abs(gap[k]) / scale);
   }
   const Eigen::VectorXd pull = problem.forces.transpose() * s.multiplier;
@@ -164,8 +153,7 @@ double certificate(const ActuatorProblem& problem, const ActuatorSolution& s) {
     if (x[i] <= problem.lower[i]) violation = std::min(violation, 0.0);
     if (x[i] >= problem.upper[i]) violation = std::max(violation, 0.0);
     const double scale = std::max({std::abs(slope), parts[i], 1e-3});
-    worst = std::max(
-        {worst, std::abs(violation) / scale, problem.lower[i] - x[i], x[i] - problem.upper[i]});
+    worst = std::max({worst, std::abs(violation) / scale, problem.lower[i] - x[i], x[i] - problem.upper[i]});
   }
   return worst;
 }
@@ -220,8 +208,8 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
     const double norm = problem.forces.row(k).norm();
     scale[k] = norm > 0.0 ? 1.0 / norm : 1.0;
   }
-  Dual dual(scale.asDiagonal() * problem.forces, scale.cwiseProduct(problem.required),
-            problem.lower, problem.upper, problem.exponent);
+  Dual dual(scale.asDiagonal() * problem.forces, scale.cwiseProduct(problem.required), problem.lower, problem.upper,
+            problem.exponent);
   const bool started = start != nullptr && start->size() == m;
   Maximum best = maximize(dual, started ? start->cwiseQuotient(scale) : unbounded(dual));
   if (!best.balanced && start != nullptr) best = maximize(dual, unbounded(dual));
@@ -232,8 +220,7 @@ ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::Ve
   solution.solved = best.balanced && solution.kkt_residual <= 1e-9;
   if (!best.balanced) take_nearest(problem, dual, scale, solution);
   const double greatest = std::max(problem.required.cwiseAbs().maxCoeff(), 1e-300);
-  solution.shortfall =
-      (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff() / greatest;
+  solution.shortfall = (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff() / greatest;
   return solution;
 }
 

@@ -19,9 +19,8 @@ struct ActuatorProblem {
 struct ActuatorSolution {
   Eigen::VectorXd control;     ///< x
   Eigen::VectorXd multiplier;  ///< lambda, of A x = b.
-  /// Greatest violation of the optimality conditions, each relative to the greatest term in it:
-  /// balance of every row, p |x|^(p-1) sign x = A' lambda for a free control, its right sign at a
-  /// bound.
+  /// Greatest violation of the optimality conditions, each relative to the greatest term in it: balance of every row, p
+  /// |x|^(p-1) sign x = A' lambda for a free control, its right sign at a bound.
   double kkt_residual = 0.0;
   double shortfall = 0.0;  ///< Greatest |b - A x| relative to the greatest |b|.
   int iterations = 0;
@@ -29,12 +28,10 @@ struct ActuatorSolution {
   bool feasible = true;  ///< Otherwise: the controls that come nearest, with `shortfall`.
 };
 
-/// Solves by Newton's method on the concave dual: given lambda, every control follows in closed
-/// form, x_i = clip((A' lambda)_i / p)^(1/(p-1)). Exact to round-off if the actuators can produce
-/// b. Otherwise a penalty of 1e6 times the cost of the greatest control distributes the rest, and
-/// `feasible` is false. Throws InvalidInput if sizes disagree, p <= 1 or a bound lies above the
-/// other.
-[[nodiscard]] ActuatorSolution solve_actuators(const ActuatorProblem& problem,
-                                               const Eigen::VectorXd* start = nullptr);
+/// Solves by Newton's method on the concave dual: given lambda, every control follows in closed form, x_i = clip((A'
+/// lambda)_i / p)^(1/(p-1)). Exact to round-off if the actuators can produce b. Otherwise a penalty of 1e6 times the
+/// cost of the greatest control distributes the rest, and `feasible` is false. Throws InvalidInput if sizes disagree, p
+/// <= 1 or a bound lies above the other.
+[[nodiscard]] ActuatorSolution solve_actuators(const ActuatorProblem& problem, const Eigen::VectorXd* start = nullptr);
 
 }  // namespace myoid::forces

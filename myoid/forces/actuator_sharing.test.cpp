@@ -15,8 +15,8 @@ const double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ActuatorSharing, TwoActuatorsShareByTheLawOfLagrange) {
   // x ~ a^(1/(p-1)); for p = 3: x_i = sqrt(lambda a_i / 3).
-  ActuatorProblem problem{Eigen::RowVector2d(10.0, 40.0), Eigen::VectorXd::Constant(1, 20.0),
-                          Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), 3.0};
+  ActuatorProblem problem{Eigen::RowVector2d(10.0, 40.0), Eigen::VectorXd::Constant(1, 20.0), Eigen::Vector2d::Zero(),
+                          Eigen::Vector2d::Ones(), 3.0};
   const ActuatorSolution s = solve_actuators(problem);
   ASSERT_TRUE(s.solved);
   EXPECT_NEAR(s.control[1] / s.control[0], 2.0, 1e-9);
@@ -25,8 +25,7 @@ TEST(ActuatorSharing, TwoActuatorsShareByTheLawOfLagrange) {
 
 TEST(ActuatorSharing, BoundsHoldAndTheRestMakesUpForThem) {
   ActuatorProblem problem{Eigen::RowVector3d(100.0, 10.0, 1.0), Eigen::VectorXd::Constant(1, 106.0),
-                          Eigen::Vector3d(0.01, 0.01, -kInfinity),
-                          Eigen::Vector3d(1.0, 0.5, kInfinity), 2.0};
+                          Eigen::Vector3d(0.01, 0.01, -kInfinity), Eigen::Vector3d(1.0, 0.5, kInfinity), 2.0};
   const ActuatorSolution s = solve_actuators(problem);
   ASSERT_TRUE(s.solved);
   EXPECT_DOUBLE_EQ(s.control[0], 1.0);
@@ -38,9 +37,8 @@ TEST(ActuatorSharing, RandomProblemsAreOptimalAgainstEveryFeasibleNeighbour) {
   math::Random random(7, 1);
   for (int trial = 0; trial < 40; ++trial) {
     const Eigen::Index m = 2 + trial % 5, n = m + 6;
-    ActuatorProblem problem{Eigen::MatrixXd(m, n), Eigen::VectorXd(m),
-                            Eigen::VectorXd::Constant(n, 0.01), Eigen::VectorXd::Ones(n),
-                            trial % 3 == 0 ? 3.0 : 2.0};
+    ActuatorProblem problem{Eigen::MatrixXd(m, n), Eigen::VectorXd(m), Eigen::VectorXd::Constant(n, 0.01),
+                            Eigen::VectorXd::Ones(n), trial % 3 == 0 ? 3.0 : 2.0};
     for (Eigen::Index k = 0; k < m; ++k)
       for (Eigen::Index i = 0; i < n; ++i) problem.forces(k, i) = 30.0 * random.normal();
     Eigen::VectorXd inside(n);
@@ -48,9 +46,7 @@ TEST(ActuatorSharing, RandomProblemsAreOptimalAgainstEveryFeasibleNeighbour) {
     problem.required = problem.forces * inside;
     const ActuatorSolution s = solve_actuators(problem);
     ASSERT_TRUE(s.solved) << trial << " " << s.kkt_residual;
-    const auto cost = [&](const Eigen::VectorXd& x) {
-      return x.cwiseAbs().array().pow(problem.exponent).sum();
-    };
+    const auto cost = [&](const Eigen::VectorXd& x) { return x.cwiseAbs().array().pow(problem.exponent).sum(); };
     // The problem is convex: no point on the way to a feasible one may be cheaper.
     for (const double share : {1e-3, 0.1, 1.0})
       EXPECT_GE(cost(s.control + share * (inside - s.control)), cost(s.control) - 1e-12);
@@ -58,8 +54,8 @@ TEST(ActuatorSharing, RandomProblemsAreOptimalAgainstEveryFeasibleNeighbour) {
 }
 
 TEST(ActuatorSharing, WhatCannotBeMadeIsSaidNotHidden) {
-  ActuatorProblem problem{Eigen::RowVector2d(10.0, 10.0), Eigen::VectorXd::Constant(1, 50.0),
-                          Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), 2.0};
+  ActuatorProblem problem{Eigen::RowVector2d(10.0, 10.0), Eigen::VectorXd::Constant(1, 50.0), Eigen::Vector2d::Zero(),
+                          Eigen::Vector2d::Ones(), 2.0};
   const ActuatorSolution s = solve_actuators(problem);
   EXPECT_FALSE(s.feasible);
   EXPECT_FALSE(s.solved);
@@ -68,8 +64,8 @@ TEST(ActuatorSharing, WhatCannotBeMadeIsSaidNotHidden) {
 }
 
 TEST(ActuatorSharing, RefusesAnExponentThatMakesNoStrictOptimum) {
-  ActuatorProblem problem{Eigen::RowVector2d(1.0, 1.0), Eigen::VectorXd::Ones(1),
-                          Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), 1.0};
+  ActuatorProblem problem{Eigen::RowVector2d(1.0, 1.0), Eigen::VectorXd::Ones(1), Eigen::Vector2d::Zero(),
+                          Eigen::Vector2d::Ones(), 1.0};
   EXPECT_THROW((void)solve_actuators(problem), InvalidInput);
 }
 

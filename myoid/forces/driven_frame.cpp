@@ -45,8 +45,7 @@ Eigen::MatrixXd force_rows(const std::vector<Actuator>& actuators,
                            const TimeSeries& forces) {
   const Eigen::Index frames = motion.sample_count();
   if (forces.sample_count() != frames) {
-    throw InvalidInput(
-        fmt::format("forces of {} frames for {} frames of motion", forces.sample_count(), frames));
+    throw InvalidInput(fmt::format("forces of {} frames for {} frames of motion", forces.sample_count(), frames));
   }
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(frames, static_cast<Eigen::Index>(actuators.size()));
   for (std::size_t k = 0; k < actuators.size(); ++k) {
@@ -68,8 +67,7 @@ Eigen::MatrixXd driven_accelerations(const model::BodyModel& model,
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();
       qddot.row(i) = frame
-                         .at_state(motion.q.values().row(i).transpose(),
-                                   motion.qdot.values().row(i).transpose(),
+                         .at_state(motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
                                    force.row(i).transpose(), motion.q.time_s()[i])
                          .qddot.transpose();
     }

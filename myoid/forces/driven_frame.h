@@ -48,17 +48,15 @@ struct DrivenOptions {
   Progress progress{};
 };
 
-/// Returns the forces of all actuators of `actuators_of` at the motion's frames, by name: frames x
-/// actuators, 0 for an actuator without a column. Throws InvalidInput if the number of frames
-/// differs.
+/// Returns the forces of all actuators of `actuators_of` at the motion's frames, by name: frames x actuators, 0 for an
+/// actuator without a column. Throws InvalidInput if the number of frames differs.
 [[nodiscard]] Eigen::MatrixXd force_rows(const std::vector<Actuator>& actuators,
                                          const kinematics::JointMotion& motion,
                                          const TimeSeries& forces);
 
-/// Returns the accelerations under these forces at the motion's postures and speeds [rad/s^2,
-/// m/s^2], one column a coordinate: forward dynamics, which ignores the motion's own accelerations.
-/// Parallel over frames; the same for every number of threads. Throws as DrivenFrame and
-/// force_rows.
+/// Returns the accelerations under these forces at the motion's postures and speeds [rad/s^2, m/s^2], one column a
+/// coordinate: forward dynamics, which ignores the motion's own accelerations. Parallel over frames; the same for every
+/// number of threads. Throws as DrivenFrame and force_rows.
 [[nodiscard]] Eigen::MatrixXd driven_accelerations(const model::BodyModel& model,
                                                    const kinematics::JointMotion& motion,
                                                    const TimeSeries& forces,

@@ -17,18 +17,14 @@ namespace {
 void check(const SharingProblem& problem) {
   const Eigen::Index n = problem.optimal_force.size();
   const Eigen::Index m = problem.torque.size();
-  const auto optional_size = [n](const Eigen::VectorXd& v) {
-    return v.size() == 0 || v.size() == n;
-  };
-  if (problem.moment_arm.rows() != m || problem.moment_arm.cols() != n ||
-      problem.lower.size() != n || problem.upper.size() != n || problem.reserve.size() != m ||
-      !optional_size(problem.weight) || !optional_size(problem.emg)) {
-    throw InvalidInput(
-        fmt::format("force sharing: sizes disagree for {} muscles and {} coordinates", n, m));
+  const auto optional_size = [n](const Eigen::VectorXd& v) { return v.size() == 0 || v.size() == n; };
+  if (problem.moment_arm.rows() != m || problem.moment_arm.cols() != n || problem.lower.size() != n ||
+      problem.upper.size() != n || problem.reserve.size() != m || !optional_size(problem.weight) ||
+      !optional_size(problem.emg)) {
+    throw InvalidInput(fmt::format("force sharing: sizes disagree for {} muscles and {} coordinates", n, m));
   }
   if (!(problem.exponent > 1.0))
-    throw InvalidInput(
-        fmt::format("force sharing: exponent {}, expected above 1", problem.exponent));
+    throw InvalidInput(fmt::format("force sharing: exponent {}, expected above 1", problem.exponent));
   if (!(problem.reserve.array() > 0.0).all())
     throw InvalidInput("force sharing: every coordinate needs a reserve above 0");
   if (problem.emg.size() > 0 && problem.exponent != 2.0)
@@ -41,8 +37,7 @@ struct Response {
   double slope = 0.0;  ///< dx / d(pull)
 };
 
-Response respond(
-    double pull, double w, double p, double lower, double upper, double emg_weight, double emg) {
+Response respond(double pull, double w, double p, double lower, double upper, double emg_weight, double emg) {
   Response r;
   if (emg_weight > 0.0) {
     r.slope = 1.0 / (2.0 * (w + emg_weight));
@@ -85,8 +80,7 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
   solution.activation = problem.lower;
   solution.reserve_torque = Eigen::VectorXd::Zero(m);
   solution.multiplier = Eigen::VectorXd::Zero(m);
-  if (!problem.moment_arm.allFinite() || !problem.optimal_force.allFinite() ||
-      !problem.torque.allFinite()) {
+  if (!problem.moment_arm.allFinite() || !problem.optimal_force.allFinite() || !problem.torque.allFinite()) {
     solution.status = SharingStatus::not_finite;
     return solution;
   }
@@ -126,14 +120,14 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
     for (Eigen::Index k = 0; k < m; ++k) {
       const double strength = a.row(k).cwiseAbs().sum() + problem.reserve[k];
       const double level = std::min(1.0, std::abs(problem.torque[k]) / strength) + 1e-6;
-      lambda[k] = std::copysign(p * std::pow(level, p - 1.0) /
-                                    std::max(a.row(k).cwiseAbs().maxCoeff(), problem.reserve[k]),
-                                problem.torque[k]);
+      lambda[k] =
+          std::copysign(p * std::pow(level, p - 1.0) / std::max(a.row(k).cwiseAbs().maxCoeff(), problem.reserve[k]),
+                        problem.torque[k]);
     }
   }
   Point now = evaluate(lambda);
-  const double scale = std::max({problem.torque.cwiseAbs().maxCoeff(),
-                                 a.size() > 0 ? a.cwiseAbs().maxCoeff() * 1e-3 : 0.0, 1e-9});
+  const double scale =
+      std::max({problem.torque.cwiseAbs().maxCoeff(), a.size() > 0 ? a.cwiseAbs().maxCoeff() * 1e-3 : 0.0, 1e-9});
   for (solution.iterations = 0; solution.iterations < 300; ++solution.iterations) {
     if (now.gap.cwiseAbs().maxCoeff() <= 1e-14 * scale) break;
     Eigen::MatrixXd hessian = a * now.slope_x.asDiagonal() * a.transpose();
@@ -159,15 +153,13 @@ SharingSolution solve_sharing(const SharingProblem& problem) {
   solution.reserve_torque = problem.reserve.cwiseProduct(now.y);
   solution.multiplier = lambda;
   solution.kkt_residual = kkt_residual(problem, solution);
-  solution.status =
-      solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
+  solution.status = solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
   return solution;
 }
 
-SharingSolution solve_sharing(
-    const SharingProblem& problem,
-    const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
-    const Eigen::VectorXd& start) {
+SharingSolution solve_sharing(const SharingProblem& problem,
+                              const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
+                              const Eigen::VectorXd& start) {
   constexpr int kMostTangents = 100;
   const Eigen::Index n = problem.optimal_force.size();
   Eigen::VectorXd x = start;
@@ -191,14 +183,12 @@ SharingSolution solve_sharing(
     if (solution.status == SharingStatus::not_finite) return solution;
     moved = (solution.activation - x).cwiseAbs().maxCoeff();
     // Full steps converge where the laws bend little; half steps also where full steps oscillate.
-    x = count < 10 || moved <= 1e-11 ? solution.activation
-                                     : (0.5 * (x + solution.activation)).eval();
+    x = count < 10 || moved <= 1e-11 ? solution.activation : (0.5 * (x + solution.activation)).eval();
     tangent = tangent_at(x);
   } while (moved > 1e-11 && ++count < kMostTangents);
   solution.iterations = count + 1;
   solution.kkt_residual = kkt_residual(tangent, solution);
-  solution.status =
-      solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
+  solution.status = solution.kkt_residual <= 1e-9 ? SharingStatus::optimal : SharingStatus::not_solved;
   return solution;
 }
 
@@ -210,10 +200,9 @@ void check_tables(const std::vector<TimeSeries>& moment_arms,
                   const Eigen::MatrixXd& optimal_force_n,
                   const Eigen::VectorXd& max_isometric_force_n) {
   const Eigen::Index frames = torques.sample_count();
-  if (static_cast<Eigen::Index>(moment_arms.size()) != torques.channel_count() ||
-      moment_arms.empty()) {
-    throw InvalidInput(fmt::format("force sharing: {} moment-arm tables for {} torques",
-                                   moment_arms.size(), torques.channel_count()));
+  if (static_cast<Eigen::Index>(moment_arms.size()) != torques.channel_count() || moment_arms.empty()) {
+    throw InvalidInput(
+        fmt::format("force sharing: {} moment-arm tables for {} torques", moment_arms.size(), torques.channel_count()));
   }
   const Eigen::Index muscles = moment_arms[0].channel_count();
   for (const TimeSeries& arms : moment_arms) {
@@ -228,16 +217,13 @@ void check_tables(const std::vector<TimeSeries>& moment_arms,
 }
 
 /// Returns the EMG of these muscles, frames x muscles; empty without an EMG term.
-Eigen::MatrixXd emg_of(const std::vector<Channel>& muscles,
-                       Eigen::Index frames,
-                       const SharingOptions& options) {
+Eigen::MatrixXd emg_of(const std::vector<Channel>& muscles, Eigen::Index frames, const SharingOptions& options) {
   if (options.emg.empty() || !(options.emg_weight > 0.0)) return {};
   std::vector<std::string> names;
   for (const Channel& channel : muscles) names.push_back(channel.name);
   Eigen::MatrixXd emg = options.emg.select(names).values();
   if (emg.rows() != frames)
-    throw InvalidInput(
-        "force sharing: the EMG is not on the clock of the motion; resample it first");
+    throw InvalidInput("force sharing: the EMG is not on the clock of the motion; resample it first");
   return emg;
 }
 
@@ -302,12 +288,9 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       }
       SharingSolution solution = solve_sharing(problem);
       if (options.law) {
-        const auto law = [&](Eigen::Index muscle, double x) {
-          return options.law(frame, muscle, x);
-        };
+        const auto law = [&](Eigen::Index muscle, double x) { return options.law(frame, muscle, x); };
         solution = solve_sharing(problem, law, solution.activation);
-        for (Eigen::Index i = 0; i < muscles; ++i)
-          force(frame, i) = law(i, solution.activation[i]).force_n;
+        for (Eigen::Index i = 0; i < muscles; ++i) force(frame, i) = law(i, solution.activation[i]).force_n;
       } else {
         force.row(frame) = solution.activation.cwiseProduct(problem.optimal_force).transpose();
       }
@@ -325,8 +308,7 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
       status = SharingStatus::reserve_used;
     }
     if (status == SharingStatus::reserve_used) ++result.frames_with_reserve;
-    if (status == SharingStatus::not_solved || status == SharingStatus::not_finite)
-      ++result.frames_not_solved;
+    if (status == SharingStatus::not_solved || status == SharingStatus::not_finite) ++result.frames_not_solved;
   }
   const auto channels = [&](Unit unit) {
     std::vector<Channel> list = moment_arms[0].channels();
@@ -334,8 +316,7 @@ MuscleForces share(const std::vector<TimeSeries>& moment_arms,
     return list;
   };
   result.force = TimeSeries(torques.time_s(), channels(Unit::newton), std::move(force));
-  result.activation =
-      TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
+  result.activation = TimeSeries(torques.time_s(), channels(Unit::dimensionless), std::move(activation));
   result.reserve = TimeSeries(torques.time_s(), reserve_channels(torques), std::move(reserve));
   return result;
 }

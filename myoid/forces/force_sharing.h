@@ -17,8 +17,7 @@ namespace myoid::forces {
 ///   minimize  sum_i w_i |x_i|^p + W sum_i (x_i - e_i)^2 + sum_k |y_k|^p
 ///   subject to  sum_i r_ki F_i^opt x_i + T_k y_k = tau_k,   lower <= x <= upper,   y free
 ///
-/// x are activations (forces F_i = F_i^opt x_i), y the commands of the reserve actuators of optimal
-/// torque T_k.
+/// x are activations (forces F_i = F_i^opt x_i), y the commands of the reserve actuators of optimal torque T_k.
 struct SharingProblem {
   Eigen::MatrixXd moment_arm;     ///< Coordinates x muscles: r [m].
   Eigen::VectorXd optimal_force;  ///< F^opt [N]: force at full activation at this instant.
@@ -44,8 +43,7 @@ struct SharingSolution {
   Eigen::VectorXd activation;      ///< x
   Eigen::VectorXd reserve_torque;  ///< T y [N m]
   Eigen::VectorXd multiplier;      ///< lambda of the torque balance.
-  double kkt_residual =
-      0.0;  ///< Largest violation of the optimality conditions, relative: see optimality.h.
+  double kkt_residual = 0.0;       ///< Largest violation of the optimality conditions, relative: see optimality.h.
   int iterations = 0;
   SharingStatus status = SharingStatus::not_solved;
 };
@@ -60,16 +58,13 @@ struct SharingSolution {
 struct ForceAtActivation {
   double force_n = 0.0, slope_n = 0.0;
 };
-/// The law F(x) of a muscle in a frame, if it is not F_opt x: passive force, elastic tendon. Called
-/// from any thread.
-using MuscleForceLaw =
-    std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
+/// The law F(x) of a muscle in a frame, if it is not F_opt x: passive force, elastic tendon. Called from any thread.
+using MuscleForceLaw = std::function<ForceAtActivation(Eigen::Index frame, Eigen::Index muscle, double activation)>;
 
-/// Solves the problem with forces F_i(x_i) instead of F_i^opt x_i, as a sequence of problems with
-/// the laws' tangents, until activations change by less than 1e-11. `problem.torque` is the whole
-/// torque. For nonlinear laws the optimum is a local one: the search begins at `start`. The
-/// certificate belongs to the tangent problem at the solution, whose optimality conditions equal
-/// the problem's own.
+/// Solves the problem with forces F_i(x_i) instead of F_i^opt x_i, as a sequence of problems with the laws' tangents,
+/// until activations change by less than 1e-11. `problem.torque` is the whole torque. For nonlinear laws the optimum is
+/// a local one: the search begins at `start`. The certificate belongs to the tangent problem at the solution, whose
+/// optimality conditions equal the problem's own.
 [[nodiscard]] SharingSolution solve_sharing(
     const SharingProblem& problem,
     const std::function<ForceAtActivation(Eigen::Index muscle, double activation)>& law,
@@ -97,10 +92,9 @@ struct MuscleForces {
   int frames_with_reserve = 0;
 };
 
-/// Shares the torques of one or more coordinates in every frame. `moment_arms` has one series per
-/// coordinate, in the order of `torques`' channels; `optimal_force_n` is frames x muscles; all on
-/// one clock. `max_isometric_force_n` serves the objective `stress`. Parallel over frames; the same
-/// for every number of threads.
+/// Shares the torques of one or more coordinates in every frame. `moment_arms` has one series per coordinate, in the
+/// order of `torques`' channels; `optimal_force_n` is frames x muscles; all on one clock. `max_isometric_force_n`
+/// serves the objective `stress`. Parallel over frames; the same for every number of threads.
 [[nodiscard]] MuscleForces share(const std::vector<TimeSeries>& moment_arms,
                                  const TimeSeries& torques,
                                  const Eigen::MatrixXd& optimal_force_n,

@@ -12,8 +12,7 @@
 namespace myoid::forces {
 namespace {
 
-constexpr double kSmallReserve_nm =
-    1e-4;  // makes the reserve's part negligible: its share is (T / sum)^2
+constexpr double kSmallReserve_nm = 1e-4;  // makes the reserve's part negligible: its share is (T / sum)^2
 
 SharingProblem elbow(double torque_nm) {
   SharingProblem p;
@@ -166,8 +165,7 @@ TEST(ForceSharing, LawsThatBendAreSharedAsBisectionSharesThem) {
   };
   const auto torque = [&](double lambda) {
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < 4; ++i)
-      sum += p.moment_arm(0, i) * law(i, activation(i, lambda)).force_n;
+    for (Eigen::Index i = 0; i < 4; ++i) sum += p.moment_arm(0, i) * law(i, activation(i, lambda)).force_n;
     return sum;
   };
   double low = 0.0, high = 1.0;

@@ -20,10 +20,9 @@ std::vector<JointLoads> joint_reactions(const model::BodyModel& model,
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();
       const Eigen::VectorXd qdot = motion.qdot.values().row(i).transpose();
-      const DrivenState driven = frame.at_state(motion.q.values().row(i).transpose(), qdot,
-                                                force.row(i).transpose(), motion.q.time_s()[i]);
-      (void)model::inverse_dynamics(model, driven.q, qdot, driven.qddot, driven.wrenches, state,
-                                    &carried);
+      const DrivenState driven =
+          frame.at_state(motion.q.values().row(i).transpose(), qdot, force.row(i).transpose(), motion.q.time_s()[i]);
+      (void)model::inverse_dynamics(model, driven.q, qdot, driven.qddot, driven.wrenches, state, &carried);
       JointLoads& loads = result[at(i)];
       loads.X_GB = state.X_GB;
       for (const model::Joint& joint : model.joints) {

@@ -17,9 +17,7 @@ model::BodyModel pendulum(int links) {
   model::BodyModel m;
   m.bodies.push_back({.name = "ground"});
   for (int b = 1; b <= links; ++b) {
-    m.bodies.push_back({.name = "b" + std::to_string(b),
-                        .mass_kg = kMass_kg,
-                        .p_BBcm_B = Vec3(0.0, -kLength_m, 0.0)});
+    m.bodies.push_back({.name = "b" + std::to_string(b), .mass_kg = kMass_kg, .p_BBcm_B = Vec3(0.0, -kLength_m, 0.0)});
     model::Joint joint;
     joint.name = "j" + std::to_string(b);
     joint.parent = b - 1;
@@ -38,8 +36,7 @@ model::BodyModel pendulum(int links) {
 
 kinematics::JointMotion one_frame(const Eigen::VectorXd& q, const Eigen::VectorXd& u) {
   std::vector<Channel> channels(static_cast<std::size_t>(q.size()));
-  for (std::size_t k = 0; k < channels.size(); ++k)
-    channels[k] = {"q" + std::to_string(k + 1), Unit::radian};
+  for (std::size_t k = 0; k < channels.size(); ++k) channels[k] = {"q" + std::to_string(k + 1), Unit::radian};
   const auto series = [&](const Eigen::VectorXd& v) {
     return TimeSeries(Eigen::VectorXd::Zero(1), channels, v.transpose());
   };
@@ -50,14 +47,12 @@ TimeSeries one_force(const std::string& name, double value) {
   return {Eigen::VectorXd::Zero(1), {{name, Unit::newton}}, Eigen::MatrixXd::Constant(1, 1, value)};
 }
 
-// A point mass on a massless rod: the rod carries m (g cos q + L u^2) along itself, and nothing
-// else.
+// A point mass on a massless rod: the rod carries m (g cos q + L u^2) along itself, and nothing else.
 TEST(JointReactions, ASwingingPendulumPullsAlongItsRod) {
   const model::BodyModel m = model::finalize(pendulum(1));
   const double q = 0.7, u = 3.0;
-  const auto loads = joint_reactions(
-      m, one_frame(Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, u)),
-      one_force("none", 1.0));
+  const auto loads = joint_reactions(m, one_frame(Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, u)),
+                                     one_force("none", 1.0));
   const double tension = kMass_kg * (kStandardGravity * std::cos(q) + kLength_m * u * u);
   const Vec3 up(-std::sin(q), std::cos(q), 0.0);
   EXPECT_LT((loads[0].on_child[0].f_G - tension * up).norm(), 1e-12);
@@ -71,8 +66,8 @@ TEST(JointReactions, AtRestTheJointsCarryWhatHangsOnThem) {
   m.joints[1].X_BM.p = Vec3(0.0, 0.0, 0.1);
   m.joints[1].X_PF.p += Vec3(0.0, 0.0, 0.1);
   m = model::finalize(m);
-  const auto loads = joint_reactions(
-      m, one_frame(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)), one_force("none", 1.0));
+  const auto loads =
+      joint_reactions(m, one_frame(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)), one_force("none", 1.0));
   const Vec3 weight(0.0, kMass_kg * kStandardGravity, 0.0);
   EXPECT_LT((loads[0].on_child[0].f_G - 2.0 * weight).norm(), 1e-12);
   EXPECT_LT((loads[0].on_child[1].f_G - weight).norm(), 1e-12);
@@ -93,27 +88,25 @@ TEST(JointReactions, MusclesPressTheJointsTheyCross) {
   m.force_order = {"muscle"};
   m = model::finalize(m);
   const double pull = 700.0;
-  const auto loads = joint_reactions(
-      m, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)), one_force("muscle", pull));
+  const auto loads =
+      joint_reactions(m, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)), one_force("muscle", pull));
   const Vec3 at(0.02, -0.2, 0.0), weight(0.0, -kMass_kg * kStandardGravity, 0.0);
   const Vec3 f = pull * (Vec3(0.1, 0.3, 0.05) - at).normalized();
   EXPECT_LT((loads[0].on_child[0].f_G + f + weight).norm(), 1e-10);
   EXPECT_LT((loads[0].on_child[0].m_G + at.cross(f)).norm(), 1e-10);  // the weight has no moment
 }
 
-// Two hinges of which the second turns twice as far as the first: without gravity, and turned by a
-// torque on the first coordinate alone, d'Alembert for the whole gives the force of the upper
-// hinge.
+// Two hinges of which the second turns twice as far as the first: without gravity, and turned by a torque on the first
+// coordinate alone, d'Alembert for the whole gives the force of the upper hinge.
 TEST(JointReactions, CouplersShapeTheAccelerations) {
   model::BodyModel m = pendulum(2);
   m.gravity_G.setZero();
-  m.couplers.push_back(
-      {.name = "c", .dependent = 1, .independent = 0, .function = model::Linear{2.0, 0.0}});
+  m.couplers.push_back({.name = "c", .dependent = 1, .independent = 0, .function = model::Linear{2.0, 0.0}});
   m.actuators.push_back({{.name = "motor"}, 0});
   m.force_order = {"motor"};
   m = model::finalize(m);
-  const auto loads = joint_reactions(
-      m, one_frame(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)), one_force("motor", 3.0));
+  const auto loads =
+      joint_reactions(m, one_frame(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)), one_force("motor", 3.0));
   // Angles q and 3 q from the vertical: x_1 = L q, x_2 = L q + 3 L q. (m L^2 + 16 m L^2) qdd = 3.
   const double qdd = 3.0 / (17.0 * kMass_kg * kLength_m * kLength_m);
   EXPECT_NEAR(loads[0].on_child[0].f_G.x(), kMass_kg * kLength_m * 5.0 * qdd, 1e-10);
@@ -136,8 +129,7 @@ TEST(JointReactions, WhatClosesALoopCarriesItsShare) {
                                                 .distance_m = 1.0 / std::cos(slant)}}};
     const model::BodyModel beam = model::finalize(m);
     const auto loads =
-        joint_reactions(beam, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)),
-                        one_force("none", 1.0));
+        joint_reactions(beam, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)), one_force("none", 1.0));
     const double half = 0.5 * kMass_kg * kStandardGravity;
     EXPECT_LT((loads[0].on_child[0].f_G - Vec3(-half * std::tan(slant), half, 0.0)).norm(), 1e-9);
     EXPECT_LT(loads[0].on_child[0].m_G.norm(), 1e-9);
@@ -156,8 +148,8 @@ TEST(JointReactions, AGuideOfTheTipAnswersAMotorInTheHinge) {
                                           .p_B1 = Vec3(0.0, 0.0, 0.0),
                                           .p_B2 = Vec3(0.0, -kLength_m, 0.0)}}};
   m = model::finalize(m);
-  const auto loads = joint_reactions(
-      m, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)), one_force("motor", 3.0));
+  const auto loads =
+      joint_reactions(m, one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)), one_force("motor", 3.0));
   // The guide answers the motor's 3 N m with -3/L in x at the tip; the hinge with +3/L at the
   // top, and its motor's moment is part of what it carries.
   EXPECT_NEAR(loads[0].on_child[0].f_G.x(), 3.0 / kLength_m, 1e-9);
@@ -167,8 +159,7 @@ TEST(JointReactions, AGuideOfTheTipAnswersAMotorInTheHinge) {
 TEST(JointReactions, RefuseForcesOfOtherTimes) {
   const model::BodyModel m = model::finalize(pendulum(1));
   const auto motion = one_frame(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
-  const TimeSeries two(Eigen::Vector2d(0.0, 1.0), {{"f", Unit::newton}},
-                       Eigen::MatrixXd::Zero(2, 1));
+  const TimeSeries two(Eigen::Vector2d(0.0, 1.0), {{"f", Unit::newton}}, Eigen::MatrixXd::Zero(2, 1));
   EXPECT_THROW((void)joint_reactions(m, motion, two), InvalidInput);
 }
 

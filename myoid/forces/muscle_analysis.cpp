@@ -71,12 +71,10 @@ std::array<double, kQuantities.size()> quantities(const OpensimMuscle& muscle,
           -s.tendon_force_n * path.speed_mps};
 }
 
-void check_states(const MuscleAnalysisOptions& options,
-                  Eigen::Index frames,
-                  const model::BodyModel& model) {
+void check_states(const MuscleAnalysisOptions& options, Eigen::Index frames, const model::BodyModel& model) {
   for (const Eigen::MatrixXd* table : {&options.activation, &options.fiber_length_m}) {
-    if (table->size() > 0 && (table->rows() != frames ||
-                              table->cols() != static_cast<Eigen::Index>(model.muscles.size()))) {
+    if (table->size() > 0 &&
+        (table->rows() != frames || table->cols() != static_cast<Eigen::Index>(model.muscles.size()))) {
       throw InvalidInput(
           fmt::format("muscle analysis: states of {} frames and {} muscles, expected "
                       "{} and {}",
@@ -86,20 +84,15 @@ void check_states(const MuscleAnalysisOptions& options,
 }
 
 /// Adds a sentence for each muscle whose path or balance fails in some frames.
-void note_failures(const std::string& muscle,
-                   int pathless,
-                   int unbalanced,
-                   Eigen::Index frames,
-                   std::vector<std::string>& notes) {
+void note_failures(
+    const std::string& muscle, int pathless, int unbalanced, Eigen::Index frames, std::vector<std::string>& notes) {
   if (pathless > 0) {
-    notes.push_back(
-        fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)",
-                    muscle, pathless, frames));
+    notes.push_back(fmt::format("muscle '{}': its path has no length in {} of {} frames (NaN stands there)", muscle,
+                                pathless, frames));
   }
   if (unbalanced > 0) {
-    notes.push_back(
-        fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames",
-                    muscle, unbalanced, frames));
+    notes.push_back(fmt::format("muscle '{}': fiber and tendon could not be balanced in {} of {} frames", muscle,
+                                unbalanced, frames));
   }
 }
 
@@ -121,17 +114,15 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     const model::Muscle& muscle = model.muscles.at(static_cast<std::size_t>(m));
     muscles.emplace_back(muscle, model.compat);
     if (!muscles.back().has_own_curves()) {
-      result.notes.push_back(
-          fmt::format("muscle '{}' of class {}: its fiber and tendon follow Thelen's curves",
-                      muscle.name, muscle.class_name));
+      result.notes.push_back(fmt::format("muscle '{}' of class {}: its fiber and tendon follow Thelen's curves",
+                                         muscle.name, muscle.class_name));
     }
   }
   const Eigen::Index frames = motion.sample_count();
   check_states(options, frames, model);
   const auto count = static_cast<Eigen::Index>(chosen.size());
   const std::size_t arms = options.coordinates.size();
-  std::vector<Eigen::MatrixXd> tables(2 * arms + kQuantities.size(),
-                                      Eigen::MatrixXd(frames, count));
+  std::vector<Eigen::MatrixXd> tables(2 * arms + kQuantities.size(), Eigen::MatrixXd(frames, count));
   std::vector<std::atomic<int>> unbalanced(chosen.size()), pathless(chosen.size());
   const bool by_speeds = kinematics::takes_rates_for_speeds(model);
   const bool is_coupled = !model.couplers.empty() || !model.constraints.empty();
@@ -160,19 +151,15 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
           continue;
         }
         const model::MuscleProperties& p = muscle.properties();
-        const double activation = options.activation.size() > 0
-                                      ? options.activation(frame, chosen[at(k)])
-                                      : p.default_activation;
-        const double length_m = options.fiber_length_m.size() > 0
-                                    ? options.fiber_length_m(frame, chosen[at(k)])
-                                    : p.default_fiber_length_m;
+        const double activation =
+            options.activation.size() > 0 ? options.activation(frame, chosen[at(k)]) : p.default_activation;
+        const double length_m =
+            options.fiber_length_m.size() > 0 ? options.fiber_length_m(frame, chosen[at(k)]) : p.default_fiber_length_m;
         const OpensimMuscle::State s =
-            options.equilibrium
-                ? muscle.equilibrium(activation, path.length_m, path.speed_mps)
-                : muscle.at_fiber_length(activation, length_m, path.length_m, path.speed_mps);
+            options.equilibrium ? muscle.equilibrium(activation, path.length_m, path.speed_mps)
+                                : muscle.at_fiber_length(activation, length_m, path.length_m, path.speed_mps);
         if (!s.converged) ++unbalanced[at(k)];
-        if (coupling.size() > 0)
-          path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
+        if (coupling.size() > 0) path.moment_arm_m = (coupling.transpose() * path.moment_arm_m).eval();
         for (std::size_t c = 0; c < arms; ++c) {
           const double arm = path.moment_arm_m[options.coordinates[c]];
           tables[c](frame, k) = arm;
@@ -184,13 +171,11 @@ MuscleAnalysis muscle_analysis(const model::BodyModel& model,
     }
   });
   for (std::size_t k = 0; k < chosen.size(); ++k)
-    note_failures(model.muscles[at(chosen[k])].name, pathless[k], unbalanced[k], frames,
-                  result.notes);
+    note_failures(model.muscles[at(chosen[k])].name, pathless[k], unbalanced[k], frames, result.notes);
   const auto add = [&](const std::string& name, Unit unit, Eigen::MatrixXd& values) {
     std::vector<Channel> channels;
     for (const int m : chosen) channels.push_back({model.muscles[at(m)].name, unit});
-    result.tables.emplace_back(
-        name, TimeSeries(motion.q.time_s(), std::move(channels), std::move(values)));
+    result.tables.emplace_back(name, TimeSeries(motion.q.time_s(), std::move(channels), std::move(values)));
   };
   for (const bool moments : {false, true}) {
     for (std::size_t c = 0; c < arms; ++c) {

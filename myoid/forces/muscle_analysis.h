@@ -22,18 +22,16 @@ struct MuscleAnalysisOptions {
 };
 
 struct MuscleAnalysis {
-  /// Table by OpenSim's name: "MomentArm_<coordinate>", "Moment_<coordinate>", "PennationAngle",
-  /// "Length", "FiberLength", ... in the order in which its analysis writes them; channels are the
-  /// muscles.
+  /// Table by OpenSim's name: "MomentArm_<coordinate>", "Moment_<coordinate>", "PennationAngle", "Length",
+  /// "FiberLength", ... in the order in which its analysis writes them; channels are the muscles.
   std::vector<std::pair<std::string, TimeSeries>> tables;
   std::vector<std::string> notes;
 };
 
-/// Computes the tables of OpenSim's MuscleAnalysis along a motion [m, m/s, rad, rad/s, N, N m, W;
-/// fractions of the optimal length and of v_max]. Positive powers do work on the outside: fiber -F
-/// v, tendon -F v, muscle -F dl/dt. Moment arms are those of kinematics::MuscleKinematics; a moment
-/// is arm times tendon force. Dependent coordinates first meet their constraints. Parallel over
-/// frames, with equal results for every number of threads.
+/// Computes the tables of OpenSim's MuscleAnalysis along a motion [m, m/s, rad, rad/s, N, N m, W; fractions of the
+/// optimal length and of v_max]. Positive powers do work on the outside: fiber -F v, tendon -F v, muscle -F dl/dt.
+/// Moment arms are those of kinematics::MuscleKinematics; a moment is arm times tendon force. Dependent coordinates
+/// first meet their constraints. Parallel over frames, with equal results for every number of threads.
 [[nodiscard]] MuscleAnalysis muscle_analysis(const model::BodyModel& model,
                                              const kinematics::JointMotion& motion,
                                              const MuscleAnalysisOptions& options = {});

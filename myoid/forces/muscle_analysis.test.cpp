@@ -21,8 +21,8 @@ kinematics::JointMotion flexion(const model::BodyModel& m) {
 }
 
 const Eigen::MatrixXd& table(const MuscleAnalysis& analysis, const std::string& name) {
-  const auto found = std::find_if(analysis.tables.begin(), analysis.tables.end(),
-                                  [&](const auto& t) { return t.first == name; });
+  const auto found =
+      std::find_if(analysis.tables.begin(), analysis.tables.end(), [&](const auto& t) { return t.first == name; });
   if (found == analysis.tables.end()) throw InvalidInput("no table " + name);
   return found->second.values();
 }
@@ -31,16 +31,13 @@ TEST(MuscleAnalysis, TendonAndFiberPullAlikeAndTheirLengthsAddUp) {
   const model::BodyModel m = model::parse_osim(model::arm4_osim(), "arm4.osim");
   const MuscleAnalysis a = muscle_analysis(m, flexion(m));
   const Eigen::ArrayXXd cosine = table(a, "PennationAngle").array().cos();
-  const Eigen::ArrayXXd length =
-      table(a, "TendonLength").array() + table(a, "FiberLength").array() * cosine;
+  const Eigen::ArrayXXd length = table(a, "TendonLength").array() + table(a, "FiberLength").array() * cosine;
   EXPECT_LT((length - table(a, "Length").array()).abs().maxCoeff(), 1e-14);
-  const Eigen::ArrayXXd gap =
-      table(a, "FiberForce").array() * cosine - table(a, "TendonForce").array();
+  const Eigen::ArrayXXd gap = table(a, "FiberForce").array() * cosine - table(a, "TendonForce").array();
   EXPECT_LT(gap.abs().maxCoeff(), 1e-9);
   // Power: what fiber and tendon do together is what the muscle does.
-  const Eigen::ArrayXXd power =
-      table(a, "FiberActivePower").array() + table(a, "FiberPassivePower").array() +
-      table(a, "TendonPower").array() - table(a, "MuscleActuatorPower").array();
+  const Eigen::ArrayXXd power = table(a, "FiberActivePower").array() + table(a, "FiberPassivePower").array() +
+                                table(a, "TendonPower").array() - table(a, "MuscleActuatorPower").array();
   EXPECT_LT(power.abs().maxCoeff(), 1e-9);
 }
 
@@ -48,8 +45,7 @@ TEST(MuscleAnalysis, MomentIsMomentArmTimesTendonForce) {
   const model::BodyModel m = model::parse_osim(model::arm4_osim(), "arm4.osim");
   const int elbow = m.coordinate_index("elbow_flexion");
   const MuscleAnalysis a = muscle_analysis(m, flexion(m), {.coordinates = {elbow}});
-  const Eigen::MatrixXd product =
-      table(a, "MomentArm_elbow_flexion").cwiseProduct(table(a, "TendonForce"));
+  const Eigen::MatrixXd product = table(a, "MomentArm_elbow_flexion").cwiseProduct(table(a, "TendonForce"));
   EXPECT_EQ(product, table(a, "Moment_elbow_flexion"));
   EXPECT_EQ(table(a, "MomentArm_elbow_flexion"),
             kinematics::muscle_kinematics(m, flexion(m)).moment_arm.at("elbow_flexion").values());

@@ -8,15 +8,13 @@
 namespace myoid::forces {
 namespace {
 
-/// Returns the class's curves with the file's numbers. Thelen's velocity law is invertible
-/// everywhere.
+/// Returns the class's curves with the file's numbers. Thelen's velocity law is invertible everywhere.
 muscle::NormalizedCurves<double> class_curves(const model::MuscleProperties& p) {
   const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
   muscle::CurveShape<double> shape =
       muscle::curve_shape(model::musculotendon_parameters(p, laws), laws, model::millard_shape(p));
   if (laws.velocity == muscle::VelocityLaw::thelen) {
-    shape.hyperbola = muscle::thelen_hyperbola(p.concentric_shape, p.eccentric_plateau,
-                                               p.force_velocity_extrapolation);
+    shape.hyperbola = muscle::thelen_hyperbola(p.concentric_shape, p.eccentric_plateau, p.force_velocity_extrapolation);
     shape.hyperbola.tangent_below = true;
   }
   return {laws, shape};
@@ -36,8 +34,7 @@ OpensimMuscle::OpensimMuscle(const model::Muscle& muscle, const model::Compat& c
       shortest_m_(height_m_ > 0.0 ? height_m_ / std::sin(p_.max_pennation_rad) : 0.0) {
   if (const auto* millard = std::get_if<model::MillardCurves>(&p_.curves))
     shortest_m_ = std::max(shortest_m_, millard->active_min_length * p_.optimal_fiber_length_m);
-  if (const auto* de_groote = std::get_if<model::DeGrooteCurves>(&p_.curves))
-    width_ = de_groote->active_width_scale;
+  if (const auto* de_groote = std::get_if<model::DeGrooteCurves>(&p_.curves)) width_ = de_groote->active_width_scale;
 }
 
 double OpensimMuscle::cos_pennation(double fiber_length_m) const {
@@ -66,8 +63,7 @@ double OpensimMuscle::optimal_force(double length_m, double velocity_mps) const 
   if (fiber_m <= shortest_m_) return 0.0;
   const double l = fiber_m / p_.optimal_fiber_length_m;
   const double cosine = cos_pennation(fiber_m);
-  const double v =
-      velocity_mps * cosine / (p_.optimal_fiber_length_m * p_.max_contraction_velocity);
+  const double v = velocity_mps * cosine / (p_.optimal_fiber_length_m * p_.max_contraction_velocity);
   return p_.max_isometric_force_n * active_length(l).value * std::max(0.0, velocity(1.0, v)) *
          (normalized_pennation_ ? cos_pennation(l) : cosine);
 }
@@ -103,8 +99,7 @@ class OpensimMuscle::Balance {
   /// Returns the fiber's pull along the tendon minus the tendon's [N].
   double mismatch_n() {
     const double f_max = m_.p_.max_isometric_force_n;
-    fiber_force_n_ = f_max * activation_ * active_.value * f_v_ +
-                     f_max * (passive_.value + m_.damping_ * speed_);
+    fiber_force_n_ = f_max * activation_ * active_.value * f_v_ + f_max * (passive_.value + m_.damping_ * speed_);
     return fiber_force_n_ * cosine_ - f_max * tendon_.value;
   }
 
@@ -115,8 +110,7 @@ class OpensimMuscle::Balance {
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine_ * cosine_));
     // Without pennation the fiber's length may become zero.
     const double angle_by_length = sine > 0.0 && cosine_ > 0.0 ? -sine / (l_ * cosine_) : 0.0;
-    const double fiber = f_max * (activation_ * active_.slope * f_v_ + passive_.slope) /
-                         m_.p_.optimal_fiber_length_m;
+    const double fiber = f_max * (activation_ * active_.slope * f_v_ + passive_.slope) / m_.p_.optimal_fiber_length_m;
     k.fiber_by_length = fiber * cosine_ - fiber_force_n_ * sine * angle_by_length;
     // d(l cos a)/dl = cos a - l sin a da/dl
     const double along_by_length = cosine_ - l_ * sine * angle_by_length;
@@ -146,9 +140,7 @@ class OpensimMuscle::Balance {
   Curve active_, passive_, tendon_;
 };
 
-OpensimMuscle::State OpensimMuscle::equilibrium(double activation,
-                                                double length_m,
-                                                double velocity_mps) const {
+OpensimMuscle::State OpensimMuscle::equilibrium(double activation, double length_m, double velocity_mps) const {
   if (rigid_tendon_) return at_fiber_length(activation, shortest_m_, length_m, velocity_mps);
   Balance balance(*this, activation, length_m, velocity_mps);
   const double along = length_m - 1.01 * p_.tendon_slack_length_m;
@@ -166,8 +158,7 @@ OpensimMuscle::State OpensimMuscle::equilibrium(double activation,
       break;  // the fiber is at its shortest, and the balance asks for less
     for (double part = 1.0;; part *= 0.5) {
       const double step = -part * before / k.slope();
-      l = std::max(std::abs(step) > 1e-15 ? from + step : from - std::copysign(1.5e-8, step),
-                   shortest_m_);
+      l = std::max(std::abs(step) > 1e-15 ? from + step : from - std::copysign(1.5e-8, step), shortest_m_);
       balance.place(l);
       error = balance.mismatch_n();
       if (std::abs(error) < std::abs(before) || part <= 1.5e-8 || std::abs(step) <= 1e-15) break;
@@ -200,9 +191,7 @@ OpensimMuscle::State OpensimMuscle::at_fiber_length(double activation,
   s.tendon_length_m = length_m - s.fiber_length_m * cosine;
   const double strength = a * active_length(l).value;
   const double rest = curves_.passive(l).value;
-  const double series =
-      rigid_tendon_ ? 0.0
-                    : curves_.tendon(s.tendon_length_m / p_.tendon_slack_length_m - 1.0).value;
+  const double series = rigid_tendon_ ? 0.0 : curves_.tendon(s.tendon_length_m / p_.tendon_slack_length_m - 1.0).value;
   double v = 0.0;
   if (rigid_tendon_) {
     v = velocity_mps * cosine / vmax;
@@ -219,9 +208,8 @@ OpensimMuscle::State OpensimMuscle::at_fiber_length(double activation,
   s.fiber_velocity_mps = v * vmax;
   if (sine > 0.0) s.pennation_rate_radps = -s.fiber_velocity_mps / s.fiber_length_m * sine / cosine;
   s.tendon_velocity_mps = rigid_tendon_ ? 0.0 : velocity_mps - s.fiber_velocity_mps / cosine;
-  s.active_force_n = rigid_tendon_ || !(strength > 0.0)
-                         ? fmax * strength * velocity(a, v)
-                         : fmax * (series / cosine - rest - damping_ * v);
+  s.active_force_n = rigid_tendon_ || !(strength > 0.0) ? fmax * strength * velocity(a, v)
+                                                        : fmax * (series / cosine - rest - damping_ * v);
   s.passive_force_n = s.elastic_force_n + fmax * damping_ * v;
   s.fiber_force_n = s.active_force_n + s.passive_force_n;
   if (rigid_tendon_) {

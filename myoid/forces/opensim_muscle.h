@@ -12,9 +12,8 @@ class OpensimMuscle {
   /// Prepares the curves. `compat` decides on Millard's pennation (Compat::normalized_pennation).
   OpensimMuscle(const model::Muscle& muscle, const model::Compat& compat);
 
-  /// Returns the force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v
-  /// cos(alpha), by which static optimization multiplies the activation. Zero at the fiber's
-  /// shortest length.
+  /// Returns the force along the tendon [N] at full activation with a rigid tendon, F_max f_l f_v cos(alpha), by which
+  /// static optimization multiplies the activation. Zero at the fiber's shortest length.
   [[nodiscard]] double optimal_force(double length_m, double velocity_mps) const;
 
   /// Fiber and tendon in balance at an activation.
@@ -39,8 +38,7 @@ class OpensimMuscle {
                                       double length_m,
                                       double velocity_mps) const;
 
-  /// Returns true if this program has the curves of the muscle's class; other classes take
-  /// Thelen's.
+  /// Returns true if this program has the curves of the muscle's class; other classes take Thelen's.
   [[nodiscard]] bool has_own_curves() const { return own_curves_; }
   [[nodiscard]] const model::MuscleProperties& properties() const { return p_; }
 
@@ -48,12 +46,8 @@ class OpensimMuscle {
   using Curve = muscle::CurvePoint<double>;
   class Balance;
 
-  [[nodiscard]] bool is_millard() const {
-    return curves_.laws().length == muscle::LengthLaw::millard;
-  }
-  [[nodiscard]] bool is_thelen() const {
-    return curves_.laws().velocity == muscle::VelocityLaw::thelen;
-  }
+  [[nodiscard]] bool is_millard() const { return curves_.laws().length == muscle::LengthLaw::millard; }
+  [[nodiscard]] bool is_thelen() const { return curves_.laws().velocity == muscle::VelocityLaw::thelen; }
   [[nodiscard]] Curve active_length(double normalized) const;
   [[nodiscard]] double velocity(double activation, double normalized) const;
   [[nodiscard]] double cos_pennation(double fiber_length_m) const;

@@ -35,8 +35,7 @@ TEST(OpensimMuscle, MillardsPennationOfStaticOptimizationIsOpenSimsOnlyWhenAsked
   const OpensimMuscle compat(millard(), model::kOpenSim452);
   const double length = 0.2 + 0.1 * std::cos(0.2);
   EXPECT_NEAR(exact.optimal_force(length, 0.0), 1000.0 * std::cos(0.2), 1e-6);
-  EXPECT_NEAR(compat.optimal_force(length, 0.0), 1000.0 * std::cos(std::asin(0.1 * std::sin(0.2))),
-              1e-6);
+  EXPECT_NEAR(compat.optimal_force(length, 0.0), 1000.0 * std::cos(std::asin(0.1 * std::sin(0.2))), 1e-6);
 }
 
 TEST(OpensimMuscle, EquilibriumBalancesTendonAndFiber) {
@@ -48,8 +47,7 @@ TEST(OpensimMuscle, EquilibriumBalancesTendonAndFiber) {
         ASSERT_TRUE(s.converged) << m.class_name << " " << length << " " << speed;
         // The search stops at 1e-8 F_max.
         EXPECT_NEAR(s.fiber_force_n * std::cos(s.pennation_rad), s.tendon_force_n, 2e-5);
-        EXPECT_NEAR(s.tendon_length_m + s.fiber_length_m * std::cos(s.pennation_rad), length,
-                    1e-12);
+        EXPECT_NEAR(s.tendon_length_m + s.fiber_length_m * std::cos(s.pennation_rad), length, 1e-12);
       }
     }
   }

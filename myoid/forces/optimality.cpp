@@ -20,10 +20,8 @@ double kkt_residual(const SharingProblem& problem, const SharingSolution& soluti
   double scale = pull.size() > 0 ? pull.cwiseAbs().maxCoeff() : 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double w = problem.weight.size() > 0 ? problem.weight[i] : 1.0;
-    const double power =
-        x[i] == 0.0 ? 0.0 : std::copysign(p * w * std::pow(std::abs(x[i]), p - 1.0), x[i]);
-    const double emg =
-        problem.emg.size() > 0 ? 2.0 * problem.emg_weight * (x[i] - problem.emg[i]) : 0.0;
+    const double power = x[i] == 0.0 ? 0.0 : std::copysign(p * w * std::pow(std::abs(x[i]), p - 1.0), x[i]);
+    const double emg = problem.emg.size() > 0 ? 2.0 * problem.emg_weight * (x[i] - problem.emg[i]) : 0.0;
     const double gradient = power + emg - pull[i];
     scale = std::max({scale, std::abs(power), 1e-12});
     double violation = std::abs(gradient);

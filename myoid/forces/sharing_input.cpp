@@ -15,21 +15,18 @@
 namespace myoid::forces {
 namespace {
 
-std::vector<Eigen::Index> balanced(const model::BodyModel& model,
-                                   const std::vector<std::string>& names) {
+std::vector<Eigen::Index> balanced(const model::BodyModel& model, const std::vector<std::string>& names) {
   std::vector<Eigen::Index> result;
   for (const std::string& name : names) {
     const int c = model.coordinate_index(name);
     if (model.is_constrained(c)) {
-      throw ModelError(fmt::format(
-          "coordinate '{}' is locked, prescribed or follows another: no torque of its own moves it",
-          name));
+      throw ModelError(
+          fmt::format("coordinate '{}' is locked, prescribed or follows another: no torque of its own moves it", name));
     }
   }
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const bool wanted = names.empty() ? !model.is_constrained(static_cast<int>(c))
-                                      : std::find(names.begin(), names.end(),
-                                                  model.coordinates[c].name) != names.end();
+                                      : std::find(names.begin(), names.end(), model.coordinates[c].name) != names.end();
     if (wanted) result.push_back(static_cast<Eigen::Index>(c));
   }
   return result;
@@ -41,8 +38,7 @@ SharingInput sharing_input(const model::BodyModel& model,
                            const kinematics::JointMotion& motion,
                            const std::vector<std::string>& coordinates,
                            const dynamics::ExternalLoads* loads) {
-  return sharing_input(model, motion, kinematics::muscle_kinematics(model, motion), coordinates,
-                       loads);
+  return sharing_input(model, motion, kinematics::muscle_kinematics(model, motion), coordinates, loads);
 }
 
 SharingInput sharing_input(const model::BodyModel& model,
@@ -58,8 +54,7 @@ SharingInput sharing_input(const model::BodyModel& model,
         "joints form closed loops: the forces of their constraints are not known here; run-tool's "
         "static optimization projects them out");
   }
-  const TimeSeries tau =
-      dynamics::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
+  const TimeSeries tau = dynamics::inverse_dynamics(model, motion, {.loads = loads, .passive_forces = true});
   input.muscles = std::move(muscles);
   const Eigen::Index frames = motion.sample_count();
   const auto count = static_cast<Eigen::Index>(model.muscles.size());
@@ -73,8 +68,7 @@ SharingInput sharing_input(const model::BodyModel& model,
       Eigen::VectorXd rate = Eigen::VectorXd::Unit(state.q.size(), chosen[at(k)]);
       for (std::size_t round = 0; round < model.couplers.size(); ++round) {
         for (const model::CoordinateCoupler& c : model.couplers)
-          rate[c.dependent] =
-              evaluate(c.function, state.q[c.independent]).first * rate[c.independent];
+          rate[c.dependent] = evaluate(c.function, state.q[c.independent]).first * rate[c.independent];
       }
       torque(i, k) = tau.values().row(i).dot(rate);
     }
@@ -92,24 +86,21 @@ SharingInput sharing_input(const model::BodyModel& model,
   for (Eigen::Index m = 0; m < count; ++m) {
     const OpensimMuscle muscle(model.muscles[at(m)], model.compat);
     if (!muscle.has_own_curves()) {
-      input.notes.push_back(
-          fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
-                      model.muscles[at(m)].name, model.muscles[at(m)].class_name));
+      input.notes.push_back(fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves",
+                                        model.muscles[at(m)].name, model.muscles[at(m)].class_name));
     }
-    input.min_activation =
-        std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
+    input.min_activation = std::min(input.min_activation, model.muscles[at(m)].properties.min_control);
     input.max_isometric_force_n[m] = muscle.properties().max_isometric_force_n;
     for (Eigen::Index i = 0; i < frames; ++i)
-      input.optimal_force_n(i, m) = muscle.optimal_force(input.muscles.length.values()(i, m),
-                                                         input.muscles.velocity.values()(i, m));
+      input.optimal_force_n(i, m) =
+          muscle.optimal_force(input.muscles.length.values()(i, m), input.muscles.velocity.values()(i, m));
   }
   return input;
 }
 
 MuscleForces share(const SharingInput& input, SharingOptions options) {
   options.min_activation = input.min_activation;
-  return share(input.moment_arms, input.torques, input.optimal_force_n, input.max_isometric_force_n,
-               options);
+  return share(input.moment_arms, input.torques, input.optimal_force_n, input.max_isometric_force_n, options);
 }
 
 }  // namespace myoid::forces

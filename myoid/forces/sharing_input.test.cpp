@@ -22,8 +22,7 @@ kinematics::JointMotion flexing(const model::BodyModel& model) {
   return kinematics::joint_motion(model, {t, channels, q}).motion;
 }
 
-// A coordinate that follows: all that acts on it acts on the one that it follows, by its rate
-// (virtual work).
+// A coordinate that follows: all that acts on it acts on the one that it follows, by its rate (virtual work).
 TEST(SharingInput, ACoordinateThatFollowsAddsItsTorqueAndMomentArmByItsRate) {
   model::BodyModel free = arm();
   ASSERT_EQ(free.coordinates.size(), 4u);  // the last is the elbow
@@ -42,8 +41,7 @@ TEST(SharingInput, ACoordinateThatFollowsAddsItsTorqueAndMomentArmByItsRate) {
 TEST(SharingInput, RefusesACoordinateThatNoTorqueMoves) {
   model::BodyModel locked = arm();
   locked.coordinates[0].locked = true;
-  EXPECT_THROW((void)sharing_input(locked, flexing(locked), {locked.coordinates[0].name}),
-               ModelError);
+  EXPECT_THROW((void)sharing_input(locked, flexing(locked), {locked.coordinates[0].name}), ModelError);
 }
 
 }  // namespace

@@ -41,11 +41,8 @@ class SharedFrame {
 
   /// Returns the problem at one instant; `strength` receives the force of each actuator at control
   /// 1.
-  ActuatorProblem problem(Eigen::VectorXd q,
-                          const Eigen::VectorXd& u,
-                          Eigen::VectorXd udot,
-                          double time_s,
-                          Eigen::VectorXd& strength) {
+  ActuatorProblem problem(
+      Eigen::VectorXd q, const Eigen::VectorXd& u, Eigen::VectorXd udot, double time_s, Eigen::VectorXd& strength) {
     if (!model_.constraints.empty() || !model_.couplers.empty()) q = model::assemble(model_, q).q;
     const Eigen::MatrixXd T = constrain(q, u, time_s, udot);
     model::compute_poses(model_, q, state_);
@@ -53,11 +50,9 @@ class SharedFrame {
     wrenches_.clear();
     Eigen::VectorXd passive = Eigen::VectorXd::Zero(q.size());
     if (options_.loads != nullptr) options_.loads->append_wrenches(state_, time_s, wrenches_);
-    if (!model_.passive_forces.empty())
-      dynamics::append_passive_forces(model_, state_, passive, wrenches_, time_s);
+    if (!model_.passive_forces.empty()) dynamics::append_passive_forces(model_, state_, passive, wrenches_, time_s);
     const Eigen::VectorXd required =
-        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) -
-        kinematics::on_rates(model_, q, passive);
+        model::inverse_dynamics(model_, q, u, udot, wrenches_, state_) - kinematics::on_rates(model_, q, passive);
     const auto n = static_cast<Eigen::Index>(actuators_.size());
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(q.size(), n);
     strength.resize(n);
@@ -77,24 +72,19 @@ class SharedFrame {
 
  private:
   /// Returns a basis of the speeds that the constraints allow, and adapts udot to the constraints.
-  Eigen::MatrixXd constrain(const Eigen::VectorXd& q,
-                            const Eigen::VectorXd& u,
-                            double time_s,
-                            Eigen::VectorXd& udot) {
+  Eigen::MatrixXd constrain(const Eigen::VectorXd& q, const Eigen::VectorXd& u, double time_s, Eigen::VectorXd& udot) {
     const Eigen::Index nq = q.size();
     for (Eigen::Index c = 0; c < nq; ++c)
       if (model_.coordinates[at(c)].locked) udot[c] = 0.0;
     if (model_.constraints.empty()) {
       Eigen::MatrixXd T = Eigen::MatrixXd::Zero(nq, static_cast<Eigen::Index>(free_.size()));
-      for (std::size_t k = 0; k < free_.size(); ++k)
-        T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
+      for (std::size_t k = 0; k < free_.size(); ++k) T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
       // Chains of couplers need as many rounds as there are couplers.
       for (std::size_t round = 0; round < model_.couplers.size(); ++round) {
         for (const model::CoordinateCoupler& c : model_.couplers) {
           const model::FunctionValue f = evaluate(c.function, q[c.independent]);
           T.row(c.dependent) = f.first * T.row(c.independent);
-          udot[c.dependent] =
-              f.first * udot[c.independent] + f.second * u[c.independent] * u[c.independent];
+          udot[c.dependent] = f.first * udot[c.independent] + f.second * u[c.independent] * u[c.independent];
         }
       }
       return T;
@@ -138,16 +128,15 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
                                              const StaticOptimizationOptions& options) {
   const kinematics::JointMotion motion = kinematics::moved_by_speeds(model, asked);
   const std::vector<Actuator> actuators = actuators_of(model);
-  if (actuators.empty())
-    throw ModelError("static optimization: the model has neither muscles nor actuators");
+  if (actuators.empty()) throw ModelError("static optimization: the model has neither muscles nor actuators");
   StaticOptimizationResult result;
   std::vector<OpensimMuscle> muscles;
   for (const model::Muscle& muscle : model.muscles) {
     muscles.emplace_back(muscle, model.compat);
     if (!muscles.back().has_own_curves() && muscle.applies_force && options.muscle_physiology) {
-      result.notes.push_back(fmt::format(
-          "muscle '{}' of class {}: its strength is that of Thelen's curves with a rigid tendon",
-          muscle.name, muscle.class_name));
+      result.notes.push_back(
+          fmt::format("muscle '{}' of class {}: its strength is that of Thelen's curves with a rigid tendon",
+                      muscle.name, muscle.class_name));
     }
   }
   const Eigen::Index frames = motion.sample_count();
@@ -160,9 +149,9 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
     Eigen::VectorXd strength;
     for (Eigen::Index i = range.begin(); i != range.end(); ++i) {
       options.progress.check();
-      const ActuatorProblem problem = frame.problem(
-          motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
-          motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
+      const ActuatorProblem problem =
+          frame.problem(motion.q.values().row(i).transpose(), motion.qdot.values().row(i).transpose(),
+                        motion.qddot.values().row(i).transpose(), motion.q.time_s()[i], strength);
       const ActuatorSolution solution = solve_actuators(problem);
       if (options.inspect) options.inspect(i, problem, solution);
       control.row(i) = solution.control.transpose();
@@ -174,8 +163,7 @@ StaticOptimizationResult static_optimization(const model::BodyModel& model,
   });
   result.is_feasible.assign(feasible.begin(), feasible.end());
   result.is_certified.assign(certified.begin(), certified.end());
-  result.frames_failed =
-      static_cast<int>(std::count(result.is_certified.begin(), result.is_certified.end(), false));
+  result.frames_failed = static_cast<int>(std::count(result.is_certified.begin(), result.is_certified.end(), false));
   std::vector<Channel> controls, forces;
   for (const Actuator& a : actuators) {
     controls.push_back({a.name, Unit::dimensionless});

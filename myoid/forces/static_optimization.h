@@ -16,8 +16,7 @@ struct ActuatorProblem;
 struct ActuatorSolution;
 /// Sees the problem of a frame and its solution (actuator_sharing.h), for checks.
 /// Called from any thread, frames in any order.
-using InspectFrame =
-    std::function<void(Eigen::Index frame, const ActuatorProblem&, const ActuatorSolution&)>;
+using InspectFrame = std::function<void(Eigen::Index frame, const ActuatorProblem&, const ActuatorSolution&)>;
 
 struct StaticOptimizationOptions {
   double exponent = 2.0;
@@ -45,12 +44,10 @@ struct StaticOptimizationResult {
 ///
 ///   T' (M qddot + C - gravity - external - passive - sum_i x_i g_i) = 0,   qdot = T u,
 ///
-/// g_i the generalized force of actuator i at x_i = 1. Channels are the muscles and actuators that
-/// apply force, in the order of the model's force set. Parallel over frames, with equal results for
-/// every number of threads.
-[[nodiscard]] StaticOptimizationResult static_optimization(
-    const model::BodyModel& model,
-    const kinematics::JointMotion& motion,
-    const StaticOptimizationOptions& options = {});
+/// g_i the generalized force of actuator i at x_i = 1. Channels are the muscles and actuators that apply force, in the
+/// order of the model's force set. Parallel over frames, with equal results for every number of threads.
+[[nodiscard]] StaticOptimizationResult static_optimization(const model::BodyModel& model,
+                                                           const kinematics::JointMotion& motion,
+                                                           const StaticOptimizationOptions& options = {});
 
 }  // namespace myoid::forces

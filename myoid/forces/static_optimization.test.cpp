@@ -22,8 +22,7 @@ namespace {
 
 const SharingOptions kAsOpenSim{.reserve_nm = 1e-3, .min_activation = 0.01};
 
-/// The whole way from joint angles to muscle forces, on OpenSim's elbow flexion of arm26, with its
-/// own filter.
+/// The whole way from joint angles to muscle forces, on OpenSim's elbow flexion of arm26, with its own filter.
 class Arm26Trial : public ::testing::Test {
  protected:
   static std::filesystem::path folder() { return test::data_folder() / "opensim/trial_arm26"; }
@@ -34,16 +33,14 @@ class Arm26Trial : public ::testing::Test {
   void SetUp() override {
     MYOID_REQUIRE_DATA(folder());
     model_ = model::read_osim(folder() / "model.osim");
-    const TimeSeries q = recording::to_si(recording::read_storage(folder() / "opensim/ik.mot"),
-                                          [](const std::string&) { return true; });
+    const TimeSeries q =
+        recording::to_si(recording::read_storage(folder() / "opensim/ik.mot"), [](const std::string&) { return true; });
     motion_ = kinematics::joint_motion(model_, signals::opensim_lowpass(q, 6.0)).motion;
     torque_ = dynamics::inverse_dynamics(model_, motion_);
   }
 
-  /// Force of Thelen's muscle at full activation, frames x muscles, from lengths [m] and speeds
-  /// [m/s].
-  [[nodiscard]] Eigen::MatrixXd optimal_forces(const Eigen::MatrixXd& length,
-                                               const Eigen::MatrixXd& speed) const {
+  /// Force of Thelen's muscle at full activation, frames x muscles, from lengths [m] and speeds [m/s].
+  [[nodiscard]] Eigen::MatrixXd optimal_forces(const Eigen::MatrixXd& length, const Eigen::MatrixXd& speed) const {
     Eigen::MatrixXd force_n(length.rows(), length.cols());
     for (Eigen::Index i = 0; i < length.cols(); ++i) {
       const OpensimMuscle muscle(model_.muscles[static_cast<std::size_t>(i)], model_.compat);
@@ -62,8 +59,7 @@ class Arm26Trial : public ::testing::Test {
     return force_n;
   }
 
-  /// Difference of a channel from a column of OpenSim's, whose rows are those of the record without
-  /// its added ends.
+  /// Difference of a channel from a column of OpenSim's, whose rows are those of the record without its added ends.
   static Eigen::VectorXd difference(const TimeSeries& ours,
                                     const std::string& channel,
                                     const TimeSeries& theirs,
@@ -71,8 +67,7 @@ class Arm26Trial : public ::testing::Test {
     Eigen::Index first = 0;
     (ours.time_s().array() - theirs.time_s()[0]).abs().minCoeff(&first);
     const Eigen::Index n = theirs.sample_count();
-    EXPECT_LT((ours.time_s().segment(first, n) - theirs.time_s()).cwiseAbs().maxCoeff(), 2e-8)
-        << channel;
+    EXPECT_LT((ours.time_s().segment(first, n) - theirs.time_s()).cwiseAbs().maxCoeff(), 2e-8) << channel;
     return (ours.column(channel).segment(first, n) - theirs.column(column)).cwiseAbs();
   }
 
@@ -106,8 +101,7 @@ TEST_F(Arm26Trial, MuscleForcesFromOpenSimsGeometryAreItsStaticOptimization) {
   }
   std::vector<TimeSeries> arms;
   for (const model::Coordinate& coordinate : model_.coordinates) {
-    Eigen::MatrixXd values =
-        Eigen::MatrixXd::Zero(n, muscle_count);  // columns of zeros are left out of the file
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(n, muscle_count);  // columns of zeros are left out of the file
     for (const Channel& channel : moment_arms.channels()) {
       for (Eigen::Index i = 0; i < muscle_count; ++i) {
         if (channel.name == names[static_cast<std::size_t>(i)].name + "|" + coordinate.name)
@@ -118,14 +112,11 @@ TEST_F(Arm26Trial, MuscleForcesFromOpenSimsGeometryAreItsStaticOptimization) {
   }
   Eigen::Index first = 0;
   (torque_.time_s().array() - lengths.time_s()[0]).abs().minCoeff(&first);
-  const TimeSeries torque(lengths.time_s(), torque_.channels(),
-                          torque_.values().middleRows(first, n));
-  const MuscleForces shared =
-      share(arms, torque, optimal_forces(length, speed), max_forces(), kAsOpenSim);
+  const TimeSeries torque(lengths.time_s(), torque_.channels(), torque_.values().middleRows(first, n));
+  const MuscleForces shared = share(arms, torque, optimal_forces(length, speed), max_forces(), kAsOpenSim);
   for (const model::Muscle& muscle : model_.muscles) {
     const Eigen::VectorXd d =
-        difference(shared.activation, muscle.name,
-                   reference("so_StaticOptimization_activation.sto"), muscle.name);
+        difference(shared.activation, muscle.name, reference("so_StaticOptimization_activation.sto"), muscle.name);
     EXPECT_GT((d.array() < 2e-6).count(), 100) << muscle.name;  // of 121 frames
     EXPECT_LT(d.maxCoeff(), 5e-5) << muscle.name;
   }
@@ -139,8 +130,8 @@ TEST_F(Arm26Trial, MuscleForcesFromOurGeometryAreOpenSims) {
     model::Compat compat;
     double length_m, velocity_mps, activation, force_n;
   };
-  for (const Bound& bound : {Bound{model::kOpenSim452, 1e-9, 1e-8, 5e-5, 0.05},
-                             Bound{model::Compat{}, 5e-5, 1e-3, 4e-3, 2.0}}) {
+  for (const Bound& bound :
+       {Bound{model::kOpenSim452, 1e-9, 1e-8, 5e-5, 0.05}, Bound{model::Compat{}, 5e-5, 1e-3, 4e-3, 2.0}}) {
     model::BodyModel model = model_;
     model.compat = bound.compat;
     SCOPED_TRACE(name_of(model.compat));
@@ -148,17 +139,15 @@ TEST_F(Arm26Trial, MuscleForcesFromOurGeometryAreOpenSims) {
     std::vector<TimeSeries> arms;
     for (const model::Coordinate& coordinate : model.coordinates)
       arms.push_back(muscles.moment_arm.at(coordinate.name));
-    const MuscleForces shared =
-        share(arms, torque_, optimal_forces(muscles.length.values(), muscles.velocity.values()),
-              max_forces(), kAsOpenSim);
+    const MuscleForces shared = share(arms, torque_, optimal_forces(muscles.length.values(), muscles.velocity.values()),
+                                      max_forces(), kAsOpenSim);
     const TimeSeries lengths = reference("arm26_Outputs.sto");
     const TimeSeries activation = reference("so_StaticOptimization_activation.sto");
     const TimeSeries force = reference("so_StaticOptimization_force.sto");
     for (const model::Muscle& muscle : model.muscles) {
       SCOPED_TRACE(muscle.name);
       const std::string& name = muscle.name;
-      EXPECT_LT(difference(muscles.length, name, lengths, name + "|length").maxCoeff(),
-                bound.length_m);
+      EXPECT_LT(difference(muscles.length, name, lengths, name + "|length").maxCoeff(), bound.length_m);
       EXPECT_LT(difference(muscles.velocity, name, lengths, name + "|lengthening_speed").maxCoeff(),
                 bound.velocity_mps);
       EXPECT_LT(difference(shared.activation, name, activation, name).maxCoeff(), bound.activation);

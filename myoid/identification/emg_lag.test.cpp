@@ -20,27 +20,23 @@ using test::ElbowStudy;
 /// the torque 0.3 N m, both below 6 Hz.
 StudyData with_lag(EmgLag lag, std::uint64_t seed) {
   constexpr double kRate_hz = 100.0;
-  ElbowStudy study =
-      elbow_study({.rate_hz = kRate_hz, .delay_s = 0.08, .with_priors = true, .seed = seed});
+  ElbowStudy study = elbow_study({.rate_hz = kRate_hz, .delay_s = 0.08, .with_priors = true, .seed = seed});
   test::StudyNoise noise(seed);
   for (TrialData& trial : study.data.trials) {
     const Eigen::Index n = trial.time_s.size();
-    trial.torque_nm = predict(study.data, trial, study.truth, study.delay_s, lag).torque_nm +
-                      0.3 * noise.band(n, 6.0, kRate_hz);
+    trial.torque_nm =
+        predict(study.data, trial, study.truth, study.delay_s, lag).torque_nm + 0.3 * noise.band(n, 6.0, kRate_hz);
     Eigen::MatrixXd recorded = trial.activation.values();
     for (Eigen::Index c = 0; c < recorded.cols(); ++c)
-      recorded.col(c).array() *=
-          (1.0 + 0.1 * noise.band(recorded.rows(), 6.0, kRate_hz).array()).max(0.0);
-    trial.activation =
-        TimeSeries(trial.activation.time_s(), trial.activation.channels(), std::move(recorded));
+      recorded.col(c).array() *= (1.0 + 0.1 * noise.band(recorded.rows(), 6.0, kRate_hz).array()).max(0.0);
+    trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), std::move(recorded));
   }
   return study.data;
 }
 
 TEST(LagShares, AddUpToTheDelayWhereActivityRisesAsOftenAsItFalls) {
   constexpr LagShares kShare;
-  EXPECT_NEAR(kShare.pure + kShare.excitation + 0.5 * (kShare.activation + kShare.deactivation),
-              1.0, 1e-15);
+  EXPECT_NEAR(kShare.pure + kShare.excitation + 0.5 * (kShare.activation + kShare.deactivation), 1.0, 1e-15);
 }
 
 TEST(ChooseLag, TheDataTellLagsFromADelay) {
@@ -57,8 +53,7 @@ TEST(ChooseLag, TheDataTellLagsFromADelay) {
 }
 
 TEST(ChooseLag, NothingIsChosenWhereNobodyAsks) {
-  const IdentificationResult result =
-      identify_torque(with_lag(EmgLag::shared, 1), {.predictions = false});
+  const IdentificationResult result = identify_torque(with_lag(EmgLag::shared, 1), {.predictions = false});
   EXPECT_EQ(result.lag, EmgLag::delay);
   EXPECT_FALSE(result.shared_lag_gain);
 }

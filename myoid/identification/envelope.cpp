@@ -16,12 +16,9 @@ struct Lagged {
   Eigen::Matrix<double, D, Eigen::Dynamic> by, slope_by;
 };
 
-/// Runs the envelope through the lags. `directions` is D x 3, by excitation, activation and
-/// deactivation time.
+/// Runs the envelope through the lags. `directions` is D x 3, by excitation, activation and deactivation time.
 template <int D>
-Lagged<D> lagged(const Envelope& envelope,
-                 const ChannelValues& c,
-                 const Eigen::Matrix<double, D, 3>& directions) {
+Lagged<D> lagged(const Envelope& envelope, const ChannelValues& c, const Eigen::Matrix<double, D, 3>& directions) {
   using Slopes = Eigen::Matrix<double, D, 1>;
   const Eigen::VectorXd& t = envelope.time_s();
   const Eigen::VectorXd& u = envelope.samples();
@@ -68,8 +65,7 @@ Lagged<D> lagged(const Envelope& envelope,
     const Branch& branch = e >= a ? rise : fall;
     r.slope[i] = (e - a) * branch.per_tau;
     r.by.col(i) = a_by;
-    r.slope_by.col(i) =
-        (e_ne * by_excitation - a_by - r.slope[i] * branch.direction) * branch.per_tau;
+    r.slope_by.col(i) = (e_ne * by_excitation - a_by - r.slope[i] * branch.direction) * branch.per_tau;
   }
   return r;
 }
@@ -96,9 +92,7 @@ struct Read {
 template <int D>
 class LaggedReader {
  public:
-  LaggedReader(const Envelope& envelope,
-               const ChannelValues& channel,
-               const Eigen::Matrix<double, D, 3>& directions)
+  LaggedReader(const Envelope& envelope, const ChannelValues& channel, const Eigen::Matrix<double, D, 3>& directions)
       : time_s_(envelope.time_s()), lagged_(lagged<D>(envelope, channel, directions)) {}
 
   [[nodiscard]] Read<D> at(double time_s) {
@@ -108,13 +102,12 @@ class LaggedReader {
     while (at_ + 2 < n && time_s_[at_ + 1] <= inside) ++at_;
     const double h = time_s_[at_ + 1] - time_s_[at_];
     const double x = (inside - time_s_[at_]) / h;
-    const Cubic cubic = between(lagged_.value[at_], lagged_.value[at_ + 1], lagged_.slope[at_],
-                                lagged_.slope[at_ + 1], h, x);
+    const Cubic cubic =
+        between(lagged_.value[at_], lagged_.value[at_ + 1], lagged_.slope[at_], lagged_.slope[at_ + 1], h, x);
     Read<D> r{.value = std::max(0.0, cubic.value), .slope = inside == time_s ? cubic.slope : 0.0};
     const double rise = x * x * (3.0 - 2.0 * x);
     r.by = (1.0 - rise) * lagged_.by.col(at_) + rise * lagged_.by.col(at_ + 1) +
-           h * x * (1.0 - x) *
-               ((1.0 - x) * lagged_.slope_by.col(at_) - x * lagged_.slope_by.col(at_ + 1));
+           h * x * (1.0 - x) * ((1.0 - x) * lagged_.slope_by.col(at_) - x * lagged_.slope_by.col(at_ + 1));
     return r;
   }
 
@@ -176,12 +169,10 @@ Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, b
   constexpr Eigen::Index kEnd = 12;   // samples at each end that a spline gives
   constexpr Eigen::Index kLong = 40;  // samples of the spline at each end
   Eigen::MatrixXd result(n, 2);
-  const auto by_spline = [&](Eigen::Index first, Eigen::Index count, Eigen::Index from,
-                             Eigen::Index to) {
+  const auto by_spline = [&](Eigen::Index first, Eigen::Index count, Eigen::Index from, Eigen::Index to) {
     const auto knots = time_s.segment(first, count);
-    const math::SplineValues v =
-        math::Spline::interpolate(knots, y.segment(first, count), count >= 4 ? 5 : 1)
-            .evaluate(time_s.segment(from, to - from));
+    const math::SplineValues v = math::Spline::interpolate(knots, y.segment(first, count), count >= 4 ? 5 : 1)
+                                     .evaluate(time_s.segment(from, to - from));
     result.col(0).segment(from, to - from) = v.first;
     result.col(1).segment(from, to - from) = v.second;
   };
@@ -194,8 +185,8 @@ Eigen::MatrixXd rates(const Eigen::VectorXd& time_s, const Eigen::VectorXd& y, b
   const double rate = static_cast<double>(n - 1) / (time_s[n - 1] - time_s[0]);
   for (Eigen::Index i = kEnd; i < n - kEnd; ++i) {
     const double* x = y.data() + i;
-    result(i, 0) = rate * (4.0 / 5.0 * (x[1] - x[-1]) - 1.0 / 5.0 * (x[2] - x[-2]) +
-                           4.0 / 105.0 * (x[3] - x[-3]) - 1.0 / 280.0 * (x[4] - x[-4]));
+    result(i, 0) = rate * (4.0 / 5.0 * (x[1] - x[-1]) - 1.0 / 5.0 * (x[2] - x[-2]) + 4.0 / 105.0 * (x[3] - x[-3]) -
+                           1.0 / 280.0 * (x[4] - x[-4]));
     result(i, 1) = rate * rate *
                    (-205.0 / 72.0 * x[0] + 8.0 / 5.0 * (x[1] + x[-1]) - 1.0 / 5.0 * (x[2] + x[-2]) +
                     8.0 / 315.0 * (x[3] + x[-3]) - 1.0 / 560.0 * (x[4] + x[-4]));
@@ -231,8 +222,7 @@ Envelope::Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values,
     const double b4 = -15.0 * dy + 7.0 * dd - 2.0 * dc;
     const double b5 = 6.0 * dy - 3.0 * dd + dc;
     const double r = 1.0 / h;
-    pieces_[place(i)] = {.power = {y0, d0 * r, c0 * r * r, b3 * r * r * r, b4 * r * r * r * r,
-                                   b5 * r * r * r * r * r},
+    pieces_[place(i)] = {.power = {y0, d0 * r, c0 * r * r, b3 * r * r * r, b4 * r * r * r * r, b5 * r * r * r * r * r},
                          .left_s = time_s[i],
                          .right_s = time_s[i + 1]};
   }
@@ -244,8 +234,7 @@ const Envelope::Piece& Envelope::piece_at(double time_s) const {
     const double* after = std::upper_bound(time_s_.data(), time_s_.data() + n, time_s);
     return pieces_[place(after - time_s_.data() - 1)];
   }
-  const auto i = std::clamp<Eigen::Index>(
-      static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0, n - 2);
+  const auto i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>((time_s - time_s_[0]) * rate_hz_), 0, n - 2);
   // Round-off, and a clock that is even only to 1e-4, may put time_s into the next interval.
   const Piece& piece = pieces_[place(i)];
   if (time_s < piece.left_s && i > 0) return pieces_[place(i - 1)];
@@ -265,16 +254,14 @@ Envelope::Value Envelope::at(double time_s) const {
   return {value, c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))};
 }
 
-std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                          double delay_s) const {
+std::vector<Envelope::Value> Envelope::at(const Eigen::Ref<const Eigen::VectorXd>& time_s, double delay_s) const {
   std::vector<Value> values;
   values.reserve(static_cast<std::size_t>(time_s.size()));
   for (const double t : time_s) values.push_back(at(t - delay_s));
   return values;
 }
 
-double noise_gain(
-    const Envelope& envelope, double from_s, double to_s, double rest, double spread) {
+double noise_gain(const Envelope& envelope, double from_s, double to_s, double rest, double spread) {
   if (!(rest > 0.0)) return 1.0;
   const double rest2 = rest * rest;
   double noise = 0.0, signal = 0.0;
@@ -298,8 +285,7 @@ namespace {
 
 /// Fills the activation and all derivatives except by the lags from the delayed and lagged
 /// envelope; returns d activation / d envelope.
-inline double fill(
-    Activation& a, double value, double slope, const ChannelValues& c, bool with_exponent) {
+inline double fill(Activation& a, double value, double slope, const ChannelValues& c, bool with_exponent) {
   double raised = value, by_value = 1.0, by_exponent = 0.0;
   power(value, c[kExponent], with_exponent, raised, by_value, by_exponent);
   const double u = c[kGain] * raised;
@@ -322,15 +308,13 @@ std::vector<Activation> activation(const Envelope& envelope,
                                    const ChannelValues& channel,
                                    EmgLag lag,
                                    bool with_exponent) {
-  if (lag == EmgLag::delay)
-    return activation(envelope.at(time_s, channel[kDelay]), channel, with_exponent);
+  if (lag == EmgLag::delay) return activation(envelope.at(time_s, channel[kDelay]), channel, with_exponent);
   std::vector<Activation> result(static_cast<std::size_t>(time_s.size()));
   std::size_t i = 0;
   if (lag == EmgLag::shared) {
     constexpr LagShares kShare;
     const ChannelValues c = shared(channel);
-    LaggedReader<1> reader(
-        envelope, c, Eigen::RowVector3d(kShare.excitation, kShare.activation, kShare.deactivation));
+    LaggedReader<1> reader(envelope, c, Eigen::RowVector3d(kShare.excitation, kShare.activation, kShare.deactivation));
     for (const double t : time_s) {
       const Read<1> r = reader.at(t - c[kDelay]);
       Activation& a = result[i++];
@@ -343,8 +327,7 @@ std::vector<Activation> activation(const Envelope& envelope,
       const Read<3> r = reader.at(t - channel[kDelay]);
       Activation& a = result[i++];
       const double by_envelope = fill(a, r.value, r.slope, channel, with_exponent);
-      for (int k = 0; k < 3; ++k)
-        a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
+      for (int k = 0; k < 3; ++k) a.by_field[static_cast<std::size_t>(kExcitationTime + k)] = by_envelope * r.by[k];
     }
   }
   return result;

@@ -12,15 +12,13 @@
 
 namespace myoid::identification {
 
-/// The envelope of one EMG channel of one trial, which can be read at any delay: quintic
-/// polynomials between the samples, twice continuously differentiable. An even clock finds its
-/// interval by a division. For an envelope below 6 Hz at 100 Hz or more the error is below 1e-7 of
-/// its amplitude.
+/// The envelope of one EMG channel of one trial, which can be read at any delay: quintic polynomials between the
+/// samples, twice continuously differentiable. An even clock finds its interval by a division. For an envelope below 6
+/// Hz at 100 Hz or more the error is below 1e-7 of its amplitude.
 class Envelope {
  public:
-  /// Builds the polynomials. `apart` is the number of samples between successive reads. Intervals
-  /// that are read one after the other lie next to each other in memory, whose access takes most of
-  /// the time.
+  /// Builds the polynomials. `apart` is the number of samples between successive reads. Intervals that are read one
+  /// after the other lie next to each other in memory, whose access takes most of the time.
   Envelope(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values, Eigen::Index apart = 1);
 
   struct Value {
@@ -30,8 +28,7 @@ class Envelope {
   /// Returns value and slope at `time_s`: never negative, and the end value beyond the ends.
   [[nodiscard]] Value at(double time_s) const;
   /// Returns the values at time_s - delay_s, n.
-  [[nodiscard]] std::vector<Value> at(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                      double delay_s) const;
+  [[nodiscard]] std::vector<Value> at(const Eigen::Ref<const Eigen::VectorXd>& time_s, double delay_s) const;
 
   [[nodiscard]] double first_s() const { return time_s_[0]; }
   [[nodiscard]] double last_s() const { return time_s_[time_s_.size() - 1]; }
@@ -52,7 +49,7 @@ class Envelope {
 
   Eigen::VectorXd time_s_, samples_;
   std::uint32_t apart_ = 1;
-  std::size_t row_ = 0;  ///< Length of a row: number of intervals that are `apart` from the next.
+  std::size_t row_ = 0;        ///< Length of a row: number of intervals that are `apart` from the next.
   std::vector<Piece> pieces_;  ///< Row by row.
   double rate_hz_ = 0.0;       ///< Rate of an even clock; 0: uneven.
 };
@@ -61,8 +58,7 @@ class Envelope {
 /// subtraction of the electrode's noise as power, u^2 = m^2 - rest^2: du / u = (1 + (rest/u)^2) dm
 /// / m. The factor is a root mean square over the samples from `from_s` to `to_s`, weighted by u^2.
 /// A u below the level that chance makes counts as that level. The factor is 1 if `rest` is 0.
-[[nodiscard]] double noise_gain(
-    const Envelope& envelope, double from_s, double to_s, double rest, double spread);
+[[nodiscard]] double noise_gain(const Envelope& envelope, double from_s, double to_s, double rest, double spread);
 
 /// Returns the time constants of the two lags that a channel's envelope passes (0: no lag); the
 /// activation's is the mean of rise and fall.
@@ -75,9 +71,8 @@ struct Activation {
   std::array<double, kChannelFieldCount> by_field{};
 };
 
-/// Returns the activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p). With
-/// `EmgLag::shared` and `EmgLag::equation_1` the envelope first passes the two lags of equation
-/// (1),
+/// Returns the activation of a channel at `time_s` (n): a(t) = shape(g env(t - d)^p). With `EmgLag::shared` and
+/// `EmgLag::equation_1` the envelope first passes the two lags of equation (1),
 ///
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a),
 ///

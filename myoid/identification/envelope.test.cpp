@@ -24,8 +24,7 @@ TEST(NoiseGain, IsWhatTheSubtractedNoiseOfTheElectrodeMakesOfTheSpread) {
       const double m = std::hypot(a, kRest) * (1.0 + kSpread * normal(engine));
       value = std::sqrt(std::max(0.0, m * m - kRest * kRest));
     }
-    const double spread = std::sqrt((u.array() - u.mean()).square().mean() / u.squaredNorm() *
-                                    static_cast<double>(n));
+    const double spread = std::sqrt((u.array() - u.mean()).square().mean() / u.squaredNorm() * static_cast<double>(n));
     const double gain = noise_gain(Envelope(time_s, u), 0.0, 600.0, kRest, kSpread);
     EXPECT_NEAR(gain * kSpread / spread, 1.0, 0.1) << a;
     EXPECT_EQ(noise_gain(Envelope(time_s, u), 0.0, 600.0, 0.0, kSpread), 1.0);
@@ -118,8 +117,7 @@ TEST(EmgLag, NoDelayIsNoLag) {
   const Eigen::VectorXd u = (0.3 + 0.2 * (5.0 * t.array()).sin()).matrix();
   const auto a = activation(Envelope(t, u), t, with_delay(0.0), EmgLag::shared);
   // Held inputs, half a step late twice: 5 ms at a slope of at most 1/s.
-  for (std::size_t i = 1; i < a.size(); ++i)
-    EXPECT_NEAR(a[i].value, u[static_cast<Eigen::Index>(i)], 5.1e-3);
+  for (std::size_t i = 1; i < a.size(); ++i) EXPECT_NEAR(a[i].value, u[static_cast<Eigen::Index>(i)], 5.1e-3);
 }
 
 }  // namespace

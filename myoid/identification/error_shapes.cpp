@@ -26,13 +26,10 @@ bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
 /// Marks the shapes of a muscle that are unknowns of the fit: the data determine these, and a prior
 /// bounds them. A number of an EMG channel that drives other muscles too, or that is tied to
 /// another channel's, belongs to no single muscle.
-std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map,
-                                             int muscle,
-                                             bool measured_is_force) {
+std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map, int muscle, bool measured_is_force) {
   const int channel = map.channel_of_muscle(static_cast<std::size_t>(muscle));
   int driven = 0;  // muscles of this EMG channel
-  for (std::size_t k = 0; k < map.held().muscles.size(); ++k)
-    driven += map.channel_of_muscle(k) == channel ? 1 : 0;
+  for (std::size_t k = 0; k < map.held().muscles.size(); ++k) driven += map.channel_of_muscle(k) == channel ? 1 : 0;
   const auto own = [&](int field) {
     return driven == 1 && std::any_of(map.free().begin(), map.free().end(), [&](const Unknown& p) {
              return p.is(Scope::channel, field) && p.targets.size() == 1 && p.acts_on(channel);
@@ -54,8 +51,7 @@ void center_lags(const ParameterMap& map, Eigen::MatrixXd& contrast) {
     if (!delay.is(Scope::channel, kDelay)) continue;
     std::vector<Eigen::Index> rows;
     for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
-      if (delay.acts_on(map.channel_of_muscle(k)))
-        rows.push_back(kPerMuscle * static_cast<Eigen::Index>(k) + kOwnLag);
+      if (delay.acts_on(map.channel_of_muscle(k))) rows.push_back(kPerMuscle * static_cast<Eigen::Index>(k) + kOwnLag);
     }
     for (const Eigen::Index i : rows) {
       for (const Eigen::Index j : rows) contrast(i, j) -= 1.0 / static_cast<double>(rows.size());
@@ -77,8 +73,7 @@ MotionRange range_of(const std::vector<ResidualBlock>& blocks, Eigen::Index musc
   for (const ResidualBlock& block : blocks) {
     range.shortest = range.shortest.cwiseMin(block.length_m.colwise().minCoeff().transpose());
     range.longest = range.longest.cwiseMax(block.length_m.colwise().maxCoeff().transpose());
-    range.fastest =
-        range.fastest.cwiseMax(block.velocity_mps.cwiseAbs().colwise().maxCoeff().transpose());
+    range.fastest = range.fastest.cwiseMax(block.velocity_mps.cwiseAbs().colwise().maxCoeff().transpose());
   }
   return range;
 }
@@ -95,11 +90,8 @@ Eigen::VectorXd torque_sizes(const ResidualModel& model) {
 }
 
 /// Returns shapes of value 0, with their weights, contrast and channels.
-ErrorShapes shapes_without_values(const ParameterMap& map,
-                                  const ModelValues& values,
-                                  Eigen::Index samples,
-                                  bool one_delay,
-                                  bool measured_is_force) {
+ErrorShapes shapes_without_values(
+    const ParameterMap& map, const ModelValues& values, Eigen::Index samples, bool one_delay, bool measured_is_force) {
   constexpr double kWeight[kPerMuscle] = {1.0, 1.0, 1.0, 0.5, 1.0, 1.0, 1.0};
   const auto muscles = static_cast<Eigen::Index>(values.muscles.size());
   const auto joints = static_cast<Eigen::Index>(map.joints().size());
@@ -132,11 +124,8 @@ ErrorShapes shapes_without_values(const ParameterMap& map,
 }
 
 /// Returns the factors on a muscle's torque in its shapes, at sample i of a block.
-std::array<double, kPerMuscle> factors_of(const ResidualBlock& block,
-                                          const MotionRange& range,
-                                          const Activation& activated,
-                                          Eigen::Index k,
-                                          Eigen::Index i) {
+std::array<double, kPerMuscle> factors_of(
+    const ResidualBlock& block, const MotionRange& range, const Activation& activated, Eigen::Index k, Eigen::Index i) {
   constexpr double kLag_s = 0.15;  // 10 % are 15 ms.
   const double a = std::max(activated.value, 0.01);
   const double span = std::max(range.longest[k] - range.shortest[k], 1e-9);
@@ -157,8 +146,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
   const auto muscles = static_cast<Eigen::Index>(values.muscles.size());
   const MotionRange range = range_of(blocks_, muscles);
   const Eigen::VectorXd size_nm = torque_sizes(*this);
-  ErrorShapes result = shapes_without_values(map_, values, measured_.size(), lag_ == EmgLag::delay,
-                                             measured_is_force_);
+  ErrorShapes result = shapes_without_values(map_, values, measured_.size(), lag_ == EmgLag::delay, measured_is_force_);
   for (const Block& block : blocks_) {
     const Eigen::Index n = block.time_s.size();
     std::vector<std::vector<Activation>> activations;
@@ -169,8 +157,8 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
       const auto c = static_cast<std::size_t>(map_.channel_of_muscle(muscle));
       for (Eigen::Index i = 0; i < n; ++i) {
         const Activation& activated = activations[c][static_cast<std::size_t>(i)];
-        const double force_n = tension_n(activated.value, block.length_m(i, k),
-                                         block.velocity_mps(i, k), values.muscles[muscle]);
+        const double force_n =
+            tension_n(activated.value, block.length_m(i, k), block.velocity_mps(i, k), values.muscles[muscle]);
         const std::array<double, kPerMuscle> factor = factors_of(block, range, activated, k, i);
         for (const ResidualJoint& joint : block.joints) {
           for (Eigen::Index b = 0; b < kPerMuscle; ++b)
@@ -179,8 +167,7 @@ ErrorShapes ResidualModel::error_shapes(const Eigen::VectorXd& z) const {
           if (k > 0) continue;
           const Eigen::Index row = kPerMuscle * muscles + kPerJoint * joint.joint;
           for (Eigen::Index b = 0; b < kPerJoint; ++b)
-            result.shapes_nm(row + b, joint.first + i) =
-                size_nm[joint.joint] * factor[static_cast<std::size_t>(b)];
+            result.shapes_nm(row + b, joint.first + i) = size_nm[joint.joint] * factor[static_cast<std::size_t>(b)];
         }
       }
     }

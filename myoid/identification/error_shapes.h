@@ -6,9 +6,8 @@
 
 namespace myoid::identification {
 
-/// Errors of a muscle model as torques: sum_b x_b shape_b(t) with x = contrast D y. The y are
-/// independent and have the standard deviation `size`, the relative size of the error; D is the
-/// diagonal matrix of `weight`.
+/// Errors of a muscle model as torques: sum_b x_b shape_b(t) with x = contrast D y. The y are independent and have the
+/// standard deviation `size`, the relative size of the error; D is the diagonal matrix of `weight`.
 struct ErrorShapes {
   Eigen::MatrixXd shapes_nm;   ///< k x n, low-passed as `measured()`.
   Eigen::MatrixXd unfiltered;  ///< k x n, not low-passed.

@@ -66,8 +66,7 @@ TEST(ErrorShapes, OfLagsBesideAPureDelayOfAllOnlyTheDifferencesAreErrors) {
 TEST(ErrorShapes, AnElectrodeThatDrivesTwoMusclesLeavesEachAnErrorOfItsOwn) {
   StudyData data = test::elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true}).data;
   data.muscles[1].emg_channel = data.muscles[0].emg_channel;
-  const Eigen::VectorXd weight =
-      weights_of(data, {.gain_prior_sd = {{data.muscles[0].emg_channel, 0.05}}});
+  const Eigen::VectorXd weight = weights_of(data, {.gain_prior_sd = {{data.muscles[0].emg_channel, 0.05}}});
   EXPECT_EQ(weight[kConstant], 1.0);
   EXPECT_EQ(weight[kPerMuscle + kConstant], 1.0);
 }

@@ -44,8 +44,7 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
 
 double Estimator::kept_by_residual_filter() const {
   if (!options_.residual_cutoff_hz) return 1.0;
-  return *options_.residual_cutoff_hz /
-         std::hypot(options_.envelope_cutoff_hz, *options_.residual_cutoff_hz);
+  return *options_.residual_cutoff_hz / std::hypot(options_.envelope_cutoff_hz, *options_.residual_cutoff_hz);
 }
 
 Eigen::VectorXd Estimator::envelope_variance(const NoiseLevel& found) const {
@@ -55,13 +54,11 @@ Eigen::VectorXd Estimator::envelope_variance(const NoiseLevel& found) const {
 Eigen::VectorXd Estimator::exponents(const Eigen::VectorXd& z) const {
   const ModelValues values = model_->parameters().values(z);
   Eigen::VectorXd p(static_cast<Eigen::Index>(values.channels.size()));
-  for (Eigen::Index c = 0; c < p.size(); ++c)
-    p[c] = values.channels[static_cast<std::size_t>(c)][kExponent];
+  for (Eigen::Index c = 0; c < p.size(); ++c) p[c] = values.channels[static_cast<std::size_t>(c)][kExponent];
   return p;
 }
 
-Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j,
-                                                 const Eigen::VectorXd& exponent) const {
+Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j, const Eigen::VectorXd& exponent) const {
   const int channel = model_->channel_of_variable(j);
   if (channel < 0) return {};
   const ParameterField& field = *free()[static_cast<std::size_t>(j)].field;
@@ -91,15 +88,12 @@ Estimator::RowSums Estimator::weigh(const Weighting& weighting,
     auto torque = channel_torque.col(k);
     const double squared = scale[k] * scale[k] * weighting.emg_variance[i];
     sums.by_noise += squared * torque.cwiseAbs2().cwiseProduct(channel_variance_);
-    torque =
-        squared * torque.cwiseProduct(channel_variance_).cwiseProduct(model_->noise_gain().col(i));
+    torque = squared * torque.cwiseProduct(channel_variance_).cwiseProduct(model_->noise_gain().col(i));
   }
   return sums;
 }
 
-double Estimator::cost_of(const Weighting& weighting,
-                          const RowSums& sums,
-                          const PriorTerm& prior) const {
+double Estimator::cost_of(const Weighting& weighting, const RowSums& sums, const PriorTerm& prior) const {
   const double of_data = weighting.share * (weighting.offset + sums.loss) - sums.by_noise.sum();
   return 0.5 * of_data + 0.5 * prior.off.dot(prior.slope);
 }
@@ -132,9 +126,9 @@ NormalEquations Estimator::cost_and_gradient(const Eigen::VectorXd& z,
       [&](std::size_t piece, PullBack& rows) {
         const auto [trial, joint, first, count] = model_->pieces()[piece];
         Eigen::VectorXd scale(count);
-        of_piece[piece] = weigh(weighting, variant, first, rows.predicted.segment(first, count),
-                                rows.channel_torque.middleCols(first, count),
-                                rows.by_predicted.segment(first, count), scale);
+        of_piece[piece] =
+            weigh(weighting, variant, first, rows.predicted.segment(first, count),
+                  rows.channel_torque.middleCols(first, count), rows.by_predicted.segment(first, count), scale);
       },
       slopes.by_prediction, slopes.by_channel);
   RowSums sums = of_piece.front();
@@ -165,18 +159,15 @@ NormalEquations Estimator::normal_equations(const Eigen::VectorXd& z,
   model_->evaluate(z, curved ? ResidualModel::Depth::gradient : ResidualModel::Depth::value, local);
   const Eigen::Index n = model_->sample_count();
   Eigen::VectorXd by_predicted(n), scale(n);
-  const RowSums sums =
-      weigh(weighting, variant, 0, local.predicted, local.channel_torque, by_predicted, scale);
+  const RowSums sums = weigh(weighting, variant, 0, local.predicted, local.channel_torque, by_predicted, scale);
   NormalEquations result;
   result.cost = cost_of(weighting, sums, prior);
   if (curved) {
     const Eigen::Index p = z.size();
     const Eigen::MatrixXd by_all_channels = local.unfiltered * local.channel_torque.transpose();
-    RowSlopes slopes{.by_prediction = local.gradient * by_predicted,
-                     .by_channel = Eigen::VectorXd::Zero(p)};
+    RowSlopes slopes{.by_prediction = local.gradient * by_predicted, .by_channel = Eigen::VectorXd::Zero(p)};
     for (Eigen::Index j = 0; j < p; ++j) {
-      if (const int c = model_->channel_of_variable(j); c >= 0)
-        slopes.by_channel[j] = by_all_channels(j, c);
+      if (const int c = model_->channel_of_variable(j); c >= 0) slopes.by_channel[j] = by_all_channels(j, c);
     }
     result.gradient = gradient_of(z, weighting, sums, slopes, prior);
     for (Eigen::Index i = 0; i < n; ++i) local.gradient.col(i) *= scale[i];
@@ -199,8 +190,7 @@ NormalSearchResult Estimator::search(const Eigen::VectorXd& start,
                                      const std::vector<bool>& held) const {
   return minimize_normal(
       [&](const Eigen::VectorXd& z, bool derivatives, NormalEquations& out) {
-        out = normal_equations(z, weighting,
-                               derivatives ? Derivatives::curvature : Derivatives::none, variant);
+        out = normal_equations(z, weighting, derivatives ? Derivatives::curvature : Derivatives::none, variant);
       },
       lower_, upper_, start,
       {.gauss_newton = options_.gauss_newton,
@@ -255,11 +245,10 @@ Estimator::Scores Estimator::scores(const Solution& solution) const {
       const ChannelSlope s = channel_slope(j, exponent);
       if (s.channel < 0) continue;
       const double torque = at.channel_torque(s.channel, i);
-      const double by_noise = weight * weighting.emg_variance[i] * channel_variance_[s.channel] *
-                              torque *
-                              (s.slope * model_->noise_gain()(s.channel, i) * at.unfiltered(j, i) +
-                               (s.adds ? torque : 0.0)) /
-                              (sd[i] * sd[i]);
+      const double by_noise =
+          weight * weighting.emg_variance[i] * channel_variance_[s.channel] * torque *
+          (s.slope * model_->noise_gain()(s.channel, i) * at.unfiltered(j, i) + (s.adds ? torque : 0.0)) /
+          (sd[i] * sd[i]);
       result.scores(j, i) -= by_noise;
       result.attenuation[j] += by_noise;
     }
@@ -278,8 +267,7 @@ NoiseLevel Estimator::noise_of_joint(const std::vector<Eigen::Index>& rows,
                                      const Evaluation& at,
                                      const Weighting& weighting) const {
   const auto n = static_cast<double>(residual.size());
-  const double freedom =
-      std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
+  const double freedom = std::max(0.2, 1.0 - static_cast<double>(free().size()) / std::max(10.0, weighting.share * n));
   Eigen::ArrayXd squared = residual(rows).array().square();
   if (options_.loss != Loss::square) {
     for (Eigen::Index i = 0; i < squared.size(); ++i) {
@@ -289,33 +277,28 @@ NoiseLevel Estimator::noise_of_joint(const std::vector<Eigen::Index>& rows,
   }
   // The errors of the motion explain this part, so it is not torque noise.
   squared = (squared / freedom - at.motion_variance(rows).array()).max(0.0);
-  NoiseLevel level = emg_noise_known_
-                         ? fit_known_noise(squared, power(rows).array(), weighting.share)
-                         : fit_unknown_noise(squared, power(rows).array());
+  NoiseLevel level = emg_noise_known_ ? fit_known_noise(squared, power(rows).array(), weighting.share)
+                                      : fit_unknown_noise(squared, power(rows).array());
   // Muscles that start far too strong leave residuals larger than the torque itself. Taken for
   // noise, these residuals would give the data no weight and the search would stay at its start.
-  const double most =
-      std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
+  const double most = std::sqrt(model_->measured()(rows).squaredNorm() / static_cast<double>(rows.size()));
   level.torque_sd_nm = std::max(std::min(level.torque_sd_nm, most), floor_nm_);
   level.emg_cv = level.emg_factor * std::sqrt(channel_variance_.mean());
   return level;
 }
 
-void Estimator::find_noise(const Eigen::VectorXd& z,
-                           const Evaluation& at,
-                           Weighting& weighting) const {
+void Estimator::find_noise(const Eigen::VectorXd& z, const Evaluation& at, Weighting& weighting) const {
   weighting.exponent = exponents(z);
-  const Eigen::ArrayXXd part =
-      (at.channel_torque * weighting.sd_nm.cwiseInverse().asDiagonal()).array().square();
-  weighting.noise_gain = (part.rowwise().sum() + 1e-300) /
-                         ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
+  const Eigen::ArrayXXd part = (at.channel_torque * weighting.sd_nm.cwiseInverse().asDiagonal()).array().square();
+  weighting.noise_gain =
+      (part.rowwise().sum() + 1e-300) / ((part / model_->noise_gain().array().square()).rowwise().sum() + 1e-300);
   const bool correct = options_.correct_attenuation && weighting.corrected;
   const Eigen::VectorXd residual = at.predicted - model_->measured();
   // Averages the power over a second: a weight that follows the EMG's noise itself would favor
   // samples in which the noise happens to be small.
-  const Eigen::VectorXd power = averaged_twice(
-      at.channel_torque.cwiseAbs2().transpose() * channel_variance_, model_->piece_lengths(),
-      static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz())));
+  const Eigen::VectorXd power =
+      averaged_twice(at.channel_torque.cwiseAbs2().transpose() * channel_variance_, model_->piece_lengths(),
+                     static_cast<Eigen::Index>(std::lround(0.5 * model_->rate_hz())));
   if (correct) weighting.emg_variance.setZero(residual.size());
   for (int joint = 0; joint < model_->joint_count(); ++joint) {
     const std::vector<Eigen::Index> rows = model_->rows_of_joint(joint);
@@ -324,17 +307,15 @@ void Estimator::find_noise(const Eigen::VectorXd& z,
     weighting.noise[static_cast<std::size_t>(joint)] = level;
     const double variance = level.emg_factor * level.emg_factor;
     for (const Eigen::Index row : rows) {
-      weighting.sd_nm[row] = std::sqrt(level.torque_sd_nm * level.torque_sd_nm +
-                                       variance * power[row] + at.motion_variance[row]);
+      weighting.sd_nm[row] =
+          std::sqrt(level.torque_sd_nm * level.torque_sd_nm + variance * power[row] + at.motion_variance[row]);
       if (correct) weighting.emg_variance[row] = level.emg_share * variance;
     }
   }
-  weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm),
-                                                model_->piece_lengths()) /
+  weighting.share = math::effective_sample_size(residual.cwiseQuotient(weighting.sd_nm), model_->piece_lengths()) /
                     static_cast<double>(residual.size());
   if (correct) {
-    weighting.offset =
-        weighting.emg_variance.cwiseProduct(power).cwiseQuotient(weighting.sd_nm.cwiseAbs2()).sum();
+    weighting.offset = weighting.emg_variance.cwiseProduct(power).cwiseQuotient(weighting.sd_nm.cwiseAbs2()).sum();
   }
 }
 
@@ -347,16 +328,14 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
   if (!options_.weights) {
     solution.search = search(start, weighting, 1e-13, 1e-15);
     // Plain least squares: the residuals' own variance.
-    const double freedom =
-        std::max(1.0, static_cast<double>(n) - static_cast<double>(free().size()));
+    const double freedom = std::max(1.0, static_cast<double>(n) - static_cast<double>(free().size()));
     const double sd = std::sqrt(2.0 * solution.search.cost / freedom);
     for (NoiseLevel& level : weighting.noise) level = {.torque_sd_nm = sd};
     solution.misfit = solution.search.cost;
     return solution;
   }
   // First guess of the noise: a tenth of the torque.
-  const double first = std::max(
-      0.1 * std::sqrt(model_->measured().squaredNorm() / static_cast<double>(n)), floor_nm_);
+  const double first = std::max(0.1 * std::sqrt(model_->measured().squaredNorm() / static_cast<double>(n)), floor_nm_);
   const auto begin_anew = [&] {
     weighting.sd_nm.setConstant(first);
     weighting.share = 0.25;
@@ -376,8 +355,7 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
       // Residuals of ten standard deviations or three times the torque: fits anew, uncorrected.
       model_->evaluate(solution.search.x, ResidualModel::Depth::value, at);
       const Eigen::VectorXd residual = at.predicted - model_->measured();
-      const double misfit =
-          residual.cwiseQuotient(weighting.sd_nm).squaredNorm() / static_cast<double>(n);
+      const double misfit = residual.cwiseQuotient(weighting.sd_nm).squaredNorm() / static_cast<double>(n);
       const double share = residual.squaredNorm() / model_->measured().squaredNorm();
       if (!(misfit < 100.0 && share < 9.0)) {
         weighting.corrected = false;
@@ -392,8 +370,7 @@ Estimator::Solution Estimator::solve(const Eigen::VectorXd& start) const {
     find_noise(x, at, weighting);
   }
   solution.search.iterations = iterations;
-  solution.misfit =
-      2.0 * solution.search.cost + 2.0 * weighting.share * weighting.sd_nm.array().log().sum();
+  solution.misfit = 2.0 * solution.search.cost + 2.0 * weighting.share * weighting.sd_nm.array().log().sum();
   return solution;
 }
 
@@ -402,11 +379,8 @@ Eigen::VectorXd Estimator::moved_start(const Eigen::VectorXd& start, int s) cons
   for (std::size_t j = 0; j < free().size(); ++j) {
     const Unknown& f = free()[j];
     const auto at = static_cast<Eigen::Index>(j);
-    const double step = f.prior.sd > 0.0       ? f.prior.sd
-                        : f.field->logarithmic ? 0.3
-                                               : 0.1 * std::abs(f.start);
-    // A fixed mixing of the numbers of start and parameter chooses the sign, the same on every
-    // machine.
+    const double step = f.prior.sd > 0.0 ? f.prior.sd : f.field->logarithmic ? 0.3 : 0.1 * std::abs(f.start);
+    // A fixed mixing of the numbers of start and parameter chooses the sign, the same on every machine.
     const std::uint64_t mixed =
         (static_cast<std::uint64_t>(s) * 0x9E3779B97F4A7C15ULL) ^ ((j + 1) * 0xD1B54A32D192ED03ULL);
     const double sign = ((mixed >> 33) & 1U) == 0 ? 1.0 : -1.0;

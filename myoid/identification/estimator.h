@@ -41,10 +41,9 @@ enum class Derivatives { none, gradient, curvature };
 ///
 ///   rho -> rho - c_a^2 sum_channels T_channel(z)^2 / s_i^2,
 ///
-/// and J'J in the same way loses the contribution of noise alone. c_a^2 is at most the expectation
-/// from the EMG's bandwidth. Residuals beyond it that vary with the muscles' torques are the
-/// model's error, which is in the torque and weakens no muscle. Taken for noise of the EMG they
-/// would raise the strengths, and so the residuals, again and again.
+/// and J'J in the same way loses the contribution of noise alone. c_a^2 is at most the expectation from the EMG's
+/// bandwidth. Residuals beyond it that vary with the muscles' torques are the model's error, which is in the torque and
+/// weakens no muscle. Taken for noise of the EMG they would raise the strengths, and so the residuals, again and again.
 class Estimator {
  public:
   Estimator(const StudyData& data, const EstimatorOptions& options);
@@ -54,8 +53,7 @@ class Estimator {
   [[nodiscard]] const EstimatorOptions& options() const { return options_; }
   /// Expected c_a^2 of each EMG channel, or 1 where its bandwidth is unknown.
   [[nodiscard]] const Eigen::VectorXd& channel_variance() const { return channel_variance_; }
-  /// Squared relative spread of each channel's envelope before prediction and measurement are
-  /// low-passed.
+  /// Squared relative spread of each channel's envelope before prediction and measurement are low-passed.
   [[nodiscard]] Eigen::VectorXd envelope_variance(const NoiseLevel& found) const;
   /// Returns p of a = g u^p for every EMG channel.
   [[nodiscard]] Eigen::VectorXd exponents(const Eigen::VectorXd& z) const;
@@ -89,8 +87,7 @@ class Estimator {
                                           int iterations = 200,
                                           const Variant& variant = {},
                                           const std::vector<bool>& held = {}) const;
-  /// Per-sample contributions to the gradient (p x n), and nu J'WJ of the data after subtraction of
-  /// the noise.
+  /// Per-sample contributions to the gradient (p x n), and nu J'WJ of the data after subtraction of the noise.
   struct Scores {
     Eigen::MatrixXd scores;
     Eigen::MatrixXd information;
@@ -99,8 +96,7 @@ class Estimator {
     Eigen::VectorXd attenuation;  ///< The correction's part of the sum of the scores.
   };
   [[nodiscard]] Scores scores(const Solution& solution) const;
-  /// Returns start number s: the given start moved by the prior's spread, in a fixed pattern of
-  /// signs.
+  /// Returns start number s: the given start moved by the prior's spread, in a fixed pattern of signs.
   [[nodiscard]] Eigen::VectorXd moved_start(const Eigen::VectorXd& start, int s) const;
 
  private:
@@ -119,9 +115,8 @@ class Estimator {
     double loss = 0.0;
     Eigen::VectorXd by_noise;
   };
-  /// Weighs the rows from `first` on: turns predicted torques into d (cost of the data) / d
-  /// predicted, sets the roots of the weights, and replaces the channels' torques by their part of
-  /// d (cost that the correction subtracts) / dz.
+  /// Weighs the rows from `first` on: turns predicted torques into d (cost of the data) / d predicted, sets the roots
+  /// of the weights, and replaces the channels' torques by their part of d (cost that the correction subtracts) / dz.
   RowSums weigh(const Weighting& weighting,
                 const Variant& variant,
                 Eigen::Index first,
@@ -137,9 +132,7 @@ class Estimator {
   struct RowSlopes {
     Eigen::VectorXd by_prediction, by_channel;
   };
-  [[nodiscard]] double cost_of(const Weighting& weighting,
-                               const RowSums& sums,
-                               const PriorTerm& prior) const;
+  [[nodiscard]] double cost_of(const Weighting& weighting, const RowSums& sums, const PriorTerm& prior) const;
   [[nodiscard]] Eigen::VectorXd gradient_of(const Eigen::VectorXd& z,
                                             const Weighting& weighting,
                                             const RowSums& sums,

@@ -19,34 +19,29 @@ using test::ElbowStudy;
 using test::freed;
 
 TEST(Estimator, TheGradientOfTheCorrectedCostIsThatOfDifferences) {
-  ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 0.5, .with_priors = true});
+  ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 0.5, .with_priors = true});
   study.data.rules = {freed("emg_exponent")};
   study.data.rules[0].value = 1.3;
   // The delay, which acts on several channels, is left out of the correction: held here.
   const Estimator estimator(study.data, {.delay_s = 0.05});
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
   ASSERT_GT(solution.weighting.emg_variance.maxCoeff(), 1e-4);
-  const Eigen::VectorXd z =
-      solution.search.x + Eigen::VectorXd::Constant(estimator.lower().size(), 1e-3);
-  const NormalEquations at =
-      estimator.normal_equations(z, solution.weighting, Derivatives::gradient);
+  const Eigen::VectorXd z = solution.search.x + Eigen::VectorXd::Constant(estimator.lower().size(), 1e-3);
+  const NormalEquations at = estimator.normal_equations(z, solution.weighting, Derivatives::gradient);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double h = 1e-6;
     const auto cost = [&](double step) {
       return estimator
-          .normal_equations(z + step * Eigen::VectorXd::Unit(z.size(), j), solution.weighting,
-                            Derivatives::none)
+          .normal_equations(z + step * Eigen::VectorXd::Unit(z.size(), j), solution.weighting, Derivatives::none)
           .cost;
     };
-    EXPECT_NEAR(at.gradient[j], (cost(h) - cost(-h)) / (2.0 * h),
-                1e-4 * (1.0 + std::abs(at.gradient[j])));
+    EXPECT_NEAR(at.gradient[j], (cost(h) - cost(-h)) / (2.0 * h), 1e-4 * (1.0 + std::abs(at.gradient[j])));
   }
 }
 
-/// Isometric, two antagonists on one drive that cancel but for `rest` times its mean, with EMG
-/// noise of 12 %. Only their F_max are unknown. Of each muscle's torque `model_cv` is what no EMG
-/// tells.
+/// Isometric, two antagonists on one drive that cancel but for `rest` times its mean, with EMG noise of 12 %. Only
+/// their F_max are unknown. Of each muscle's torque `model_cv` is what no EMG tells.
 struct Antagonists {
   StudyData data;
   double triceps_n = 0.0;  ///< Its true F_max.
@@ -76,11 +71,10 @@ Antagonists antagonists(const AntagonistOptions& o) {
     MuscleSetup& setup = data.muscles[k];
     setup.start = truth[k];
     setup.start.max_isometric_force_n *= 1.2;
-    setup.fixed = {"optimal_fiber_length", "force_length_width", "concentric_curvature",
-                   "eccentric_curvature_product", "eccentric_plateau"};
+    setup.fixed = {"optimal_fiber_length", "force_length_width", "concentric_curvature", "eccentric_curvature_product",
+                   "eccentric_plateau"};
     capacity[c] = trial.moment_arm_m(0, c) *
-                  muscle::hill_force(1.0, trial.length_m(0, c) - truth[k].tendon_slack_length_m,
-                                     0.0, truth[k]);
+                  muscle::hill_force(1.0, trial.length_m(0, c) - truth[k].tendon_slack_length_m, 0.0, truth[k]);
   }
   const auto drive = [&](double t) { return 0.2 * (1.0 + o.swing * std::sin(1.3 * t)); };
   const auto rest = [&](double t) { return 0.2 * o.rest * std::sin(4.0 * t); };
@@ -95,8 +89,7 @@ Antagonists antagonists(const AntagonistOptions& o) {
       recorded(i, c) = (c == 0 ? drive(t) + rest(t) : ratio * drive(t)) * gain[i];
     }
   }
-  trial.activation =
-      TimeSeries(clock, {{"BIC", Unit::dimensionless}, {"TRI", Unit::dimensionless}}, recorded);
+  trial.activation = TimeSeries(clock, {{"BIC", Unit::dimensionless}, {"TRI", Unit::dimensionless}}, recorded);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double t = trial.time_s[i];
     trial.torque_nm[i] = capacity[0] * (drive(t) + rest(t)) + capacity[1] * ratio * drive(t);
@@ -119,8 +112,8 @@ TEST(Estimator, CoContractionAgainstNoisyEmgDoesNotMakeMusclesWeak) {
   for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
     const Antagonists study = antagonists({.seed = seed});
     const auto triceps = [&](bool correct) {
-      const IdentificationResult r = identify_torque(
-          study.data, {.delay_s = 0.0, .correct_attenuation = correct, .starts = 1});
+      const IdentificationResult r =
+          identify_torque(study.data, {.delay_s = 0.0, .correct_attenuation = correct, .starts = 1});
       return r.muscles[1].max_isometric_force_n / study.triceps_n / kPersons;
     };
     plain += triceps(false);
@@ -131,32 +124,27 @@ TEST(Estimator, CoContractionAgainstNoisyEmgDoesNotMakeMusclesWeak) {
 }
 
 TEST(Estimator, ErrorsOfTheModelAreNotTakenForNoiseOfTheEmg) {
-  // As above, with EMG as noisy as its bandwidth of 250 Hz makes it (12 %), and torques that are
-  // off by twice that for reasons of their own. These are errors of what is explained: no reason to
-  // make the muscles stronger.
+  // As above, with EMG as noisy as its bandwidth of 250 Hz makes it (12 %), and torques that are off by twice that for
+  // reasons of their own. These are errors of what is explained: no reason to make the muscles stronger.
   double ratio = 0.0;
   constexpr int kPersons = 10;
   for (std::uint64_t seed = 1; seed <= kPersons; ++seed) {
-    const Antagonists study =
-        antagonists({.seed = seed, .swing = 0.9, .rest = 0.5, .model_cv = 0.24});
+    const Antagonists study = antagonists({.seed = seed, .swing = 0.9, .rest = 0.5, .model_cv = 0.24});
     const IdentificationResult r = identify_torque(
-        study.data,
-        {.delay_s = 0.0, .emg_bandwidth_hz = {{"BIC", 250.0}, {"TRI", 250.0}}, .starts = 1});
+        study.data, {.delay_s = 0.0, .emg_bandwidth_hz = {{"BIC", 250.0}, {"TRI", 250.0}}, .starts = 1});
     ratio += r.muscles[1].max_isometric_force_n / study.triceps_n / kPersons;
   }
   EXPECT_NEAR(ratio, 1.0, 0.2);  // 1.6 where all is taken for noise
 }
 
 TEST(Estimator, AnOutlierPullsARobustFitLess) {
-  ElbowStudy study =
-      elbow_study({.trials = 2, .seconds = 15.0, .torque_sd_nm = 0.3, .with_priors = true});
+  ElbowStudy study = elbow_study({.trials = 2, .seconds = 15.0, .torque_sd_nm = 0.3, .with_priors = true});
   study.data.trials[0].torque_nm.segment(500, 100).array() += 30.0;
   const auto error = [&](Loss loss) {
     const IdentificationResult r = identify_torque(study.data, {.loss = loss, .starts = 1});
     double sum = 0.0;
     for (std::size_t k = 0; k < 4; ++k)
-      sum += std::abs(
-          std::log(r.muscles[k].max_isometric_force_n / study.truth[k].max_isometric_force_n));
+      sum += std::abs(std::log(r.muscles[k].max_isometric_force_n / study.truth[k].max_isometric_force_n));
     return sum;
   };
   const double square = error(Loss::square);
@@ -168,23 +156,21 @@ TEST(Estimator, MusclesThatBeginFarTooStrongAreNotTakenForNoise) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.2});
   for (MuscleSetup& setup : study.data.muscles) {
     setup.start.max_isometric_force_n *= 8.0;
-    setup.priors["max_isometric_force"] = {
-        .mean = setup.start.max_isometric_force_n, .sd = 1.0, .logarithmic = true};
+    setup.priors["max_isometric_force"] = {.mean = setup.start.max_isometric_force_n, .sd = 1.0, .logarithmic = true};
   }
   const IdentificationResult r = identify_torque(study.data, {.starts = 1});
   const double rms = std::sqrt(study.data.trials[0].torque_nm.squaredNorm() /
                                static_cast<double>(study.data.trials[0].torque_nm.size()));
   EXPECT_LT(r.torque_sd_nm, 0.2 * rms);
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(r.muscles[k].max_isometric_force_n / study.truth[k].max_isometric_force_n, 1.0, 0.5)
-        << k;
+    EXPECT_NEAR(r.muscles[k].max_isometric_force_n / study.truth[k].max_isometric_force_n, 1.0, 0.5) << k;
 }
 
 TEST(Estimator, WhatWasTakenFromAnEnvelopeOfUnknownMakingIsNotGuessed) {
   // Of raw EMG it is known that the noise of the electrode was taken out as power, and how it
   // spreads; of an envelope that came as a file it is not.
-  const ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 5.0, .emg_cv = 0.1, .torque_sd_nm = 0.2, .with_priors = true});
+  const ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 5.0, .emg_cv = 0.1, .torque_sd_nm = 0.2, .with_priors = true});
   EstimatorOptions options{.starts = 1};
   const IdentificationResult without = identify_torque(study.data, options);
   for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) options.emg_rest[channel] = 0.3;
@@ -196,13 +182,10 @@ TEST(Estimator, WhatWasTakenFromAnEnvelopeOfUnknownMakingIsNotGuessed) {
 
 TEST(Estimator, NoiseOfTheEmgIsNeverTakenToBeFarFromWhatItsBandwidthSays) {
   // Clean EMG that is said to be raw EMG of 150 Hz bandwidth: the expected noise, within a factor.
-  const ElbowStudy study =
-      elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.5, .with_priors = true});
+  const ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0, .torque_sd_nm = 0.5, .with_priors = true});
   EstimatorOptions options{.starts = 1};
-  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"})
-    options.emg_bandwidth_hz[channel] = 150.0;
-  const double expected =
-      0.7555 / std::sqrt(2.0 * 150.0 * 0.4815 / (6.0 * 1.5 / std::hypot(6.0, 1.5)));
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) options.emg_bandwidth_hz[channel] = 150.0;
+  const double expected = 0.7555 / std::sqrt(2.0 * 150.0 * 0.4815 / (6.0 * 1.5 / std::hypot(6.0, 1.5)));
   const double found = identify_torque(study.data, options).emg_cv;
   EXPECT_LT(found, expected);
   EXPECT_GT(found, expected / 4.0);

@@ -54,8 +54,7 @@ struct ChannelSource {
   double rest = 0.0;          ///< EstimatorOptions::emg_rest
 };
 
-/// The facts about the activations that an estimator receives. The defaults describe activations of
-/// unknown origin.
+/// The facts about the activations that an estimator receives. The defaults describe activations of unknown origin.
 struct ActivationSource {
   bool from_mvc = true;  ///< Activation 1 is a maximal effort.
   double envelope_cutoff_hz = EstimatorOptions{}.envelope_cutoff_hz;

@@ -12,8 +12,7 @@ template <typename F>
 double normal_mean(F f) {
   constexpr double kStep = 1e-3;
   double sum = 0.0;
-  for (double u = -9.0; u <= 9.0; u += kStep)
-    sum += f(u) * std::exp(-0.5 * u * u) * kStep / std::sqrt(2.0 * M_PI);
+  for (double u = -9.0; u <= 9.0; u += kStep) sum += f(u) * std::exp(-0.5 * u * u) * kStep / std::sqrt(2.0 * M_PI);
   return sum;
 }
 

@@ -8,12 +8,10 @@ namespace {
 
 /// f_v at one rate and its derivatives.
 struct ForceVelocity {
-  double value = 0.0, by_velocity = 0.0, by_speed = 0.0, by_curvature = 0.0, by_product = 0.0,
-         by_plateau = 0.0;
+  double value = 0.0, by_velocity = 0.0, by_speed = 0.0, by_curvature = 0.0, by_product = 0.0, by_plateau = 0.0;
 };
 
-/// Evaluates equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and
-/// below.
+/// Evaluates equation (4) of the source paper, v positive in lengthening [m/s]; 0 at -v_max and below.
 ForceVelocity velocity_factor(double v, const MuscleValues& p) {
   const double vm = p[kSpeed];
   ForceVelocity f;
@@ -127,8 +125,8 @@ class Contraction {
     if (c == 0.0) return;
     by[kFiberLength] -= by_x * l / (l0 * l0 * e);
     by[kPassiveStrain] = -by_x * x / e;
-    by[kPassiveShape] = c * (x * (grown + 1.0) * passive_top_ - grown * (passive_top_ + 1.0)) /
-                        (passive_top_ * passive_top_);
+    by[kPassiveShape] =
+        c * (x * (grown + 1.0) * passive_top_ - grown * (passive_top_ + 1.0)) / (passive_top_ * passive_top_);
   }
 
   const MuscleValues& p_;
@@ -140,9 +138,8 @@ class Contraction {
 ///
 ///   u(s) = ln(1 + m(s) / 0.2) / rise - s
 ///
-/// where m is the muscle's pull, by Newton's steps within a bracket. u is nearly a line, because
-/// the logarithm cancels the tendon's exponential and the remaining slope of m is small beside 1. A
-/// step of 3e-9 leaves an error below 1e-16.
+/// where m is the muscle's pull, by Newton's steps within a bracket. u is nearly a line, because the logarithm cancels
+/// the tendon's exponential and the remaining slope of m is small beside 1. A step of 3e-9 leaves an error below 1e-16.
 double tendon_strain(const Contraction& muscle, double a, double l_mt, double slack, double rise) {
   constexpr double kLastStep = 3e-9, kLongest = 10.0;
   double low = -1.0, high = kLongest;  // the tendon does not push: low is 0 once 0 was tried
@@ -219,12 +216,10 @@ Tension tension(double activation, double length_m, double velocity_mps, const M
 }
 
 bool is_plain(const MuscleValues& p) {
-  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 &&
-         (p[kTendonStrain] == 0.0 || p[kSlack] == 0.0);
+  return p[kPennation] == 0.0 && p[kPassiveForce] == 0.0 && (p[kTendonStrain] == 0.0 || p[kSlack] == 0.0);
 }
 
-void plain_tension(
-    double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
+void plain_tension(double activation, double length_m, double velocity_mps, const MuscleValues& p, Tension& t) {
   const double a = p[kShare] * activation;
   const double v = velocity_mps;
   const double l0 = p[kFiberLength];

@@ -36,8 +36,7 @@ TEST(Tension, IsThePapersLawWhenNothingElseIsOn) {
 TEST(PlainTension, IsTheGeneralOneWhereNothingElseIsOn) {
   for (const double length_activation : {0.0, 0.15}) {
     MuscleValues p =
-        muscle_values(model::arm4_muscles()[2],
-                      {.length_activation = length_activation, .activation_share = 0.8});
+        muscle_values(model::arm4_muscles()[2], {.length_activation = length_activation, .activation_share = 0.8});
     ASSERT_TRUE(is_plain(p));
     for (const double v : {-3.0, -0.4, 0.0, 0.3}) {
       const double l_mt = p[kSlack] + 0.9 * p[kFiberLength];
@@ -52,8 +51,7 @@ TEST(PlainTension, IsTheGeneralOneWhereNothingElseIsOn) {
       same(plain.by_velocity, general.by_velocity);
       for (int f = 0; f < kMuscleFieldCount; ++f) {
         if (is_plain_field(f))
-          same(plain.by_field[static_cast<std::size_t>(f)],
-               general.by_field[static_cast<std::size_t>(f)]);
+          same(plain.by_field[static_cast<std::size_t>(f)], general.by_field[static_cast<std::size_t>(f)]);
       }
     }
     p[kPassiveForce] = 0.1;
@@ -77,8 +75,7 @@ TEST(Tension, OfAnElasticTendonIsThatOfTheMuscleBehindIt) {
   const double l0 = p[kFiberLength] * (1.0 + p[kLengthActivation] * (1.0 - a));
   const double active = a * std::exp(-std::pow((l - l0) / p[kWidth], 2));
   const double stretch = l / p[kFiberLength] - 1.0;
-  const double passive =
-      stretch > 0.0 ? 0.8 * std::expm1(3.5 * stretch / 0.5) / std::expm1(3.5) : 0.0;
+  const double passive = stretch > 0.0 ? 0.8 * std::expm1(3.5 * stretch / 0.5) / std::expm1(3.5) : 0.0;
   EXPECT_NEAR(force, p[kMaxForce] * (active + passive) * along / l, 1e-9 * force);
 }
 
@@ -96,11 +93,9 @@ double pull(double a, double strain, double l_mt, double v_mt, const MuscleValue
                                 : (p[kProduct] * vm + p[kPlateau] * v) / (p[kProduct] * vm + v);
   const double l0 = p[kFiberLength] * (1.0 + p[kLengthActivation] * (1.0 - a));
   const double stretch = l / p[kFiberLength] - 1.0;
-  const double passive = stretch > 0.0
-                             ? p[kPassiveForce] *
-                                   std::expm1(p[kPassiveShape] * stretch / p[kPassiveStrain]) /
-                                   std::expm1(p[kPassiveShape])
-                             : 0.0;
+  const double passive = stretch > 0.0 ? p[kPassiveForce] * std::expm1(p[kPassiveShape] * stretch / p[kPassiveStrain]) /
+                                             std::expm1(p[kPassiveShape])
+                                       : 0.0;
   return (a * std::exp(-std::pow((l - l0) / p[kWidth], 2)) * f_v + passive) * cosine;
 }
 
@@ -154,10 +149,7 @@ using Jet = ceres::Jet<double, kMuscleFieldCount + 3>;  // the fields, then a, l
 
 /// The tension by the templates of muscle/: a unit under the paper's laws, with Thelen's passive
 /// force where the amount is 1. An elastic tendon is De Groote's, and the unit steady.
-Jet template_tension(double activation,
-                     double length_m,
-                     double velocity_mps,
-                     const MuscleValues& p) {
+Jet template_tension(double activation, double length_m, double velocity_mps, const MuscleValues& p) {
   std::array<Jet, kMuscleFieldCount> x;
   for (int f = 0; f < kMuscleFieldCount; ++f) {
     const auto i = static_cast<std::size_t>(f);
@@ -165,8 +157,7 @@ Jet template_tension(double activation,
   }
   const Jet a = x[kShare] * Jet(activation, kMuscleFieldCount);
   muscle::MusculotendonParameters<Jet> unit;
-  unit.hill = {x[kMaxForce], x[kFiberLength], x[kWidth], x[kCurvature],
-               x[kProduct],  x[kPlateau],     x[kSpeed], x[kSlack]};
+  unit.hill = {x[kMaxForce], x[kFiberLength], x[kWidth], x[kCurvature], x[kProduct], x[kPlateau], x[kSpeed], x[kSlack]};
   // The unit's width grows with its optimal length; that of the fit does not.
   unit.hill.force_length_width_m /= Jet(1.0) + x[kLengthActivation] * (Jet(1.0) - a);
   unit.optimal_length_shift = x[kLengthActivation];
@@ -176,8 +167,7 @@ Jet template_tension(double activation,
   unit.damping = Jet(0.0);
   const bool elastic = p[kTendonStrain] > 0.0;
   if (elastic) unit.tendon_strain = x[kTendonStrain];
-  muscle::MusculotendonLaws laws =
-      muscle::paper_laws(elastic ? muscle::TendonMode::mass : muscle::TendonMode::rigid);
+  muscle::MusculotendonLaws laws = muscle::paper_laws(elastic ? muscle::TendonMode::mass : muscle::TendonMode::rigid);
   if (p[kPassiveForce] == 1.0) laws.passive = muscle::PassiveLaw::thelen;
   if (elastic) laws.tendon = muscle::TendonLaw::de_groote;
   const muscle::Musculotendon<Jet> muscle(unit, laws);
@@ -196,8 +186,7 @@ TEST(Tension, IsTheTemplateOfMuscleWithAllItsDerivatives) {
         if (!elastic) p[kTendonStrain] = 0.0;
         for (const double reach : {0.8, 1.0, 1.2}) {
           for (const double v : {-2.0 * p[kSpeed], -0.5, 0.0, 0.4}) {
-            SCOPED_TRACE(testing::Message()
-                         << pennate << passive << elastic << ' ' << reach << ' ' << v);
+            SCOPED_TRACE(testing::Message() << pennate << passive << elastic << ' ' << reach << ' ' << v);
             const double l_mt = p[kSlack] * (elastic ? 1.02 : 1.0) + reach * p[kFiberLength];
             const Tension t = tension(0.4, l_mt, v, p);
             const Jet expected = template_tension(0.4, l_mt, v, p);
@@ -236,8 +225,7 @@ TEST(Tension, DerivativesAreThoseOfDifferences) {
       const Tension t = tension(0.4, l_mt, v, p);
       // Central differences: truncation h^2 and round-off 1e-13 / h, both about 1e-8 relative.
       const auto near = [&](double derivative, double plus, double minus, double h) {
-        EXPECT_NEAR(derivative, (plus - minus) / (2.0 * h),
-                    1e-5 * (std::abs(derivative) + 1e-2 * t.force_n));
+        EXPECT_NEAR(derivative, (plus - minus) / (2.0 * h), 1e-5 * (std::abs(derivative) + 1e-2 * t.force_n));
       };
       for (int f = 0; f < kMuscleFieldCount; ++f) {
         if (!elastic && f == kTendonStrain) continue;
@@ -247,15 +235,11 @@ TEST(Tension, DerivativesAreThoseOfDifferences) {
         MuscleValues up = p, down = p;
         up[i] += h;
         down[i] -= h;
-        near(t.by_field[i], tension(0.4, l_mt, v, up).force_n, tension(0.4, l_mt, v, down).force_n,
-             h);
+        near(t.by_field[i], tension(0.4, l_mt, v, up).force_n, tension(0.4, l_mt, v, down).force_n, h);
       }
-      near(t.by_activation, tension(0.40001, l_mt, v, p).force_n,
-           tension(0.39999, l_mt, v, p).force_n, 1e-5);
-      near(t.by_length, tension(0.4, l_mt + 1e-6, v, p).force_n,
-           tension(0.4, l_mt - 1e-6, v, p).force_n, 1e-6);
-      near(t.by_velocity, tension(0.4, l_mt, v + 1e-5, p).force_n,
-           tension(0.4, l_mt, v - 1e-5, p).force_n, 1e-5);
+      near(t.by_activation, tension(0.40001, l_mt, v, p).force_n, tension(0.39999, l_mt, v, p).force_n, 1e-5);
+      near(t.by_length, tension(0.4, l_mt + 1e-6, v, p).force_n, tension(0.4, l_mt - 1e-6, v, p).force_n, 1e-6);
+      near(t.by_velocity, tension(0.4, l_mt, v + 1e-5, p).force_n, tension(0.4, l_mt, v - 1e-5, p).force_n, 1e-5);
     }
   }
 }

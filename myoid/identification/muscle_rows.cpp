@@ -23,10 +23,9 @@ void evaluate_muscle(const std::vector<Activation>& activation,
     for (const ParameterMap::Chain& chain : *chains) rows.variables.push_back(chain.variable);
   const auto count = static_cast<Eigen::Index>(rows.variables.size());
   rows.by_variable.resize(count, n);
-  const bool plain = is_plain(values) && std::all_of(of_muscle.begin(), of_muscle.end(),
-                                                     [](const ParameterMap::Chain& chain) {
-                                                       return is_plain_field(chain.field);
-                                                     });
+  const bool plain =
+      is_plain(values) && std::all_of(of_muscle.begin(), of_muscle.end(),
+                                      [](const ParameterMap::Chain& chain) { return is_plain_field(chain.field); });
   Tension t;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Activation& a = activation[static_cast<std::size_t>(i)];

@@ -22,8 +22,7 @@ struct Samples {
       activation.push_back(at);
     }
   }
-  [[nodiscard]] MuscleRows rows(const std::vector<Chain>& of_muscle,
-                                const std::vector<Chain>& of_channel) const {
+  [[nodiscard]] MuscleRows rows(const std::vector<Chain>& of_muscle, const std::vector<Chain>& of_channel) const {
     MuscleRows r;
     evaluate_muscle(activation, length_m, velocity_mps, values, of_muscle, of_channel, r);
     return r;

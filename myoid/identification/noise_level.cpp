@@ -19,8 +19,7 @@ NoiseBins bins_of(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
   constexpr Eigen::Index kBins = 48;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(squared.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index i, Eigen::Index j) { return power[i] < power[j]; });
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return power[i] < power[j]; });
   NoiseBins bins;
   const Eigen::Index n = squared.size();
   const Eigen::Index count = std::min(n, kBins);
@@ -68,9 +67,7 @@ constexpr double kLargestNoise = 0.5;
 
 }  // namespace
 
-NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
-                           const Eigen::ArrayXd& power,
-                           double share) {
+NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power, double share) {
   constexpr double kLogSd = beliefs::kEmgNoise.sd;
   const NoiseBins bins = bins_of(squared, power);
   const double mean = squared.mean();
@@ -85,8 +82,7 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
     return 0.5 * share * sum + 0.5 * std::pow(0.5 * log_b / kLogSd, 2);
   };
   const auto best_a = [&](double log_b) {
-    return golden(std::log(0.05 * mean), std::log(2.0 * mean),
-                  [&](double log_a) { return cost(log_a, log_b); });
+    return golden(std::log(0.05 * mean), std::log(2.0 * mean), [&](double log_a) { return cost(log_a, log_b); });
   };
   // b varies by a factor of 16, the noise by a factor of 4, either way.
   const double reach = std::log(16.0);
@@ -94,8 +90,7 @@ NoiseLevel fit_known_noise(const Eigen::ArrayXd& squared,
   const double factor = std::exp(0.5 * log_b);
   const double h = 0.2;
   const auto profile = [&](double x) { return cost(best_a(x), x); };
-  const double curvature =
-      (profile(log_b + h) - 2.0 * profile(log_b) + profile(log_b - h)) / (h * h);
+  const double curvature = (profile(log_b + h) - 2.0 * profile(log_b) + profile(log_b - h)) / (h * h);
   const double least = 1.0 / std::pow(2.0 * kLogSd, 2);  // curvature of a prior twice as wide
   NoiseLevel level{.torque_sd_nm = std::exp(0.5 * best_a(log_b)),
                    .emg_cv = factor,

@@ -32,8 +32,7 @@ class Search {
 
   NormalSearchResult run(const Eigen::VectorXd& start) {
     r_.x = start.cwiseMax(lower_).cwiseMin(upper_);
-    if (!evaluate(r_.x, r_.at))
-      throw InvalidInput("identification: the model is not finite at the starting values");
+    if (!evaluate(r_.x, r_.at)) throw InvalidInput("identification: the model is not finite at the starting values");
     r_.cost = r_.at.cost;
     r_.cost_history.push_back(r_.cost);
     first_cost_ = r_.cost;
@@ -43,8 +42,7 @@ class Search {
       options_.progress.check();
       if (iterate()) return std::move(r_);
     }
-    end(Termination::iteration_limit,
-        fmt::format("not converged after {} iterations", r_.iterations));
+    end(Termination::iteration_limit, fmt::format("not converged after {} iterations", r_.iterations));
     return std::move(r_);
   }
 
@@ -76,8 +74,7 @@ class Search {
     r_.at_bound.resize(static_cast<std::size_t>(r_.x.size()));
     for (Eigen::Index j = 0; j < r_.x.size(); ++j) {
       const double span = 1e-10 * (1.0 + std::abs(r_.x[j]));
-      r_.at_bound[static_cast<std::size_t>(j)] =
-          r_.x[j] - lower_[j] <= span || upper_[j] - r_.x[j] <= span;
+      r_.at_bound[static_cast<std::size_t>(j)] = r_.x[j] - lower_[j] <= span || upper_[j] - r_.x[j] <= span;
     }
     return true;
   }
@@ -87,8 +84,8 @@ class Search {
     for (Eigen::Index j = 0; j < r_.x.size(); ++j) {
       const double norm = std::sqrt(std::max(0.0, r_.at.curvature(j, j)));
       scale_[j] = std::max(scale_[j], norm);
-      const bool out = (r_.x[j] <= lower_[j] && r_.at.gradient[j] > 0.0) ||
-                       (r_.x[j] >= upper_[j] && r_.at.gradient[j] < 0.0);
+      const bool out =
+          (r_.x[j] <= lower_[j] && r_.at.gradient[j] > 0.0) || (r_.x[j] >= upper_[j] && r_.at.gradient[j] < 0.0);
       if (out || (!held_.empty() && held_[static_cast<std::size_t>(j)])) continue;
       s.moving.push_back(j);
       s.flat = s.flat && std::abs(r_.at.gradient[j]) <= 1e-14 * norm * std::sqrt(2.0 * r_.cost);
@@ -112,14 +109,12 @@ class Search {
     Eigen::VectorXd scaled = solver.solve(s.right);
     // Refines once, because the matrix is the square of an ill-conditioned one.
     scaled += solver.solve((s.right - damped * scaled).eval());
-    for (Eigen::Index k = 0; k < s.d.size(); ++k)
-      step[s.moving[static_cast<std::size_t>(k)]] = s.d[k] * scaled[k];
+    for (Eigen::Index k = 0; k < s.d.size(); ++k) step[s.moving[static_cast<std::size_t>(k)]] = s.d[k] * scaled[k];
     Trial trial;
     trial.x = (r_.x + step).cwiseMax(lower_).cwiseMin(upper_);
     trial.moved = trial.x - r_.x;
     trial.clipped = (trial.moved - step).cwiseAbs().maxCoeff() > 0.0;
-    trial.promised =
-        -(r_.at.gradient.dot(trial.moved) + 0.5 * trial.moved.dot(r_.at.curvature * trial.moved));
+    trial.promised = -(r_.at.gradient.dot(trial.moved) + 0.5 * trial.moved.dot(r_.at.curvature * trial.moved));
     return trial;
   }
 
@@ -135,15 +130,13 @@ class Search {
       const bool finite = evaluate(trial.x, next_);
       if (options_.gauss_newton) {
         if (!finite || next_.cost > 1e12 * (first_cost_ + 1e-300))
-          return end(Termination::not_finite,
-                     "a full Gauss-Newton step left the domain of the model");
+          return end(Termination::not_finite, "a full Gauss-Newton step left the domain of the model");
         return accept(trial);
       }
       const double fall = r_.cost - next_.cost;
       if (finite && fall > 0.0) {
         const double ratio = trial.promised > 0.0 ? fall / trial.promised : 0.0;
-        damping_ =
-            std::max(1e-15, damping_ * std::clamp(1.0 - std::pow(2.0 * ratio - 1.0, 3), 0.1, 2.0));
+        damping_ = std::max(1e-15, damping_ * std::clamp(1.0 - std::pow(2.0 * ratio - 1.0, 3), 0.1, 2.0));
         growth_ = 2.0;
         return accept(trial);
       }
@@ -168,8 +161,7 @@ class Search {
   /// Raises the damping; true: no shorter step can lower the cost.
   bool reject(const Trial& trial, bool finite) {
     // A step that a bound shortened may promise nothing and still hide a descent: shortens it.
-    if (finite && !trial.clipped &&
-        trial.promised <= std::max(options_.cost_tolerance, 1e-13) * r_.cost)
+    if (finite && !trial.clipped && trial.promised <= std::max(options_.cost_tolerance, 1e-13) * r_.cost)
       return end(Termination::converged, "the cost can fall no further within round-off");
     // Skips damping too small to change the step: an evaluation costs more.
     damping_ = std::max(damping_, kLeastRejected) * growth_;

@@ -18,8 +18,7 @@ struct NormalEquations {
   Eigen::MatrixXd curvature;
 };
 /// Fills all three members at z, or the cost alone.
-using NormalFunction =
-    std::function<void(const Eigen::VectorXd& z, bool derivatives, NormalEquations& out)>;
+using NormalFunction = std::function<void(const Eigen::VectorXd& z, bool derivatives, NormalEquations& out)>;
 
 struct NormalSearchOptions {
   bool gauss_newton = false;  ///< Takes full steps without damping.
@@ -41,11 +40,10 @@ struct NormalSearchResult {
   std::vector<double> cost_history;
 };
 
-/// Minimizes C(z) within bounds by Levenberg-Marquardt on the normal equations. These are p x p for
-/// any number of samples, with one pass over the data per step. The columns are scaled to unit
-/// length before solving. The gradient is exact, so the limit is exact, too, while the scaled
-/// condition number of J stays below about 1e7. `held` (empty, or one per variable) keeps variables
-/// at their start.
+/// Minimizes C(z) within bounds by Levenberg-Marquardt on the normal equations. These are p x p for any number of
+/// samples, with one pass over the data per step. The columns are scaled to unit length before solving. The gradient is
+/// exact, so the limit is exact, too, while the scaled condition number of J stays below about 1e7. `held` (empty, or
+/// one per variable) keeps variables at their start.
 [[nodiscard]] NormalSearchResult minimize_normal(const NormalFunction& function,
                                                  const Eigen::VectorXd& lower,
                                                  const Eigen::VectorXd& upper,

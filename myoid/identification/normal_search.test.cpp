@@ -18,8 +18,7 @@ TEST(NormalSearch, FindsTheMinimumThatAnalysisGives) {
   EXPECT_EQ(free.termination, math::Termination::converged);
   EXPECT_NEAR(free.x[0], 3.0, 1e-9);
   EXPECT_NEAR(free.x[1], 9.0, 1e-8);
-  const NormalSearchResult bound =
-      minimize_normal(rosenbrock, low, Eigen::Vector2d(2.0, 100.0), start);
+  const NormalSearchResult bound = minimize_normal(rosenbrock, low, Eigen::Vector2d(2.0, 100.0), start);
   EXPECT_NEAR(bound.x[0], 2.0, 1e-12);
   EXPECT_NEAR(bound.x[1], 4.0, 1e-8);
   EXPECT_TRUE(bound.at_bound[0]);

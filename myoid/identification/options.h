@@ -23,8 +23,7 @@ enum class Eccentric {
   slope_ratio,  ///< S = f_v'(0+) / f_v'(0-), P = (V_ml - 1) V_sh / (S (1 + V_sh)).
   smooth,       ///< S = 1 held: f_v without a kink.
 };
-inline constexpr std::string_view kEccentricNames[] = {"automatic", "product", "slope_ratio",
-                                                       "smooth"};
+inline constexpr std::string_view kEccentricNames[] = {"automatic", "product", "slope_ratio", "smooth"};
 constexpr ChoiceNames choice_names(Eccentric) { return kEccentricNames; }
 
 /// The loss function of the residuals.
@@ -41,8 +40,8 @@ enum class FoldKind {
   trial,      ///< One trial.
   condition,  ///< All trials of one condition (TrialData::condition); a trial without one is its
               ///< own condition.
-  block,  ///< A fifth of every trial, with half a second on either side that is neither fitted nor
-          ///< tested.
+  block,      ///< A fifth of every trial, with half a second on either side that is neither fitted nor
+              ///< tested.
 };
 inline constexpr std::string_view kFoldNames[] = {"trial", "condition", "block"};
 constexpr ChoiceNames choice_names(FoldKind) { return kFoldNames; }
@@ -88,10 +87,9 @@ struct EstimatorOptions {
   /// the uncertainty of the normalisation, which F_max inherits. Empty: no gains.
   std::map<std::string, double> gain_prior_sd;
   std::map<std::string, double> gain_prior_mean;  ///< In place of 1.
-  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz). It
-  /// determines an envelope's noise: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off (two
-  /// passes, -3 dB). If known for every channel, c_a is estimated about this value (ln 0.3), else
-  /// from the residuals alone.
+  /// Statistical bandwidth [Hz] of the raw EMG by channel (signals::statistical_bandwidth_hz). It determines an
+  /// envelope's noise: relative sd 0.7555 / sqrt(2 B T), T = 0.4815 / cut-off (two passes, -3 dB). If known for every
+  /// channel, c_a is estimated about this value (ln 0.3), else from the residuals alone.
   std::map<std::string, double> emg_bandwidth_hz;
   /// Resting level of each channel over the level that counts as 1: the electrode's noise, whose
   /// power is subtracted from the envelope's. Its spread remains and enlarges the relative spread
@@ -101,13 +99,12 @@ struct EstimatorOptions {
   /// Highest rate after thinning. EMG and motion reach 6 Hz, but a power of the envelope reaches
   /// further, and at 12 Hz folds to frequencies that tell lags and delay apart.
   double max_rate_hz = 20.0;
-  /// Low-pass of both sides of the residual (two passes, -3 dB). T^ is linear in the envelope,
-  /// whose noise reaches higher frequencies than the differences between muscles do. The
-  /// frequencies above the cut-off would only pull F_max towards zero (errors in the regressors).
-  /// Empty: no low-pass.
+  /// Low-pass of both sides of the residual (two passes, -3 dB). T^ is linear in the envelope, whose noise reaches
+  /// higher frequencies than the differences between muscles do. The frequencies above the cut-off would only pull
+  /// F_max towards zero (errors in the regressors). Empty: no low-pass.
   std::optional<double> residual_cutoff_hz = 1.5;
-  bool weights = true;  ///< Heteroscedastic weights and effective number of samples; false: plain
-                        ///< least squares.
+  bool weights = true;      ///< Heteroscedastic weights and effective number of samples; false: plain
+                            ///< least squares.
   bool model_error = true;  ///< Widens the intervals by the systematic error in the residuals
                             ///< (discrepancy.h); needs `weights`.
   /// Treats the EMG's errors as errors of a regressor (estimator.h); needs `weights`.
@@ -124,16 +121,16 @@ struct EstimatorOptions {
   bool gauss_newton = false;       ///< Plain full steps instead of Levenberg-Marquardt.
   int passes = 4;                  ///< Rounds of estimating the noise and weighting by it.
   int starts = 3;                  ///< The given start and moved ones; the best result is kept.
-  int multistart = 0;       ///< Above 1: in place of `starts`, the given start and Sobol points
-                            ///< (start_box.h); fills IdentificationResult::basins.
-  bool from_mvc = true;     ///< Activation 1 is a maximal effort; verdicts use this.
-  bool predictions = true;  ///< Fills IdentificationResult::trials.
+  int multistart = 0;              ///< Above 1: in place of `starts`, the given start and Sobol points
+                                   ///< (start_box.h); fills IdentificationResult::basins.
+  bool from_mvc = true;            ///< Activation 1 is a maximal effort; verdicts use this.
+  bool predictions = true;         ///< Fills IdentificationResult::trials.
   IntervalOptions intervals;
   Progress progress;
   EstimatorKind estimator = EstimatorKind::least_squares;
-  UnseenSpreads unseen;     ///< Used by the estimator `posterior`.
-  int posterior_draws = 0;  ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
-  bool marginals = true;    ///< The approximation includes the skewness of each unknown.
+  UnseenSpreads unseen;                 ///< Used by the estimator `posterior`.
+  int posterior_draws = 0;              ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
+  bool marginals = true;                ///< The approximation includes the skewness of each unknown.
   std::shared_ptr<DriveMemory> drives;  ///< Drives that fits of one recording share.
 };
 

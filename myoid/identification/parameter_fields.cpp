@@ -11,22 +11,19 @@
 namespace myoid::identification {
 namespace {
 
-constexpr muscle::Range hill_bounds(int field) {
-  return muscle::kHillFields[static_cast<std::size_t>(field)].bounds;
-}
+constexpr muscle::Range hill_bounds(int field) { return muscle::kHillFields[static_cast<std::size_t>(field)].bounds; }
 
 using enum Scope;
 constexpr std::array kFields = {
-    ParameterField{"max_isometric_force", muscle, kMaxForce, Unit::newton, true,
-                   hill_bounds(kMaxForce), beliefs::kMaxForce.sd, "F_max"},
-    ParameterField{"optimal_fiber_length", muscle, kFiberLength, Unit::meter, false,
-                   hill_bounds(kFiberLength), 0.0, "l_m0"},
-    ParameterField{"force_length_width", muscle, kWidth, Unit::meter, false, hill_bounds(kWidth),
-                   0.0, "l_msh"},
-    ParameterField{"concentric_curvature", muscle, kCurvature, Unit::dimensionless, true,
-                   hill_bounds(kCurvature), beliefs::kCurvature.sd, "V_sh"},
-    ParameterField{"eccentric_curvature_product", muscle, kProduct, Unit::dimensionless, true,
-                   hill_bounds(kProduct), beliefs::kProduct.sd, "V_sh V_shl"},
+    ParameterField{"max_isometric_force", muscle, kMaxForce, Unit::newton, true, hill_bounds(kMaxForce),
+                   beliefs::kMaxForce.sd, "F_max"},
+    ParameterField{"optimal_fiber_length", muscle, kFiberLength, Unit::meter, false, hill_bounds(kFiberLength), 0.0,
+                   "l_m0"},
+    ParameterField{"force_length_width", muscle, kWidth, Unit::meter, false, hill_bounds(kWidth), 0.0, "l_msh"},
+    ParameterField{"concentric_curvature", muscle, kCurvature, Unit::dimensionless, true, hill_bounds(kCurvature),
+                   beliefs::kCurvature.sd, "V_sh"},
+    ParameterField{"eccentric_curvature_product", muscle, kProduct, Unit::dimensionless, true, hill_bounds(kProduct),
+                   beliefs::kProduct.sd, "V_sh V_shl"},
     ParameterField{"eccentric_slope_ratio",
                    muscle,
                    kSlopeRatio,
@@ -35,12 +32,11 @@ constexpr std::array kFields = {
                    {0.02, 100.0},
                    beliefs::kSlopeRatio.sd,
                    "S, slope of f_v in lengthening over that in shortening"},
-    ParameterField{"eccentric_plateau", muscle, kPlateau, Unit::dimensionless, false,
-                   hill_bounds(kPlateau), beliefs::kPlateau.sd, "V_ml"},
-    ParameterField{"max_shortening_speed", muscle, kSpeed, Unit::meter_per_second, true,
-                   hill_bounds(kSpeed), beliefs::kSpeed.sd, "v_max"},
-    ParameterField{"tendon_slack_length", muscle, kSlack, Unit::meter, false, hill_bounds(kSlack),
-                   0.0, "l_t0"},
+    ParameterField{"eccentric_plateau", muscle, kPlateau, Unit::dimensionless, false, hill_bounds(kPlateau),
+                   beliefs::kPlateau.sd, "V_ml"},
+    ParameterField{"max_shortening_speed", muscle, kSpeed, Unit::meter_per_second, true, hill_bounds(kSpeed),
+                   beliefs::kSpeed.sd, "v_max"},
+    ParameterField{"tendon_slack_length", muscle, kSlack, Unit::meter, false, hill_bounds(kSlack), 0.0, "l_t0"},
     ParameterField{"pennation_angle",
                    muscle,
                    kPennation,
@@ -100,16 +96,8 @@ constexpr std::array kFields = {
                    {0.1, 10.0},
                    beliefs::kActivationShare.sd,
                    "activation of a muscle over that of the electrode that serves it"},
-    ParameterField{
-        "emg_delay", channel, kDelay, Unit::second, false, {0.0, 0.15}, beliefs::kEmgDelay.sd, "d"},
-    ParameterField{"emg_gain",
-                   channel,
-                   kGain,
-                   Unit::dimensionless,
-                   true,
-                   {0.2, 5.0},
-                   beliefs::kEmgGain.sd,
-                   "g"},
+    ParameterField{"emg_delay", channel, kDelay, Unit::second, false, {0.0, 0.15}, beliefs::kEmgDelay.sd, "d"},
+    ParameterField{"emg_gain", channel, kGain, Unit::dimensionless, true, {0.2, 5.0}, beliefs::kEmgGain.sd, "g"},
     ParameterField{"emg_shape",
                    channel,
                    kShape,
@@ -194,16 +182,14 @@ constexpr std::array kFields = {
 std::span<const ParameterField> parameter_fields() { return kFields; }
 
 bool zero_by_nature(std::string_view parameter) {
-  return std::any_of(kFields.begin(), kFields.end(), [&](const ParameterField& field) {
-    return field.zero_by_nature && field.name == parameter;
-  });
+  return std::any_of(kFields.begin(), kFields.end(),
+                     [&](const ParameterField& field) { return field.zero_by_nature && field.name == parameter; });
 }
 
 bool is_lag(std::string_view parameter) {
   return std::any_of(kFields.begin(), kFields.end(), [&](const ParameterField& field) {
     return field.scope == Scope::channel && field.name == parameter &&
-           (field.field == kExcitationTime || field.field == kActivationTime ||
-            field.field == kDeactivationTime);
+           (field.field == kExcitationTime || field.field == kActivationTime || field.field == kDeactivationTime);
   });
 }
 

@@ -14,8 +14,7 @@ namespace myoid::identification {
 /// The kind of owner of a parameter.
 enum class Scope { muscle, channel, joint };
 
-/// Index of the unknown of the force-velocity relation from which V_sh V_shl follows; no
-/// MuscleValues entry.
+/// Index of the unknown of the force-velocity relation from which V_sh V_shl follows; no MuscleValues entry.
 inline constexpr int kSlopeRatio = kMuscleFieldCount;
 
 /// Indices of an EMG channel's numbers.
@@ -36,8 +35,7 @@ using ChannelValues = std::array<double, kChannelFieldCount>;
 enum JointField : int { kViscosity, kInertia, kStiffness, kOffset, kJointFieldCount };
 using JointValues = std::array<double, kJointFieldCount>;
 
-/// A number that can be identified, with name, unit and bounds. `parameter_fields` returns the
-/// table of all numbers.
+/// A number that can be identified, with name, unit and bounds. `parameter_fields` returns the table of all numbers.
 struct ParameterField {
   std::string_view name;
   Scope scope = Scope::muscle;

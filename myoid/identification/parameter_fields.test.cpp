@@ -31,8 +31,7 @@ TEST(ParameterFields, EveryNumberOfTheModelHasOneRowAndOneName) {
 TEST(ParameterFields, EveryOneHasABelief) {
   std::set<std::string_view> names;
   for (const Belief* belief : all_beliefs()) names.insert(belief->name);
-  for (const ParameterField& field : parameter_fields())
-    EXPECT_TRUE(names.contains(field.name)) << field.name;
+  for (const ParameterField& field : parameter_fields()) EXPECT_TRUE(names.contains(field.name)) << field.name;
 }
 
 TEST(ParameterFields, ANameThatIsNoneIsAnsweredWithThoseThatAre) {

@@ -17,19 +17,14 @@ using enum Scope;
 
 namespace {
 
-bool holds(const muscle::Range& range, double value) {
-  return value >= range.lower && value <= range.upper;
-}
+bool holds(const muscle::Range& range, double value) { return value >= range.lower && value <= range.upper; }
 
-/// Returns the bounds of l_sh in a fit with priors: the range of real muscles relative to the
-/// starting optimal fiber length. With little information a fit narrows the curve to a peak at the
-/// recording's few lengths and moves l0 there, where no interval is valid. A start outside the
-/// range keeps `otherwise`.
-muscle::Range width_bounds(const muscle::HillParameters<double>& start,
-                           const muscle::Range& otherwise) {
+/// Returns the bounds of l_sh in a fit with priors: the range of real muscles relative to the starting optimal fiber
+/// length. With little information a fit narrows the curve to a peak at the recording's few lengths and moves l0 there,
+/// where no interval is valid. A start outside the range keeps `otherwise`.
+muscle::Range width_bounds(const muscle::HillParameters<double>& start, const muscle::Range& otherwise) {
   const double l0_m = start.optimal_fiber_length_m;
-  const muscle::Range of_muscles{muscle::kRelativeWidths.lower * l0_m,
-                                 muscle::kRelativeWidths.upper * l0_m};
+  const muscle::Range of_muscles{muscle::kRelativeWidths.lower * l0_m, muscle::kRelativeWidths.upper * l0_m};
   return holds(of_muscles, start.force_length_width_m) ? of_muscles : otherwise;
 }
 
@@ -52,23 +47,17 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 /// Returns the slope ratio at a muscle's start that determines its product; 0: the product is free.
 double starting_slope_ratio(const MuscleSetup& setup, const EstimatorOptions& options) {
   if (options.eccentric == Eccentric::smooth) return 1.0;
-  const bool by_ratio = options.eccentric == Eccentric::slope_ratio ||
-                        (options.eccentric == Eccentric::automatic && options.priors &&
-                         setup.priors.contains("eccentric_slope_ratio"));
-  const double start =
-      setup.start.eccentric_plateau > 1.0 ? muscle::slope_ratio(setup.start.velocity_law()) : 0.0;
+  const bool by_ratio =
+      options.eccentric == Eccentric::slope_ratio ||
+      (options.eccentric == Eccentric::automatic && options.priors && setup.priors.contains("eccentric_slope_ratio"));
+  const double start = setup.start.eccentric_plateau > 1.0 ? muscle::slope_ratio(setup.start.velocity_law()) : 0.0;
   return by_ratio && start > 0.0 ? start : 0.0;
 }
 
-bool product_is_held(const MuscleSetup& setup) {
-  return contains(setup.fixed, "eccentric_curvature_product");
-}
+bool product_is_held(const MuscleSetup& setup) { return contains(setup.fixed, "eccentric_curvature_product"); }
 
 /// Returns true if a muscle's number is an unknown unless the study says otherwise.
-bool usually_free(int field,
-                  const MuscleSetup& setup,
-                  const EstimatorOptions& options,
-                  double slope_ratio) {
+bool usually_free(int field, const MuscleSetup& setup, const EstimatorOptions& options, double slope_ratio) {
   if (field == kProduct) return slope_ratio == 0.0;
   if (field == kSlopeRatio)
     return slope_ratio > 0.0 && !product_is_held(setup) && options.eccentric != Eccentric::smooth;
@@ -84,22 +73,19 @@ void decide_muscle(ParameterSlot& slot,
   const std::string name(slot.field->name);
   slot.value = field == kSlopeRatio ? slope_ratio : values[static_cast<std::size_t>(field)];
   const bool wanted = options.muscles.empty() || contains(options.muscles, setup.name);
-  slot.free =
-      wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio);
+  slot.free = wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio);
   if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
   if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;
   slot.prior_is_given = contains(setup.given_priors, name);
 }
 
-/// Decides the delay: one for all channels, with the first channel's as the unknown, unless each
-/// has its own.
+/// Decides the delay: one for all channels, with the first channel's as the unknown, unless each has its own.
 void decide_delay(ParameterSlot& slot, const EstimatorOptions& options, std::size_t channels) {
   slot.free = !options.delay_s;
   slot.prior = Prior{.mean = options.delay_prior_mean_s, .sd = options.delay_prior_sd_s};
   if (options.delay_per_channel) return;
   slot.follows = slot.owner > 0;
-  for (std::size_t c = 1; c < channels && !slot.follows; ++c)
-    slot.tied.push_back(static_cast<int>(c));
+  for (std::size_t c = 1; c < channels && !slot.follows; ++c) slot.tied.push_back(static_cast<int>(c));
 }
 
 /// Makes a gain an unknown if it has a prior.
@@ -118,13 +104,12 @@ std::vector<int> owners_of(const ParameterRule& rule, const std::vector<std::str
   for (const std::string& wanted : rule.owners) {
     const auto it = std::find(names.begin(), names.end(), wanted);
     if (it == names.end()) {
-      throw InvalidInput(fmt::format("parameter {}: there is no '{}'; there are {}", rule.parameter,
-                                     wanted, fmt::join(names, ", ")));
+      throw InvalidInput(
+          fmt::format("parameter {}: there is no '{}'; there are {}", rule.parameter, wanted, fmt::join(names, ", ")));
     }
     owners.push_back(static_cast<int>(it - names.begin()));
   }
-  for (std::size_t k = 0; k < names.size() && rule.owners.empty(); ++k)
-    owners.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < names.size() && rule.owners.empty(); ++k) owners.push_back(static_cast<int>(k));
   return owners;
 }
 
@@ -133,8 +118,7 @@ void use_slope_ratio(ParameterSlot& ratio, ParameterSlots& of_study) {
   if (!(ratio.value > 0.0)) ratio.value = 1.0;
   of_study.slope_ratio[static_cast<std::size_t>(ratio.owner)] = ratio.value;
   for (ParameterSlot& other : of_study.slots) {
-    if (other.owner == ratio.owner && other.field->scope == muscle &&
-        other.field->field == kProduct)
+    if (other.owner == ratio.owner && other.field->scope == muscle && other.field->field == kProduct)
       other.free = false;
   }
 }
@@ -178,8 +162,7 @@ ParameterSlots default_slots(const StudyData& data,
                              const ModelValues& values,
                              const OwnerNames& names) {
   ParameterSlots result;
-  for (const MuscleSetup& setup : data.muscles)
-    result.slope_ratio.push_back(starting_slope_ratio(setup, options));
+  for (const MuscleSetup& setup : data.muscles) result.slope_ratio.push_back(starting_slope_ratio(setup, options));
   for (const ParameterField& field : parameter_fields()) {
     for (std::size_t k = 0; k < names.of(field.scope).size(); ++k) {
       ParameterSlot slot;
@@ -200,23 +183,18 @@ ParameterSlots default_slots(const StudyData& data,
     }
   }
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-    if (product_is_held(data.muscles[k]) && options.eccentric != Eccentric::smooth)
-      result.slope_ratio[k] = 0.0;
+    if (product_is_held(data.muscles[k]) && options.eccentric != Eccentric::smooth) result.slope_ratio[k] = 0.0;
   }
   return result;
 }
 
-void apply_rules(const std::vector<ParameterRule>& rules,
-                 const OwnerNames& names,
-                 ParameterSlots& of_study) {
+void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& names, ParameterSlots& of_study) {
   for (const ParameterRule& rule : rules) {
     const ParameterField& field = parameter_field(rule.parameter);
     const std::vector<int> owners = owners_of(rule, names.of(field.scope));
     ParameterSlot* first = nullptr;
     for (ParameterSlot& slot : of_study.slots) {
-      if (slot.field != &field ||
-          std::find(owners.begin(), owners.end(), slot.owner) == owners.end())
-        continue;
+      if (slot.field != &field || std::find(owners.begin(), owners.end(), slot.owner) == owners.end()) continue;
       apply_rule(rule, slot, of_study);
       if (rule.tie) {
         slot.tied.clear();

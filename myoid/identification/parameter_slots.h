@@ -48,8 +48,6 @@ struct ParameterSlots {
 
 /// Applies the study's rules in order; later ones win. Throws InvalidInput for an owner or
 /// parameter that does not exist.
-void apply_rules(const std::vector<ParameterRule>& rules,
-                 const OwnerNames& names,
-                 ParameterSlots& of_study);
+void apply_rules(const std::vector<ParameterRule>& rules, const OwnerNames& names, ParameterSlots& of_study);
 
 }  // namespace myoid::identification

@@ -30,15 +30,13 @@ struct TwoMuscles {
   static std::set<std::string> free_names(const ParameterSlots& of, int owner) {
     std::set<std::string> result;
     for (const ParameterSlot& s : of.slots) {
-      if (s.free && s.owner == owner && s.field->scope == Scope::muscle)
-        result.insert(std::string(s.field->name));
+      if (s.free && s.owner == owner && s.field->scope == Scope::muscle) result.insert(std::string(s.field->name));
     }
     return result;
   }
   static const ParameterSlot& slot(const ParameterSlots& of, const std::string& name, int owner) {
-    return *std::find_if(of.slots.begin(), of.slots.end(), [&](const ParameterSlot& s) {
-      return s.owner == owner && s.field->name == name;
-    });
+    return *std::find_if(of.slots.begin(), of.slots.end(),
+                         [&](const ParameterSlot& s) { return s.owner == owner && s.field->name == name; });
   }
   StudyData data;
   ModelValues values;
@@ -48,9 +46,8 @@ struct TwoMuscles {
 TEST(ParameterSlots, TheSixNumbersOfTheSourcePaperAreFreeAndOneDelayForAll) {
   const TwoMuscles two;
   const ParameterSlots found = two.slots();
-  const std::set<std::string> six{"max_isometric_force", "optimal_fiber_length",
-                                  "force_length_width",  "concentric_curvature",
-                                  "eccentric_plateau",   "eccentric_curvature_product"};
+  const std::set<std::string> six{"max_isometric_force",  "optimal_fiber_length", "force_length_width",
+                                  "concentric_curvature", "eccentric_plateau",    "eccentric_curvature_product"};
   EXPECT_EQ(TwoMuscles::free_names(found, 0), six);
   EXPECT_EQ(TwoMuscles::free_names(found, 1), six);
   EXPECT_TRUE(TwoMuscles::slot(found, "emg_delay", 0).free);
@@ -91,16 +88,13 @@ TEST(ParameterSlots, AWidthStaysWithinWhatMusclesHave) {
 TEST(ParameterSlots, WhatTheStudySaysOfAWidthWins) {
   const muscle::Range any = parameter_field("force_length_width").bounds;
   const muscle::Range given{0.010, 0.030};
-  const ParameterRule stated{
-      .parameter = "force_length_width", .owners = {"BIC"}, .value = 0.012, .prior_sd = 0.002};
-  const ParameterRule believed{
-      .parameter = "force_length_width", .owners = {"BIC"}, .prior_mean = 0.012};
+  const ParameterRule stated{.parameter = "force_length_width", .owners = {"BIC"}, .value = 0.012, .prior_sd = 0.002};
+  const ParameterRule believed{.parameter = "force_length_width", .owners = {"BIC"}, .prior_mean = 0.012};
   expect_bounds({.of_muscle = given}, 0.010, 0.030);
   expect_bounds({.rules = {stated}}, any.lower, any.upper);
   expect_bounds({.rules = {believed}}, any.lower, any.upper);
   expect_bounds({.of_muscle = given, .rules = {stated}}, 0.010, 0.030);
-  expect_bounds({.rules = {{.parameter = "force_length_width", .owners = {}, .lower = 0.015}}},
-                0.015, 0.1);
+  expect_bounds({.rules = {{.parameter = "force_length_width", .owners = {}, .lower = 0.015}}}, 0.015, 0.1);
 }
 
 TEST(ParameterSlots, AMuscleMayHoldWhatOthersFree) {
@@ -122,8 +116,7 @@ TEST(ParameterSlots, LaterRulesWinAndReachOnlyTheirOwners) {
 
 TEST(ParameterSlots, TheSlopeRatioTakesThePlaceOfTheProduct) {
   const TwoMuscles two;
-  const ParameterSlots found =
-      two.slots({{.parameter = "eccentric_slope_ratio", .owners = {"BIC"}, .free = true}});
+  const ParameterSlots found = two.slots({{.parameter = "eccentric_slope_ratio", .owners = {"BIC"}, .free = true}});
   EXPECT_FALSE(TwoMuscles::slot(found, "eccentric_curvature_product", 0).free);
   EXPECT_TRUE(TwoMuscles::slot(found, "eccentric_curvature_product", 1).free);
   EXPECT_GT(found.slope_ratio[0], 0.0);
@@ -132,8 +125,7 @@ TEST(ParameterSlots, TheSlopeRatioTakesThePlaceOfTheProduct) {
 
 TEST(ParameterSlots, ADelayFreedByNameLeavesTheCommonOne) {
   const TwoMuscles two;
-  const ParameterSlots found =
-      two.slots({{.parameter = "emg_delay", .owners = {"TRI"}, .free = true}});
+  const ParameterSlots found = two.slots({{.parameter = "emg_delay", .owners = {"TRI"}, .free = true}});
   EXPECT_TRUE(TwoMuscles::slot(found, "emg_delay", 0).tied.empty());
   EXPECT_FALSE(TwoMuscles::slot(found, "emg_delay", 1).follows);
 }

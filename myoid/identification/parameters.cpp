@@ -14,23 +14,21 @@ namespace {
 
 using enum Scope;
 
-double scaled(const ParameterField& field, double value) {
-  return field.logarithmic ? std::log(value) : value;
-}
+double scaled(const ParameterField& field, double value) { return field.logarithmic ? std::log(value) : value; }
 
 /// Throws InvalidInput where a number cannot start at this value.
 void check_start(const ParameterSlot& slot, const std::string& owner) {
   const ParameterField& field = *slot.field;
   if (field.logarithmic && !(slot.value > 0.0)) {
-    throw InvalidInput(fmt::format("{} of {} starts at {}; give it a positive start to identify it",
-                                   field.name, owner, slot.value));
+    throw InvalidInput(
+        fmt::format("{} of {} starts at {}; give it a positive start to identify it", field.name, owner, slot.value));
   }
   // Given bounds may be wider than the field's, for example for a rat's muscle.
   const double least = std::min(field.bounds.lower, slot.bounds.lower);
   const double most = std::max(field.bounds.upper, slot.bounds.upper);
   if (slot.value < least || slot.value > most) {
-    throw InvalidInput(fmt::format("{}.{} starts at {} {}, where no muscle can be: {} to {}", owner,
-                                   field.name, slot.value, symbol(field.unit), least, most));
+    throw InvalidInput(fmt::format("{}.{} starts at {} {}, where no muscle can be: {} to {}", owner, field.name,
+                                   slot.value, symbol(field.unit), least, most));
   }
 }
 
@@ -49,27 +47,24 @@ Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool pri
   p.field = &field;
   p.owner = owner;
   p.label = fmt::format("{}.{}", owner, field.name);
-  p.bounds.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9)
-                                                                 : scaled(field, slot.bounds.lower);
+  p.bounds.lower = field.logarithmic && slot.bounds.lower <= 0.0 ? std::log(1e-9) : scaled(field, slot.bounds.lower);
   p.bounds.upper = scaled(field, slot.bounds.upper);
   if (!(p.bounds.lower <= p.bounds.upper)) {
-    throw InvalidInput(fmt::format("{}: lower bound {} above upper bound {}", p.label,
-                                   slot.bounds.lower, slot.bounds.upper));
+    throw InvalidInput(
+        fmt::format("{}: lower bound {} above upper bound {}", p.label, slot.bounds.lower, slot.bounds.upper));
   }
   p.lower_is_given = slot.bounds.lower > slot.usual.lower;
   p.upper_is_given = slot.bounds.upper < slot.usual.upper;
   p.prior_is_given = slot.prior_is_given;
   const bool with_prior = priors && slot.prior;
   if (with_prior) p.prior = scaled_prior(field, *slot.prior);
-  const double start =
-      with_prior && !slot.start_is_given ? p.prior.mean : scaled(field, slot.value);
+  const double start = with_prior && !slot.start_is_given ? p.prior.mean : scaled(field, slot.value);
   p.start = std::clamp(start, p.bounds.lower, p.bounds.upper);
   return p;
 }
 
 /// Returns the muscles' slots, muscle by muscle, and then the others.
-std::vector<const ParameterSlot*> in_order(const std::vector<ParameterSlot>& slots,
-                                           std::size_t muscles) {
+std::vector<const ParameterSlot*> in_order(const std::vector<ParameterSlot>& slots, std::size_t muscles) {
   std::vector<const ParameterSlot*> order;
   for (std::size_t k = 0; k < muscles; ++k) {
     for (const ParameterSlot& slot : slots) {
@@ -90,17 +85,14 @@ double value_of(const std::vector<ParameterSlot>& slots, const ParameterField& f
 }
 
 /// Returns the unknowns of the free slots in the solver's order.
-std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots,
-                                 const OwnerNames& owners,
-                                 bool priors) {
+std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots, const OwnerNames& owners, bool priors) {
   std::vector<Unknown> free;
   for (const ParameterSlot* slot : in_order(slots, owners.muscles.size())) {
     if (!slot->free || slot->follows) continue;
     const std::vector<std::string>& names = owners.of(slot->field->scope);
     std::string owner = names[static_cast<std::size_t>(slot->owner)];
     for (const int other : slot->tied) owner += "+" + names[static_cast<std::size_t>(other)];
-    if (slot->field->scope == channel && slot->tied.size() + 1 == names.size() &&
-        slot->field->field == kDelay)
+    if (slot->field->scope == channel && slot->tied.size() + 1 == names.size() && slot->field->field == kDelay)
       owner = "subject";
     Unknown p = unknown_of(*slot, owner, priors);
     p.targets.push_back({slot->owner, 1.0});
@@ -116,9 +108,7 @@ std::vector<Unknown> unknowns_of(const std::vector<ParameterSlot>& slots,
 using Chains = std::vector<ParameterMap::Chain>;
 
 /// Returns the variables that move a muscle's number, each with its slope.
-std::vector<std::pair<Eigen::Index, double>> slopes_of(const Chains& chains,
-                                                       int muscle,
-                                                       int field) {
+std::vector<std::pair<Eigen::Index, double>> slopes_of(const Chains& chains, int muscle, int field) {
   std::vector<std::pair<Eigen::Index, double>> found;
   for (const ParameterMap::Chain& chain : chains) {
     if (chain.scope == Scope::muscle && chain.owner == muscle && chain.field == field)
@@ -127,20 +117,17 @@ std::vector<std::pair<Eigen::Index, double>> slopes_of(const Chains& chains,
   return found;
 }
 
-/// Scales width and v_max of a muscle with its fiber length, which starts at `held_length_m`.
-/// `chains` may be null.
+/// Scales width and v_max of a muscle with its fiber length, which starts at `held_length_m`. `chains` may be null.
 void scale_with_length(MuscleValues& m, int owner, double held_length_m, Chains* chains) {
   const double grown = m[kFiberLength] / held_length_m;
   for (const MuscleField field : {kWidth, kSpeed}) {
     const double unscaled = m[static_cast<std::size_t>(field)];
     if (chains != nullptr) {
       for (ParameterMap::Chain& chain : *chains) {
-        if (chain.scope == Scope::muscle && chain.owner == owner && chain.field == field)
-          chain.slope *= grown;
+        if (chain.scope == Scope::muscle && chain.owner == owner && chain.field == field) chain.slope *= grown;
       }
       for (const auto& [variable, slope] : slopes_of(*chains, owner, kFiberLength))
-        chains->push_back(
-            {Scope::muscle, owner, field, variable, unscaled / held_length_m * slope});
+        chains->push_back({Scope::muscle, owner, field, variable, unscaled / held_length_m * slope});
     }
     m[static_cast<std::size_t>(field)] = unscaled * grown;
   }
@@ -161,16 +148,13 @@ void set_product(MuscleValues& m, int owner, const SlopeRatio& ratio, Chains* ch
   m[kProduct] = std::max(m[kProduct], 1e-12);
   if (chains == nullptr) return;
   for (const auto& [variable, slope] : slopes_of(*chains, owner, kCurvature)) {
-    chains->push_back(
-        {Scope::muscle, owner, kProduct, variable, slope * m[kProduct] / (vsh * (1.0 + vsh))});
+    chains->push_back({Scope::muscle, owner, kProduct, variable, slope * m[kProduct] / (vsh * (1.0 + vsh))});
   }
   for (const auto& [variable, slope] : slopes_of(*chains, owner, kPlateau)) {
-    chains->push_back(
-        {Scope::muscle, owner, kProduct, variable,
-         slope * (rise > 0.0 ? m[kProduct] / rise : vsh / (ratio.value * (1.0 + vsh)))});
+    chains->push_back({Scope::muscle, owner, kProduct, variable,
+                       slope * (rise > 0.0 ? m[kProduct] / rise : vsh / (ratio.value * (1.0 + vsh)))});
   }
-  if (ratio.variable >= 0)
-    chains->push_back({Scope::muscle, owner, kProduct, ratio.variable, -m[kProduct]});
+  if (ratio.variable >= 0) chains->push_back({Scope::muscle, owner, kProduct, ratio.variable, -m[kProduct]});
 }
 
 }  // namespace
@@ -182,12 +166,9 @@ bool Unknown::acts_on(int target_owner) const {
                      [&](const Target& target) { return target.owner == target_owner; });
 }
 
-double Unknown::prior_precision() const {
-  return prior.sd > 0.0 ? 1.0 / (prior.sd * prior.sd) : 0.0;
-}
+double Unknown::prior_precision() const { return prior.sd > 0.0 ? 1.0 / (prior.sd * prior.sd) : 0.0; }
 
-ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& options)
-    : normalised_(options.normalised) {
+ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& options) : normalised_(options.normalised) {
   for (const MuscleSetup& setup : data.muscles) {
     held_.muscles.push_back(muscle_values(setup.start, setup.extras));
     const auto it = std::find(channels_.begin(), channels_.end(), setup.emg_channel);
@@ -219,8 +200,7 @@ void ParameterMap::hold(const std::vector<ParameterSlot>& slots) {
   for (const ParameterSlot& slot : slots) {
     const auto k = static_cast<std::size_t>(slot.owner);
     const auto f = static_cast<std::size_t>(slot.field->field);
-    if (slot.field->scope == muscle && slot.field->field != kSlopeRatio)
-      held_.muscles[k][f] = slot.value;
+    if (slot.field->scope == muscle && slot.field->field != kSlopeRatio) held_.muscles[k][f] = slot.value;
     if (slot.field->scope == muscle && slot.field->field == kSlopeRatio && slope_ratio_[k] > 0.0)
       slope_ratio_[k] = slot.value;
     if (slot.field->scope == channel) held_.channels[k][f] = slot.value;
@@ -255,8 +235,7 @@ ModelValues ParameterMap::values(const Eigen::VectorXd& z, std::vector<Chain>* c
       if (p.field->scope == joint) result.joints[k][f] = target.ratio * value;
       if (p.field->scope == muscle) result.muscles[k][f] = target.ratio * value;
       if (chains != nullptr)
-        chains->push_back(
-            {p.field->scope, target.owner, p.field->field, variable, target.ratio * slope});
+        chains->push_back({p.field->scope, target.owner, p.field->field, variable, target.ratio * slope});
     }
   }
   for (std::size_t k = 0; k < ratio.size(); ++k) {

@@ -31,9 +31,7 @@ struct Unknown {
   bool upper_is_given = false;
 
   [[nodiscard]] double to_value(double z) const;
-  [[nodiscard]] bool is(Scope scope, int number) const {
-    return field->scope == scope && field->field == number;
-  }
+  [[nodiscard]] bool is(Scope scope, int number) const { return field->scope == scope && field->field == number; }
   [[nodiscard]] bool acts_on(int target_owner) const;
   /// Returns 1 / sd² of the prior; 0 without a prior.
   [[nodiscard]] double prior_precision() const;
@@ -50,9 +48,7 @@ class ParameterMap {
   [[nodiscard]] Eigen::VectorXd start() const;
   [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
   [[nodiscard]] const std::vector<std::string>& joints() const { return joints_; }
-  [[nodiscard]] int channel_of_muscle(std::size_t muscle) const {
-    return channel_of_muscle_[muscle];
-  }
+  [[nodiscard]] int channel_of_muscle(std::size_t muscle) const { return channel_of_muscle_[muscle]; }
   [[nodiscard]] double longest_delay_s() const { return longest_delay_s_; }
 
   /// The derivative d value / d z of a number of the model.
@@ -63,8 +59,7 @@ class ParameterMap {
     Eigen::Index variable = 0;
     double slope = 1.0;
   };
-  [[nodiscard]] ModelValues values(const Eigen::VectorXd& z,
-                                   std::vector<Chain>* chains = nullptr) const;
+  [[nodiscard]] ModelValues values(const Eigen::VectorXd& z, std::vector<Chain>* chains = nullptr) const;
   /// Returns the values at the start, before identification.
   [[nodiscard]] const ModelValues& held() const { return held_; }
 

@@ -49,8 +49,8 @@ TEST(Rules, TieFixBoundAndFreeWhatTheyName) {
   fix.value = 0.33;
   study.data.rules = {tie, fix, freed("max_shortening_speed", {"BRD"})};
   study.data.rules.back().upper = 3.0;
-  const IdentificationResult r = identify_torque(
-      study.data, {.priors = false, .delay_s = 0.05, .weights = false, .starts = 1});
+  const IdentificationResult r =
+      identify_torque(study.data, {.priors = false, .delay_s = 0.05, .weights = false, .starts = 1});
   const auto& start = study.data.muscles;
   EXPECT_NEAR(r.muscles[0].max_isometric_force_n / start[0].start.max_isometric_force_n,
               r.muscles[1].max_isometric_force_n / start[1].start.max_isometric_force_n, 1e-12);
@@ -70,9 +70,8 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
   ElbowStudy study = elbow_study({.trials = 3, .seconds = 20.0});
   ModelValues truth;
   for (std::size_t k = 0; k < 4; ++k) {
-    truth.muscles.push_back(muscle_values(
-        study.truth[k],
-        {.pennation_angle_rad = 0.0, .passive_force = 0.8, .length_activation = 0.12}));
+    truth.muscles.push_back(
+        muscle_values(study.truth[k], {.pennation_angle_rad = 0.0, .passive_force = 0.8, .length_activation = 0.12}));
   }
   truth.channels.assign(4, {study.delay_s, 1.0, -0.8, 0.04, 0.015, 0.05, 1.3});
   truth.joints.assign(1, {0.6, 0.0, 0.0, 0.4});
@@ -84,19 +83,16 @@ TEST(Rules, WhatThePapersLawLeavesOutIsFoundWhereItIsInTheData) {
     trial.acceleration_radps2 = Eigen::VectorXd::Zero(n);
     trial.torque_nm = predict(study.data, trial, truth, EmgLag::delay).torque_nm;
   }
-  for (MuscleSetup& setup : study.data.muscles)
-    setup.extras = {.passive_force = 0.6, .length_activation = 0.10};
-  study.data.rules = {freed("passive_force"),   freed("length_activation"),
-                      freed("emg_shape"),       freed("emg_exponent"),
-                      freed("joint_viscosity"), freed("joint_torque_offset")};
+  for (MuscleSetup& setup : study.data.muscles) setup.extras = {.passive_force = 0.6, .length_activation = 0.10};
+  study.data.rules = {freed("passive_force"), freed("length_activation"), freed("emg_shape"),
+                      freed("emg_exponent"),  freed("joint_viscosity"),   freed("joint_torque_offset")};
   const IdentificationResult r =
       identify_torque(study.data, {.priors = false, .residual_cutoff_hz = {}, .weights = false});
   ASSERT_EQ(r.termination, math::Termination::converged) << r.message;
   for (std::size_t k = 0; k < 4; ++k) {
     for (const MuscleField f : {kMaxForce, kFiberLength, kLengthActivation, kPassiveForce}) {
       const double value = truth.muscles[k][static_cast<std::size_t>(f)];
-      EXPECT_NEAR(r.values.muscles[k][static_cast<std::size_t>(f)], value, 1e-4 * value)
-          << k << " " << f;
+      EXPECT_NEAR(r.values.muscles[k][static_cast<std::size_t>(f)], value, 1e-4 * value) << k << " " << f;
     }
     EXPECT_NEAR(r.values.channels[k][kShape], -0.8, 1e-4);
     EXPECT_NEAR(r.values.channels[k][kExponent], 1.3, 1e-4);

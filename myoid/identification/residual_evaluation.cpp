@@ -19,8 +19,7 @@ struct ResidualModel::Chains {
   std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
 };
 
-ResidualModel::Chains ResidualModel::chains_by_owner(
-    const std::vector<ParameterMap::Chain>& chains) const {
+ResidualModel::Chains ResidualModel::chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const {
   Chains by;
   by.of_muscle.resize(map_.held().muscles.size());
   by.of_channel.resize(map_.channels().size());
@@ -51,17 +50,15 @@ const std::vector<MuscleRows>& ResidualModel::evaluate_muscles(const Block& bloc
   rows.resize(values.muscles.size());
   std::vector<std::vector<Activation>> activations;
   for (std::size_t c = 0; c < block.envelopes.size(); ++c) {
-    const bool with_exponent =
-        std::any_of(chains.of_channel[c].begin(), chains.of_channel[c].end(),
-                    [](const ParameterMap::Chain& chain) { return chain.field == kExponent; });
-    activations.push_back(
-        activation(block.envelopes[c], block.time_s, values.channels[c], lag_, with_exponent));
+    const bool with_exponent = std::any_of(chains.of_channel[c].begin(), chains.of_channel[c].end(),
+                                           [](const ParameterMap::Chain& chain) { return chain.field == kExponent; });
+    activations.push_back(activation(block.envelopes[c], block.time_s, values.channels[c], lag_, with_exponent));
   }
   for (std::size_t k = 0; k < values.muscles.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const auto c = static_cast<std::size_t>(map_.channel_of_muscle(k));
-    evaluate_muscle(activations[c], block.length_m.col(column), block.velocity_mps.col(column),
-                    values.muscles[k], chains.of_muscle[k], chains.of_channel[c], rows[k]);
+    evaluate_muscle(activations[c], block.length_m.col(column), block.velocity_mps.col(column), values.muscles[k],
+                    chains.of_muscle[k], chains.of_channel[c], rows[k]);
   }
   return rows;
 }
@@ -85,8 +82,8 @@ void ResidualModel::add_torques(const Block& block,
     }
     const JointValues& p = values.joints[static_cast<std::size_t>(joint.joint)];
     if (joint.motion.size() > 0) {
-      torque -= p[kViscosity] * joint.motion.col(1) + p[kInertia] * joint.motion.col(2) +
-                p[kStiffness] * joint.motion.col(0);
+      torque -=
+          p[kViscosity] * joint.motion.col(1) + p[kInertia] * joint.motion.col(2) + p[kStiffness] * joint.motion.col(0);
     }
     torque.array() += p[kOffset];
     if (joint.resting_nm.size() > 0) torque += joint.resting_nm;
@@ -159,8 +156,7 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
     for (const ResidualJoint& joint : block.joints) {
       std::vector<SignalRow> rows{{out.predicted.data() + joint.first, 1}};
       for (Eigen::Index r = 0; gradient && r < out.gradient.rows(); ++r)
-        rows.push_back(
-            {out.gradient.data() + joint.first * out.gradient.rows() + r, out.gradient.rows()});
+        rows.push_back({out.gradient.data() + joint.first * out.gradient.rows() + r, out.gradient.rows()});
       filter_rows(block.filter, rows, block.time_s.size());
     }
   });
@@ -173,10 +169,10 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
   std::vector<ParameterMap::Chain> all;
   const ModelValues values = map_.values(z, &all);
   const Chains chains = chains_by_owner(all);
-  PullBack rows{.predicted = Eigen::VectorXd::Zero(measured_.size()),
-                .channel_torque = Eigen::MatrixXd::Zero(
-                    static_cast<Eigen::Index>(map_.channels().size()), measured_.size()),
-                .by_predicted = Eigen::VectorXd::Zero(measured_.size())};
+  PullBack rows{
+      .predicted = Eigen::VectorXd::Zero(measured_.size()),
+      .channel_torque = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size()),
+      .by_predicted = Eigen::VectorXd::Zero(measured_.size())};
   const auto count = static_cast<Eigen::Index>(blocks_.size());
   Eigen::MatrixXd by_block_prediction = Eigen::MatrixXd::Zero(map_.size(), count);
   Eigen::MatrixXd by_block_channel = Eigen::MatrixXd::Zero(map_.size(), count);
@@ -191,12 +187,9 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
     for (const ResidualJoint& joint : block.joints) {
       filter_rows(block.filter, {{rows.predicted.data() + joint.first, 1}}, n);
       weigh(joint.piece, rows);
-      by_torque.push_back(
-          transposed_filter(block.filter, rows.by_predicted.segment(joint.first, n)));
-      for (const ParameterMap::Chain& chain :
-           chains.of_joint[static_cast<std::size_t>(joint.joint)])
-        prediction[chain.variable] +=
-            chain.slope * joint.by_field(chain.field, n).dot(by_torque.back());
+      by_torque.push_back(transposed_filter(block.filter, rows.by_predicted.segment(joint.first, n)));
+      for (const ParameterMap::Chain& chain : chains.of_joint[static_cast<std::size_t>(joint.joint)])
+        prediction[chain.variable] += chain.slope * joint.by_field(chain.field, n).dot(by_torque.back());
     }
     Eigen::MatrixXd by_force(n, 2);
     for (std::size_t k = 0; k < muscles.size(); ++k) {
@@ -206,15 +199,13 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
         const ResidualJoint& joint = block.joints[j];
         const auto arm = joint.arm_m.col(static_cast<Eigen::Index>(k));
         by_force.col(0) += arm.cwiseProduct(by_torque[j]);
-        by_force.col(1) +=
-            arm.cwiseProduct(rows.channel_torque.row(c).segment(joint.first, n).transpose());
+        by_force.col(1) += arm.cwiseProduct(rows.channel_torque.row(c).segment(joint.first, n).transpose());
       }
       const MuscleRows& m = muscles[k];
       const Eigen::MatrixXd sums = m.by_variable * by_force;
       for (std::size_t v = 0; v < m.variables.size(); ++v) {
         prediction[m.variables[v]] += sums(static_cast<Eigen::Index>(v), 0);
-        if (channel_of_variable(m.variables[v]) == c)
-          channel[m.variables[v]] += sums(static_cast<Eigen::Index>(v), 1);
+        if (channel_of_variable(m.variables[v]) == c) channel[m.variables[v]] += sums(static_cast<Eigen::Index>(v), 1);
       }
     }
   });

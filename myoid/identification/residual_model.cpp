@@ -24,25 +24,21 @@ Eigen::VectorXd noise_gains(const ResidualBlock& block,
     // The noise subtracted from an envelope that another program computed is unknown.
     const auto bandwidth = options.emg_bandwidth_hz.find(channels[c]);
     const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
-    gains[static_cast<Eigen::Index>(c)] =
-        identification::noise_gain(block.envelopes[c], block.time_s[0] - delay_s,
-                                   block.time_s[block.time_s.size() - 1] - delay_s,
-                                   raw && rest != options.emg_rest.end() ? rest->second : 0.0,
-                                   envelope_spread(options, channels[c]));
+    gains[static_cast<Eigen::Index>(c)] = identification::noise_gain(
+        block.envelopes[c], block.time_s[0] - delay_s, block.time_s[block.time_s.size() - 1] - delay_s,
+        raw && rest != options.emg_rest.end() ? rest->second : 0.0, envelope_spread(options, channels[c]));
   }
   return gains;
 }
 
-/// Throws InvalidInput if a joint's own viscosity, inertia or stiffness is an unknown and its
-/// motion is not given.
+/// Throws InvalidInput if a joint's own viscosity, inertia or stiffness is an unknown and its motion is not given.
 void check_motion(const ResidualBlock& block, const ParameterMap& map, const std::string& trial) {
   for (const Unknown& p : map.free()) {
     if (p.field->scope != Scope::joint || p.field->field == kOffset) continue;
     for (const ResidualJoint& joint : block.joints) {
       if (joint.motion.size() == 0) {
-        throw InvalidInput(fmt::format("{}: the motion of joint '{}' is not given for trial '{}'",
-                                       p.label, map.joints()[static_cast<std::size_t>(joint.joint)],
-                                       trial));
+        throw InvalidInput(fmt::format("{}: the motion of joint '{}' is not given for trial '{}'", p.label,
+                                       map.joints()[static_cast<std::size_t>(joint.joint)], trial));
       }
     }
   }
@@ -52,9 +48,8 @@ void check_motion(const ResidualBlock& block, const ParameterMap& map, const std
 
 double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
   const auto known = options.emg_bandwidth_hz.find(channel);
-  const double bandwidth_hz = known != options.emg_bandwidth_hz.end() && known->second > 0.0
-                                  ? known->second
-                                  : beliefs::kEmgBandwidth.value;
+  const double bandwidth_hz =
+      known != options.emg_bandwidth_hz.end() && known->second > 0.0 ? known->second : beliefs::kEmgBandwidth.value;
   return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
 }
 
@@ -70,8 +65,7 @@ ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& opti
   for (const Unknown& p : map_.free()) {
     int channel = -1;
     for (const Unknown::Target& target : p.targets) {
-      const int here = p.field->scope == Scope::muscle
-                           ? map_.channel_of_muscle(static_cast<std::size_t>(target.owner))
+      const int here = p.field->scope == Scope::muscle ? map_.channel_of_muscle(static_cast<std::size_t>(target.owner))
                        : p.field->scope == Scope::channel ? target.owner
                                                           : -1;
       channel = &target == &p.targets.front() || here == channel ? here : -1;
@@ -80,8 +74,7 @@ ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& opti
     channel_of_variable_.push_back(channel);
   }
   if (pieces_.empty()) {
-    throw InvalidInput(
-        "identification: no calibration sample is left; EMG and motion must overlap in time");
+    throw InvalidInput("identification: no calibration sample is left; EMG and motion must overlap in time");
   }
 }
 
@@ -93,8 +86,8 @@ void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorO
   }
   const double span = trial.time_s[all - 1] - trial.time_s[0];
   const double interval = span / static_cast<double>(all - 1);
-  const auto stride = std::max<Eigen::Index>(
-      1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
+  const auto stride =
+      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
   // Leaves out the ends of a trial, where splines and filters are unreliable and the delay reaches
   // beyond the recorded EMG.
   const double edge_s = std::min(0.1, 0.02 * span);
@@ -130,14 +123,12 @@ struct ResidualModel::JointRecording {
   const Eigen::VectorXd& resting_nm;
 };
 
-void ResidualModel::add_joint(Block& block,
-                              const JointRecording& of,
-                              const std::vector<Eigen::Index>& rows) {
+void ResidualModel::add_joint(Block& block, const JointRecording& of, const std::vector<Eigen::Index>& rows) {
   const Eigen::Index all = of.torque_nm.size();
   const auto n = static_cast<Eigen::Index>(rows.size());
   ResidualJoint joint;
-  joint.joint = static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), of.name) -
-                                 map_.joints().begin());
+  joint.joint =
+      static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), of.name) - map_.joints().begin());
   joint.piece = pieces_.size();
   joint.first = measured_.size();
   joint.arm_m = of.arm_m(rows, Eigen::all);
@@ -170,30 +161,27 @@ void ResidualModel::add_block(const StudyData& data,
   block.time_s = trial.time_s(rows);
   block.length_m = trial.length_m(rows, Eigen::all);
   block.velocity_mps = trial.velocity_mps(rows, Eigen::all);
-  const double rate =
-      static_cast<double>(n - 1) / (trial.time_s[rows.back()] - trial.time_s[rows.front()]);
+  const double rate = static_cast<double>(n - 1) / (trial.time_s[rows.back()] - trial.time_s[rows.front()]);
   rate_hz_ = std::max(rate_hz_, rate);
   if (options.residual_cutoff_hz && n >= 4 && *options.residual_cutoff_hz < 0.45 * rate) {
     block.filter = math::design_butterworth(
         math::FilterBand::low_pass, 2,
-        math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, *options.residual_cutoff_hz, rate),
-        rate);
+        math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, *options.residual_cutoff_hz, rate), rate);
   }
-  const double emg_rate =
-      static_cast<double>(clock.size() - 1) / (clock[clock.size() - 1] - clock[0]);
+  const double emg_rate = static_cast<double>(clock.size() - 1) / (clock[clock.size() - 1] - clock[0]);
   const auto apart = static_cast<Eigen::Index>(std::lround(n > 1 ? emg_rate / rate : 1.0));
   for (const std::string& channel : map_.channels())
     block.envelopes.emplace_back(clock, trial.activation.column(channel), apart);
   block.noise_gain = noise_gains(block, map_.channels(), options);
 
   add_joint(block,
-            {trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad,
-             trial.velocity_radps, trial.acceleration_radps2, trial.resting_nm},
+            {trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad, trial.velocity_radps,
+             trial.acceleration_radps2, trial.resting_nm},
             rows);
   for (const JointData& joint : trial.more_joints)
     add_joint(block,
-              {joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad,
-               joint.velocity_radps, joint.acceleration_radps2, joint.resting_nm},
+              {joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad, joint.velocity_radps,
+               joint.acceleration_radps2, joint.resting_nm},
               rows);
   check_motion(block, map_, trial.name);
   blocks_.push_back(std::move(block));
@@ -202,8 +190,7 @@ void ResidualModel::add_block(const StudyData& data,
 std::vector<Eigen::Index> ResidualModel::rows_of_joint(int joint) const {
   std::vector<Eigen::Index> rows;
   for (const Piece& piece : pieces_) {
-    for (Eigen::Index i = 0; piece.joint == joint && i < piece.count; ++i)
-      rows.push_back(piece.first + i);
+    for (Eigen::Index i = 0; piece.joint == joint && i < piece.count; ++i) rows.push_back(piece.first + i);
   }
   return rows;
 }

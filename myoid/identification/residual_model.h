@@ -71,27 +71,24 @@ class ResidualModel {
   enum class Depth { value, gradient, noise };
   void evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& out) const;
 
-  /// Computes two products with Evaluation's matrices in half of the time, without the matrices:
-  /// `by_prediction` = gradient * by_predicted and, for a variable j with a channel c of its own,
-  /// `by_channel`[j] = the sum over i of unfiltered(j, i) * channel_torque(c, i), else 0; p each.
-  /// Calls `weigh(piece, rows)` once for each of `pieces()`, from several threads. `weigh` reads
-  /// `predicted` and `channel_torque` of the piece's rows, sets their `by_predicted` and replaces
-  /// the torques by the weights.
+  /// Computes two products with Evaluation's matrices in half of the time, without the matrices: `by_prediction` =
+  /// gradient * by_predicted and, for a variable j with a channel c of its own, `by_channel`[j] = the sum over i of
+  /// unfiltered(j, i) * channel_torque(c, i), else 0; p each. Calls `weigh(piece, rows)` once for each of `pieces()`,
+  /// from several threads. `weigh` reads `predicted` and `channel_torque` of the piece's rows, sets their
+  /// `by_predicted` and replaces the torques by the weights.
   void pull_back(const Eigen::VectorXd& z,
                  const std::function<void(std::size_t piece, PullBack& rows)>& weigh,
                  Eigen::VectorXd& by_prediction,
                  Eigen::VectorXd& by_channel) const;
 
-  /// Returns the shapes of the model's error. For each muscle they are its torque times 1, the
-  /// Legendre polynomials P1 to P3 of its length over the recorded range, ln(activation) / 2.3 + 1
-  /// (a non-linear EMG), its speed over the greatest, and its change within 0.15 s (a delay of its
-  /// own). For each joint they are 1 and P1 of the first muscle's length, scaled by the torque
-  /// (passive torque). Errors of moment arms, force-length curves, tendons, passive tissue,
-  /// non-linear EMG and motion under the skin are smooth in these. A shape that is itself an
-  /// unknown of the fit has weight 0, lest it counts twice: 1 where the gain of the muscle's own
-  /// electrode is an unknown (or F_max, for a measured force, which involves no moment arm),
-  /// ln(activation) where the exponent or shape is, the lag where the muscle's own delay is, 1 and
-  /// P1 of a joint where its offset and its stiffness are.
+  /// Returns the shapes of the model's error. For each muscle they are its torque times 1, the Legendre polynomials P1
+  /// to P3 of its length over the recorded range, ln(activation) / 2.3 + 1 (a non-linear EMG), its speed over the
+  /// greatest, and its change within 0.15 s (a delay of its own). For each joint they are 1 and P1 of the first
+  /// muscle's length, scaled by the torque (passive torque). Errors of moment arms, force-length curves, tendons,
+  /// passive tissue, non-linear EMG and motion under the skin are smooth in these. A shape that is itself an unknown of
+  /// the fit has weight 0, lest it counts twice: 1 where the gain of the muscle's own electrode is an unknown (or
+  /// F_max, for a measured force, which involves no moment arm), ln(activation) where the exponent or shape is, the lag
+  /// where the muscle's own delay is, 1 and P1 of a joint where its offset and its stiffness are.
   [[nodiscard]] ErrorShapes error_shapes(const Eigen::VectorXd& z) const;
 
  private:
@@ -119,9 +116,7 @@ class ResidualModel {
                     const std::vector<MuscleRows>& muscles,
                     const Chains& chains,
                     Evaluation& out) const;
-  void add_motion_variance(const Block& block,
-                           const std::vector<MuscleRows>& muscles,
-                           Evaluation& out) const;
+  void add_motion_variance(const Block& block, const std::vector<MuscleRows>& muscles, Evaluation& out) const;
   void for_each_block(const std::function<void(std::size_t)>& one) const;
 
   ParameterMap map_;

@@ -37,19 +37,15 @@ void expect_pull_back(const ResidualModel& model, const Eigen::VectorXd& z, cons
       by_prediction, by_channel);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     SCOPED_TRACE(model.parameters().free()[static_cast<std::size_t>(j)].label);
-    EXPECT_NEAR(by_prediction[j], at.gradient.row(j).dot(weights),
-                1e-12 * at.gradient.row(j).cwiseAbs().sum());
+    EXPECT_NEAR(by_prediction[j], at.gradient.row(j).dot(weights), 1e-12 * at.gradient.row(j).cwiseAbs().sum());
     const int c = model.channel_of_variable(j);
-    const double of_channel =
-        c < 0 ? 0.0 : at.unfiltered.row(j).dot(weights) + c * at.unfiltered.row(j).sum();
+    const double of_channel = c < 0 ? 0.0 : at.unfiltered.row(j).dot(weights) + c * at.unfiltered.row(j).sum();
     EXPECT_NEAR(by_channel[j], of_channel, 1e-11 * at.unfiltered.row(j).cwiseAbs().sum());
   }
 }
 
 /// Derivatives of everything that can be freed against central differences.
-void expect_derivatives(const StudyData& data,
-                        const EstimatorOptions& options,
-                        Eigen::Index count) {
+void expect_derivatives(const StudyData& data, const EstimatorOptions& options, Eigen::Index count) {
   const ResidualModel model(data, options);
   const auto p = model.parameters().size();
   ASSERT_EQ(p, count);
@@ -66,8 +62,7 @@ void expect_derivatives(const StudyData& data,
     const Eigen::VectorXd difference = (plus.predicted - minus.predicted) / (2.0 * h);
     const Eigen::VectorXd derivative = at.gradient.row(j).transpose();
     // Truncation h^2, round-off 1e-16 * 60 N m / h.
-    EXPECT_LT((derivative - difference).cwiseAbs().maxCoeff(),
-              1e-6 * std::max(1.0, derivative.cwiseAbs().maxCoeff()));
+    EXPECT_LT((derivative - difference).cwiseAbs().maxCoeff(), 1e-6 * std::max(1.0, derivative.cwiseAbs().maxCoeff()));
     EXPECT_GT(derivative.norm(), 0.0);
   }
   expect_pull_back(model, z, at);
@@ -104,15 +99,13 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
     rule.free = true;
     study.data.rules.push_back(rule);
   };
-  for (const char* name :
-       {"max_shortening_speed", "tendon_slack_length", "pennation_angle", "passive_force",
-        "passive_strain", "passive_shape", "length_activation", "activation_share", "emg_gain",
-        "emg_shape", "emg_exponent", "excitation_time", "activation_time", "deactivation_time"})
+  for (const char* name : {"max_shortening_speed", "tendon_slack_length", "pennation_angle", "passive_force",
+                           "passive_strain", "passive_shape", "length_activation", "activation_share", "emg_gain",
+                           "emg_shape", "emg_exponent", "excitation_time", "activation_time", "deactivation_time"})
     free(name);
   free("tendon_strain", {"BIC"});
   free("eccentric_slope_ratio", {"TRI"});
-  for (const char* name :
-       {"joint_viscosity", "joint_inertia", "joint_stiffness", "joint_torque_offset"})
+  for (const char* name : {"joint_viscosity", "joint_inertia", "joint_stiffness", "joint_torque_offset"})
     free(name, {"joint"});
   ParameterRule tie;
   tie.parameter = "passive_strain";
@@ -124,16 +117,14 @@ TEST(ResidualModel, DerivativesOfAllThatCanBeFreedAreThoseOfTheTorque) {
   study.data.trials[0].more_joints[0].velocity_radps = trial.velocity_radps;
   study.data.trials[0].more_joints[0].acceleration_radps2 = trial.acceleration_radps2;
   for (const bool normalised : {false, true}) {
-    expect_derivatives(
-        study.data, {.residual_cutoff_hz = {}, .normalised = normalised, .lag = EmgLag::equation_1},
-        4 * 14 - 3 + 1 + 1 + 4 * 6 + 4);
+    expect_derivatives(study.data, {.residual_cutoff_hz = {}, .normalised = normalised, .lag = EmgLag::equation_1},
+                       4 * 14 - 3 + 1 + 1 + 4 * 6 + 4);
   }
 }
 
 TEST(ResidualModel, DerivativesAreThoseOfTheTorqueWhereTheDelayIsSharedAmongLags) {
   const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
-  expect_derivatives(study.data, {.gain_prior_sd = {{"BIC", 0.1}}, .lag = EmgLag::shared},
-                     4 * 6 + 1 + 1);
+  expect_derivatives(study.data, {.gain_prior_sd = {{"BIC", 0.1}}, .lag = EmgLag::shared}, 4 * 6 + 1 + 1);
 }
 
 }  // namespace

@@ -14,12 +14,9 @@ Eigen::Index memory_of(const std::vector<math::SecondOrderSection>& sections) {
   double radius = 0.0;
   for (const math::SecondOrderSection& s : sections) {
     const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
-    radius =
-        std::max(radius, discriminant < 0.0 ? std::sqrt(s.a2)
-                                            : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant)));
+    radius = std::max(radius, discriminant < 0.0 ? std::sqrt(s.a2) : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant)));
   }
-  return static_cast<Eigen::Index>(
-      std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9))));
+  return static_cast<Eigen::Index>(std::ceil(std::log(1e-4) / std::log(std::clamp(radius, 1e-3, 1.0 - 1e-9))));
 }
 
 /// The state of a section after constant input 1.
@@ -32,11 +29,8 @@ struct SteadyState {
   double z1 = 0.0, z2 = 0.0;
 };
 
-/// Runs one section over the columns of y from one end to the other, from the steady state of the
-/// first sample.
-void run(const math::SecondOrderSection& s,
-         Eigen::Matrix<double, kTogether, Eigen::Dynamic>& y,
-         bool forwards) {
+/// Runs one section over the columns of y from one end to the other, from the steady state of the first sample.
+void run(const math::SecondOrderSection& s, Eigen::Matrix<double, kTogether, Eigen::Dynamic>& y, bool forwards) {
   const Eigen::Index begin = forwards ? 0 : y.cols() - 1;
   const Eigen::Index step = forwards ? 1 : -1;
   const SteadyState steady(s);
@@ -76,8 +70,7 @@ void filter_rows(const std::vector<math::SecondOrderSection>& sections,
   const Eigen::Index pad = std::min(count - 1, memory_of(sections));
   Eigen::Matrix<double, kTogether, Eigen::Dynamic> y(kTogether, count + 2 * pad);
   for (std::size_t first = 0; first < rows.size(); first += kTogether) {
-    const auto here =
-        std::min(static_cast<Eigen::Index>(rows.size() - first), Eigen::Index{kTogether});
+    const auto here = std::min(static_cast<Eigen::Index>(rows.size() - first), Eigen::Index{kTogether});
     if (here < kTogether) y.setZero();
     for (Eigen::Index r = 0; r < here; ++r) {
       const SignalRow& row = rows[first + static_cast<std::size_t>(r)];
@@ -98,8 +91,7 @@ void filter_rows(const std::vector<math::SecondOrderSection>& sections,
   }
 }
 
-Eigen::VectorXd transposed_filter(const std::vector<math::SecondOrderSection>& sections,
-                                  const Eigen::VectorXd& y) {
+Eigen::VectorXd transposed_filter(const std::vector<math::SecondOrderSection>& sections, const Eigen::VectorXd& y) {
   const Eigen::Index count = y.size();
   if (sections.empty() || count == 0) return y;
   const Eigen::Index pad = std::min(count - 1, memory_of(sections));
@@ -119,8 +111,7 @@ Eigen::VectorXd transposed_filter(const std::vector<math::SecondOrderSection>& s
   return x.segment(pad, count);
 }
 
-void filter_rows(const std::vector<math::SecondOrderSection>& sections,
-                 Eigen::Ref<Eigen::MatrixXd> x) {
+void filter_rows(const std::vector<math::SecondOrderSection>& sections, Eigen::Ref<Eigen::MatrixXd> x) {
   std::vector<SignalRow> rows;
   for (Eigen::Index r = 0; r < x.rows(); ++r) rows.push_back({x.data() + r, x.outerStride()});
   filter_rows(sections, rows, x.cols());

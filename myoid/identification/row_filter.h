@@ -23,11 +23,10 @@ void filter_rows(const std::vector<math::SecondOrderSection>& sections,
 
 /// Applies the transpose of filter_rows: <filter_rows(x), y> = <x, transposed(y)> for every signal
 /// x. It turns a gradient by the filtered signal into one by the signal itself.
-[[nodiscard]] Eigen::VectorXd transposed_filter(
-    const std::vector<math::SecondOrderSection>& sections, const Eigen::VectorXd& y);
+[[nodiscard]] Eigen::VectorXd transposed_filter(const std::vector<math::SecondOrderSection>& sections,
+                                                const Eigen::VectorXd& y);
 
 /// Filters the rows of a matrix.
-void filter_rows(const std::vector<math::SecondOrderSection>& sections,
-                 Eigen::Ref<Eigen::MatrixXd> x);
+void filter_rows(const std::vector<math::SecondOrderSection>& sections, Eigen::Ref<Eigen::MatrixXd> x);
 
 }  // namespace myoid::identification

@@ -18,8 +18,7 @@ TEST(RowFilter, AgreesWithTheFilterOfOneSignalAwayFromTheEnds) {
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double t = static_cast<double>(i) / 50.0;
-      x(r, i) = std::sin(2.0 * kPi * (0.3 + 0.4 * static_cast<double>(r)) * t) +
-                0.1 * static_cast<double>(r);
+      x(r, i) = std::sin(2.0 * kPi * (0.3 + 0.4 * static_cast<double>(r)) * t) + 0.1 * static_cast<double>(r);
     }
   }
   const Eigen::MatrixXd raw = x;

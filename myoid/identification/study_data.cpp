@@ -16,28 +16,24 @@ namespace myoid::identification {
 std::map<std::string, Prior> literature_priors(const muscle::HillParameters<double>& start) {
   std::map<std::string, Prior> priors;
   for (const muscle::HillField& field : muscle::kHillFields) {
-    if (const auto prior =
-            literature_prior(field.name, start.*field.member, start.optimal_fiber_length_m)) {
+    if (const auto prior = literature_prior(field.name, start.*field.member, start.optimal_fiber_length_m)) {
       priors[std::string(field.name)] = *prior;
     }
   }
   if (start.eccentric_plateau > 1.0) {
-    priors["eccentric_slope_ratio"] = {.mean = muscle::slope_ratio(start.velocity_law()),
-                                       .sd = beliefs::kSlopeRatio.sd,
-                                       .logarithmic = true};
+    priors["eccentric_slope_ratio"] = {
+        .mean = muscle::slope_ratio(start.velocity_law()), .sd = beliefs::kSlopeRatio.sd, .logarithmic = true};
   }
   return priors;
 }
 
-std::vector<std::string> unstated_speeds(const StudyData& data,
-                                         const std::vector<std::string>& wanted) {
+std::vector<std::string> unstated_speeds(const StudyData& data, const std::vector<std::string>& wanted) {
   std::vector<std::string> names;
   const auto is_in = [](const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   for (const MuscleSetup& setup : data.muscles) {
-    if ((wanted.empty() || is_in(wanted, setup.name)) &&
-        !is_in(setup.fixed, "max_shortening_speed"))
+    if ((wanted.empty() || is_in(wanted, setup.name)) && !is_in(setup.fixed, "max_shortening_speed"))
       names.push_back(setup.name);
   }
   return names;
@@ -51,8 +47,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
     ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
     // A model's own value may lie outside a person's range; the bounds then lie about this value.
     const double start = setup.start.max_shortening_speed_mps;
-    if (!setup.bounds.contains("max_shortening_speed") &&
-        (start < usual.lower || start > usual.upper)) {
+    if (!setup.bounds.contains("max_shortening_speed") && (start < usual.lower || start > usual.upper)) {
       rule.lower = start / 3.0;
       rule.upper = 3.0 * start;
     }
@@ -61,10 +56,10 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
     // so the prior of V_sh is wider: ln 0.39 instead of 0.3.
     const auto curvature = setup.priors.find("concentric_curvature");
     const auto speed = setup.priors.find("max_shortening_speed");
-    if (curvature != setup.priors.end() && speed != setup.priors.end() &&
-        curvature->second.logarithmic && speed->second.logarithmic) {
-      curvature->second.sd = std::hypot(
-          curvature->second.sd, (1.0 + setup.start.concentric_curvature) * speed->second.sd);
+    if (curvature != setup.priors.end() && speed != setup.priors.end() && curvature->second.logarithmic &&
+        speed->second.logarithmic) {
+      curvature->second.sd =
+          std::hypot(curvature->second.sd, (1.0 + setup.start.concentric_curvature) * speed->second.sd);
     }
   }
   data.rules.insert(data.rules.begin(), rules.begin(), rules.end());
@@ -114,9 +109,8 @@ std::vector<Eigen::Index> included_rows(const TrialData& trial) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
     const double t = trial.time_s[i];
-    const bool excluded =
-        std::any_of(trial.excluded.begin(), trial.excluded.end(),
-                    [t](const Stretch& x) { return t >= x.begin_s && t <= x.end_s; });
+    const bool excluded = std::any_of(trial.excluded.begin(), trial.excluded.end(),
+                                      [t](const Stretch& x) { return t >= x.begin_s && t <= x.end_s; });
     if (!excluded) rows.push_back(i);
   }
   return rows;
@@ -138,15 +132,13 @@ void validate(const StudyData& data) {
     const Eigen::Index n = trial.time_s.size();
     const auto sized = [&](const Eigen::MatrixXd& x) { return x.rows() == n && x.cols() == m; };
     if (n < 2 || !sized(trial.length_m) || !sized(trial.velocity_mps)) {
-      throw InvalidInput(fmt::format(
-          "trial '{}': lengths and velocities must be {} samples x {} muscles", trial.name, n, m));
-    }
-    if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() ||
-        !trial.moment_arm_m.allFinite() || !trial.torque_nm.allFinite() ||
-        !trial.force_n.allFinite() || !trial.resting_nm.allFinite()) {
       throw InvalidInput(
-          fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number",
-                      trial.name));
+          fmt::format("trial '{}': lengths and velocities must be {} samples x {} muscles", trial.name, n, m));
+    }
+    if (!trial.length_m.allFinite() || !trial.velocity_mps.allFinite() || !trial.moment_arm_m.allFinite() ||
+        !trial.torque_nm.allFinite() || !trial.force_n.allFinite() || !trial.resting_nm.allFinite()) {
+      throw InvalidInput(
+          fmt::format("trial '{}': a length, velocity, moment arm, torque or force is not a number", trial.name));
     }
     const auto resting_or_none = [n](const Eigen::VectorXd& x) {
       return x.size() == 0 || (x.size() == n && x.allFinite());
@@ -157,12 +149,11 @@ void validate(const StudyData& data) {
                       "found {}",
                       trial.name, n, trial.resting_nm.size()));
     for (const JointData& joint : trial.more_joints) {
-      if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) ||
-          !joint.torque_nm.allFinite() || !joint.moment_arm_m.allFinite() ||
-          !resting_or_none(joint.resting_nm)) {
-        throw InvalidInput(fmt::format(
-            "trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
-            trial.name, joint.name, n, m));
+      if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) || !joint.torque_nm.allFinite() ||
+          !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm)) {
+        throw InvalidInput(
+            fmt::format("trial '{}', joint '{}': torque and moment arms must be {} finite samples x {} muscles",
+                        trial.name, joint.name, n, m));
       }
     }
     require_finite(trial.activation, fmt::format("trial '{}': activation", trial.name));

@@ -38,7 +38,7 @@ struct ParameterRule {
   std::optional<double> value;  ///< Start, or the value of a held parameter.
   std::optional<double> lower, upper;
   std::optional<double> prior_mean, prior_sd;  ///< In the parameter's unit.
-  bool usual = false;  ///< Applies to every recording; the study does not ask for it.
+  bool usual = false;                          ///< Applies to every recording; the study does not ask for it.
   bool tie = false;  ///< One unknown for all owners: their ratios to the starting values are equal.
   bool operator==(const ParameterRule&) const = default;
 };
@@ -55,25 +55,23 @@ struct JointData {
 /// One trial on the clock of the motion: n samples, m muscles.
 struct TrialData {
   std::string name;
-  bool calibration = true;  ///< False: only predicted (validation).
-  std::string condition;    ///< Name shared by trials of one condition (load, speed); may be empty.
-  Eigen::VectorXd time_s;   ///< n
-  Eigen::MatrixXd length_m;  ///< n x m: musculotendon length; fiber length = this - tendon slack
-                             ///< length (rigid tendon).
+  bool calibration = true;       ///< False: only predicted (validation).
+  std::string condition;         ///< Name shared by trials of one condition (load, speed); may be empty.
+  Eigen::VectorXd time_s;        ///< n
+  Eigen::MatrixXd length_m;      ///< n x m: musculotendon length; fiber length = this - tendon slack
+                                 ///< length (rigid tendon).
   Eigen::MatrixXd velocity_mps;  ///< n x m
   Eigen::MatrixXd moment_arm_m;  ///< n x m: r = -dl/dq.
   Eigen::VectorXd torque_nm;     ///< n: the sum that the muscles must provide.
-  Eigen::MatrixXd force_n;  ///< n x m: from force sharing, for `paper` and `force`; may be empty.
-  TimeSeries activation;    ///< Envelope of each EMG channel, 0..1, on its own clock.
-  std::string joint = "joint";  ///< Name of the joint of `torque_nm`.
+  Eigen::MatrixXd force_n;       ///< n x m: from force sharing, for `paper` and `force`; may be empty.
+  TimeSeries activation;         ///< Envelope of each EMG channel, 0..1, on its own clock.
+  std::string joint = "joint";   ///< Name of the joint of `torque_nm`.
   /// Motion of `joint`: empty, or n.
   Eigen::VectorXd angle_rad, velocity_radps, acceleration_radps2;
-  /// Measured passive part of `torque_nm` (RestingTorque): empty for none, or n. The muscles'
-  /// activity makes the rest.
+  /// Measured passive part of `torque_nm` (RestingTorque): empty for none, or n. The muscles' activity makes the rest.
   Eigen::VectorXd resting_nm;
   std::vector<JointData> more_joints;  ///< Further joints, which method `torque` fits too.
-  /// Stretches that are predicted, but neither fitted nor scored: warm-up, fatigue, exclusions of
-  /// the study.
+  /// Stretches that are predicted, but neither fitted nor scored: warm-up, fatigue, exclusions of the study.
   std::vector<Stretch> excluded;
 };
 
@@ -86,8 +84,7 @@ struct StudyData {
 /// Returns the literature's priors (beliefs.h) of a muscle with this start. Where V_ml > 1 the
 /// spread of the slope ratio (ln S 0.5) replaces that of V_sh V_shl. The spread of V_sh is for a
 /// known or a free v_max; `free_speeds` treats a v_max that is only held.
-[[nodiscard]] std::map<std::string, Prior> literature_priors(
-    const muscle::HillParameters<double>& start);
+[[nodiscard]] std::map<std::string, Prior> literature_priors(const muscle::HillParameters<double>& start);
 
 /// Returns the muscles of `wanted` (empty: all) with an unstated v_max: not in MuscleSetup::fixed.
 [[nodiscard]] std::vector<std::string> unstated_speeds(const StudyData& data,
@@ -118,8 +115,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// Returns the samples of a trial outside all excluded stretches, in order.
 [[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);
 
-/// Throws InvalidInput, with trial and muscle, unless sizes agree, values are finite and every EMG
-/// channel exists.
+/// Throws InvalidInput, with trial and muscle, unless sizes agree, values are finite and every EMG channel exists.
 void validate(const StudyData& data);
 
 }  // namespace myoid::identification

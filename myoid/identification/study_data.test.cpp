@@ -53,8 +53,7 @@ double worst_error(const ElbowStudy& study, const IdentificationResult& result) 
 }
 
 TEST(ExcludedIntervals, DoNotTouchTheEstimates) {
-  const TorqueOptions exact{
-      .priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
+  const TorqueOptions exact{.priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
   const ElbowStudy spoiled = spoiled_study(false);
   EXPECT_GT(worst_error(spoiled, identify_torque(spoiled.data, exact)), 0.02);
   const ElbowStudy excluded = spoiled_study(true);
@@ -66,19 +65,16 @@ TEST(ExcludedIntervals, DoNotTouchTheEstimates) {
 
 TEST(ExcludedIntervals, AreNeitherScoredInFoldsNorSampledByThePaper) {
   const ElbowStudy excluded = spoiled_study(true);
-  const TorqueOptions exact{
-      .priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
+  const TorqueOptions exact{.priors = false, .residual_cutoff_hz = std::nullopt, .weights = false, .starts = 1};
   for (const Fold& fold : cross_validate(excluded.data, exact, {})) {
     EXPECT_EQ(fold.time_s.size(), 1001 - 151);
     EXPECT_LT(fold.identified.rmse_nm(), 0.01);
   }
   const ElbowStudy whole = elbow_study({.trials = 2, .seconds = 20.0, .rate_hz = 50.0});
-  EXPECT_LT(identify_paper(excluded.data, {}).samples_used,
-            identify_paper(whole.data, {}).samples_used);
+  EXPECT_LT(identify_paper(excluded.data, {}).samples_used, identify_paper(whole.data, {}).samples_used);
 }
 
-/// One flexor's own force, below noisy EMG; its v_max begins 25 % too high, 1.1 spreads of what is
-/// known of it.
+/// One flexor's own force, below noisy EMG; its v_max begins 25 % too high, 1.1 spreads of what is known of it.
 StudyData force_of_wrong_speed(const ElbowStudy& study) {
   StudyData data = force_study(study.data, 0);
   data.muscles[0].start.max_shortening_speed_mps *= 1.25;
@@ -100,14 +96,12 @@ TEST(FreeSpeeds, CarryIntoTheIntervalsWhatIsNotKnownOfVmax) {
   free_speeds(freed, unstated_speeds(freed));
   // ln 0.3, and ln 0.2 along d ln V_sh = -(1 + V_sh) d ln v_max.
   const double shape = held.muscles[0].start.concentric_curvature;
-  EXPECT_NEAR(freed.muscles[0].priors.at("concentric_curvature").sd,
-              std::hypot(0.3, 0.2 * (1.0 + shape)), 1e-12);
+  EXPECT_NEAR(freed.muscles[0].priors.at("concentric_curvature").sd, std::hypot(0.3, 0.2 * (1.0 + shape)), 1e-12);
   const double truth = study.truth[0].concentric_curvature;
   const TorqueOptions options{.predictions = false};
   // Held, it goes into V_sh, whose interval does not hold the truth.
   const ParameterEstimate wrong = of(identify_torque(held, options), "concentric_curvature");
-  EXPECT_TRUE(truth < *wrong.ci_low || truth > *wrong.ci_high)
-      << *wrong.ci_low << " to " << *wrong.ci_high;
+  EXPECT_TRUE(truth < *wrong.ci_low || truth > *wrong.ci_high) << *wrong.ci_low << " to " << *wrong.ci_high;
   const IdentificationResult fit = identify_torque(freed, options);
   const ParameterEstimate& right = of(fit, "concentric_curvature");
   EXPECT_LT(*right.ci_low, truth);

@@ -26,12 +26,10 @@ template <typename Joint>
 std::optional<Moved> moved(const Joint& joint) {
   const Eigen::Index n = joint.torque_nm.size();
   if (n == 0 || joint.angle_rad.size() != n || joint.velocity_radps.size() != n ||
-      joint.acceleration_radps2.size() != n ||
-      joint.angle_rad.maxCoeff() - joint.angle_rad.minCoeff() < kMoves_rad)
+      joint.acceleration_radps2.size() != n || joint.angle_rad.maxCoeff() - joint.angle_rad.minCoeff() < kMoves_rad)
     return std::nullopt;
   Moved found{joint.torque_nm, Eigen::MatrixXd(n, kMotionCoefficients)};
-  found.motion << Eigen::VectorXd::Ones(n), joint.angle_rad, joint.velocity_radps,
-      joint.acceleration_radps2;
+  found.motion << Eigen::VectorXd::Ones(n), joint.angle_rad, joint.velocity_radps, joint.acceleration_radps2;
   return found;
 }
 
@@ -50,8 +48,7 @@ double told(const std::vector<Moved>& trials) {
   const Eigen::VectorXd size = motion.colwise().norm().cwiseMax(1e-12);
   const Eigen::MatrixXd scaled = motion * size.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd normal =
-      scaled.transpose() * scaled +
-      1e-12 * Eigen::MatrixXd::Identity(kMotionCoefficients, kMotionCoefficients);
+      scaled.transpose() * scaled + 1e-12 * Eigen::MatrixXd::Identity(kMotionCoefficients, kMotionCoefficients);
   return math::explained_share(scaled * normal.llt().solve(scaled.transpose() * torque), torque);
 }
 

@@ -13,10 +13,9 @@ inline constexpr int kMotionCoefficients = 4;
 ///
 ///   y = c_0 + c_1 q + c_2 dq/dt + c_3 d2q/dt2   [N m; q in rad],
 ///
-/// by least squares over the calibration trials, of the joint where it is least. Muscles that work
-/// against each other can make such a torque with hardly any EMG, and no fit can tell them from
-/// muscles that do not. Empty: the data have no motion of a joint, or a trial holds a joint within
-/// 5 degrees, whose torque is then an effort and not a movement.
+/// by least squares over the calibration trials, of the joint where it is least. Muscles that work against each other
+/// can make such a torque with hardly any EMG, and no fit can tell them from muscles that do not. Empty: the data have
+/// no motion of a joint, or a trial holds a joint within 5 degrees, whose torque is then an effort and not a movement.
 [[nodiscard]] std::optional<double> told_by_motion_alone(const StudyData& data);
 
 }  // namespace myoid::identification

@@ -30,8 +30,7 @@ TEST(TrialRows, EveryNumberOfASampleGoesWithIt) {
     EXPECT_EQ(two.length_m.row(i), Eigen::RowVector2d(t, t + 1.0));
     EXPECT_EQ(two.velocity_mps.row(i), Eigen::RowVector2d(t + 2.0, t + 3.0));
     EXPECT_EQ(two.moment_arm_m.row(i), Eigen::RowVector2d(t + 4.0, t + 5.0));
-    EXPECT_EQ(Eigen::Vector3d(two.torque_nm[i], two.angle_rad[i], two.resting_nm[i]),
-              Eigen::Vector3d::Constant(t));
+    EXPECT_EQ(Eigen::Vector3d(two.torque_nm[i], two.angle_rad[i], two.resting_nm[i]), Eigen::Vector3d::Constant(t));
     EXPECT_EQ(two.more_joints[0].moment_arm_m.row(i), Eigen::RowVector2d(t - 100.0, t - 99.0));
     EXPECT_EQ(two.more_joints[0].torque_nm[i], t - 100.0);
   }

@@ -27,8 +27,7 @@ void compare_trials(const StudyData& data,
   std::vector<Stretches> activations, lengths;
   for (const TrialData& trial : data.trials) {
     std::vector<Channel> names;
-    for (const identification::MuscleSetup& muscle : data.muscles)
-      names.push_back({muscle.name, Unit::meter});
+    for (const identification::MuscleSetup& muscle : data.muscles) names.push_back({muscle.name, Unit::meter});
     activations.push_back(stretches_of(trial.activation));
     lengths.push_back(stretches_of({trial.time_s, std::move(names), trial.length_m}));
     const std::size_t b = activations.size() - 1;
@@ -50,27 +49,23 @@ void compare_trials(const StudyData& data,
 /// Refuses a joint without torque and muscles without force in all trials.
 void require_something_to_fit(const StudyData& data, const IdentifySources& sources) {
   const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
-  const std::string_view remedy =
-      "there is nothing to fit; is it the right file and column, or was the channel off?";
+  const std::string_view remedy = "there is nothing to fit; is it the right file and column, or was the channel off?";
   if (!sources.torque) {
     if (std::all_of(data.trials.begin(), data.trials.end(),
                     [&](const TrialData& trial) { return nothing(trial.force_n); }))
-      throw InvalidInput(
-          fmt::format("{}: every force is 0 in all trials: {}", sources.forces.front(), remedy));
+      throw InvalidInput(fmt::format("{}: every force is 0 in all trials: {}", sources.forces.front(), remedy));
     return;
   }
   for (std::size_t j = 0; j < identification::joint_count(data.trials.front()); ++j) {
-    if (std::all_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
-          return nothing(identification::of_joint(trial, j).torque_nm);
-        }))
-      throw InvalidInput(fmt::format(
-          "{}: the torque{} is 0 in all trials: {}", sources.torques.front(),
-          sources.coordinates.empty() ? "" : fmt::format(" '{}'", sources.coordinates[j]), remedy));
+    if (std::all_of(data.trials.begin(), data.trials.end(),
+                    [&](const TrialData& trial) { return nothing(identification::of_joint(trial, j).torque_nm); }))
+      throw InvalidInput(fmt::format("{}: the torque{} is 0 in all trials: {}", sources.torques.front(),
+                                     sources.coordinates.empty() ? "" : fmt::format(" '{}'", sources.coordinates[j]),
+                                     remedy));
   }
 }
 
-/// Remarks on activations that never change or are equal: the fit would give the work of one muscle
-/// to the others.
+/// Remarks on activations that never change or are equal: the fit would give the work of one muscle to the others.
 void compare_activations(const StudyData& data,
                          const IdentifySources& sources,
                          const std::function<void(const std::string&)>& remark) {
@@ -79,40 +74,36 @@ void compare_activations(const StudyData& data,
     if (std::find(channels.begin(), channels.end(), muscle.emg_channel) == channels.end())
       channels.push_back(muscle.emg_channel);
   }
-  const auto in_all = [&](const auto& holds) {
-    return std::all_of(data.trials.begin(), data.trials.end(), holds);
-  };
+  const auto in_all = [&](const auto& holds) { return std::all_of(data.trials.begin(), data.trials.end(), holds); };
   const std::string& file = sources.activations.front();
   for (std::size_t c = 0; c < channels.size(); ++c) {
     if (in_all([&](const TrialData& trial) {
           const Eigen::VectorXd a = trial.activation.column(channels[c]);
           return !(a.maxCoeff() > a.minCoeff());
         })) {
-      remark(fmt::format(
-          "{}: activation '{}' never changes in any trial: was the electrode connected? The "
-          "work of its muscles is given to the others; leave them out of muscles.csv only if they "
-          "were "
-          "at rest",
-          file, channels[c]));
+      remark(
+          fmt::format("{}: activation '{}' never changes in any trial: was the electrode connected? The "
+                      "work of its muscles is given to the others; leave them out of muscles.csv only if they "
+                      "were "
+                      "at rest",
+                      file, channels[c]));
       continue;
     }
     for (std::size_t other = 0; other < c; ++other) {
       if (in_all([&](const TrialData& trial) {
             return trial.activation.column(channels[c]) == trial.activation.column(channels[other]);
           }))
-        remark(fmt::format(
-            "{}: activations '{}' and '{}' are the same in all trials: was a column copied? If one "
-            "electrode stands for both, name it for both in the column emg of muscles.csv",
-            file, channels[other], channels[c]));
+        remark(
+            fmt::format("{}: activations '{}' and '{}' are the same in all trials: was a column copied? If one "
+                        "electrode stands for both, name it for both in the column emg of muscles.csv",
+                        file, channels[other], channels[c]));
     }
   }
 }
 
 void hold_back(const IdentifySources& sources, StudyData& data) {
-  for (const std::string& name : sources.held_back)
-    data.trials[trial_named(name, sources.lengths)].calibration = false;
-  if (std::none_of(data.trials.begin(), data.trials.end(),
-                   [](const TrialData& trial) { return trial.calibration; }))
+  for (const std::string& name : sources.held_back) data.trials[trial_named(name, sources.lengths)].calibration = false;
+  if (std::none_of(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; }))
     throw InvalidInput("--validate names every trial; leave out one at least for the fit");
 }
 
@@ -128,10 +119,8 @@ StudyData read_identify_data(const IdentifySources& sources,
   data.rules = table.rules;
   for (std::size_t i = 0; i < sources.lengths.size(); ++i) {
     TrialData trial = read_identify_trial(sources, i, data.muscles, remark);
-    for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i)))
-      remark(text);
-    for (const std::string& text : check_joint_of_arms(data, trial, files_of(sources, i)))
-      remark(text);
+    for (const std::string& text : check_identify_trial(data, trial, files_of(sources, i))) remark(text);
+    for (const std::string& text : check_joint_of_arms(data, trial, files_of(sources, i))) remark(text);
     data.trials.push_back(std::move(trial));
   }
   if (sources.torque) hold_back(sources, data);

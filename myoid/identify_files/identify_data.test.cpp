@@ -35,8 +35,7 @@ struct Written {
     write("l.sto", trial.length_m, Unit::meter);
     write("v.sto", trial.velocity_mps, Unit::meter_per_second);
     write("r.sto", trial.moment_arm_m, Unit::meter);
-    recording::write_series(folder / "id.sto",
-                            {trial.time_s, {{"elbow_moment", Unit::newton_meter}}, trial.torque_nm},
+    recording::write_series(folder / "id.sto", {trial.time_s, {{"elbow_moment", Unit::newton_meter}}, trial.torque_nm},
                             "torque");
     sources.activations = {path("a.sto")};
     sources.lengths = {path("l.sto")};
@@ -51,9 +50,7 @@ struct Written {
     recording::write_series(folder / name, {study.data.trials[0].time_s, channels, values}, name);
   }
   identification::TrialData read() {
-    return read_identify_data(sources, table,
-                              [&](const std::string& text) { remarks.push_back(text); })
-        .trials.at(0);
+    return read_identify_data(sources, table, [&](const std::string& text) { remarks.push_back(text); }).trials.at(0);
   }
   std::string message() {
     try {
@@ -85,8 +82,7 @@ TEST(IdentifyData, ABrokenChannelThatNoMuscleTakesIsNoFault) {
     for (const Channel& channel : emg.channels()) text += "," + channel.name;
     for (Eigen::Index i = 0; i < emg.sample_count(); ++i) {
       text += fmt::format("\n{:.17g},{}", emg.time_s()[i], i == 7 ? "NaN" : "0.1");
-      for (Eigen::Index c = 0; c < emg.channel_count(); ++c)
-        text += fmt::format(",{:.17g}", emg.values()(i, c));
+      for (Eigen::Index c = 0; c < emg.channel_count(); ++c) text += fmt::format(",{:.17g}", emg.values()(i, c));
     }
     recording::write_file(files.folder / "a.csv", text + "\n");
     files.sources.activations = {files.path("a.csv")};
@@ -94,8 +90,7 @@ TEST(IdentifyData, ABrokenChannelThatNoMuscleTakesIsNoFault) {
   with("glutmax");
   EXPECT_EQ(files.read().activation.channel_count(), emg.channel_count());
   files.table.muscles[0].emg_channel = "glutmax";
-  EXPECT_NE(files.message().find("channel 'glutmax' is not a number"), std::string::npos)
-      << files.message();
+  EXPECT_NE(files.message().find("channel 'glutmax' is not a number"), std::string::npos) << files.message();
 }
 
 TEST(IdentifyData, WithoutVelocitiesTheyAreTheRatesOfTheLengths) {
@@ -112,9 +107,7 @@ TEST(IdentifyData, OnlyTheTimeThatAllFilesCoverIsTaken) {
   const identification::TrialData& truth = files.study.data.trials[0];
   recording::write_series(
       files.folder / "id.sto",
-      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm)
-          .slice(1.0, 4.0),
-      "torque");
+      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm).slice(1.0, 4.0), "torque");
   const identification::TrialData trial = files.read();
   EXPECT_NEAR(trial.time_s[0], 1.0, 1e-9);
   EXPECT_NEAR(trial.time_s[trial.time_s.size() - 1], 4.0, 1e-9);
@@ -128,9 +121,7 @@ TEST(IdentifyData, AFileThatLeavesOutMostOfATrialIsNamed) {
   const identification::TrialData& truth = files.study.data.trials[0];
   recording::write_series(
       files.folder / "id.sto",
-      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm)
-          .slice(0.0, 1.0),
-      "torque");
+      TimeSeries(truth.time_s, {{"elbow_moment", Unit::newton_meter}}, truth.torque_nm).slice(0.0, 1.0), "torque");
   EXPECT_NEAR(files.read().time_s.maxCoeff(), 1.0, 1e-9);
   ASSERT_EQ(files.remarks.size(), 1U);
   EXPECT_NE(files.remarks[0].find("1 of 5 s are used"), std::string::npos) << files.remarks[0];
@@ -150,8 +141,7 @@ TEST(IdentifyData, ACutOffFileIsSaidOnceWithWhatWasLeftOut) {
   (void)files.read();
   int said = 0;
   for (const std::string& remark : files.remarks)
-    said += remark.find("l.sto") != std::string::npos &&
-                    remark.find(recording::kLastRowLeftOut) != std::string::npos
+    said += remark.find("l.sto") != std::string::npos && remark.find(recording::kLastRowLeftOut) != std::string::npos
                 ? 1
                 : 0;
   EXPECT_EQ(said, 1);
@@ -168,8 +158,7 @@ TEST(IdentifyData, WhereAFileHasNoSamplesNothingIsFittedAndThatIsSaid) {
   for (const std::string name : {"a.sto", "l.sto", "v.sto", "r.sto", "id.sto"}) {
     SCOPED_TRACE(name);
     Written files;
-    recording::write_series(files.folder / name,
-                            without_a_second(recording::read_series(files.path(name)).data), name);
+    recording::write_series(files.folder / name, without_a_second(recording::read_series(files.path(name)).data), name);
     const identification::TrialData trial = files.read();
     ASSERT_EQ(trial.excluded.size(), 1U);
     EXPECT_NEAR(trial.excluded[0].begin_s, 1.9, 0.02);
@@ -205,12 +194,10 @@ TEST(IdentifyData, WhereAFileHasNoSamplesNothingIsFittedAndThatIsSaid) {
 TEST(IdentifyData, ATorqueOfNothingIsRefused) {
   Written files;
   const Eigen::VectorXd& time_s = files.study.data.trials[0].time_s;
-  recording::write_series(files.folder / "id.sto",
-                          TimeSeries(time_s, {{"elbow_moment", Unit::newton_meter}},
-                                     Eigen::MatrixXd::Zero(time_s.size(), 1)),
-                          "torque");
-  EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos)
-      << files.message();
+  recording::write_series(
+      files.folder / "id.sto",
+      TimeSeries(time_s, {{"elbow_moment", Unit::newton_meter}}, Eigen::MatrixXd::Zero(time_s.size(), 1)), "torque");
+  EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos) << files.message();
 }
 
 TEST(IdentifyData, AnElectrodeThatSaysNothingOrTheSameAsAnotherIsRemarkedOf) {
@@ -219,13 +206,11 @@ TEST(IdentifyData, AnElectrodeThatSaysNothingOrTheSameAsAnotherIsRemarkedOf) {
   Eigen::MatrixXd values = activation.values();
   values.col(1).setZero();
   values.col(3) = values.col(0);
-  recording::write_series(files.folder / "a.sto",
-                          TimeSeries(activation.time_s(), activation.channels(), values), "a");
+  recording::write_series(files.folder / "a.sto", TimeSeries(activation.time_s(), activation.channels(), values), "a");
   (void)files.read();
   ASSERT_EQ(files.remarks.size(), 2U);
   EXPECT_NE(files.remarks[0].find("'BRA' never changes"), std::string::npos) << files.remarks[0];
-  EXPECT_NE(files.remarks[1].find("'BIC' and 'TRI' are the same"), std::string::npos)
-      << files.remarks[1];
+  EXPECT_NE(files.remarks[1].find("'BIC' and 'TRI' are the same"), std::string::npos) << files.remarks[1];
 }
 
 TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
@@ -238,8 +223,7 @@ TEST(IdentifyData, ActivationsThatAreNamedTwiceAreRemarkedOf) {
     files->push_back(files->front());
   (void)twice.read();
   ASSERT_EQ(twice.remarks.size(), 1U);
-  EXPECT_NE(twice.remarks[0].find("one effort counts twice"), std::string::npos)
-      << twice.remarks[0];
+  EXPECT_NE(twice.remarks[0].find("one effort counts twice"), std::string::npos) << twice.remarks[0];
 }
 
 TEST(IdentifyData, FilesThatDoNotMatchTheTrialsOrTheMusclesAreRefused) {
@@ -284,8 +268,7 @@ TEST(IdentifyData, ViscosityInertiaAndStiffnessComeBackFromTheJointsMotion) {
   const Eigen::ArrayXd t = truth.time_s.array();
   const Eigen::VectorXd q = 1.1 + 0.7 * (3.1 * t).sin() + 0.3 * (7.3 * t).cos();
   const Eigen::VectorXd qdot = 0.7 * 3.1 * (3.1 * t).cos() - 0.3 * 7.3 * (7.3 * t).sin();
-  const Eigen::VectorXd qddot =
-      -0.7 * 3.1 * 3.1 * (3.1 * t).sin() - 0.3 * 7.3 * 7.3 * (7.3 * t).cos();
+  const Eigen::VectorXd qddot = -0.7 * 3.1 * 3.1 * (3.1 * t).sin() - 0.3 * 7.3 * 7.3 * (7.3 * t).cos();
   recording::write_series(files.folder / "id.sto",
                           {truth.time_s,
                            {{"elbow_moment", Unit::newton_meter}},
@@ -320,14 +303,12 @@ TEST(IdentifyData, AMotionThatIsNotTheJointsOrNoAngleIsRefused) {
     recording::write_storage(
         files.folder / "q.mot",
         {truth.time_s, channels,
-         Eigen::MatrixXd::Constant(truth.time_s.size(), static_cast<Eigen::Index>(channels.size()),
-                                   value)},
+         Eigen::MatrixXd::Constant(truth.time_s.size(), static_cast<Eigen::Index>(channels.size()), value)},
         {.title = "Coordinates"});
     files.sources.motions = {files.path("q.mot")};
     return files.message();
   };
-  EXPECT_NE(motion({{"a", Unit::radian}, {"b", Unit::radian}}, 1.0).find("--coordinate"),
-            std::string::npos);
+  EXPECT_NE(motion({{"a", Unit::radian}, {"b", Unit::radian}}, 1.0).find("--coordinate"), std::string::npos);
   EXPECT_NE(motion({{"a", Unit::radian}}, 95.0).find("these are degrees"), std::string::npos);
   EXPECT_EQ(motion({{"a", Unit::radian}}, 1.0), "(no error)");
   files.sources.coordinates = {"elbow"};

@@ -32,8 +32,7 @@ constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
 constexpr double kSpike_s = 0.1;  ///< a shorter time above kCertainlyHigh is an artefact
 constexpr double kWindow_s = 0.1;
 constexpr double kMoves_m = 5e-4;  ///< a smaller change of length within a window is noise
-constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3,
-                 kLargestFactor = 3.0;
+constexpr double kTogether = 0.9, kAgainst = -0.8, kDoubtful = 0.5, kClearly = 0.3, kLargestFactor = 3.0;
 
 /// Optimal fiber lengths beyond which fibers make hardly any active force.
 constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
@@ -43,8 +42,7 @@ bool names_whole_muscles(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name.ends_with("muscleanalysis_length") || name.find("lmt") != std::string::npos ||
-         name.find("muscletendon") != std::string::npos ||
-         name.find("musculotendon") != std::string::npos;
+         name.find("muscletendon") != std::string::npos || name.find("musculotendon") != std::string::npos;
 }
 
 double median_of(const Eigen::VectorXd& x) { return math::median({x.begin(), x.end()}); }
@@ -92,8 +90,7 @@ class TrialCheck {
       for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
         const double arm = arms(j).col(k).cwiseAbs().maxCoeff();
         const double length = trial_.length_m.col(k).maxCoeff();
-        const double tendon =
-            data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
+        const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
         if (length <= 0.0 || length >= arm || arm > kCertainlyLargeArm_m) continue;
         const std::string found = fmt::format(
             "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m; are the "
@@ -101,8 +98,7 @@ class TrialCheck {
             muscle(k), arm, files_.lengths, length);
         if (arm > tendon && tendon > 0.0)
           fail(files_.moment_arms[j], found + " A moment arm is shorter than the muscle");
-        if (tendon == 0.0)
-          remark(files_.moment_arms[j], found + " Fibers are seldom shorter than a moment arm");
+        if (tendon == 0.0) remark(files_.moment_arms[j], found + " Fibers are seldom shorter than a moment arm");
       }
     }
   }
@@ -110,8 +106,8 @@ class TrialCheck {
   void lengths() {
     for (Eigen::Index k = 0; k < trial_.length_m.cols(); ++k) {
       const Eigen::VectorXd l = trial_.length_m.col(k);
-      const std::string found = fmt::format("length of {} from {:.4g} to {:.4g} m", muscle(k),
-                                            l.minCoeff(), l.maxCoeff());
+      const std::string found =
+          fmt::format("length of {} from {:.4g} to {:.4g} m", muscle(k), l.minCoeff(), l.maxCoeff());
       if (l.minCoeff() <= 0.0)
         fail(files_.lengths, found +
                                  ", expected positive lengths of 0.01 to 1 m; are the files of "
@@ -120,11 +116,9 @@ class TrialCheck {
       const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
       const double usual = start.tendon_slack_length_m + start.optimal_fiber_length_m;
       if (typical > kCertainlyLong_m)
-        fail(files_.lengths,
-             found + fmt::format(", expected 0.01 to 1 m; is it in {}? Write it in m",
-                                 typical > 300.0 * usual ? "mm" : "cm"));
-      if (typical < kCertainlyShort_m)
-        fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
+        fail(files_.lengths, found + fmt::format(", expected 0.01 to 1 m; is it in {}? Write it in m",
+                                                 typical > 300.0 * usual ? "mm" : "cm"));
+      if (typical < kCertainlyShort_m) fail(files_.lengths, found + ", expected 0.01 to 1 m; write it in m");
       if (typical > kLongestPath_m || typical < kShortestPath_m)
         remark(files_.lengths, found + ", expected 0.01 to 1 m");
       if (start.tendon_slack_length_m == 0.0) {
@@ -133,46 +127,39 @@ class TrialCheck {
       }
       const double fiber = typical - start.tendon_slack_length_m;
       if (fiber <= 0.0)
-        fail(files_.lengths,
-             fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber "
-                         "lengths? Then leave tendon_slack_length empty in muscles.csv",
-                         found, start.tendon_slack_length_m));
+        fail(files_.lengths, fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber "
+                                         "lengths? Then leave tendon_slack_length empty in muscles.csv",
+                                         found, start.tendon_slack_length_m));
       const double relative = fiber / start.optimal_fiber_length_m;
       if (relative < kShortestFiber || relative > kLongestFiber)
-        remark(files_.lengths,
-               fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, "
-                           "expected about 1; check tendon_slack_length and optimal_fiber_length "
-                           "in muscles.csv",
-                           muscle(k), relative, start.optimal_fiber_length_m));
+        remark(files_.lengths, fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, "
+                                           "expected about 1; check tendon_slack_length and optimal_fiber_length "
+                                           "in muscles.csv",
+                                           muscle(k), relative, start.optimal_fiber_length_m));
     }
   }
 
   /// Checks that the lengths of a muscle without a tendon in muscles.csv are fiber lengths.
   void lengths_without_tendon(Eigen::Index k, double typical_m, const std::string& found) {
-    const double optimal_m =
-        data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
+    const double optimal_m = data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
     const double relative = typical_m / optimal_m;
     const std::string against = fmt::format(
         "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and muscles.csv has no "
         "tendon_slack_length for it",
         found, relative, optimal_m);
     if (relative > kLongestActive)
-      fail(files_.lengths,
-           fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these "
-                       "lengths of whole muscles with their tendons? Then give tendon_slack_length "
-                       "in muscles.csv. Else mend optimal_fiber_length",
-                       against));
+      fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these "
+                                       "lengths of whole muscles with their tendons? Then give tendon_slack_length "
+                                       "in muscles.csv. Else mend optimal_fiber_length",
+                                       against));
     if (relative < kShortestActive)
-      fail(files_.lengths,
-           fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the "
-                       "unit of both, or whose lengths these are",
-                       against));
+      fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the "
+                                       "unit of both, or whose lengths these are",
+                                       against));
     if (names_whole_muscles(files_.lengths))
-      remark(
-          files_.lengths,
-          fmt::format("by its name the file has lengths of whole muscles, {}: they are taken for "
-                      "fiber lengths; give tendon_slack_length in muscles.csv",
-                      against));
+      remark(files_.lengths, fmt::format("by its name the file has lengths of whole muscles, {}: they are taken for "
+                                         "fiber lengths; give tendon_slack_length in muscles.csv",
+                                         against));
   }
 
   /// Returns the largest mean over the half second of the EMG's normalization; shorter peaks exceed
@@ -187,38 +174,31 @@ class TrialCheck {
       const Eigen::VectorXd a = trial_.activation.column(setup.emg_channel);
       const double low = a.minCoeff(), high = a.maxCoeff();
       largest = std::max(largest, high);
-      const std::string found =
-          fmt::format("activation '{}' from {:.3g} to {:.3g}", setup.emg_channel, low, high);
+      const std::string found = fmt::format("activation '{}' from {:.3g} to {:.3g}", setup.emg_channel, low, high);
       const double rate_hz = trial_.activation.mean_rate_hz();
-      const bool spike =
-          high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
+      const bool spike = high > kCertainlyHigh && signals::time_above_s(a, rate_hz, kCertainlyHigh) < kSpike_s;
       if (spike)
-        remark(files_.activations,
-               fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
-                           "(--start, --end) or mend the EMG",
-                           found, kCertainlyHigh, kSpike_s));
+        remark(files_.activations, fmt::format("{}, above {:g} for less than {:g} s: an artefact? Leave that time out "
+                                               "(--start, --end) or mend the EMG",
+                                               found, kCertainlyHigh, kSpike_s));
       if (high > kCertainlyHigh && !spike)
         fail(files_.activations,
              fmt::format("{}, expected 0 to 1 (1: the greatest effort); {}", found,
-                         high <= 200.0 ? "in percent? Divide by 100"
-                                       : "divide by the EMG of a maximal contraction"));
+                         high <= 200.0 ? "in percent? Divide by 100" : "divide by the EMG of a maximal contraction"));
       if (low < kCertainlyLow)
-        fail(files_.activations,
-             found +
-                 ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it "
-                 "(myoid emg)");
+        fail(files_.activations, found +
+                                     ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it "
+                                     "(myoid emg)");
       if (largest_mean(a) > kHighestActivation)
-        remark(files_.activations,
-               fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1: an effort "
-                           "beyond the one taken for the greatest",
-                           found, largest_mean(a)));
+        remark(files_.activations, fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1: an effort "
+                                               "beyond the one taken for the greatest",
+                                               found, largest_mean(a)));
       if (low < kLowestActivation) remark(files_.activations, found + ", expected 0 to 1");
     }
     if (largest < kFlatActivation)
-      remark(files_.activations,
-             fmt::format("no activation above {:.2g}, expected up to 1 in the greatest effort; is "
-                         "this EMG in volts? Divide by the EMG of a maximal contraction",
-                         largest));
+      remark(files_.activations, fmt::format("no activation above {:.2g}, expected up to 1 in the greatest effort; is "
+                                             "this EMG in volts? Divide by the EMG of a maximal contraction",
+                                             largest));
   }
 
   /// Changes of every column within windows, and the integrals of its rate.
@@ -239,8 +219,7 @@ class TrialCheck {
       const Eigen::Index first = w * reach;
       c.of_length.row(w) = trial_.length_m.row(first + reach) - trial_.length_m.row(first);
       for (Eigen::Index i = first; i < first + reach; ++i)
-        c.by_velocity.row(w) +=
-            0.5 * (t[i + 1] - t[i]) * (trial_.velocity_mps.row(i) + trial_.velocity_mps.row(i + 1));
+        c.by_velocity.row(w) += 0.5 * (t[i + 1] - t[i]) * (trial_.velocity_mps.row(i) + trial_.velocity_mps.row(i + 1));
       c.middle.push_back(first + reach / 2);
     }
     return c;
@@ -258,23 +237,19 @@ class TrialCheck {
       const double factor = vdt.norm() / dl.norm();
       const double r = factor > 0.0 ? dl.dot(vdt) / (dl.norm() * vdt.norm()) : 0.0;
       if (r < -kTogether)
-        fail(files_.velocities,
-             fmt::format("velocity of {} is opposite to the change of its length; expected "
-                         "lengthening positive; change the sign",
-                         muscle(k)));
+        fail(files_.velocities, fmt::format("velocity of {} is opposite to the change of its length; expected "
+                                            "lengthening positive; change the sign",
+                                            muscle(k)));
       if (r > kTogether && (factor > kLargestFactor || factor < 1.0 / kLargestFactor))
         fail(files_.velocities,
-             fmt::format(
-                 "velocity of {} is {} times the rate of its length in {}; expected "
-                 "the same, in m/s",
-                 muscle(k),
-                 factor >= 10.0 ? fmt::format("{:.0f}", factor) : fmt::format("{:.2g}", factor),
-                 files_.lengths));
+             fmt::format("velocity of {} is {} times the rate of its length in {}; expected "
+                         "the same, in m/s",
+                         muscle(k), factor >= 10.0 ? fmt::format("{:.0f}", factor) : fmt::format("{:.2g}", factor),
+                         files_.lengths));
       if (r < kDoubtful)
-        remark(files_.velocities,
-               fmt::format("velocity of {} is not the rate of its length in {} (they agree to "
-                           "r = {:.2f}); is it the same trial and clock?",
-                           muscle(k), files_.lengths, r));
+        remark(files_.velocities, fmt::format("velocity of {} is not the rate of its length in {} (they agree to "
+                                              "r = {:.2f}); is it the same trial and clock?",
+                                              muscle(k), files_.lengths, r));
     }
   }
 
@@ -289,14 +264,11 @@ class TrialCheck {
     for (std::size_t j = 0; j < files_.moment_arms.size(); ++j) {
       for (Eigen::Index k = 0; k < arms(j).cols(); ++k) {
         const double largest = arms(j).col(k).cwiseAbs().maxCoeff();
-        const std::string found =
-            fmt::format("moment arm of {} up to {:.4g} m", muscle(k), largest);
+        const std::string found = fmt::format("moment arm of {} up to {:.4g} m", muscle(k), largest);
         if (largest > kCertainlyLargeArm_m)
-          fail(files_.moment_arms[j],
-               fmt::format("{}, expected at most 0.2 m; is it in {}? Write it in m", found,
-                           largest > 10.0 ? "mm" : "cm"));
-        if (largest > kLargestArm_m)
-          remark(files_.moment_arms[j], found + ", expected at most 0.2 m");
+          fail(files_.moment_arms[j], fmt::format("{}, expected at most 0.2 m; is it in {}? Write it in m", found,
+                                                  largest > 10.0 ? "mm" : "cm"));
+        if (largest > kLargestArm_m) remark(files_.moment_arms[j], found + ", expected at most 0.2 m");
       }
     }
   }
@@ -314,9 +286,7 @@ class TrialCheck {
     Eigen::MatrixXd r(static_cast<Eigen::Index>(muscles.size()), joints);
     for (Eigen::Index w = 0; w < c.of_length.rows(); ++w) {
       for (Eigen::Index j = 0; j < joints; ++j)
-        r.col(j) = arms(static_cast<std::size_t>(j))
-                       .row(c.middle[static_cast<std::size_t>(w)])(muscles)
-                       .transpose();
+        r.col(j) = arms(static_cast<std::size_t>(j)).row(c.middle[static_cast<std::size_t>(w)])(muscles).transpose();
       const Eigen::VectorXd dl = c.of_length.row(w)(muscles).transpose();
       total += dl.squaredNorm();
       left += (dl - r * math::nearest_solution(r, dl)).squaredNorm();
@@ -327,8 +297,7 @@ class TrialCheck {
   void length_changes() {
     if (files_.moment_arms.empty()) return;
     const Changes c = changes();
-    if (c.of_length.rows() < 5 ||
-        c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
+    if (c.of_length.rows() < 5 || c.of_length.norm() < kMoves_m * std::sqrt(static_cast<double>(c.of_length.size())))
       return;
     if (c.of_length.cols() <= static_cast<Eigen::Index>(files_.moment_arms.size())) return;
     const double all = explained(c, -1);
@@ -341,8 +310,7 @@ class TrialCheck {
            fmt::format("the changes of length do not follow from the moment arms (dl = -r dq "
                        "explains {:.0f} % of them){}; is a sign wrong, or the file of another "
                        "trial or joint?",
-                       100.0 * std::max(0.0, all),
-                       who.empty() ? "" : fmt::format("; without {} they do", who)));
+                       100.0 * std::max(0.0, all), who.empty() ? "" : fmt::format("; without {} they do", who)));
   }
 
   void torque_sizes() {
@@ -354,14 +322,12 @@ class TrialCheck {
     for (std::size_t j = 0; j < joints; ++j) {
       const auto pull_nm = (arms(j) * strength_n.asDiagonal()).eval();
       // The files do not state the person's size: 100 kg at 1 m bound it.
-      const dynamics::JointCapacity joint{
-          .positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
-          .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
-          .lever_m = 1.0,
-          .body_mass_kg = 100.0};
-      const std::string text =
-          too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
-                          usual_peak(torque(j)), joint.greatest_nm(), "the torque");
+      const dynamics::JointCapacity joint{.positive_nm = pull_nm.cwiseMax(0.0).rowwise().sum().maxCoeff(),
+                                          .negative_nm = pull_nm.cwiseMin(0.0).rowwise().sum().cwiseAbs().maxCoeff(),
+                                          .lever_m = 1.0,
+                                          .body_mass_kg = 100.0};
+      const std::string text = too_much_torque(j == 0 ? trial_.joint : trial_.more_joints[j - 1].name,
+                                               usual_peak(torque(j)), joint.greatest_nm(), "the torque");
       if (!text.empty()) fail(files_.torques, text);
     }
   }
@@ -372,16 +338,13 @@ class TrialCheck {
     std::vector<muscle::HillParameters<double>> start;
     for (const identification::MuscleSetup& setup : data_.muscles) start.push_back(setup.start);
     constexpr double kUsualDelay_s = 0.05;
-    const Eigen::MatrixXd force_n =
-        identification::predict(data_, trial_, start, kUsualDelay_s).force_n;
+    const Eigen::MatrixXd force_n = identification::predict(data_, trial_, start, kUsualDelay_s).force_n;
     const auto predicted = [&](std::size_t j) {
       return Eigen::VectorXd(arms(j).cwiseProduct(force_n).rowwise().sum());
     };
     if (joints == 2) {
-      const double own =
-          std::max(correlation(torque(0), predicted(0)), correlation(torque(1), predicted(1)));
-      const double other =
-          std::min(correlation(torque(0), predicted(1)), correlation(torque(1), predicted(0)));
+      const double own = std::max(correlation(torque(0), predicted(0)), correlation(torque(1), predicted(1)));
+      const double other = std::min(correlation(torque(0), predicted(1)), correlation(torque(1), predicted(0)));
       const std::string found = fmt::format(
           "these moment arms make the other joint's torque (with the starting values r is {:.2f} "
           "or more, of their own at most {:.2f}); --moment-arms has the first trial's files in the "

@@ -8,9 +8,8 @@
 
 namespace myoid {
 
-/// Finds values that no muscle has: wrong units, swapped files, wrong signs. Throws InvalidInput
-/// for a certain fault, with the file, the value found, the expected one and the remedy. Returns a
-/// sentence for each suspicious value.
+/// Finds values that no muscle has: wrong units, swapped files, wrong signs. Throws InvalidInput for a certain fault,
+/// with the file, the value found, the expected one and the remedy. Returns a sentence for each suspicious value.
 ///
 /// - Lengths are 1 cm to 1 m; a fault below 2 mm, if not positive, above 3 m. With a tendon slack
 /// length, fibers are 0.1 to 3 times their optimal length; a fault if most are not positive.

@@ -11,11 +11,8 @@ namespace {
 
 using identification::TrialData;
 
-const IdentifyFiles kFiles{.activations = "a.sto",
-                           .lengths = "l.sto",
-                           .velocities = "v.sto",
-                           .moment_arms = {"r.sto"},
-                           .torques = "id.sto"};
+const IdentifyFiles kFiles{
+    .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
 
 /// One trial of four muscles, spoiled.
 struct Spoiled {
@@ -36,8 +33,7 @@ struct Spoiled {
 };
 
 void expect_in(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
 TEST(IdentifyInput, OfGoodDataNothingIsSaid) {
@@ -64,12 +60,10 @@ TEST(IdentifyInput, LengthsOfWholeMusclesWithoutATendonAreRefused) {
   const auto without_tendon = [](double times_optimal) {
     Spoiled s;
     for (Eigen::Index k = 0; k < 4; ++k) {
-      muscle::HillParameters<double>& start =
-          s.study.data.muscles[static_cast<std::size_t>(k)].start;
+      muscle::HillParameters<double>& start = s.study.data.muscles[static_cast<std::size_t>(k)].start;
       const Eigen::VectorXd l = s.trial().length_m.col(k);
       // A small swing about the length asked for: no length is negative.
-      s.trial().length_m.col(k) =
-          0.1 * (l.array() - l.mean()) + times_optimal * start.optimal_fiber_length_m;
+      s.trial().length_m.col(k) = 0.1 * (l.array() - l.mean()) + times_optimal * start.optimal_fiber_length_m;
       s.trial().velocity_mps.col(k) *= 0.1;
       start.tendon_slack_length_m = 0.0;
     }
@@ -117,8 +111,8 @@ TEST(IdentifyInput, ActivationsInPercentOrRawAreNamed) {
   Spoiled percent, raw, beyond, volts;
   const auto scale = [](Spoiled& s, double factor, double offset) {
     const TimeSeries& a = s.trial().activation;
-    s.trial().activation = TimeSeries(a.time_s(), a.channels(),
-                                      ((factor * a.values()).array() + offset).matrix().eval());
+    s.trial().activation =
+        TimeSeries(a.time_s(), a.channels(), ((factor * a.values()).array() + offset).matrix().eval());
   };
   scale(percent, 100.0, 0.0);
   expect_in(percent.error(), {"a.sto", "percent", "100"});

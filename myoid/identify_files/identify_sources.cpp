@@ -15,9 +15,8 @@ namespace {
 
 void require_count(std::size_t count, std::size_t trials, std::string_view option) {
   if (count != trials)
-    throw InvalidInput(
-        fmt::format("{}: {} for {} of --lengths; give one per trial, in the same order", option,
-                    counted(count, "file"), trials));
+    throw InvalidInput(fmt::format("{}: {} for {} of --lengths; give one per trial, in the same order", option,
+                                   counted(count, "file"), trials));
 }
 
 }  // namespace
@@ -53,8 +52,7 @@ IdentifyFiles files_of(const IdentifySources& s, std::size_t trial) {
                       .moment_arms = {},
                       .torques = s.torque ? of_trial(s.torques) : ""};
   const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
-  for (std::size_t j = 0; s.torque && j < joints; ++j)
-    files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
+  for (std::size_t j = 0; s.torque && j < joints; ++j) files.moment_arms.push_back(s.moment_arms[joints * trial + j]);
   return files;
 }
 
@@ -69,9 +67,8 @@ std::string trial_label(const std::vector<std::string>& lengths, std::size_t num
   };
   const auto is_alone = [&](int folders) {
     const std::string own = tail(lengths[number], folders);
-    return std::count_if(lengths.begin(), lengths.end(), [&](const std::string& other) {
-             return tail(other, folders) == own;
-           }) == 1;
+    return std::count_if(lengths.begin(), lengths.end(),
+                         [&](const std::string& other) { return tail(other, folders) == own; }) == 1;
   };
   constexpr int kMostFolders = 8;
   int folders = 0;
@@ -83,15 +80,13 @@ std::string trial_label(const std::vector<std::string>& lengths, std::size_t num
 std::size_t trial_named(const std::string& name, const std::vector<std::string>& lengths) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if (name == lengths[i] || name == std::filesystem::path(lengths[i]).stem() ||
-        name == std::to_string(i + 1))
+    if (name == lengths[i] || name == std::filesystem::path(lengths[i]).stem() || name == std::to_string(i + 1))
       found.push_back(i);
   }
   if (found.size() == 1) return found.front();
-  throw InvalidInput(fmt::format(
-      "--validate {}: {}; give a number from 1 to {}, or one of the files of --lengths: {}", name,
-      found.empty() ? "no trial has that name" : "several trials have that name", lengths.size(),
-      fmt::join(lengths, ", ")));
+  throw InvalidInput(fmt::format("--validate {}: {}; give a number from 1 to {}, or one of the files of --lengths: {}",
+                                 name, found.empty() ? "no trial has that name" : "several trials have that name",
+                                 lengths.size(), fmt::join(lengths, ", ")));
 }
 
 }  // namespace myoid

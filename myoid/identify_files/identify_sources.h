@@ -13,10 +13,9 @@ struct IdentifySources {
   std::vector<std::string> activations, lengths;
   std::vector<std::string> velocities;  ///< Empty: rates of the spline through the lengths.
   std::vector<std::string> forces, moment_arms, torques;
-  std::vector<std::string> motions;  ///< Joint angles (.mot, .sto); empty: no motion of the joints.
-  std::optional<double>
-      motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
-  std::vector<std::string> coordinates;  ///< Columns of the torque files; empty: the only column.
+  std::vector<std::string> motions;        ///< Joint angles (.mot, .sto); empty: no motion of the joints.
+  std::optional<double> motion_cutoff_hz;  ///< Cut-off (-3 dB) that smooths the angles; empty: not smoothed.
+  std::vector<std::string> coordinates;    ///< Columns of the torque files; empty: the only column.
   /// Trials that are not fitted, by the names of `trial_named`.
   std::vector<std::string> held_back;
   bool torque = true;                    ///< Fits torques; false: forces.
@@ -43,7 +42,6 @@ void require_counts(const IdentifySources& sources);
 
 /// Returns the trial of a number from 1, of a file of lengths, or of this file's name without
 /// ending. Throws InvalidInput for no or several such trials.
-[[nodiscard]] std::size_t trial_named(const std::string& name,
-                                      const std::vector<std::string>& lengths);
+[[nodiscard]] std::size_t trial_named(const std::string& name, const std::vector<std::string>& lengths);
 
 }  // namespace myoid

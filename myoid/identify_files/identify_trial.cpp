@@ -24,12 +24,9 @@ using identification::MuscleSetup;
 using identification::TrialData;
 
 /// Resamples finite values to another clock; equal clocks leave them unchanged.
-Eigen::MatrixXd on_clock_of(const TimeSeries& series,
-                            const std::string& path,
-                            const Eigen::VectorXd& clock) {
+Eigen::MatrixXd on_clock_of(const TimeSeries& series, const std::string& path, const Eigen::VectorXd& clock) {
   require_finite(series, path);
-  if (series.time_s().size() == clock.size() &&
-      (series.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
+  if (series.time_s().size() == clock.size() && (series.time_s() - clock).cwiseAbs().maxCoeff() < 1e-9)
     return series.values();
   return signals::resample(series, clock).values();
 }
@@ -43,16 +40,14 @@ Eigen::MatrixXd rates_of(const TimeSeries& series, const Eigen::VectorXd& clock)
   return rates;
 }
 
-/// Returns the columns of the torque file, one for each coordinate; without coordinates its only
-/// column.
+/// Returns the columns of the torque file, one for each coordinate; without coordinates its only column.
 std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
                                     const std::string& path,
                                     const TimeSeries& torques) {
   if (coordinates.empty()) {
     if (torques.channel_count() != 1) {
-      throw ReadError(path, 0,
-                      fmt::format("has several columns ({}); name the joint's with --coordinate",
-                                  channel_names(torques)));
+      throw ReadError(
+          path, 0, fmt::format("has several columns ({}); name the joint's with --coordinate", channel_names(torques)));
     }
     return torques.channels();
   }
@@ -61,9 +56,9 @@ std::vector<Channel> torque_columns(const std::vector<std::string>& coordinates,
     auto column = torques.find(coordinate);
     if (!column) column = torques.find(coordinate + "_moment");
     if (!column) {
-      throw ReadError(path, 0,
-                      fmt::format("no column '{}' or '{}_moment'; found {}", coordinate, coordinate,
-                                  channel_names(torques)));
+      throw ReadError(
+          path, 0,
+          fmt::format("no column '{}' or '{}_moment'; found {}", coordinate, coordinate, channel_names(torques)));
     }
     columns.push_back(torques.channels()[static_cast<std::size_t>(*column)]);
   }
@@ -78,8 +73,7 @@ std::vector<Stretch> gaps_of(const Eigen::VectorXd& time_s) {
   const Eigen::VectorXd steps = time_s.tail(time_s.size() - 1) - time_s.head(time_s.size() - 1);
   const double usual_s = math::median({steps.begin(), steps.end()});
   for (Eigen::Index i = 0; i < steps.size(); ++i) {
-    if (steps[i] > std::max(kShortest_s, kUsual * usual_s))
-      gaps.push_back({time_s[i], time_s[i + 1]});
+    if (steps[i] > std::max(kShortest_s, kUsual * usual_s)) gaps.push_back({time_s[i], time_s[i + 1]});
   }
   return gaps;
 }
@@ -94,16 +88,14 @@ class TrialReader {
   TrialData read(std::size_t number) {
     const IdentifyFiles files = files_of(sources_, number);
     const std::string forces = sources_.forces.empty() ? "" : sources_.forces[number];
-    const std::string motion =
-        sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
+    const std::string motion = sources_.torque && !sources_.motions.empty() ? sources_.motions[number] : "";
     TrialData trial;
     trial.name = trial_label(sources_.lengths, number);
     trial.time_s = clock(files, {forces, motion});
     trial.length_m = columns_of(files.lengths, trial.time_s);
     say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);
-    trial.velocity_mps = files.velocities.empty()
-                             ? rates_of(muscle_series(files.lengths), trial.time_s)
-                             : columns_of(files.velocities, trial.time_s);
+    trial.velocity_mps = files.velocities.empty() ? rates_of(muscle_series(files.lengths), trial.time_s)
+                                                  : columns_of(files.velocities, trial.time_s);
     trial.activation = emg_series(files.activations);
     require_finite(trial.activation, files.activations);
     trial.torque_nm = Eigen::VectorXd::Zero(trial.time_s.size());
@@ -122,8 +114,7 @@ class TrialReader {
     if (std::find(sources_.motions.begin(), sources_.motions.end(), path) != sources_.motions.end())
       return read_.emplace(path, motion_series(path)).first->second;
     recording::SeriesFile file = recording::read_series(path);
-    for (const recording::Repair& repair : file.repairs)
-      remark_(recording::to_string(path, repair));
+    for (const recording::Repair& repair : file.repairs) remark_(recording::to_string(path, repair));
     return read_.emplace(path, std::move(file.data)).first->second;
   }
 
@@ -142,8 +133,7 @@ class TrialReader {
     std::vector<std::string> names;
     for (const MuscleSetup& m : muscles_) {
       if (!all.find(m.name))
-        throw ReadError(path, 0,
-                        fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
+        throw ReadError(path, 0, fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
       names.push_back(m.name);
     }
     return all.select(names);
@@ -155,10 +145,8 @@ class TrialReader {
     std::vector<std::string> names;
     for (const MuscleSetup& m : muscles_) {
       if (!all.find(m.emg_channel))
-        throw ReadError(path, 0,
-                        fmt::format("no column '{}'; found {}", m.emg_channel, channel_names(all)));
-      if (std::find(names.begin(), names.end(), m.emg_channel) == names.end())
-        names.push_back(m.emg_channel);
+        throw ReadError(path, 0, fmt::format("no column '{}'; found {}", m.emg_channel, channel_names(all)));
+      if (std::find(names.begin(), names.end(), m.emg_channel) == names.end()) names.push_back(m.emg_channel);
     }
     return all.select(names);
   }
@@ -173,8 +161,7 @@ class TrialReader {
     TimeSeries lengths = series(files.lengths);
     if (sources_.start_s || sources_.end_s)
       lengths = lengths.slice(sources_.start_s.value_or(-1e300), sources_.end_s.value_or(1e300));
-    if (lengths.sample_count() < 2)
-      throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
+    if (lengths.sample_count() < 2) throw ReadError(files.lengths, 0, "fewer than two samples in the time asked for");
     const double asked_s = span_s(lengths);
     std::string shortest;  // the file that leaves out most
     double most_left_out_s = 0.0;
@@ -188,13 +175,11 @@ class TrialReader {
       const double end_s = lengths.time_s()[lengths.sample_count() - 1];
       const double last_s = time_s[time_s.size() - 1];
       // A gap of half a sample at the ends is within the resolution of the clocks.
-      const double spare_s =
-          0.5 * (end_s - begin_s) / static_cast<double>(lengths.sample_count() - 1);
+      const double spare_s = 0.5 * (end_s - begin_s) / static_cast<double>(lengths.sample_count() - 1);
       if (begin_s >= time_s[0] - spare_s && end_s <= last_s + spare_s) continue;
       const bool apart = last_s <= begin_s || time_s[0] >= end_s;
       if (!apart) lengths = lengths.slice(time_s[0] - 1e-9, last_s + 1e-9);
-      if (const double left_out_s = end_s - begin_s - span_s(lengths);
-          left_out_s > most_left_out_s) {
+      if (const double left_out_s = end_s - begin_s - span_s(lengths); left_out_s > most_left_out_s) {
         most_left_out_s = left_out_s;
         shortest = file;
       }
@@ -219,8 +204,7 @@ class TrialReader {
   }
 
   /// Returns the files of a trial, each once.
-  static std::vector<std::string> all_of(const IdentifyFiles& files,
-                                         const std::vector<std::string>& more) {
+  static std::vector<std::string> all_of(const IdentifyFiles& files, const std::vector<std::string>& more) {
     std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
@@ -231,9 +215,7 @@ class TrialReader {
   }
 
   /// Excludes stretches without samples, whose values would be interpolated between neighbors.
-  void leave_out_gaps(const IdentifyFiles& files,
-                      const std::vector<std::string>& more,
-                      TrialData& trial) {
+  void leave_out_gaps(const IdentifyFiles& files, const std::vector<std::string>& more, TrialData& trial) {
     constexpr double kSplines_s = 0.1;  // reach of a spline's ends
     constexpr double kBehind_s = 0.3;   // longest lag of torque behind EMG
     const double begin_s = trial.time_s[0], end_s = trial.time_s[trial.time_s.size() - 1];
@@ -242,9 +224,8 @@ class TrialReader {
         if (gap.end_s <= begin_s || gap.begin_s >= end_s) continue;
         const double after_s = file == files.activations ? kBehind_s : kSplines_s;
         trial.excluded.push_back({gap.begin_s - kSplines_s, gap.end_s + after_s});
-        remark_(fmt::format(
-            "{}: no samples from {:.3f} to {:.3f} s: {:.3f} to {:.3f} s are not fitted", file,
-            gap.begin_s, gap.end_s, trial.excluded.back().begin_s, trial.excluded.back().end_s));
+        remark_(fmt::format("{}: no samples from {:.3f} to {:.3f} s: {:.3f} to {:.3f} s are not fitted", file,
+                            gap.begin_s, gap.end_s, trial.excluded.back().begin_s, trial.excluded.back().end_s));
       }
     }
   }
@@ -252,23 +233,18 @@ class TrialReader {
   void add_torques(const IdentifyFiles& files, TrialData& trial) {
     trial.moment_arm_m = columns_of(files.moment_arms[0], trial.time_s);
     const TimeSeries& torques = series(files.torques);
-    const std::vector<Channel> columns =
-        torque_columns(sources_.coordinates, files.torques, torques);
+    const std::vector<Channel> columns = torque_columns(sources_.coordinates, files.torques, torques);
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      Eigen::VectorXd torque_nm =
-          on_clock_of(torques.select({columns[j].name}), files.torques, trial.time_s).col(0);
-      if (const std::string text =
-              check_joint_by_name(files.moment_arms[j], columns[j].name, torques);
-          !text.empty())
+      Eigen::VectorXd torque_nm = on_clock_of(torques.select({columns[j].name}), files.torques, trial.time_s).col(0);
+      if (const std::string text = check_joint_by_name(files.moment_arms[j], columns[j].name, torques); !text.empty())
         remark_(text);
       if (j == 0) {
         trial.torque_nm = std::move(torque_nm);
         if (!sources_.coordinates.empty()) trial.joint = sources_.coordinates[0];
       } else {
-        trial.more_joints.push_back(
-            {.name = sources_.coordinates[j],
-             .torque_nm = std::move(torque_nm),
-             .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
+        trial.more_joints.push_back({.name = sources_.coordinates[j],
+                                     .torque_nm = std::move(torque_nm),
+                                     .moment_arm_m = columns_of(files.moment_arms[j], trial.time_s)});
       }
     }
   }
@@ -280,22 +256,20 @@ class TrialReader {
     const auto column = [&](const std::string& joint) {
       const auto found = angles.find(joint);
       if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {
-        throw ReadError(
-            path, 0,
-            sources_.coordinates.empty()
-                ? fmt::format("has several columns ({}); name the joint's with "
-                              "--coordinate",
-                              channel_names(angles))
-                : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
+        throw ReadError(path, 0,
+                        sources_.coordinates.empty()
+                            ? fmt::format("has several columns ({}); name the joint's with "
+                                          "--coordinate",
+                                          channel_names(angles))
+                            : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
       }
       return angles.values().col(found.value_or(0));
     };
     const auto set = [&](auto& joint, const std::string& name) {
-      const math::Spline spline =
-          sources_.motion_cutoff_hz
-              ? math::Spline::smooth(angles.time_s(), column(name),
-                                     {.cutoff_hz = sources_.motion_cutoff_hz, .noise_sd = {}})
-              : math::Spline::interpolate(angles.time_s(), column(name));
+      const math::Spline spline = sources_.motion_cutoff_hz
+                                      ? math::Spline::smooth(angles.time_s(), column(name),
+                                                             {.cutoff_hz = sources_.motion_cutoff_hz, .noise_sd = {}})
+                                      : math::Spline::interpolate(angles.time_s(), column(name));
       math::SplineValues at = spline.evaluate(trial.time_s);
       joint.angle_rad = std::move(at.value);
       joint.velocity_radps = std::move(at.first);
@@ -308,8 +282,7 @@ class TrialReader {
   /// Returns the angles of a file in radians.
   TimeSeries motion_series(const std::string& path) {
     const recording::Storage file = recording::read_storage(path);
-    for (const recording::Repair& repair : file.repairs)
-      remark_(recording::to_string(path, repair));
+    for (const recording::Repair& repair : file.repairs) remark_(recording::to_string(path, repair));
     TimeSeries angles = recording::to_si(file, [](const std::string&) { return true; });
     require_finite(angles, path);
     constexpr double kTwoTurns_rad = 4.0 * kPi;

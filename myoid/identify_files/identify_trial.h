@@ -10,14 +10,12 @@
 
 namespace myoid {
 
-/// Reads the files of one trial, each once, onto the clock of its lengths and the time that all of
-/// its files cover. Excludes stretches in which a file has no samples. `remark` receives repairs,
-/// jumps and these stretches. Throws ReadError for missing columns and for files that do not
-/// overlap.
-[[nodiscard]] identification::TrialData read_identify_trial(
-    const IdentifySources& sources,
-    std::size_t number,
-    const std::vector<identification::MuscleSetup>& muscles,
-    const std::function<void(const std::string&)>& remark);
+/// Reads the files of one trial, each once, onto the clock of its lengths and the time that all of its files cover.
+/// Excludes stretches in which a file has no samples. `remark` receives repairs, jumps and these stretches. Throws
+/// ReadError for missing columns and for files that do not overlap.
+[[nodiscard]] identification::TrialData read_identify_trial(const IdentifySources& sources,
+                                                            std::size_t number,
+                                                            const std::vector<identification::MuscleSetup>& muscles,
+                                                            const std::function<void(const std::string&)>& remark);
 
 }  // namespace myoid

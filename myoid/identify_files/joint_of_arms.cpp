@@ -40,8 +40,7 @@ struct JointArms {
 
 std::vector<JointArms> joints_of(const TrialData& trial) {
   std::vector<JointArms> joints{{trial.moment_arm_m, trial.angle_rad}};
-  for (const identification::JointData& more : trial.more_joints)
-    joints.push_back({more.moment_arm_m, more.angle_rad});
+  for (const identification::JointData& more : trial.more_joints) joints.push_back({more.moment_arm_m, more.angle_rad});
   return joints;
 }
 
@@ -53,10 +52,10 @@ void add_muscles_without_arm(const StudyData& data,
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Eigen::VectorXd here = joints[j].arm_m.cwiseAbs().colwise().maxCoeff().transpose();
     if (here.maxCoeff() < kNoArm_m)
-      throw InvalidInput(fmt::format(
-          "{}: every muscle's moment arm stays below 0.1 mm, expected some centimeters: none of "
-          "these muscles moves this joint; give the file of the joint whose torque is fitted",
-          files.moment_arms[j]));
+      throw InvalidInput(
+          fmt::format("{}: every muscle's moment arm stays below 0.1 mm, expected some centimeters: none of "
+                      "these muscles moves this joint; give the file of the joint whose torque is fitted",
+                      files.moment_arms[j]));
     most = most.cwiseMax(here);
   }
   std::vector<std::string> still;
@@ -64,11 +63,11 @@ void add_muscles_without_arm(const StudyData& data,
     if (most[k] < kNoArm_m) still.push_back(data.muscles[static_cast<std::size_t>(k)].name);
   }
   if (!still.empty())
-    remarks.push_back(fmt::format(
-        "{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and "
-        "nothing of it can be identified; is this the file of another joint? Else leave the "
-        "muscle out of muscles.csv",
-        files.moment_arms.front(), fmt::join(still, ", ")));
+    remarks.push_back(
+        fmt::format("{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and "
+                    "nothing of it can be identified; is this the file of another joint? Else leave the "
+                    "muscle out of muscles.csv",
+                    files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
 /// The changes of every muscle's length over each window, measured and by moment arms and angles.
@@ -89,8 +88,8 @@ ArmChanges changes_by_arms(const TrialData& trial, const std::vector<JointArms>&
     c.of_length.row(w) = trial.length_m.row(first + reach) - trial.length_m.row(first);
     for (const JointArms& joint : joints) {
       for (Eigen::Index i = first; i < first + reach; ++i)
-        c.by_angles.row(w) -= 0.5 * (joint.angle_rad[i + 1] - joint.angle_rad[i]) *
-                              (joint.arm_m.row(i) + joint.arm_m.row(i + 1));
+        c.by_angles.row(w) -=
+            0.5 * (joint.angle_rad[i + 1] - joint.angle_rad[i]) * (joint.arm_m.row(i) + joint.arm_m.row(i + 1));
     }
   }
   return c;
@@ -106,9 +105,8 @@ void compare_with_angles(const TrialData& trial,
                          const std::vector<JointArms>& joints,
                          const IdentifyFiles& files,
                          std::vector<std::string>& remarks) {
-  const bool known = std::all_of(joints.begin(), joints.end(), [&](const JointArms& joint) {
-    return joint.angle_rad.size() == trial.time_s.size();
-  });
+  const bool known = std::all_of(joints.begin(), joints.end(),
+                                 [&](const JointArms& joint) { return joint.angle_rad.size() == trial.time_s.size(); });
   if (!known || trial.time_s.size() < 3) return;
   const ArmChanges c = changes_by_arms(trial, joints);
   const auto count = static_cast<double>(c.of_length.rows());
@@ -123,15 +121,15 @@ void compare_with_angles(const TrialData& trial,
     best_reversed = std::max(best_reversed, share_explained(change, -by));
   }
   if (!any || best >= kExplains) return;
-  remarks.push_back(fmt::format(
-      "{}: {}", files.moment_arms.front(),
-      best_reversed >= kExplains
-          ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r dq: "
-                        "the sign of the moment arms or of the angles is reversed")
-          : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of the "
-                        "change of any muscle's length, expected most of it for a muscle that "
-                        "crosses no other joint; is it the file of another joint or trial?",
-                        100.0 * std::max(0.0, best))));
+  remarks.push_back(
+      fmt::format("{}: {}", files.moment_arms.front(),
+                  best_reversed >= kExplains
+                      ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r dq: "
+                                    "the sign of the moment arms or of the angles is reversed")
+                      : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of the "
+                                    "change of any muscle's length, expected most of it for a muscle that "
+                                    "crosses no other joint; is it the file of another joint or trial?",
+                                    100.0 * std::max(0.0, best))));
 }
 
 }  // namespace
@@ -145,19 +143,16 @@ std::string_view coordinate_in_name(std::string_view path) {
   return at == std::string::npos ? std::string_view() : path.substr(at + kMark.size());
 }
 
-std::string check_joint_by_name(const std::string& path,
-                                const std::string& torque_column,
-                                const TimeSeries& torques) {
+std::string check_joint_by_name(const std::string& path, const std::string& torque_column, const TimeSeries& torques) {
   const std::string_view stated = coordinate_in_name(path);
   if (stated.empty() || one_holds_the_other(stated, torque_column)) return {};
   const std::string found =
-      fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated,
-                  torque_column);
+      fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated, torque_column);
   if (torques.find(stated) || torques.find(fmt::format("{}_moment", stated)))
-    throw InvalidInput(fmt::format(
-        "{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment "
-        "arms",
-        path, found, stated));
+    throw InvalidInput(
+        fmt::format("{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment "
+                    "arms",
+                    path, found, stated));
   return fmt::format("{}: {}; is it the file of another joint?", path, found);
 }
 

@@ -14,10 +14,9 @@ namespace myoid {
 /// ("walk_MuscleAnalysis_MomentArm_knee_angle_r.sto": "knee_angle_r"); empty: none.
 [[nodiscard]] std::string_view coordinate_in_name(std::string_view path);
 
-/// Compares the coordinate in the name of a file of moment arms with the column of torques that it
-/// serves. Accepts a name without a coordinate, and a name that is part of the other. Throws
-/// InvalidInput if another column of the torque file has this coordinate, so that the file is
-/// certainly another joint's; else returns a remark, empty if both agree.
+/// Compares the coordinate in the name of a file of moment arms with the column of torques that it serves. Accepts a
+/// name without a coordinate, and a name that is part of the other. Throws InvalidInput if another column of the torque
+/// file has this coordinate, so that the file is certainly another joint's; else returns a remark, empty if both agree.
 [[nodiscard]] std::string check_joint_by_name(const std::string& path,
                                               const std::string& torque_column,
                                               const TimeSeries& torques);

@@ -13,15 +13,10 @@
 namespace myoid {
 namespace {
 
-const IdentifyFiles kArmFiles{.activations = "a.sto",
-                              .lengths = "l.sto",
-                              .velocities = "v.sto",
-                              .moment_arms = {"r.sto"},
-                              .torques = "id.sto"};
+const IdentifyFiles kArmFiles{
+    .activations = "a.sto", .lengths = "l.sto", .velocities = "v.sto", .moment_arms = {"r.sto"}, .torques = "id.sto"};
 
-identification::StudyData elbow_data() {
-  return test::elbow_study({.trials = 1, .seconds = 10.0}).data;
-}
+identification::StudyData elbow_data() { return test::elbow_study({.trials = 1, .seconds = 10.0}).data; }
 
 TimeSeries torque_series(const std::vector<std::string>& names) {
   std::vector<Channel> channels;
@@ -31,8 +26,7 @@ TimeSeries torque_series(const std::vector<std::string>& names) {
 }
 
 TEST(JointOfArms, ReadsTheCoordinateFromTheNameThatOpenSimGives) {
-  EXPECT_EQ(coordinate_in_name("out/walk_MuscleAnalysis_MomentArm_knee_angle_r.sto"),
-            "knee_angle_r");
+  EXPECT_EQ(coordinate_in_name("out/walk_MuscleAnalysis_MomentArm_knee_angle_r.sto"), "knee_angle_r");
   EXPECT_EQ(coordinate_in_name("C:\\out\\MuscleAnalysis_MomentArm_ankle.sto"), "ankle");
   EXPECT_EQ(coordinate_in_name("MomentArm_knee/arms.sto"), "");
 }
@@ -42,8 +36,7 @@ TEST(JointOfArms, TheFileOfAnotherJointOfTheTorqueFileIsRefused) {
   const std::string knee = "x_MuscleAnalysis_MomentArm_knee_angle_r.sto";
   EXPECT_EQ(check_joint_by_name(knee, "knee_angle_r_moment", leg), "");
   EXPECT_EQ(check_joint_by_name("arms.sto", "ankle_angle_r_moment", leg), "");
-  const std::string error =
-      test::message_of([&] { (void)check_joint_by_name(knee, "ankle_angle_r_moment", leg); });
+  const std::string error = test::message_of([&] { (void)check_joint_by_name(knee, "ankle_angle_r_moment", leg); });
   EXPECT_NE(error.find("knee_angle_r"), std::string::npos) << error;
   EXPECT_NE(error.find("--coordinate knee_angle_r"), std::string::npos) << error;
   // A torque of another name is suspicious only, a part of the name is the same joint.
@@ -58,8 +51,7 @@ TEST(JointOfArms, MusclesThatTheJointDoesNotMoveAreNamed) {
   data.trials[0].moment_arm_m.col(1).setConstant(5e-5);
   const std::vector<std::string> remarks = check_joint_of_arms(data, data.trials[0], kArmFiles);
   ASSERT_EQ(remarks.size(), 1U);
-  EXPECT_NE(remarks[0].find(data.muscles[1].name + " stays below"), std::string::npos)
-      << remarks[0];
+  EXPECT_NE(remarks[0].find(data.muscles[1].name + " stays below"), std::string::npos) << remarks[0];
   data.trials[0].moment_arm_m.setConstant(5e-5);
   EXPECT_THROW((void)check_joint_of_arms(data, data.trials[0], kArmFiles), InvalidInput);
 }

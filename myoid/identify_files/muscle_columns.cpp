@@ -99,12 +99,10 @@ Header split(const std::string& text) {
   const std::size_t open = text.find_first_of("[(");
   if (open == std::string::npos) return {text, ""};
   const std::size_t close = text.find_first_of("])", open);
-  return {text.substr(0, open),
-          text.substr(open + 1, close == std::string::npos ? close : close - open - 1)};
+  return {text.substr(0, open), text.substr(open + 1, close == std::string::npos ? close : close - open - 1)};
 }
 
-std::optional<std::string> quantity_of(const std::string& word,
-                                       const std::vector<std::string>& names) {
+std::optional<std::string> quantity_of(const std::string& word, const std::vector<std::string>& names) {
   const std::string bare = plain(word);
   for (const std::string& name : names) {
     if (plain(name) == bare) return name;
@@ -123,16 +121,15 @@ double scale_of(const std::string& name,
   if (header.unit.empty()) return 1.0;
   std::string parameter = name;
   for (const char* suffix : {"_lower", "_upper", "_prior_sd"}) {
-    if (parameter.ends_with(suffix))
-      parameter.erase(parameter.size() - std::string_view(suffix).size());
+    if (parameter.ends_with(suffix)) parameter.erase(parameter.size() - std::string_view(suffix).size());
   }
   for (const identification::ParameterField& field : identification::parameter_fields()) {
     if (field.name != parameter || field.scope != identification::Scope::muscle) continue;
     const auto found = parse_unit(header.unit);
     if (found && found->unit == field.unit) return found->to_si;
     throw ReadError(path, table.header_line,
-                    fmt::format("column '{} [{}]': expected a unit of {}, such as [{}]",
-                                header.word, header.unit, field.name, symbol(field.unit)));
+                    fmt::format("column '{} [{}]': expected a unit of {}, such as [{}]", header.word, header.unit,
+                                field.name, symbol(field.unit)));
   }
   return 1.0;
 }
@@ -153,17 +150,14 @@ std::map<std::string, MuscleColumn> muscle_columns(const recording::CsvTable& ta
           fmt::format("unknown column '{}'{}; needed are muscle, max_isometric_force "
                       "[N] and optimal_fiber_length [m]; delete a column that is no "
                       "number of the muscle. Known are {}",
-                      table.names[c], near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                      fmt::join(names, ", ")));
+                      table.names[c], near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", ")));
     }
     const bool by_length = *name == kSpeedInLengths;
-    const MuscleColumn column{.index = c,
-                              .to_si = by_length ? 1.0 : scale_of(*name, header, table, path),
-                              .in_fiber_lengths = by_length};
+    const MuscleColumn column{
+        .index = c, .to_si = by_length ? 1.0 : scale_of(*name, header, table, path), .in_fiber_lengths = by_length};
     const std::string key = by_length ? "max_shortening_speed" : *name;
     if (!columns.emplace(key, column).second)
-      throw ReadError(path, table.header_line,
-                      fmt::format("two columns give {}: leave one of them out", key));
+      throw ReadError(path, table.header_line, fmt::format("two columns give {}: leave one of them out", key));
   }
   for (const char* needed : {"muscle", "max_isometric_force", "optimal_fiber_length"}) {
     if (columns.contains(needed)) continue;

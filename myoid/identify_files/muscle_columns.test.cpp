@@ -18,11 +18,10 @@ std::string columns_message(const std::string& header) {
 }
 
 TEST(MuscleColumns, NamesOfOtherProgramsAreUnderstood) {
-  for (const char* header :
-       {"muscle,max_isometric_force,optimal_fiber_length,tendon_slack_length,pennation_angle",
-        "name,maxIsometricForce,optimalFiberLength,tendonSlackLength,pennationAngle",
-        "Muscle Name,F_max,l_m_0,l_t_s,alpha0", "MUSCLE,FMAX,LOPT,LSLACK,PENNATION",
-        "name,FoM,lMo,lTs,pennation_angle_at_optimal"}) {
+  for (const char* header : {"muscle,max_isometric_force,optimal_fiber_length,tendon_slack_length,pennation_angle",
+                             "name,maxIsometricForce,optimalFiberLength,tendonSlackLength,pennationAngle",
+                             "Muscle Name,F_max,l_m_0,l_t_s,alpha0", "MUSCLE,FMAX,LOPT,LSLACK,PENNATION",
+                             "name,FoM,lMo,lTs,pennation_angle_at_optimal"}) {
     const auto columns = columns_of(header);
     EXPECT_EQ(columns.at("muscle").index, 0U) << header;
     EXPECT_EQ(columns.at("max_isometric_force").index, 1U) << header;
@@ -41,12 +40,10 @@ TEST(MuscleColumns, AUnitInTheHeaderScales) {
 }
 
 TEST(MuscleColumns, NamesThatMayBeMeantAreNamed) {
-  EXPECT_NE(columns_message("muscle,max_isometric_forse,l0").find("'max_isometric_force'?"),
-            std::string::npos);
+  EXPECT_NE(columns_message("muscle,max_isometric_forse,l0").find("'max_isometric_force'?"), std::string::npos);
   EXPECT_NE(columns_message("muscle,F_max,Fiso,l0").find("two columns give"), std::string::npos);
   EXPECT_NE(columns_message("muscle,F_max [m],l0").find("expected a unit of"), std::string::npos);
-  EXPECT_NE(columns_message("muscle,F_max").find("no column 'optimal_fiber_length'"),
-            std::string::npos);
+  EXPECT_NE(columns_message("muscle,F_max").find("no column 'optimal_fiber_length'"), std::string::npos);
 }
 
 }  // namespace

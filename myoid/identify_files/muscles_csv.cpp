@@ -59,8 +59,8 @@ void fill_in(double slope_ratio, MuscleSetup& setup) {
   // With a plateau of 1 the law in lengthening is level for every product.
   absent(start.eccentric_curvature_product,
          std::max(muscle::hill_field(kProduct).bounds.lower,
-                  muscle::curvature_product_from_slope_ratio(
-                      slope_ratio, start.concentric_curvature, start.eccentric_plateau)));
+                  muscle::curvature_product_from_slope_ratio(slope_ratio, start.concentric_curvature,
+                                                             start.eccentric_plateau)));
 }
 
 /// Lists the literature's values that replace empty cells, in a sentence.
@@ -90,9 +90,7 @@ class Row {
       std::size_t index)
       : table_(&table), columns_(&columns), path_(&path), index_(index) {}
 
-  [[noreturn]] void fail(const std::string& message) const {
-    throw ReadError(*path_, table_->lines[index_], message);
-  }
+  [[noreturn]] void fail(const std::string& message) const { throw ReadError(*path_, table_->lines[index_], message); }
 
   /// Returns the cell's text; empty if there is no such column.
   [[nodiscard]] std::string cell(const std::string& name) const {
@@ -113,8 +111,7 @@ class Row {
 
   [[nodiscard]] std::optional<double> positive(const std::string& name) const {
     const std::optional<double> value = number(name);
-    if (value && !(*value > 0.0))
-      fail(fmt::format("{}: expected a positive number, found {}", name, *value));
+    if (value && !(*value > 0.0)) fail(fmt::format("{}: expected a positive number, found {}", name, *value));
     return value;
   }
 
@@ -130,9 +127,7 @@ class Row {
     fail(fmt::format("{}: expected true or false, found '{}'", name, text));
   }
 
-  [[nodiscard]] bool speed_in_fiber_lengths() const {
-    return number(kSpeed) && columns_->at(kSpeed).in_fiber_lengths;
-  }
+  [[nodiscard]] bool speed_in_fiber_lengths() const { return number(kSpeed) && columns_->at(kSpeed).in_fiber_lengths; }
 
  private:
   const recording::CsvTable* table_;
@@ -171,12 +166,10 @@ StartingMuscle read_start(const Row& row) {
       continue;
     }
     if (name == "max_isometric_force" || name == "optimal_fiber_length")
-      row.fail(fmt::format("muscle '{}' has no {}; it needs a starting value in SI units",
-                           setup.name, name));
+      row.fail(fmt::format("muscle '{}' has no {}; it needs a starting value in SI units", setup.name, name));
     if (!may_be_absent && !(result.slope_ratio && name == kProduct)) result.assumed.push_back(name);
   }
-  if (row.speed_in_fiber_lengths())
-    setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
+  if (row.speed_in_fiber_lengths()) setup.start.max_shortening_speed_mps *= setup.start.optimal_fiber_length_m;
   fill_in(ratio.value_or(muscle::kLiteratureSlopeRatio), setup);
   try {
     muscle::validate(setup.start);
@@ -215,8 +208,7 @@ void set_bounds(const Row& row,
   const double most = wishes.upper.value_or(field.bounds.upper);
   if (wishes.any_bound()) {
     setup.bounds[name] = {least, most};
-    if (!(least < most))
-      row.fail(fmt::format("{}: lower bound {} is not below upper bound {}", name, least, most));
+    if (!(least < most)) row.fail(fmt::format("{}: lower bound {} is not below upper bound {}", name, least, most));
   }
   if (!given_for_hill(name)) return;
   if (row.cell(name).empty() && !wishes.any_bound()) {
@@ -278,11 +270,9 @@ void read_parameter(const Row& row,
     setup.given_priors.push_back(name);
   }
   // Parameters beyond the paper's law are held by default.
-  if (wishes.is_held() && (hill || field.field <= identification::kPlateau))
-    setup.fixed.push_back(name);
+  if (wishes.is_held() && (hill || field.field <= identification::kPlateau)) setup.fixed.push_back(name);
   // A request for the product makes the product the unknown, in place of the ratio of slopes.
-  if (name == kProduct && (wishes.is_held() || wishes.any_bound() || wishes.prior_sd))
-    setup.priors.erase(kRatio);
+  if (name == kProduct && (wishes.is_held() || wishes.any_bound() || wishes.prior_sd)) setup.priors.erase(kRatio);
   if (const auto rule = rule_of(row, field, wishes, muscle)) table.rules.push_back(*rule);
   if (name == kSpeed && !wishes.held) table.speed_may_be_free.push_back(setup.name);
 }
@@ -300,21 +290,17 @@ MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_boun
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const Row row(table, columns, path, r);
     for (const MuscleSetup& other : result.muscles) {
-      if (other.name == row.cell("muscle"))
-        row.fail(fmt::format("muscle '{}' is listed twice", other.name));
+      if (other.name == row.cell("muscle")) row.fail(fmt::format("muscle '{}' is listed twice", other.name));
     }
     StartingMuscle muscle = read_start(row);
-    for (const std::string& parameter : muscle.assumed)
-      assumed[parameter].push_back(muscle.setup.name);
+    for (const std::string& parameter : muscle.assumed) assumed[parameter].push_back(muscle.setup.name);
     for (const identification::ParameterField& field : identification::parameter_fields()) {
-      if (field.scope == identification::Scope::muscle)
-        read_parameter(row, field, within_bounds, muscle, result);
+      if (field.scope == identification::Scope::muscle) read_parameter(row, field, within_bounds, muscle, result);
     }
     result.muscles.push_back(std::move(muscle.setup));
   }
   if (!table.last_row_has_end) {
-    result.notes.push_back(
-        fmt::format("{}:{}: {}", path.string(), table.lines.back(), recording::kLastRowKept));
+    result.notes.push_back(fmt::format("{}:{}: {}", path.string(), table.lines.back(), recording::kLastRowKept));
   }
   if (!assumed.empty()) {
     result.assumed = assumption(path, assumed, result.muscles.size());

@@ -18,12 +18,11 @@ struct MuscleTable {
   std::vector<std::string> speed_may_be_free;  ///< Muscles whose v_max is neither held nor free.
 };
 
-/// Reads muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and any number of
-/// known columns of further parameters (`muscle_columns`; starting values, SI). Missing numbers of
-/// the source paper's law are the literature's (`muscle::literature_parameters`). Further columns
-/// are `<parameter>_fixed`, `_lower`, `_upper`, `_prior_sd`; `emg`, the channel, if its name
-/// differs from the muscle's. `within_bounds`: the method keeps to bounds, so a start must lie
-/// within them. Throws ReadError with the line for an unknown column, a missing or impossible
+/// Reads muscles.csv: `muscle`, `max_isometric_force`, `optimal_fiber_length`, and any number of known columns of
+/// further parameters (`muscle_columns`; starting values, SI). Missing numbers of the source paper's law are the
+/// literature's (`muscle::literature_parameters`). Further columns are `<parameter>_fixed`, `_lower`, `_upper`,
+/// `_prior_sd`; `emg`, the channel, if its name differs from the muscle's. `within_bounds`: the method keeps to bounds,
+/// so a start must lie within them. Throws ReadError with the line for an unknown column, a missing or impossible
 /// number and two muscles of one name.
 [[nodiscard]] MuscleTable read_muscles_csv(const std::filesystem::path& path, bool within_bounds);
 

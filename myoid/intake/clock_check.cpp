@@ -10,28 +10,23 @@ std::string check_clock(const std::filesystem::path& path, const Eigen::VectorXd
   const Eigen::Index n = time_s.size();
   const signals::ClockGaps gaps = signals::find_clock_gaps(time_s);
   if (gaps.usual_interval_s > 1.0 / kLimits.slowest_clock_hz) {
-    throw ReadError(
-        path, 0,
-        fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
-                    "time in ms or in frames? expected seconds and {} Hz or more",
-                    n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kLimits.slowest_clock_hz));
+    throw ReadError(path, 0,
+                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
+                                "time in ms or in frames? expected seconds and {} Hz or more",
+                                n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kLimits.slowest_clock_hz));
   }
   if (gaps.longest_s() > kLongestGap_s) {
-    throw ClockPause(
-        path,
-        fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make "
-                    "two trials of it, with end_s before and start_s after the gap",
-                    gaps.text(), kLongestGap_s),
-        signals::clock_stretches(time_s, kLongestGap_s));
+    throw ClockPause(path,
+                     fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make "
+                                 "two trials of it, with end_s before and start_s after the gap",
+                                 gaps.text(), kLongestGap_s),
+                     signals::clock_stretches(time_s, kLongestGap_s));
   }
   if (gaps.count == 0) return "";
-  return fmt::format("{}: {} in its clock, bridged by a spline", path.filename().string(),
-                     gaps.text());
+  return fmt::format("{}: {} in its clock, bridged by a spline", path.filename().string(), gaps.text());
 }
 
-void check_cutoff(const Study& study,
-                  const std::filesystem::path& path,
-                  const Eigen::VectorXd& time_s) {
+void check_cutoff(const Study& study, const std::filesystem::path& path, const Eigen::VectorXd& time_s) {
   if (study.motion.smoothing != Smoothing::cutoff) return;
   const Eigen::Index n = time_s.size();
   const double rate_hz = static_cast<double>(n - 1) / (time_s[n - 1] - time_s[0]);

@@ -34,12 +34,9 @@ class ClockPause : public ReadError {
 /// Returns a warning about the shorter pauses of a file's clock, empty if there are none. Throws
 /// ReadError for a clock too slow for human movement (less than 5 Hz: milliseconds or frames), and
 /// ClockPause for a pause of more than kLongestGap_s.
-[[nodiscard]] std::string check_clock(const std::filesystem::path& path,
-                                      const Eigen::VectorXd& time_s);
+[[nodiscard]] std::string check_clock(const std::filesystem::path& path, const Eigen::VectorXd& time_s);
 
 /// Throws ReadError if [motion] cutoff_hz is at least 0.45 of the rate of this file's clock.
-void check_cutoff(const Study& study,
-                  const std::filesystem::path& path,
-                  const Eigen::VectorXd& time_s);
+void check_cutoff(const Study& study, const std::filesystem::path& path, const Eigen::VectorXd& time_s);
 
 }  // namespace myoid

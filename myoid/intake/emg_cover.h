@@ -45,10 +45,9 @@ struct TrialLengths {
 /// beginnings, a maximal contraction or a static pose.
 [[nodiscard]] std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input);
 
-/// Finds EMG whose duration differs from the motion's by a factor of 2, 3, 4, 5, 10 or a reciprocal
-/// of these, within 2 %: a wrong rate. It is an error if the EMG is the shorter one, or if both
-/// ends agree within 0.5 % at the corrected rate, as after a common trigger; otherwise a warning.
-/// It is also a warning if the ratio is the same in every trial.
+/// Finds EMG whose duration differs from the motion's by a factor of 2, 3, 4, 5, 10 or a reciprocal of these, within 2
+/// %: a wrong rate. It is an error if the EMG is the shorter one, or if both ends agree within 0.5 % at the corrected
+/// rate, as after a common trigger; otherwise a warning. It is also a warning if the ratio is the same in every trial.
 [[nodiscard]] std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials);
 
 }  // namespace myoid

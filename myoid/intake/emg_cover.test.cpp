@@ -9,9 +9,7 @@ namespace {
 
 using namespace test_trials;
 
-TrialLengths lengths(double emg_s, double motion_s) {
-  return {"t", emg_s, motion_s, 100.0, 1000.0};
-}
+TrialLengths lengths(double emg_s, double motion_s) { return {"t", emg_s, motion_s, 100.0, 1000.0}; }
 
 TEST(LengthsOf, AreOfRecordingsThatShouldLastAlike) {
   const TrialInput input = WrittenTrial(0.01, 4.99).read(arm_study());
@@ -52,12 +50,11 @@ TEST(LengthsOf, AreNotOfClocksThatWereMatchedNorOfARecordingThatBeganLater) {
 TEST(CheckCover, WantsHalfASecondAndHalfOfTheMotion) {
   const auto check = [&](double motion_to_s, double emg_from_s, double emg_to_s) {
     TrialInput input;
-    input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s),
-                              {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Zero(50, 1));
+    input.motion = TimeSeries(Eigen::VectorXd::LinSpaced(50, 0.0, motion_to_s), {{"elbow_flexion", Unit::radian}},
+                              Eigen::MatrixXd::Zero(50, 1));
     return check_cover("e.sto", "EMG", Eigen::VectorXd::LinSpaced(50, emg_from_s, emg_to_s), input);
   };
-  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"),
-            std::string::npos);
+  EXPECT_NE(message_of([&] { check(0.4, 0.0, 0.4); }).find("at least 0.5 s are needed"), std::string::npos);
   EXPECT_FALSE(check(0.6, 0.0, 0.6));
   EXPECT_NE(message_of([&] { check(10.0, 0.0, 4.0); }).find("less than half"), std::string::npos);
   EXPECT_NE(message_of([&] { check(10.0, 6.0, 12.0); }).find("less than half"), std::string::npos);
@@ -73,8 +70,7 @@ TEST(UnlikeLengths, EmgExactlyTwiceAsLongIsAnErrorThatNamesBothRates) {
   const std::vector<Remark> found = unlike_lengths({lengths(51.28, 25.64), lengths(20.0, 20.1)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
-  EXPECT_NE(found[0].says.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"),
-            std::string::npos)
+  EXPECT_NE(found[0].says.find("EMG at 2000 Hz instead of 1000 Hz, or a motion at 50 Hz"), std::string::npos)
       << found[0].says;
 }
 
@@ -84,8 +80,7 @@ TEST(UnlikeLengths, EmgOfHalfTheMotionIsAnError) {
   const std::vector<Remark> found = unlike_lengths({lengths(25.6, 51.1)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].severity, Severity::error);
-  EXPECT_NE(found[0].says.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos)
-      << found[0].says;
+  EXPECT_NE(found[0].says.find("a motion at 199.6 Hz instead of 100 Hz"), std::string::npos) << found[0].says;
 }
 
 TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
@@ -102,8 +97,7 @@ TEST(UnlikeLengths, AnAmplifierThatRunsOnIsNoFault) {
 
 TEST(UnlikeLengths, OneFactorInEveryTrialNamesTheRate) {
   for (const double factor : {1.2, 0.8}) {
-    const std::vector<Remark> found =
-        unlike_lengths({lengths(factor * 20.0, 20.0), lengths(factor * 12.0, 12.0)});
+    const std::vector<Remark> found = unlike_lengths({lengths(factor * 20.0, 20.0), lengths(factor * 12.0, 12.0)});
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].where, "study");
     EXPECT_EQ(found[0].severity, Severity::warning);

@@ -14,10 +14,10 @@ struct PlausibilityLimits {
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.
-  double below_zero = 0.2;  ///< Share of the maximum by which a filter may swing below zero.
-  double largest_activation = 2.0;  ///< A larger activation is in percent, unless it is a spike.
-  double spike_s = 0.1;             ///< A spike is shorter than this.
-  double flat_activation = 0.02;    ///< No muscle is active below this activation.
+  double below_zero = 0.2;            ///< Share of the maximum by which a filter may swing below zero.
+  double largest_activation = 2.0;    ///< A larger activation is in percent, unless it is a spike.
+  double spike_s = 0.1;               ///< A spike is shorter than this.
+  double flat_activation = 0.02;      ///< No muscle is active below this activation.
   // Clocks and lengths.
   double pause_s = 0.5;  ///< A longer pause of a clock is not bridged.
   double slowest_clock_hz = 5.0;

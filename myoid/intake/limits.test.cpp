@@ -10,8 +10,7 @@ namespace {
 TEST(Limits, EveryOneIsPrinted) {
   test::expect_all_printed<PlausibilityLimits>(
       [](const PlausibilityLimits& limits) { return markdown(plausibility_rows(limits)); });
-  test::expect_all_printed<GateLimits>(
-      [](const GateLimits& limits) { return markdown(gate_rows(limits)); });
+  test::expect_all_printed<GateLimits>([](const GateLimits& limits) { return markdown(gate_rows(limits)); });
 }
 
 TEST(Limits, AreTheOnesThatTheGuidePrints) {

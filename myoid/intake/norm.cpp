@@ -21,8 +21,7 @@ constexpr std::string_view kTorque = "_moment";
 /// Finds the columns of a norm's table by name, and separates their units.
 class NormTable {
  public:
-  explicit NormTable(const std::filesystem::path& file)
-      : file_(file), table_(recording::read_csv_table(file)) {
+  explicit NormTable(const std::filesystem::path& file) : file_(file), table_(recording::read_csv_table(file)) {
     for (const std::string& header : table_.names) {
       const std::size_t bracket = header.find_first_of("[(");
       const std::string name = header.substr(0, header.find_last_not_of(' ', bracket - 1) + 1);
@@ -36,19 +35,13 @@ class NormTable {
   [[noreturn]] void refuse(std::size_t line, const std::string& message) const {
     throw ReadError(file_, line, message);
   }
-  [[noreturn]] void refuse_header(const std::string& message) const {
-    refuse(table_.header_line, message);
-  }
+  [[noreturn]] void refuse_header(const std::string& message) const { refuse(table_.header_line, message); }
 
   [[nodiscard]] bool has(const std::string& name) const {
     return std::find(names_.begin(), names_.end(), name) != names_.end();
   }
-  [[nodiscard]] const std::string& unit(const std::string& name) const {
-    return units_[column(name)];
-  }
-  [[nodiscard]] std::size_t line(Eigen::Index row) const {
-    return table_.lines[static_cast<std::size_t>(row)];
-  }
+  [[nodiscard]] const std::string& unit(const std::string& name) const { return units_[column(name)]; }
+  [[nodiscard]] std::size_t line(Eigen::Index row) const { return table_.lines[static_cast<std::size_t>(row)]; }
 
   [[nodiscard]] Eigen::VectorXd values(const std::string& name) const {
     const std::size_t c = column(name);
@@ -58,8 +51,7 @@ class NormTable {
       if (table_.separator != ',') std::replace(cell.begin(), cell.end(), ',', '.');
       const std::optional<double> number = recording::parse_number(cell);
       if (!number || !std::isfinite(*number))
-        refuse(table_.lines[r],
-               fmt::format("column '{}': expected a number, found '{}'", name, cell));
+        refuse(table_.lines[r], fmt::format("column '{}': expected a number, found '{}'", name, cell));
       values[static_cast<Eigen::Index>(r)] = *number;
     }
     return values;
@@ -68,8 +60,7 @@ class NormTable {
  private:
   [[nodiscard]] std::size_t column(const std::string& name) const {
     const auto it = std::find(names_.begin(), names_.end(), name);
-    if (it == names_.end())
-      refuse_header(fmt::format("no column '{}'; there are {}", name, fmt::join(names_, ", ")));
+    if (it == names_.end()) refuse_header(fmt::format("no column '{}'; there are {}", name, fmt::join(names_, ", ")));
     return static_cast<std::size_t>(it - names_.begin());
   }
 
@@ -82,10 +73,9 @@ Eigen::VectorXd read_percent(const NormTable& table) {
   const Eigen::VectorXd percent = table.values("percent");
   for (Eigen::Index i = 0; i < percent.size(); ++i) {
     if (percent[i] < 0.0 || percent[i] > 100.0 || (i > 0 && percent[i] <= percent[i - 1]))
-      table.refuse(table.line(i),
-                   fmt::format("percent is {}; expected numbers that rise from 0, the "
-                               "movement's begin, to 100, its end",
-                               percent[i]));
+      table.refuse(table.line(i), fmt::format("percent is {}; expected numbers that rise from 0, the "
+                                              "movement's begin, to 100, its end",
+                                              percent[i]));
   }
   return percent;
 }
@@ -97,28 +87,24 @@ double factor_of(const NormTable& table, const std::string& name, bool torque, c
     if (unit.empty() || unit == "N m" || unit == "Nm" || unit == "N.m") return 1.0;
     if (unit == "N m/kg" || unit == "Nm/kg" || unit == "N.m/kg") {
       if (study.subject.mass_kg) return *study.subject.mass_kg;
-      table.refuse_header(fmt::format(
-          "column '{}' is in {}; give the person's mass: mass_kg in [subject]", name, unit));
+      table.refuse_header(
+          fmt::format("column '{}' is in {}; give the person's mass: mass_kg in [subject]", name, unit));
     }
   } else {
     if (unit.empty() || unit == "deg") return 1.0;
     if (unit == "rad") return 1.0 / kDegree;
   }
-  table.refuse_header(fmt::format("column '{}' is in '{}'; expected {}", name, unit,
-                                  torque ? "N m or N m/kg" : "deg or rad"));
+  table.refuse_header(
+      fmt::format("column '{}' is in '{}'; expected {}", name, unit, torque ? "N m or N m/kg" : "deg or rad"));
 }
 
-NormCurve read_curve(const NormTable& table,
-                     const std::string& coordinate,
-                     bool torque,
-                     const Study& study) {
+NormCurve read_curve(const NormTable& table, const std::string& coordinate, bool torque, const Study& study) {
   const std::string name = coordinate + std::string(torque ? kTorque : "");
   const std::string mean = name + "_mean", sd = name + "_sd";
   NormCurve curve{coordinate, torque, factor_of(table, mean, torque, study) * table.values(mean),
                   factor_of(table, sd, torque, study) * table.values(sd)};
   for (Eigen::Index i = 0; i < curve.sd.size(); ++i) {
-    if (curve.sd[i] < 0.0)
-      table.refuse(table.line(i), fmt::format("column '{}': a standard deviation below 0", sd));
+    if (curve.sd[i] < 0.0) table.refuse(table.line(i), fmt::format("column '{}': a standard deviation below 0", sd));
   }
   return curve;
 }
@@ -137,10 +123,10 @@ Norm read_norm(const NormSpec& spec, const Study& study) {
     }
   }
   if (norm.curves.empty())
-    table.refuse_header(fmt::format(
-        "no column is of a coordinate of the study; expected NAME_mean and NAME_sd, NAME being {} "
-        "[deg] or {}_moment [N m]",
-        fmt::join(coordinates, " or "), coordinates.front()));
+    table.refuse_header(
+        fmt::format("no column is of a coordinate of the study; expected NAME_mean and NAME_sd, NAME being {} "
+                    "[deg] or {}_moment [N m]",
+                    fmt::join(coordinates, " or "), coordinates.front()));
   return norm;
 }
 

@@ -25,12 +25,11 @@ struct Norm {
   std::vector<NormCurve> curves;
 };
 
-/// Reads the table of a norm: a column `percent`, and for each quantity the columns `NAME_mean` and
-/// `NAME_sd`. NAME is a coordinate of the study [deg, rad] or COORDINATE_moment [N m, N m/kg]; a
-/// unit may follow in brackets. Columns of other coordinates are left out. Throws ReadError with
-/// the line for a missing column, a percent that does not rise from 0 to 100, a cell that is not a
-/// number, a negative sd, an unknown unit, N m/kg without the person's mass, and a table without
-/// any coordinate of the study.
+/// Reads the table of a norm: a column `percent`, and for each quantity the columns `NAME_mean` and `NAME_sd`. NAME is
+/// a coordinate of the study [deg, rad] or COORDINATE_moment [N m, N m/kg]; a unit may follow in brackets. Columns of
+/// other coordinates are left out. Throws ReadError with the line for a missing column, a percent that does not rise
+/// from 0 to 100, a cell that is not a number, a negative sd, an unknown unit, N m/kg without the person's mass, and a
+/// table without any coordinate of the study.
 [[nodiscard]] Norm read_norm(const NormSpec& spec, const Study& study);
 
 }  // namespace myoid

@@ -53,18 +53,14 @@ std::vector<Contact> contacts_of(const Wrench& w, const Eigen::VectorXd& time_s)
   const auto n = static_cast<Eigen::Index>(w.loaded.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!w.loaded[static_cast<std::size_t>(i)]) continue;
-    if (contacts.empty() || time_s[i] - time_s[contacts.back().end - 1] > kMerged_s)
-      contacts.push_back({i, i});
+    if (contacts.empty() || time_s[i] - time_s[contacts.back().end - 1] > kMerged_s) contacts.push_back({i, i});
     contacts.back().end = i + 1;
   }
-  std::erase_if(contacts, [&](const Contact& c) {
-    return time_s[c.end - 1] - time_s[c.first] < kLimits.contact_s;
-  });
+  std::erase_if(contacts, [&](const Contact& c) { return time_s[c.end - 1] - time_s[c.first] < kLimits.contact_s; });
   return contacts;
 }
 
-/// Returns the mean distance of the center of pressure from the nearest marker of each body, over
-/// the frames.
+/// Returns the mean distance of the center of pressure from the nearest marker of each body, over the frames.
 std::map<model::BodyIndex, double> distances(const model::BodyModel& model,
                                              const recording::MarkerSeries& markers,
                                              const Wrench& w,
@@ -75,9 +71,7 @@ std::map<model::BodyIndex, double> distances(const model::BodyModel& model,
   for (Eigen::Index f = 0; f < markers.frame_count(); ++f) {
     const double t = markers.time_s[f];
     if (t < time_s[contact.first] || t > time_s[contact.end - 1]) continue;
-    const auto at =
-        std::lower_bound(time_s.data() + contact.first, time_s.data() + contact.end, t) -
-        time_s.data();
+    const auto at = std::lower_bound(time_s.data() + contact.first, time_s.data() + contact.end, t) - time_s.data();
     const Vec3 p = w.point_m.row(std::min<Eigen::Index>(at, contact.end - 1)).transpose();
     if (!p.allFinite()) continue;
     std::map<model::BodyIndex, double> nearest;
@@ -114,8 +108,7 @@ model::BodyIndex body_named(const model::BodyModel& model, const std::string& na
 dynamics::LoadColumns splined(const TimeSeries& series, Eigen::Index first) {
   dynamics::LoadColumns columns;
   for (Eigen::Index k = 0; k < 3; ++k)
-    columns.splines.push_back(
-        math::Spline::interpolate(series.time_s(), series.values().col(first + k), 3));
+    columns.splines.push_back(math::Spline::interpolate(series.time_s(), series.values().col(first + k), 3));
   return columns;
 }
 
@@ -184,8 +177,7 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
     const Wrench w = wrench_of(plate, R_YG, least_force_n);
     const std::vector<Contact> contacts = contacts_of(w, plate.time_s);
     if (contacts.empty()) {
-      loads.notes.push_back(
-          fmt::format("force plate {} is never loaded with {} N", plate.number, least_force_n));
+      loads.notes.push_back(fmt::format("force plate {} is never loaded with {} N", plate.number, least_force_n));
       if (!bodies.empty()) (void)body_named(model, bodies[k]);
       continue;
     }
@@ -195,25 +187,23 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
     } else {
       for (const Contact& c : contacts) {
         const auto near = distances(model, *markers, w, plate.time_s, c);
-        const auto best =
-            std::min_element(near.begin(), near.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto best = std::min_element(near.begin(), near.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
         const double begin_s = plate.time_s[c.first];
         const double end_s = plate.time_s[c.end - 1];
         if (best == near.end() || best->second > kFarFromPlate_m) {
-          throw InvalidInput(fmt::format(
-              "force plate {} bears up to {:.0f} N from {:.3g} to {:.3g} s, but no marker of the "
-              "model is within {} m of its center of pressure; name the bodies: force_plates = {{ "
-              "bodies = [...] }}",
-              plate.number,
-              w.force_n.middleRows(c.first, c.end - c.first).rowwise().norm().maxCoeff(), begin_s,
-              end_s, kFarFromPlate_m));
+          throw InvalidInput(
+              fmt::format("force plate {} bears up to {:.0f} N from {:.3g} to {:.3g} s, but no marker of the "
+                          "model is within {} m of its center of pressure; name the bodies: force_plates = {{ "
+                          "bodies = [...] }}",
+                          plate.number, w.force_n.middleRows(c.first, c.end - c.first).rowwise().norm().maxCoeff(),
+                          begin_s, end_s, kFarFromPlate_m));
         }
-        loads.notes.push_back(fmt::format(
-            "force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm "
-            "from the center of pressure",
-            plate.number, begin_s, end_s, model.bodies[static_cast<std::size_t>(best->first)].name,
-            1e3 * best->second));
+        loads.notes.push_back(
+            fmt::format("force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm "
+                        "from the center of pressure",
+                        plate.number, begin_s, end_s, model.bodies[static_cast<std::size_t>(best->first)].name,
+                        1e3 * best->second));
         by_body[best->first].push_back(c);
       }
     }

@@ -24,17 +24,15 @@ inline constexpr double kFarFromPlate_m = kLimits.plate_far_m;
 /// then all are low-passed forwards and backwards at `cutoff_hz`, if given.
 /// `recording::stand_plates` must have found the plates' sides.
 ///
-/// `bodies[k]` stands on plate k ("" on none). With an empty list each contact goes to the body
-/// whose marker is nearest to its center of pressure, with a note. Throws InvalidInput for a body
-/// that the model does not have, more bodies than plates, no plate, or a contact without a marker
-/// near it.
-[[nodiscard]] dynamics::ExternalLoads plate_loads(
-    const std::vector<recording::ForcePlate>& plates,
-    const Mat3& R_YG,
-    const model::BodyModel& model,
-    const std::vector<std::string>& bodies,
-    const std::optional<recording::MarkerSeries>& markers,
-    double least_force_n,
-    std::optional<double> cutoff_hz);
+/// `bodies[k]` stands on plate k ("" on none). With an empty list each contact goes to the body whose marker is nearest
+/// to its center of pressure, with a note. Throws InvalidInput for a body that the model does not have, more bodies
+/// than plates, no plate, or a contact without a marker near it.
+[[nodiscard]] dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& plates,
+                                                  const Mat3& R_YG,
+                                                  const model::BodyModel& model,
+                                                  const std::vector<std::string>& bodies,
+                                                  const std::optional<recording::MarkerSeries>& markers,
+                                                  double least_force_n,
+                                                  std::optional<double> cutoff_hz);
 
 }  // namespace myoid

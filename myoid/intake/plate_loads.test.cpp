@@ -34,8 +34,7 @@ const Vec3 kMiddle_L(0.4, 1.2, 0.05);
 const Mat3 kR_LP = (Mat3() << 0, 1, 0, 1, 0, 0, 0, 0, -1).finished();
 const Vec3 kOrigin_P(0.001, -0.002, -0.04);  // from the transducer to the surface
 
-/// 2 s at 1000 Hz of a plate of type 2, loaded between 0.5 and 1.5 s; markers at 100 Hz near the
-/// center of pressure.
+/// 2 s at 1000 Hz of a plate of type 2, loaded between 0.5 and 1.5 s; markers at 100 Hz near the center of pressure.
 C3dFile recording_of(double sign, const std::vector<std::pair<std::string, Vec3>>& markers) {
   C3dFile file;
   file.point_rate_hz = 100.0;
@@ -46,8 +45,7 @@ C3dFile recording_of(double sign, const std::vector<std::pair<std::string, Vec3>
     file.point_labels.push_back(markers[m].first);
     for (Eigen::Index f = 0; f < 201; ++f) {
       for (Eigen::Index a = 0; a < 3; ++a)
-        file.points(f, static_cast<Eigen::Index>(4 * m) + a) =
-            static_cast<float>(1000.0 * markers[m].second[a]);
+        file.points(f, static_cast<Eigen::Index>(4 * m) + a) = static_cast<float>(1000.0 * markers[m].second[a]);
       file.points(f, static_cast<Eigen::Index>(4 * m) + 3) = 0.0F;
     }
   }
@@ -80,8 +78,7 @@ C3dFile recording_of(double sign, const std::vector<std::pair<std::string, Vec3>
     return p;
   };
   recording::C3dGroup group{.id = 1, .name = "FORCE_PLATFORM"};
-  group.parameters = {numbers("USED", C3dType::integer, {}, {1}),
-                      numbers("TYPE", C3dType::integer, {1}, {2}),
+  group.parameters = {numbers("USED", C3dType::integer, {}, {1}), numbers("TYPE", C3dType::integer, {1}, {2}),
                       numbers("CORNERS", C3dType::real, {3, 4, 1}, corners),
                       numbers("ORIGIN", C3dType::real, {3, 1}, {1.0, -2.0, -40.0}),
                       numbers("CHANNEL", C3dType::integer, {6, 1}, {1, 2, 3, 4, 5, 6})};
@@ -175,12 +172,11 @@ TEST_F(PlateLoads, ComeFromTheFileThatTheTrialNames) {
   const test::TemporaryFolder folder;
   recording::write_c3d(folder / "walk.c3d", recording_of(1.0, {}));
   for (const std::string markers : {"[markers]\nup = \"z\"\n", ""}) {
-    const Study study =
-        parse_study(markers +
-                        "[motion]\nsmoothing = \"none\"\n[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n"
-                        "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n"
-                        "force_plates = { file = \"walk.c3d\", bodies = [\"forearm_hand\"] }\n",
-                    folder / "study.toml");
+    const Study study = parse_study(markers +
+                                        "[motion]\nsmoothing = \"none\"\n[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n"
+                                        "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n"
+                                        "force_plates = { file = \"walk.c3d\", bodies = [\"forearm_hand\"] }\n",
+                                    folder / "study.toml");
     std::vector<Remark> remarks;
     int files = 0;
     const auto given = read_trial_loads(

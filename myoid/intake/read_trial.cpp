@@ -22,40 +22,33 @@ namespace {
 /// Throws ReadError, naming the trial and its key, for a missing file.
 void require_files(const Study& study, const TrialSpec& trial) {
   using Key = std::pair<const char*, const std::optional<std::filesystem::path>*>;
-  for (const auto& [key, path] :
-       {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
-        Key{"external_torque", &trial.external_torque},
-        Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
+  for (const auto& [key, path] : {Key{"markers", &trial.markers}, Key{"motion", &trial.motion}, Key{"emg", &trial.emg},
+                                  Key{"external_torque", &trial.external_torque},
+                                  Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
     std::error_code ignored;
     if (!*path || std::filesystem::exists(**path, ignored)) continue;
-    throw ReadError(
-        study.file, 0,
-        fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from "
-                    "the folder of the study",
-                    trial.name, key, (*path)->string()));
+    throw ReadError(study.file, 0,
+                    fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from "
+                                "the folder of the study",
+                                trial.name, key, (*path)->string()));
   }
 }
 
-TimeSeries read_motion(const std::filesystem::path& path,
-                       const model::BodyModel& model,
-                       TrialInput& input) {
+TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel& model, TrialInput& input) {
   const recording::Storage file = recording::read_storage(path);
   add_repairs(path, file.repairs, input.remarks);
   const auto is_angle = [&](const std::string& name) {
     const auto index = model.find_coordinate(name);
-    return index && model.coordinates[static_cast<std::size_t>(*index)].motion ==
-                        model::MotionType::rotational;
+    return index && model.coordinates[static_cast<std::size_t>(*index)].motion == model::MotionType::rotational;
   };
   TimeSeries motion = recording::to_si(file, is_angle);
   bool any = false;
-  for (const Channel& channel : motion.channels())
-    any |= model.find_coordinate(channel.name).has_value();
+  for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
     warn(input, RemarkCode::unit_doubtful, doubt);
   if (!any) {
     std::string names;
-    for (const model::Coordinate& c : model.coordinates)
-      names += (names.empty() ? "" : ", ") + c.name;
+    for (const model::Coordinate& c : model.coordinates) names += (names.empty() ? "" : ", ") + c.name;
     throw ReadError(path, 0,
                     fmt::format("no column is a coordinate of the model; found {}, expected some "
                                 "of {}; rename the columns",
@@ -68,8 +61,8 @@ TimeSeries read_trial_motion(const Study& study,
                              const TrialSpec& trial,
                              const model::BodyModel& model,
                              TrialInput& input) {
-  TimeSeries motion = read_motion(*trial.motion, model, input)
-                          .slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
+  TimeSeries motion =
+      read_motion(*trial.motion, model, input).slice(trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
   require_finite(motion, trial.motion->string());
   if (motion.sample_count() < 10) throw ReadError(*trial.motion, 0, few_samples(trial, motion));
   if (std::string pauses = check_clock(*trial.motion, motion.time_s()); !pauses.empty())
@@ -78,9 +71,7 @@ TimeSeries read_trial_motion(const Study& study,
   return motion;
 }
 
-TimeSeries read_external_torque(const Study& study,
-                                const TrialSpec& trial,
-                                std::vector<Remark>& remarks) {
+TimeSeries read_external_torque(const Study& study, const TrialSpec& trial, std::vector<Remark>& remarks) {
   recording::Storage file = recording::read_storage(*trial.external_torque);
   add_repairs(*trial.external_torque, file.repairs, remarks);
   std::vector<Channel> columns;
@@ -90,14 +81,12 @@ TimeSeries read_external_torque(const Study& study,
     if (file.data.find(columns.back().name)) there.push_back(columns.back().name);
   }
   if (there.empty()) {
-    throw ReadError(
-        *trial.external_torque, 0,
-        fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
+    throw ReadError(*trial.external_torque, 0,
+                    fmt::format("no column '{}' [N m]; found {}", columns[0].name, channel_names(file.data)));
   }
   // A dynamometer acts on one joint only.
   const TimeSeries found = file.data.select(there);
-  Eigen::MatrixXd torque =
-      Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
+  Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(found.sample_count(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (const auto column = found.find(columns[i].name))
       torque.col(static_cast<Eigen::Index>(i)) = found.values().col(*column);
@@ -123,9 +112,7 @@ std::optional<Cover> cover_by_loads(const TrialSpec& trial, const TrialInput& in
 
 }  // namespace
 
-TrialInput read_trial_input(const Study& study,
-                            const TrialSpec& trial,
-                            const model::BodyModel& model) {
+TrialInput read_trial_input(const Study& study, const TrialSpec& trial, const model::BodyModel& model) {
   TrialInput input;
   require_files(study, trial);
   const auto remember = [&](const std::filesystem::path& path) {
@@ -151,9 +138,7 @@ TrialInput read_trial_input(const Study& study,
   return input;
 }
 
-std::vector<TrialPart> read_trial_parts(const Study& study,
-                                        const TrialSpec& trial,
-                                        const model::BodyModel& model) {
+std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& trial, const model::BodyModel& model) {
   std::vector<TrialPart> parts;
   try {
     TrialPart whole{trial, read_trial_input(study, trial, model)};
@@ -185,8 +170,8 @@ std::vector<TrialPart> read_trial_parts(const Study& study,
     if (parts.empty()) throw;
     for (TrialPart& part : parts) {
       warn(part.input, RemarkCode::clock_pause,
-           fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})",
-                       trial.name, pause.path().filename().string()));
+           fmt::format("part of trial '{}', which is cut at the pauses of its clock ({})", trial.name,
+                       pause.path().filename().string()));
     }
   }
   return parts;

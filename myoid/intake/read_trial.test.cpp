@@ -18,8 +18,7 @@ using namespace test_trials;
 TEST(ReadTrialInput, RefusesDegreesThatAreSaidToBeRadians) {
   const test::TemporaryFolder folder;
   std::string text = "motion\nversion=1\ninDegrees=no\nendheader\ntime\telbow_flexion\n";
-  for (int i = 0; i < 20; ++i)
-    text += std::to_string(0.01 * i) + "\t" + std::to_string(5 * i) + "\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(0.01 * i) + "\t" + std::to_string(5 * i) + "\n";
   recording::write_file(folder / "m.mot", text);
   const Study study = arm_study();
   TrialSpec trial;
@@ -42,8 +41,7 @@ TEST(ReadTrialParts, ATrialIsCutAtALongPauseAndShortPartsAreLeftOut) {
   EXPECT_EQ(parts[0].input.motion->sample_count(), 250);
   EXPECT_NEAR(parts[1].input.motion->time_s()[0], 5.5, 1e-9);
   ASSERT_FALSE(parts[1].input.remarks.empty());
-  EXPECT_NE(parts[1].input.remarks.back().says.find("cut at the pauses of its clock (m.mot)"),
-            std::string::npos);
+  EXPECT_NE(parts[1].input.remarks.back().says.find("cut at the pauses of its clock (m.mot)"), std::string::npos);
   // Of a trial that ends 0.5 s after the pause, that part is left out.
   WrittenTrial shorter(0.01, 8.0, 3.0);
   shorter.spec.end_s = 6.0;
@@ -69,27 +67,23 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheTorquesFile) {
   }));
 
   recording::write_file(trial.folder / "torque.sto", torque.substr(0, 2000));
-  EXPECT_NE(message_of([&] {
-              (void)read_trial_parts(arm_study(), trial.spec, arm());
-            }).find("less than half"),
+  EXPECT_NE(message_of([&] { (void)read_trial_parts(arm_study(), trial.spec, arm()); }).find("less than half"),
             std::string::npos);
 }
 
 TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   WrittenTrial trial(0.01, 4.99);
   std::string force = "f\nendheader\ntime\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n";
-  for (int i = 0; i <= 300; ++i)
-    force += fmt::format("{:.2f}\t0\t{:.1f}\t0\t0\t0\t0\n", 1.0 + 0.01 * i, -0.1 * i);
+  for (int i = 0; i <= 300; ++i) force += fmt::format("{:.2f}\t0\t{:.1f}\t0\t0\t0\t0\n", 1.0 + 0.01 * i, -0.1 * i);
   recording::write_file(trial.folder / "force.mot", force);
-  recording::write_file(
-      trial.folder / "loads.xml",
-      "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects>"
-      "<ExternalForce name=\"grip\"><applied_to_body>forearm_hand</applied_to_body>"
-      "<force_expressed_in_body>ground</force_expressed_in_body>"
-      "<point_expressed_in_body>forearm_hand</point_expressed_in_body>"
-      "<force_identifier>f_v</force_identifier><point_identifier>f_p</point_identifier>"
-      "</ExternalForce></objects><datafile>force.mot</datafile></ExternalLoads>"
-      "</OpenSimDocument>");
+  recording::write_file(trial.folder / "loads.xml",
+                        "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects>"
+                        "<ExternalForce name=\"grip\"><applied_to_body>forearm_hand</applied_to_body>"
+                        "<force_expressed_in_body>ground</force_expressed_in_body>"
+                        "<point_expressed_in_body>forearm_hand</point_expressed_in_body>"
+                        "<force_identifier>f_v</force_identifier><point_identifier>f_p</point_identifier>"
+                        "</ExternalForce></objects><datafile>force.mot</datafile></ExternalLoads>"
+                        "</OpenSimDocument>");
   trial.spec.external_loads = trial.folder / "loads.xml";
   const std::vector<TrialPart> parts = read_trial_parts(arm_study(), trial.spec, arm());
   ASSERT_EQ(parts.size(), 1U);

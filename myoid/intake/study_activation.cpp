@@ -45,8 +45,7 @@ void add_envelopes(const Study& study, StudyActivation& clean) {
   }
   if (!stages.empty()) clean.scale.whitening = signals::find_whitening(stages, options);
   for_each_trial(clean.trials.size(), [&](std::size_t i) {
-    if (clean.trials[i].stages)
-      signals::add_envelope(*clean.trials[i].stages, options, clean.scale.whitening);
+    if (clean.trials[i].stages) signals::add_envelope(*clean.trials[i].stages, options, clean.scale.whitening);
   });
 }
 
@@ -73,8 +72,7 @@ std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
   for (std::size_t i = 0; i < emg.size(); ++i) {
     if (emg[i] == nullptr || (without_validation && !seen[i])) continue;
     const auto& stages = envelopes.trials[i].stages;
-    found.push_back({study.trials[i].name, study.trials[i].use == Use::mvc,
-                     stages ? &stages->envelope : emg[i],
+    found.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, stages ? &stages->envelope : emg[i],
                      stages ? stages->bandwidth_hz : Eigen::VectorXd()});
   }
   return found;
@@ -87,14 +85,13 @@ void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& foun
     }
     return;
   }
-  found.scale.normalisation = signals::find_normalisation(
-      envelopes_of(study, emg, found, true), {.window_s = study.emg.normalise_window_s});
+  found.scale.normalisation =
+      signals::find_normalisation(envelopes_of(study, emg, found, true), {.window_s = study.emg.normalise_window_s});
   for (std::size_t i = 0; i < emg.size(); ++i) {
     if (emg[i] == nullptr) continue;
     const auto& stages = found.trials[i].stages;
     found.trials[i].activation =
-        thinned(signals::normalise(stages ? stages->envelope : *emg[i], found.scale.normalisation),
-                kActivationRate_hz);
+        thinned(signals::normalise(stages ? stages->envelope : *emg[i], found.scale.normalisation), kActivationRate_hz);
   }
 }
 

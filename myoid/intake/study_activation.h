@@ -13,14 +13,13 @@ namespace myoid {
 /// The EMG of one trial.
 struct TrialActivation {
   std::optional<signals::EmgStages> stages;  ///< Stages of raw EMG; empty for other EMG.
-  TimeSeries activation;  ///< One channel for each EMG channel, 0..1; empty without EMG.
+  TimeSeries activation;                     ///< One channel for each EMG channel, 0..1; empty without EMG.
 };
 
 /// The scale of a study's EMG: one for all trials.
 struct EmgScale {
-  signals::Whitening whitening;  ///< For raw EMG.
-  std::vector<signals::ChannelNormalisation>
-      normalisation;  ///< Empty if the EMG is given as activations.
+  signals::Whitening whitening;                              ///< For raw EMG.
+  std::vector<signals::ChannelNormalisation> normalisation;  ///< Empty if the EMG is given as activations.
 };
 
 /// The EMG of all trials, in the study's order.
@@ -51,14 +50,13 @@ inline constexpr double kActivationRate_hz = 200.0;
                                                                bool without_validation);
 
 /// Divides the envelopes by the study's greatest effort and thins them to kActivationRate_hz, for
-/// `TrialActivation::activation` and `EmgScale::normalisation`. Trials held back for validation
-/// have no part in the greatest effort. Given activations stay unchanged. Throws InvalidInput as
-/// `signals::find_normalisation`.
+/// `TrialActivation::activation` and `EmgScale::normalisation`. Trials held back for validation have no part in the
+/// greatest effort. Given activations stay unchanged. Throws InvalidInput as `signals::find_normalisation`.
 void normalise(const Study& study, const EmgOfTrials& emg, StudyActivation& envelopes);
 
-/// Returns the activations of the same trials with the uses of `study`, from the clean EMG of
-/// `known`.
-[[nodiscard]] StudyActivation activation_with_uses(
-    const Study& study, const EmgOfTrials& emg, const std::vector<const TrialActivation*>& known);
+/// Returns the activations of the same trials with the uses of `study`, from the clean EMG of `known`.
+[[nodiscard]] StudyActivation activation_with_uses(const Study& study,
+                                                   const EmgOfTrials& emg,
+                                                   const std::vector<const TrialActivation*>& known);
 
 }  // namespace myoid

@@ -27,8 +27,7 @@ std::optional<TimeSeries> signal_of(const Recording& file, const std::string& na
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (name != markers.names[static_cast<std::size_t>(m)] + "." + "xyz"[axis]) continue;
-      return TimeSeries(markers.time_s, {{name, Unit::meter}},
-                        markers.positions_m.col(3 * m + axis));
+      return TimeSeries(markers.time_s, {{name, Unit::meter}}, markers.positions_m.col(3 * m + axis));
     }
   }
   return std::nullopt;
@@ -39,14 +38,11 @@ double first_time_s(const Recording& file) {
 }
 
 double interval_s(const Recording& file) {
-  const Eigen::VectorXd& t =
-      file.markers.frame_count() > 1 ? file.markers.time_s : file.analog.time_s();
+  const Eigen::VectorXd& t = file.markers.frame_count() > 1 ? file.markers.time_s : file.analog.time_s();
   return t.size() > 1 ? (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1) : 0.0;
 }
 
-[[noreturn]] void no_such_signal(const std::filesystem::path& path,
-                                 const Recording& file,
-                                 const std::string& name) {
+[[noreturn]] void no_such_signal(const std::filesystem::path& path, const Recording& file, const std::string& name) {
   std::vector<std::string> names;
   for (const Channel& c : file.analog.channels()) names.push_back(c.name);
   for (const recording::Event& e : file.events) {
@@ -61,11 +57,10 @@ double interval_s(const Recording& file) {
     }
     list += (list.empty() ? "" : ", ") + n;
   }
-  throw ReadError(
-      path, 0,
-      fmt::format("[sync]: there is no channel or event '{}' here; there {}{}", name,
-                  list.empty() ? "are none, so give trigger_file, or offset_s" : "are " + list,
-                  near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+  throw ReadError(path, 0,
+                  fmt::format("[sync]: there is no channel or event '{}' here; there {}{}", name,
+                              list.empty() ? "are none, so give trigger_file, or offset_s" : "are " + list,
+                              near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
 }
 
 /// Returns the instants of a trigger: edges of a channel, events of that label, or the start.
@@ -100,8 +95,7 @@ TrialClock triggered(const SyncSpec& spec,
                      const std::filesystem::path& motion_file) {
   const Recording emg = recording::read_recording(emg_file);
   const Recording motion = recording::read_recording(motion_file);
-  if (emg.analog.empty() && emg.events.empty())
-    throw ReadError(emg_file, 0, "[sync]: there are no channels or events");
+  if (emg.analog.empty() && emg.events.empty()) throw ReadError(emg_file, 0, "[sync]: there are no channels or events");
   TrialClock result;
   try {
     if (spec.match == SyncMatch::shape) {
@@ -110,23 +104,21 @@ TrialClock triggered(const SyncSpec& spec,
       if (!a) no_such_signal(emg_file, emg, spec.emg_trigger);
       if (!b) no_such_signal(motion_file, motion, spec.motion_trigger);
       result.clock = signals::match_shape(*a, *b, spec.search_s);
-      result.source =
-          fmt::format("by the shape of '{}' and '{}'", spec.emg_trigger, spec.motion_trigger);
+      result.source = fmt::format("by the shape of '{}' and '{}'", spec.emg_trigger, spec.motion_trigger);
     } else {
       const Instants a = instants_of(emg_file, emg, spec.emg_trigger, spec);
       const Instants b = instants_of(motion_file, motion, spec.motion_trigger, spec);
       result.clock = signals::match_instants(a, b);
       const std::size_t count = std::min(a.time_s.size(), b.time_s.size());
-      result.source = fmt::format("by {} instant{} of '{}' and '{}'", count, count == 1 ? "" : "s",
-                                  spec.emg_trigger, spec.motion_trigger);
+      result.source = fmt::format("by {} instant{} of '{}' and '{}'", count, count == 1 ? "" : "s", spec.emg_trigger,
+                                  spec.motion_trigger);
     }
   } catch (const ReadError&) {
     throw;
   } catch (const InvalidInput& error) {
-    throw ReadError(
-        emg_file, 0,
-        fmt::format("[sync] '{}' and '{}' of {}: {}", spec.emg_trigger, spec.motion_trigger,
-                    motion_file.filename().string(), error.what()));
+    throw ReadError(emg_file, 0,
+                    fmt::format("[sync] '{}' and '{}' of {}: {}", spec.emg_trigger, spec.motion_trigger,
+                                motion_file.filename().string(), error.what()));
   }
   return result;
 }
@@ -136,10 +128,9 @@ TrialClock estimated(const SyncSpec& spec,
                      const TimeSeries& movement,
                      const TimeSeries& envelopes) {
   const ClockMap drift{.drift_ppm = spec.drift_ppm};
-  const auto lead = movement.empty()
-                        ? std::nullopt
-                        : signals::estimate_clock_offset(signals::on_study_clock(envelopes, drift),
-                                                         movement, spec.search_s);
+  const auto lead = movement.empty() ? std::nullopt
+                                     : signals::estimate_clock_offset(signals::on_study_clock(envelopes, drift),
+                                                                      movement, spec.search_s);
   if (!lead) {
     throw ReadError(emg_file, 0,
                     fmt::format("[sync] offset_s = \"estimate\": it cannot be told from EMG and "
@@ -150,10 +141,9 @@ TrialClock estimated(const SyncSpec& spec,
   return {.clock = {.offset_s = lead->lead_s - kUsualLead_s,
                     .drift_ppm = spec.drift_ppm,
                     .offset_sd_s = std::hypot(lead->sd_s, kUsualLeadSd_s)},
-          .source = fmt::format(
-              "estimated: it led the motion by {:.0f} ± {:.0f} ms, where people's "
-              "EMG leads by {:.0f} ± {:.0f} ms",
-              1e3 * lead->lead_s, 1e3 * lead->sd_s, 1e3 * kUsualLead_s, 1e3 * kUsualLeadSd_s)};
+          .source = fmt::format("estimated: it led the motion by {:.0f} ± {:.0f} ms, where people's "
+                                "EMG leads by {:.0f} ± {:.0f} ms",
+                                1e3 * lead->lead_s, 1e3 * lead->sd_s, 1e3 * kUsualLead_s, 1e3 * kUsualLeadSd_s)};
 }
 
 }  // namespace
@@ -163,16 +153,14 @@ const SyncSpec* sync_of(const Study& study, const TrialSpec& trial) {
   return study.sync ? &*study.sync : nullptr;
 }
 
-std::optional<TrialClock> trial_clock(
-    const Study& study,
-    const TrialSpec& trial,
-    const TimeSeries& movement,
-    const std::function<TimeSeries()>& envelopes,
-    const std::function<void(const std::filesystem::path&)>& remember) {
+std::optional<TrialClock> trial_clock(const Study& study,
+                                      const TrialSpec& trial,
+                                      const TimeSeries& movement,
+                                      const std::function<TimeSeries()>& envelopes,
+                                      const std::function<void(const std::filesystem::path&)>& remember) {
   const SyncSpec* spec = sync_of(study, trial);
   const auto& motion_file = trial.markers ? trial.markers : trial.motion;
-  if (spec == nullptr || !trial.emg || !motion_file || *trial.emg == *motion_file)
-    return std::nullopt;
+  if (spec == nullptr || !trial.emg || !motion_file || *trial.emg == *motion_file) return std::nullopt;
   if (!spec->emg_trigger.empty()) {
     if (spec->trigger_file) remember(*spec->trigger_file);
     return triggered(*spec, *trial.emg, spec->trigger_file.value_or(*motion_file));
@@ -185,9 +173,7 @@ std::optional<TrialClock> trial_clock(
                     .source = "as the study says"};
 }
 
-std::optional<ClockMap> loads_clock(const Study& study,
-                                    const TrialSpec& trial,
-                                    const std::filesystem::path& file) {
+std::optional<ClockMap> loads_clock(const Study& study, const TrialSpec& trial, const std::filesystem::path& file) {
   const SyncSpec* spec = sync_of(study, trial);
   const auto& motion_file = trial.markers ? trial.markers : trial.motion;
   if (spec == nullptr || (motion_file && *motion_file == file)) return std::nullopt;

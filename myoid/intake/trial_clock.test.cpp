@@ -22,9 +22,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A trial whose EMG system has a clock of its own: of the truth (1 + drift) t + offset at its t.
-/// Both systems record a pulse every 5 s or so; the motion is a swing of the elbow, and the EMG an
-/// envelope that leads it by 60 ms.
+/// A trial whose EMG system has a clock of its own: of the truth (1 + drift) t + offset at its t. Both systems record a
+/// pulse every 5 s or so; the motion is a swing of the elbow, and the EMG an envelope that leads it by 60 ms.
 class TwoClocks : public ::testing::Test {
  protected:
   static constexpr double kOffset_s = 0.2345;
@@ -43,8 +42,7 @@ class TwoClocks : public ::testing::Test {
     for (int i = 0; i <= 14750; ++i) {
       const double t = 0.004 * i;
       const double truth = t + 1e-6 * kDrift_ppm * t + kOffset_s;
-      emg += fmt::format("{:.4f},{:.8f},{}\n", t, 0.5 + 0.2 * swing(truth + 0.06),
-                         pulse(truth) ? 5 : 0);
+      emg += fmt::format("{:.4f},{:.8f},{}\n", t, 0.5 + 0.2 * swing(truth + 0.06), pulse(truth) ? 5 : 0);
     }
     recording::write_file(folder / "e.csv", emg);
   }
@@ -53,8 +51,8 @@ class TwoClocks : public ::testing::Test {
     return 1.2 + 0.4 * std::sin(2.0 * kPi * 0.6 * t) + 0.3 * std::sin(2.0 * kPi * 0.37 * t + 1.0);
   }
   static bool pulse(double t) {
-    for (const double s : {1.3137, 6.1082, 12.0044, 16.9161, 22.4093, 27.0018, 33.3175, 38.0029,
-                           44.7126, 49.1070, 55.5101}) {
+    for (const double s :
+         {1.3137, 6.1082, 12.0044, 16.9161, 22.4093, 27.0018, 33.3175, 38.0029, 44.7126, 49.1070, 55.5101}) {
       if (t >= s && t < s + 0.05) return true;
     }
     return false;
@@ -67,9 +65,7 @@ class TwoClocks : public ::testing::Test {
                            trial,
                        folder / "study.toml");
   }
-  [[nodiscard]] TrialInput read(const Study& s) const {
-    return read_trial_input(s, s.trials[0], arm);
-  }
+  [[nodiscard]] TrialInput read(const Study& s) const { return read_trial_input(s, s.trials[0], arm); }
   std::string refusal(const std::string& sync, const std::string& trial = "") const {
     try {
       (void)read(study(sync, trial));
@@ -87,8 +83,7 @@ TEST_F(TwoClocks, ByPulsesThatBothRecordedOffsetAndDriftAreFoundWithinTheirError
   const TrialInput input = read(study("emg_trigger = \"Trig\"\nmotion_trigger = \"sync\"\n"));
   ASSERT_TRUE(input.emg_clock);
   const signals::ClockMap& clock = input.emg_clock->clock;
-  // Edges of the motion are known to 10 ms / sqrt(12), those of the EMG to 4 ms / sqrt(12), 11 of
-  // them, over 54 s.
+  // Edges of the motion are known to 10 ms / sqrt(12), those of the EMG to 4 ms / sqrt(12), 11 of them, over 54 s.
   EXPECT_NEAR(*clock.offset_sd_s, 0.0031 / std::sqrt(11.0), 1e-4);
   for (const double t : {0.0, 30.0, 59.0}) {
     const double truth = t + 1e-6 * kDrift_ppm * t + kOffset_s;
@@ -100,8 +95,7 @@ TEST_F(TwoClocks, ByPulsesThatBothRecordedOffsetAndDriftAreFoundWithinTheirError
   EXPECT_THAT(input.remarks[0].says, HasSubstr("11 instants of 'Trig' and 'sync'"));
   // Samples are moved, not changed, and the 60 ms between EMG and motion stay.
   EXPECT_NEAR(input.emg->time_s()[0], kOffset_s, 0.003);
-  EXPECT_NEAR(input.emg->values()(5000, 0), 0.5 + 0.2 * swing(input.emg->time_s()[5000] + 0.06),
-              0.003);
+  EXPECT_NEAR(input.emg->values()(5000, 0), 0.5 + 0.2 * swing(input.emg->time_s()[5000] + 0.06), 0.003);
 }
 
 TEST_F(TwoClocks, ByNumbersTheTimesAreWhatTheStudySays) {
@@ -113,15 +107,13 @@ TEST_F(TwoClocks, ByNumbersTheTimesAreWhatTheStudySays) {
 TEST_F(TwoClocks, EstimatedFromEmgAndMotionTheOffsetIsFoundWithinItsError) {
   const TrialInput input = read(study("offset_s = \"estimate\"\ndrift_ppm = 50\n"));
   ASSERT_TRUE(input.emg_clock);
-  EXPECT_NEAR(input.emg_clock->clock.offset_s, kOffset_s,
-              2.0 * *input.emg_clock->clock.offset_sd_s);
+  EXPECT_NEAR(input.emg_clock->clock.offset_s, kOffset_s, 2.0 * *input.emg_clock->clock.offset_sd_s);
   EXPECT_GE(*input.emg_clock->clock.offset_sd_s, kUsualLeadSd_s);
   EXPECT_THAT(input.remarks[0].says, HasSubstr("estimated"));
 }
 
 TEST_F(TwoClocks, ATrialsOwnSyncWinsOverTheStudys) {
-  const TrialInput input =
-      read(study("offset_s = 5.0\n", "sync = { offset_s = 0.25, loads_offset_s = 0.5 }\n"));
+  const TrialInput input = read(study("offset_s = 5.0\n", "sync = { offset_s = 0.25, loads_offset_s = 0.5 }\n"));
   EXPECT_NEAR(input.emg->time_s()[0], 0.25, 1e-12);
 }
 
@@ -129,8 +121,7 @@ TEST_F(TwoClocks, StartAndEndAreTimesOfTheMotion) {
   const TrialInput input = read(study("offset_s = 3.0\n", "start_s = 10.0\nend_s = 20.0\n"));
   EXPECT_NEAR(input.emg->time_s()[0], 9.5, 1e-9);  // half a second more for the delay
   EXPECT_NEAR(input.emg->time_s()[input.emg->sample_count() - 1], 20.0, 1e-9);
-  EXPECT_NEAR(input.emg->values()(0, 0), 0.5 + 0.2 * swing(6.5 * (1 + 50e-6) + 0.2345 + 0.06),
-              1e-6);
+  EXPECT_NEAR(input.emg->values()(0, 0), 0.5 + 0.2 * swing(6.5 * (1 + 50e-6) + 0.2345 + 0.06), 1e-6);
 }
 
 TEST_F(TwoClocks, WithoutSyncNothingMoves) {
@@ -145,28 +136,24 @@ TEST_F(TwoClocks, AnEmgOfTheMotionsOwnFileStaysOnItsClock) {
   EXPECT_FALSE(trial_clock(
       s, s.trials[0], {}, [] { return TimeSeries(); }, [](const auto&) {}));
   EXPECT_THAT(refusal("", "emg_ = 1\n"), HasSubstr("emg_"));
-  EXPECT_THROW(
-      (void)parse_study("[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n[[trial]]\nname = \"t\"\n"
-                        "markers = \"a.c3d\"\nemg = \"a.c3d\"\nsync = { offset_s = 1 }\n",
-                        folder / "study.toml"),
-      ReadError);
+  EXPECT_THROW((void)parse_study("[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n[[trial]]\nname = \"t\"\n"
+                                 "markers = \"a.c3d\"\nemg = \"a.c3d\"\nsync = { offset_s = 1 }\n",
+                                 folder / "study.toml"),
+               ReadError);
 }
 
 TEST_F(TwoClocks, WhatIsWrongWithATriggerIsSaidWithWhatThereIs) {
-  EXPECT_THAT(refusal("emg_trigger = \"Trigg\"\nmotion_trigger = \"sync\"\n"),
-              HasSubstr("did you mean 'Trig'?"));
+  EXPECT_THAT(refusal("emg_trigger = \"Trigg\"\nmotion_trigger = \"sync\"\n"), HasSubstr("did you mean 'Trig'?"));
   EXPECT_THAT(refusal("emg_trigger = \"Trig\"\n"), HasSubstr("give both"));
   EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"sync\"\noffset_s = 1\n"),
               HasSubstr("one or the other"));
-  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"start\"\n"),
-              HasSubstr("too few to tell"));
+  EXPECT_THAT(refusal("emg_trigger = \"Trig\"\nmotion_trigger = \"start\"\n"), HasSubstr("too few to tell"));
   EXPECT_THAT(refusal("emg_trigger = \"b\"\nmotion_trigger = \"sync\"\n"), HasSubstr("[sync]"));
 }
 
 TEST_F(TwoClocks, ASignalThatBothRecordedMatchesByItsShape) {
   // "b" is the swing 60 ms early: the shape says so, and that is what was asked for.
-  const TrialInput input =
-      read(study("emg_trigger = \"b\"\nmotion_trigger = \"elbow_flexion\"\nmatch = \"shape\"\n"));
+  const TrialInput input = read(study("emg_trigger = \"b\"\nmotion_trigger = \"elbow_flexion\"\nmatch = \"shape\"\n"));
   EXPECT_NEAR(input.emg_clock->clock.study_time_s(30.0), 30.0 + 0.0015 + 0.2345 + 0.06,
               4.0 * *input.emg_clock->clock.offset_sd_s);
   EXPECT_LT(*input.emg_clock->clock.offset_sd_s, 2e-3);

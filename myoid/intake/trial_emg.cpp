@@ -40,17 +40,16 @@ void name_by_target_muscle(const Study& study,
         targets.push_back(c);
     }
     if (targets.size() != 1) continue;
-    add_notes({fmt::format("{}: channel '{}' is on {}", path.filename().string(),
-                           channels[targets[0]].name, muscle.emg)},
-              remarks);
+    add_notes(
+        {fmt::format("{}: channel '{}' is on {}", path.filename().string(), channels[targets[0]].name, muscle.emg)},
+        remarks);
     channels[targets[0]].name = muscle.emg;
     renamed = true;
   }
   if (renamed) file.data = TimeSeries(file.data.time_s(), std::move(channels), file.data.values());
 }
 
-/// Returns the channels of the study that are not on the first clock of their file, each clock
-/// once.
+/// Returns the channels of the study that are not on the first clock of their file, each clock once.
 std::vector<TimeSeries> on_other_clocks(const Study& study,
                                         const std::filesystem::path& path,
                                         const recording::EmgFile& file) {
@@ -59,9 +58,7 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
     const auto has = [&](const TimeSeries& s) { return s.find(muscle.emg).has_value(); };
     if (has(file.data) || std::any_of(found.begin(), found.end(), has)) continue;
     try {
-      TimeSeries one =
-          recording::read_emg(path, study.emg.unit, study.emg.kind != EmgKind::raw, {muscle.emg})
-              .data;
+      TimeSeries one = recording::read_emg(path, study.emg.unit, study.emg.kind != EmgKind::raw, {muscle.emg}).data;
       if (has(one)) found.push_back(std::move(one));
     } catch (const ReadError&) {
       continue;  // require_channels lists the available channels
@@ -70,8 +67,7 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
   return found;
 }
 
-/// Puts the study's channels on one clock, that of the fastest channel, over the time that all
-/// have.
+/// Puts the study's channels on one clock, that of the fastest channel, over the time that all have.
 void join_clocks(const Study& study,
                  const std::filesystem::path& path,
                  recording::EmgFile& file,
@@ -102,23 +98,20 @@ void join_clocks(const Study& study,
   std::vector<Channel> channels;
   Eigen::MatrixXd values(clock.size(), 0);
   for (const TimeSeries& part : parts) {
-    const TimeSeries moved =
-        &part == fastest ? part.slice(begin_s, end_s) : signals::resample(part, clock);
+    const TimeSeries moved = &part == fastest ? part.slice(begin_s, end_s) : signals::resample(part, clock);
     values.conservativeResize(Eigen::NoChange, values.cols() + moved.channel_count());
     values.rightCols(moved.channel_count()) = moved.values();
     channels.insert(channels.end(), moved.channels().begin(), moved.channels().end());
     if (&part != fastest)
-      add_notes({fmt::format("{}: {} at {:.6g} Hz put on the clock of {}, {:.6g} Hz",
-                             path.filename().string(), channel_names(part), part.mean_rate_hz(),
-                             channel_names(*fastest), fastest->mean_rate_hz())},
-                remarks);
+      add_notes(
+          {fmt::format("{}: {} at {:.6g} Hz put on the clock of {}, {:.6g} Hz", path.filename().string(),
+                       channel_names(part), part.mean_rate_hz(), channel_names(*fastest), fastest->mean_rate_hz())},
+          remarks);
   }
   file.data = TimeSeries(clock, std::move(channels), std::move(values));
 }
 
-void require_channels(const Study& study,
-                      const std::filesystem::path& path,
-                      const TimeSeries& emg) {
+void require_channels(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   for (const MuscleSpec& muscle : study.muscles) {
     if (emg.find(muscle.emg)) continue;
     std::vector<std::string> names;
@@ -126,15 +119,12 @@ void require_channels(const Study& study,
     const auto near = recording::nearest_word(muscle.emg, names);
     throw ReadError(
         path, 0,
-        fmt::format(
-            "no EMG channel '{}' for muscle {}; found {}{}; correct [[muscle]] emg in the study",
-            muscle.emg, muscle.name, channel_names(emg),
-            near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
+        fmt::format("no EMG channel '{}' for muscle {}; found {}{}; correct [[muscle]] emg in the study", muscle.emg,
+                    muscle.name, channel_names(emg), near ? fmt::format(" (did you mean '{}'?)", *near) : ""));
   }
 }
 
-/// Refuses raw EMG that is an envelope, which a high-pass would reduce to noise, or that is not an
-/// electrode's signal.
+/// Refuses raw EMG that is an envelope, which a high-pass would reduce to noise, or that is not an electrode's signal.
 void require_raw(const Study& study, const std::filesystem::path& path, const TimeSeries& emg) {
   int envelopes = 0;
   int others = 0;
@@ -147,8 +137,7 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
                       fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct "
                                   "[emg] unit, or leave out samples that are no measurement",
                                   muscle.emg, x.cwiseAbs().maxCoeff()));
-    if (x.maxCoeff() > x.minCoeff())
-      ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
+    if (x.maxCoeff() > x.minCoeff()) ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
   }
   if (envelopes > 0 && others == 0)
     throw ReadError(path, 0,
@@ -158,10 +147,7 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
 
 /// Refuses signals that are no envelopes or activations. Raw EMG, which swings about zero, and
 /// signals in other units would give muscle forces a hundred times too large without a message.
-void require_kind(const Study& study,
-                  const std::filesystem::path& path,
-                  const TimeSeries& emg,
-                  TrialInput& input) {
+void require_kind(const Study& study, const std::filesystem::path& path, const TimeSeries& emg, TrialInput& input) {
   if (study.emg.kind == EmgKind::raw) return require_raw(study, path, emg);
   const bool activation = study.emg.kind == EmgKind::activation;
   const char* const kind = activation ? "activation" : "envelope";
@@ -169,8 +155,7 @@ void require_kind(const Study& study,
     const auto column = emg.find(muscle.emg);
     if (!column) continue;
     const Unit in = emg.channels()[static_cast<std::size_t>(*column)].unit;
-    const std::string unit =
-        in == Unit::dimensionless ? "(the file's own numbers)" : std::string(symbol(in));
+    const std::string unit = in == Unit::dimensionless ? "(the file's own numbers)" : std::string(symbol(in));
     double low = 0.0;
     double high = 0.0;
     for (const double value : emg.values().col(*column)) {
@@ -190,14 +175,12 @@ void require_kind(const Study& study,
       warn(input, RemarkCode::emg_artifact,
            fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
                        "artefact?",
-                       path.filename().string(), muscle.emg, high, kLimits.largest_activation,
-                       kLimits.spike_s));
+                       path.filename().string(), muscle.emg, high, kLimits.largest_activation, kLimits.spike_s));
     if (activation && lasting)
-      throw ReadError(
-          path, 0,
-          fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
-                      "percent? Divide by 100, or set [emg] kind = \"envelope\"",
-                      muscle.emg, high));
+      throw ReadError(path, 0,
+                      fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
+                                  "percent? Divide by 100, or set [emg] kind = \"envelope\"",
+                                  muscle.emg, high));
   }
 }
 
@@ -214,10 +197,9 @@ TimeSeries on_clock_of_motion(const Study& study,
   };
   input.emg_clock = trial_clock(study, trial, movement_of(input), envelopes, remember);
   if (!input.emg_clock) return emg;
-  add_notes(
-      {fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
-                   signals::to_string(input.emg_clock->clock), input.emg_clock->source)},
-      input.remarks);
+  add_notes({fmt::format("{}: clock put on that of the motion, {} ({})", trial.emg->filename().string(),
+                         signals::to_string(input.emg_clock->clock), input.emg_clock->source)},
+            input.remarks);
   return signals::on_study_clock(std::move(emg), input.emg_clock->clock);
 }
 
@@ -238,24 +220,20 @@ TimeSeries read_trial_emg(const Study& study,
                           TrialInput& input) {
   const double start = trial.start_s.value_or(-1e300);
   const double end = trial.end_s.value_or(1e300);
-  recording::EmgFile file =
-      recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
+  recording::EmgFile file = recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
   add_repairs(*trial.emg, file.repairs, input.remarks);
   if (!file.unit_conflict.empty())
-    warn(input, RemarkCode::unit_doubtful,
-         fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
+    warn(input, RemarkCode::unit_doubtful, fmt::format("{}: {}", trial.emg->filename().string(), file.unit_conflict));
   name_by_target_muscle(study, *trial.emg, file, input.remarks);
   join_clocks(study, *trial.emg, file, input.remarks);
   require_channels(study, *trial.emg, file.data);
   require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end())
-      wanted.push_back(muscle.emg);
+    if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
   }
   // The EMG may begin earlier than the motion, because of the delay.
-  TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input)
-                       .slice(start - 0.5, end);
+  TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input).slice(start - 0.5, end);
   require_finite(emg, trial.emg->string());
   if (emg.sample_count() < 10) throw ReadError(*trial.emg, 0, few_samples(trial, emg));
   if (std::string pauses = check_clock(*trial.emg, emg.time_s()); !pauses.empty())

@@ -13,15 +13,13 @@ namespace myoid {
 /// Returns the study's options for envelopes of raw EMG.
 [[nodiscard]] signals::EnvelopeOptions envelope_options(const Study& study);
 
-/// Reads the EMG of a trial: only the channels of the study's muscles, on the clock of the motion
-/// in `input`, cut to the trial's times and 0.5 s before, which the delay needs. Notes, warnings
-/// and the clock go to `input`; `remember` receives every further file. Throws ReadError for a
-/// missing channel, an impossible envelope or activation, and EMG that covers less than half of the
-/// motion; also as `check_clock` and `trial_clock`.
-[[nodiscard]] TimeSeries read_trial_emg(
-    const Study& study,
-    const TrialSpec& trial,
-    const std::function<void(const std::filesystem::path&)>& remember,
-    TrialInput& input);
+/// Reads the EMG of a trial: only the channels of the study's muscles, on the clock of the motion in `input`, cut to
+/// the trial's times and 0.5 s before, which the delay needs. Notes, warnings and the clock go to `input`; `remember`
+/// receives every further file. Throws ReadError for a missing channel, an impossible envelope or activation, and EMG
+/// that covers less than half of the motion; also as `check_clock` and `trial_clock`.
+[[nodiscard]] TimeSeries read_trial_emg(const Study& study,
+                                        const TrialSpec& trial,
+                                        const std::function<void(const std::filesystem::path&)>& remember,
+                                        TrialInput& input);
 
 }  // namespace myoid

@@ -19,15 +19,12 @@ using namespace test_trials;
 
 TEST(ReadTrialEmg, AMissingEmgChannelIsNamedWithThoseThereAre) {
   const test::TemporaryFolder folder;
-  recording::write_file(
-      folder / "e.sto",
-      "EMG\nendheader\ntime\tBICC\tBRA\tBRD\tTRI\n0\t0\t0\t0\t0\n1\t0\t0\t0\t0\n");
+  recording::write_file(folder / "e.sto", "EMG\nendheader\ntime\tBICC\tBRA\tBRD\tTRI\n0\t0\t0\t0\t0\n1\t0\t0\t0\t0\n");
   TrialSpec trial;
   trial.name = "t";
   trial.emg = folder / "e.sto";
   trial.use = Use::mvc;
-  const std::string message =
-      message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
+  const std::string message = message_of([&] { (void)read_trial_input(arm_study(), trial, arm()); });
   EXPECT_NE(message.find("no EMG channel 'BIC'"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'BICC'"), std::string::npos) << message;
 }
@@ -38,15 +35,14 @@ TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
   const auto sine = [](double t, double amplitude) {
     return amplitude * std::sin(2.0 * 3.14159265358979323846 * 30.0 * t);
   };
-  std::string text =
-      "X[s],\"BIC\",X[s],\"BRA\",X[s],\"BRD\",X[s],\"TRI\",X[s],\"Avanti sensor 1: ACC.X 1\"\n";
+  std::string text = "X[s],\"BIC\",X[s],\"BRA\",X[s],\"BRD\",X[s],\"TRI\",X[s],\"Avanti sensor 1: ACC.X 1\"\n";
   for (int i = 0; i < 4000; ++i) {
     const double fast = i / 2000.0, slow = i / 1000.0, third = i / 1250.0;
     const auto cells = [&](double t, double end, double amplitude) {
       return t < end ? fmt::format("{:.9f},{:.9f},", t, sine(t, amplitude)) : std::string(",,");
     };
-    text += cells(fast, 2.0, 1e-4) + cells(slow, 1.9, 2e-4) + cells(third, 1.8, 3e-4) +
-            cells(fast, 2.0, 4e-4) + (slow < 1.9 ? fmt::format("{:.9f},1\n", slow) : ",\n");
+    text += cells(fast, 2.0, 1e-4) + cells(slow, 1.9, 2e-4) + cells(third, 1.8, 3e-4) + cells(fast, 2.0, 4e-4) +
+            (slow < 1.9 ? fmt::format("{:.9f},1\n", slow) : ",\n");
   }
   recording::write_file(folder / "e.csv", text);
   Study study = arm_study();
@@ -68,16 +64,14 @@ TEST(ReadTrialEmg, ChannelsOfSeveralClocksArePutOnTheFastest) {
       ASSERT_NEAR(x[i], sine(emg.time_s()[i], amplitude), 2e-3 * amplitude) << names[k] << " " << i;
   }
   int moved = 0;
-  for (const std::string& note : sentences(input.remarks))
-    moved += note.find("put on the clock") != std::string::npos;
+  for (const std::string& note : sentences(input.remarks)) moved += note.find("put on the clock") != std::string::npos;
   EXPECT_EQ(moved, 2);
 }
 
 TEST(ReadTrialEmg, EmgThatCoversLessThanHalfOfTheMotionIsRefusedAndALittleLessIsWarnedOf) {
   const Study study = arm_study();
   const std::string message = message_of([&] { (void)WrittenTrial(0.1, 20.0).read(study); });
-  EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos)
-      << message;
+  EXPECT_NE(message.find("covers less than half of the motion (0 to 49.9 s)"), std::string::npos) << message;
   const TrialInput shorter = WrittenTrial(0.01, 4.0).read(study);
   const std::vector<std::string> warnings = sentences(shorter.remarks, Severity::warning);
   ASSERT_EQ(warnings.size(), 1U);

@@ -20,8 +20,7 @@ void add_notes(const std::vector<std::string>& texts, std::vector<Remark>& remar
 void add_repairs(const std::filesystem::path& path,
                  const std::vector<recording::Repair>& repairs,
                  std::vector<Remark>& remarks) {
-  for (const recording::Repair& repair : repairs)
-    add_notes({recording::to_string(path.filename(), repair)}, remarks);
+  for (const recording::Repair& repair : repairs) add_notes({recording::to_string(path.filename(), repair)}, remarks);
 }
 
 std::string few_samples(const TrialSpec& trial, const TimeSeries& series) {

@@ -22,9 +22,9 @@ namespace myoid {
 /// to the model's and mended.
 struct TrialInput {
   std::optional<recording::MarkerSeries> markers;
-  Vec3 up_L = Vec3::UnitY();         ///< Upward axis of the markers' laboratory, as recorded.
-  std::optional<TimeSeries> motion;  ///< Coordinates [rad | m].
-  std::optional<TimeSeries> emg;     ///< [V], or dimensionless for envelopes and activations.
+  Vec3 up_L = Vec3::UnitY();                  ///< Upward axis of the markers' laboratory, as recorded.
+  std::optional<TimeSeries> motion;           ///< Coordinates [rad | m].
+  std::optional<TimeSeries> emg;              ///< [V], or dimensionless for envelopes and activations.
   std::optional<TimeSeries> external_torque;  ///< [N m]
   std::optional<dynamics::ExternalLoads> loads;
   std::optional<TrialClock> emg_clock;  ///< Steps that put the EMG on the clock of the motion.

@@ -36,45 +36,36 @@ signals::LoadCell::Matrix read_calibration(const std::filesystem::path& path) {
         cells.begin(), cells.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
     const auto words = recording::split_words(cells);
     if (row == 6 || words.size() != 6) {
-      throw ReadError(
-          path, n + 1,
-          fmt::format("row {} of the calibration matrix has {} numbers; expected 6 rows "
-                      "(Fx, Fy, Fz, Mx, My, Mz) of 6",
-                      row + 1, words.size()));
+      throw ReadError(path, n + 1,
+                      fmt::format("row {} of the calibration matrix has {} numbers; expected 6 rows "
+                                  "(Fx, Fy, Fz, Mx, My, Mz) of 6",
+                                  row + 1, words.size()));
     }
     for (Eigen::Index c = 0; c < 6; ++c) {
       const auto number = recording::parse_number(words[static_cast<std::size_t>(c)]);
       if (!number)
-        throw ReadError(
-            path, n + 1,
-            fmt::format("expected a number, found '{}'", words[static_cast<std::size_t>(c)]));
+        throw ReadError(path, n + 1, fmt::format("expected a number, found '{}'", words[static_cast<std::size_t>(c)]));
       matrix(row, c) = *number;
     }
     ++row;
   }
-  if (row != 6)
-    throw ReadError(path, 0, fmt::format("the calibration matrix has {} rows, expected 6", row));
+  if (row != 6) throw ReadError(path, 0, fmt::format("the calibration matrix has {} rows, expected 6", row));
   return matrix;
 }
 
-model::BodyIndex body_of(const model::BodyModel& model,
-                         const std::string& name,
-                         const std::string& what) {
+model::BodyIndex body_of(const model::BodyModel& model, const std::string& name, const std::string& what) {
   if (const auto body = model.find_body(name)) return *body;
   std::string names;
-  for (std::size_t b = 1; b < model.bodies.size(); ++b)
-    names += (b == 1 ? "" : ", ") + model.bodies[b].name;
-  throw InvalidInput(
-      fmt::format("[load_cell] {}: there is no body '{}'; there are {}", what, name, names));
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) names += (b == 1 ? "" : ", ") + model.bodies[b].name;
+  throw InvalidInput(fmt::format("[load_cell] {}: there is no body '{}'; there are {}", what, name, names));
 }
 
-dynamics::ExternalForce read_load_cell(
-    const Study& study,
-    const TrialSpec& trial,
-    const model::BodyModel& model,
-    const std::optional<recording::MarkerSeries>& markers,
-    const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<Remark>& remarks) {
+dynamics::ExternalForce read_load_cell(const Study& study,
+                                       const TrialSpec& trial,
+                                       const model::BodyModel& model,
+                                       const std::optional<recording::MarkerSeries>& markers,
+                                       const std::function<void(const std::filesystem::path&)>& remember,
+                                       std::vector<Remark>& remarks) {
   const LoadCellSpec& spec = *study.load_cell;
   const std::filesystem::path& file = *trial.load_cell;
   remember(file);
@@ -85,30 +76,26 @@ dynamics::ExternalForce read_load_cell(
   if (channels.empty()) throw ReadError(file, 0, "there are no channels, so no load cell");
   TimeSeries wrench;
   try {
-    wrench = signals::load_cell_wrench(channels.select(spec.channels),
-                                       {.channels = spec.channels,
-                                        .calibration = read_calibration(spec.calibration),
-                                        .sign = spec.sign,
-                                        .zero_start_s = spec.zero_s[0],
-                                        .zero_end_s = spec.zero_s[1]});
+    wrench =
+        signals::load_cell_wrench(channels.select(spec.channels), {.channels = spec.channels,
+                                                                   .calibration = read_calibration(spec.calibration),
+                                                                   .sign = spec.sign,
+                                                                   .zero_start_s = spec.zero_s[0],
+                                                                   .zero_end_s = spec.zero_s[1]});
   } catch (const ReadError&) {
     throw;
   } catch (const InvalidInput& error) {
     throw ReadError(file, 0, error.what());
   }
-  if (const auto clock = loads_clock(study, trial, file))
-    wrench = signals::on_study_clock(std::move(wrench), *clock);
+  if (const auto clock = loads_clock(study, trial, file)) wrench = signals::on_study_clock(std::move(wrench), *clock);
   const std::optional<double> cutoff = spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study);
   if (cutoff && *cutoff < 0.45 * wrench.mean_rate_hz())
     wrench = signals::zero_phase_filter(wrench, math::FilterBand::low_pass, *cutoff);
   const double most = wrench.values().leftCols(3).rowwise().norm().maxCoeff();
-  add_notes({fmt::format("{}: load cell, up to {:.3g} N on '{}'", file.filename().string(), most,
-                         spec.body)},
-            remarks);
+  add_notes({fmt::format("{}: load cell, up to {:.3g} N on '{}'", file.filename().string(), most, spec.body)}, remarks);
   const model::BodyIndex body = body_of(model, spec.body, "body");
   if (!spec.instrument)
-    return dynamics::instrument_load(body_of(model, spec.frame, "frame"), wrench, body,
-                                     "load cell");
+    return dynamics::instrument_load(body_of(model, spec.frame, "frame"), wrench, body, "load cell");
 
   remember(*spec.instrument);
   const model::BodyModel object = model::read_osim(*spec.instrument);
@@ -119,21 +106,18 @@ dynamics::ExternalForce read_load_cell(
         "model holds the cell");
   }
   const kinematics::IkResult pose = kinematics::inverse_kinematics(object, *markers);
-  add_notes(
-      {fmt::format("{}: pose of '{}' with {:.2g} mm rms", spec.instrument->filename().string(),
-                   spec.frame, 1e3 * pose.errors.column("marker_error_RMS").mean())},
-      remarks);
-  return dynamics::instrument_load(object, pose.q, body_of(object, spec.frame, "frame"), wrench,
-                                   body, "load cell");
+  add_notes({fmt::format("{}: pose of '{}' with {:.2g} mm rms", spec.instrument->filename().string(), spec.frame,
+                         1e3 * pose.errors.column("marker_error_RMS").mean())},
+            remarks);
+  return dynamics::instrument_load(object, pose.q, body_of(object, spec.frame, "frame"), wrench, body, "load cell");
 }
 
-dynamics::ExternalLoads read_plates(
-    const Study& study,
-    const TrialSpec& trial,
-    const model::BodyModel& model,
-    const std::optional<recording::MarkerSeries>& markers,
-    const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<Remark>& remarks) {
+dynamics::ExternalLoads read_plates(const Study& study,
+                                    const TrialSpec& trial,
+                                    const model::BodyModel& model,
+                                    const std::optional<recording::MarkerSeries>& markers,
+                                    const std::function<void(const std::filesystem::path&)>& remember,
+                                    std::vector<Remark>& remarks) {
   const PlateSpec& spec = *trial.plates;
   const auto name = spec.file.filename().string();
   if (!trial.markers || *trial.markers != spec.file) remember(spec.file);
@@ -153,19 +137,17 @@ dynamics::ExternalLoads read_plates(
     }
   }
   try {
-    dynamics::ExternalLoads loads = plate_loads(
-        plates, rotation_onto(model, up.up_L.value_or(model_up(model))), model, spec.bodies,
-        markers, spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
-    for (const std::string& note : loads.notes)
-      add_notes({fmt::format("{}: {}", name, note)}, remarks);
+    dynamics::ExternalLoads loads =
+        plate_loads(plates, rotation_onto(model, up.up_L.value_or(model_up(model))), model, spec.bodies, markers,
+                    spec.least_force_n, spec.lowpass_hz ? spec.lowpass_hz : motion_cutoff_hz(study));
+    for (const std::string& note : loads.notes) add_notes({fmt::format("{}: {}", name, note)}, remarks);
     if (markers && markers->frame_count() > 0 &&
         (markers->time_s[0] < loads.start_s - 0.05 ||
          markers->time_s[markers->frame_count() - 1] > loads.end_s + 0.05)) {
-      throw InvalidInput(fmt::format(
-          "the force plates were recorded from {:.4g} to {:.4g} s, the markers from {:.4g} to "
-          "{:.4g} s; give start_s and end_s",
-          loads.start_s, loads.end_s, markers->time_s[0],
-          markers->time_s[markers->frame_count() - 1]));
+      throw InvalidInput(
+          fmt::format("the force plates were recorded from {:.4g} to {:.4g} s, the markers from {:.4g} to "
+                      "{:.4g} s; give start_s and end_s",
+                      loads.start_s, loads.end_s, markers->time_s[0], markers->time_s[markers->frame_count() - 1]));
     }
     return loads;
   } catch (const InvalidInput& error) {
@@ -195,8 +177,7 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
                              trial.external_loads->filename().string())},
                 remarks);
   }
-  if (trial.load_cell)
-    loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, remarks));
+  if (trial.load_cell) loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, remarks));
   if (trial.plates) {
     dynamics::ExternalLoads plates = read_plates(study, trial, model, markers, remember, remarks);
     std::move(plates.forces.begin(), plates.forces.end(), std::back_inserter(loads.forces));

@@ -35,12 +35,9 @@ class LoadCellTrial : public ::testing::Test {
     put_matrix("0,0,0,0,0,0\n0,0,0,0,0,0\n0,10,0,0,0,0\n0 0 0 0 0 0\n0;0;0;0;0;0\n0,0,0,0,0,0\n");
   }
 
-  void put_matrix(const std::string& text) const {
-    recording::write_file(folder / "matrix.csv", text);
-  }
+  void put_matrix(const std::string& text) const { recording::write_file(folder / "matrix.csv", text); }
 
-  [[nodiscard]] Study study(const std::string& trial,
-                            const std::string& body = "forearm_hand") const {
+  [[nodiscard]] Study study(const std::string& trial, const std::string& body = "forearm_hand") const {
     return parse_study(
         "[load_cell]\nchannels = [\"v1\",\"v2\",\"v3\",\"v4\",\"v5\",\"v6\"]\n"
         "calibration = \"matrix.csv\"\nsign = -1\nzero_s = [0, 0.9]\n"
@@ -88,15 +85,13 @@ TEST_F(LoadCellTrial, GivesTheForceThatTheBodyFeels) {
 TEST_F(LoadCellTrial, WhatDoesNotFitIsNamed) {
   const std::string trial = "load_cell = \"cell.csv\"\n";
   put_matrix("1,2,3\n");
-  EXPECT_THAT(refusal(study(trial)),
-              HasSubstr("matrix.csv:1: row 1 of the calibration matrix has 3"));
+  EXPECT_THAT(refusal(study(trial)), HasSubstr("matrix.csv:1: row 1 of the calibration matrix has 3"));
   put_matrix("1,2,3,4,5,6\n1,2,3,4,5,6\n");
   EXPECT_THAT(refusal(study(trial)), HasSubstr("has 2 rows, expected 6"));
   put_matrix("0,0,0,0,0,0\n0,0,x,0,0,0\n");
   EXPECT_THAT(refusal(study(trial)), HasSubstr("matrix.csv:2: expected a number, found 'x'"));
   put_matrix("0,0,0,0,0,0\n0,0,0,0,0,0\n0,0,0,0,0,0\n0,0,0,0,0,0\n0,0,0,0,0,0\n0,0,0,0,0,0\n");
-  EXPECT_THAT(refusal(study(trial, "foot")),
-              HasSubstr("[load_cell] body: there is no body 'foot'"));
+  EXPECT_THAT(refusal(study(trial, "foot")), HasSubstr("[load_cell] body: there is no body 'foot'"));
   EXPECT_THROW(static_cast<void>(study(trial + "external_loads = \"x.xml\"\n")), ReadError);
   EXPECT_THROW(static_cast<void>(parse_study("[[muscle]]\nname = \"BIC\"\nemg = \"b\"\n[[trial]]\n"
                                              "name = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n" +

@@ -19,8 +19,7 @@
 namespace myoid {
 namespace {
 
-/// Renames labels whose spelling alone differs from the model's; asks about other labels that
-/// resemble one.
+/// Renames labels whose spelling alone differs from the model's; asks about other labels that resemble one.
 void match_labels(const model::BodyModel& model,
                   const std::filesystem::path& path,
                   std::vector<std::string>& names,
@@ -31,17 +30,16 @@ void match_labels(const model::BodyModel& model,
   for (std::string& name : names) {
     const auto same = match.same.find(name);
     if (same == match.same.end()) continue;
-    add_notes({fmt::format("{}: marker '{}' is taken for the model's '{}'",
-                           path.filename().string(), name, same->second)},
-              input.remarks);
+    add_notes(
+        {fmt::format("{}: marker '{}' is taken for the model's '{}'", path.filename().string(), name, same->second)},
+        input.remarks);
     name = same->second;
   }
   for (const auto& [name, like] : match.similar) {
-    add_notes(
-        {fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
-                     "rename = {{ \"{}\" = \"{}\" }}",
-                     path.filename().string(), name, like, name, like)},
-        input.remarks);
+    add_notes({fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
+                           "rename = {{ \"{}\" = \"{}\" }}",
+                           path.filename().string(), name, like, name, like)},
+              input.remarks);
   }
 }
 
@@ -53,8 +51,7 @@ recording::MarkerSeries read_markers(const Study& study,
   std::vector<Remark>& remarks = input.remarks;
   add_repairs(path, file.repairs, remarks);
   for (std::string& name : file.markers.names) {
-    if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end())
-      name = it->second;
+    if (const auto it = study.markers.rename.find(name); it != study.markers.rename.end()) name = it->second;
   }
   match_labels(model, path, file.markers.names, input);
   const recording::LaboratoryUp up = trial_up(study.markers.up, path, model);
@@ -76,20 +73,17 @@ recording::MarkerSeries mended(const Study& study,
   bool right_unit = true;
   for (Remark& fault : input.marker_faults) {
     right_unit = right_unit && fault.code != RemarkCode::marker_unit;
-    const bool used =
-        std::any_of(model.markers.begin(), model.markers.end(),
-                    [&](const model::Marker& marker) { return fault.about == marker.name; });
+    const bool used = std::any_of(model.markers.begin(), model.markers.end(),
+                                  [&](const model::Marker& marker) { return fault.about == marker.name; });
     // A fault of a marker that the model lacks has no effect.
-    const bool of_one =
-        std::find(markers.names.begin(), markers.names.end(), fault.about) != markers.names.end();
+    const bool of_one = std::find(markers.names.begin(), markers.names.end(), fault.about) != markers.names.end();
     if (of_one && !used) fault.severity = Severity::note;
   }
   if (!right_unit) return markers;
   std::vector<signals::RigidSegment> segments;
   for (const signals::ExpectedSegment& e : expected) segments.push_back(e.segment);
   signals::MendedMarkers result = signals::mend_markers(
-      std::move(markers), segments,
-      {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
+      std::move(markers), segments, {.undo_swaps = study.markers.undo_swaps, .fill_gaps = study.markers.fill_gaps});
   add_notes(result.repairs, input.remarks);
   return std::move(result.markers);
 }
@@ -112,16 +106,14 @@ recording::MarkerSeries read_trial_markers(const Study& study,
     markers.positions_m = markers.positions_m.middleRows(first, last - first).eval();
   }
   if (markers.frame_count() < 10)
-    throw ReadError(*trial.markers, 0,
-                    fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
+    throw ReadError(*trial.markers, 0, fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
   if (std::string pauses = check_clock(*trial.markers, markers.time_s); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cutoff(study, *trial.markers, markers.time_s);
   return mended(study, model, std::move(markers), input);
 }
 
-recording::MarkerSeries calibration_window(const CalibrationSpec& spec,
-                                           const recording::MarkerSeries& markers) {
+recording::MarkerSeries calibration_window(const CalibrationSpec& spec, const recording::MarkerSeries& markers) {
   recording::MarkerSeries window;
   window.names = markers.names;
   Eigen::Index first = 0;
@@ -129,8 +121,8 @@ recording::MarkerSeries calibration_window(const CalibrationSpec& spec,
   Eigen::Index last = first;
   while (last < markers.frame_count() && markers.time_s[last] <= spec.window_s[1]) ++last;
   if (last - first < 2)
-    throw InvalidInput(fmt::format("[ik] calibrate: no frames between {} and {} s",
-                                   spec.window_s[0], spec.window_s[1]));
+    throw InvalidInput(
+        fmt::format("[ik] calibrate: no frames between {} and {} s", spec.window_s[0], spec.window_s[1]));
   window.time_s = markers.time_s.segment(first, last - first);
   window.positions_m = markers.positions_m.middleRows(first, last - first);
   return window;

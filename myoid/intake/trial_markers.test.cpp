@@ -60,9 +60,9 @@ TEST(ReadTrialMarkers, ALaboratoryWithZUpIsTurned) {
       read_trial_markers(arm_study("[markers]\nup = \"z\"\n"), trial.spec, arm(), input);
   // Height 0.3 m was the third coordinate.
   EXPECT_NEAR(markers.positions_m(0, 1), 0.3, 1e-6);
-  EXPECT_NEAR(markers.positions_m(0, 0) * markers.positions_m(0, 0) +
-                  markers.positions_m(0, 2) * markers.positions_m(0, 2),
-              0.1 * 0.1 + 0.2 * 0.2, 1e-6);
+  EXPECT_NEAR(
+      markers.positions_m(0, 0) * markers.positions_m(0, 0) + markers.positions_m(0, 2) * markers.positions_m(0, 2),
+      0.1 * 0.1 + 0.2 * 0.2, 1e-6);
 }
 
 TEST(ReadTrialMarkers, FewerThanTenFramesAreRefused) {
@@ -70,8 +70,7 @@ TEST(ReadTrialMarkers, FewerThanTenFramesAreRefused) {
   trial.spec.start_s = 0.1;
   trial.spec.end_s = 0.155;
   TrialInput input;
-  const std::string message =
-      message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
+  const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
   EXPECT_NE(message.find("only 6 frames"), std::string::npos) << message;
 }
 

@@ -22,27 +22,21 @@ TimeSeries movement_of(const TrialInput& input) {
     values.conservativeResize(Eigen::NoChange, values.cols() + 3);
     values.rightCols(3) = path;
     for (const char* axis : {"x", "y", "z"}) {
-      channels.push_back(
-          {fmt::format("{} {}", input.markers->names[static_cast<std::size_t>(m)], axis),
-           Unit::meter});
+      channels.push_back({fmt::format("{} {}", input.markers->names[static_cast<std::size_t>(m)], axis), Unit::meter});
     }
   }
   if (values.cols() == 0) return {};
   return {input.markers->time_s, std::move(channels), std::move(values)};
 }
 
-std::vector<Remark> trial_faults(const Study& study,
-                                 const TrialInput& input,
-                                 const TimeSeries& envelope) {
+std::vector<Remark> trial_faults(const Study& study, const TrialInput& input, const TimeSeries& envelope) {
   std::vector<Remark> faults = input.marker_faults;
   const auto append = [&](std::vector<Remark> more) {
     std::move(more.begin(), more.end(), std::back_inserter(faults));
   };
   if (input.emg) {
-    if (study.emg.kind == EmgKind::raw)
-      append(signals::check_emg(*input.emg, !study.emg.as_published));
-    if (auto uneven = signals::check_clock_evenness(input.emg->time_s(), "EMG"))
-      faults.push_back(std::move(*uneven));
+    if (study.emg.kind == EmgKind::raw) append(signals::check_emg(*input.emg, !study.emg.as_published));
+    if (auto uneven = signals::check_clock_evenness(input.emg->time_s(), "EMG")) faults.push_back(std::move(*uneven));
   }
   if (input.markers) {
     if (auto uneven = signals::check_clock_evenness(input.markers->time_s, "markers"))

@@ -14,8 +14,6 @@ namespace myoid {
 
 /// Returns the faults of a trial's EMG and clocks, and of its markers before mending. `envelope` is
 /// empty or the trial's EMG envelope.
-[[nodiscard]] std::vector<Remark> trial_faults(const Study& study,
-                                               const TrialInput& input,
-                                               const TimeSeries& envelope);
+[[nodiscard]] std::vector<Remark> trial_faults(const Study& study, const TrialInput& input, const TimeSeries& envelope);
 
 }  // namespace myoid

@@ -38,8 +38,7 @@ std::vector<PossibleSize> possible_sizes(bool any_errors) {
 /// Returns the size of every shape: `muscle` for a muscle's, `joint` for a joint's.
 Eigen::VectorXd sizes_of(const std::vector<bool>& of_muscle, double muscle, double joint) {
   Eigen::VectorXd e(static_cast<Eigen::Index>(of_muscle.size()));
-  for (std::size_t b = 0; b < of_muscle.size(); ++b)
-    e[static_cast<Eigen::Index>(b)] = of_muscle[b] ? muscle : joint;
+  for (std::size_t b = 0; b < of_muscle.size(); ++b) e[static_cast<Eigen::Index>(b)] = of_muscle[b] ? muscle : joint;
   return e;
 }
 
@@ -77,9 +76,9 @@ std::vector<Discrepancy::Sizes> posterior_sizes(const Eigen::MatrixXd& c,
     sum += all[k].probability;
   }
   for (Discrepancy::Sizes& of : all) of.probability /= sum;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const Discrepancy::Sizes& of) { return !(of.probability > 1e-4); }),
-            all.end());
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [](const Discrepancy::Sizes& of) { return !(of.probability > 1e-4); }),
+      all.end());
   return all;
 }
 
@@ -88,9 +87,8 @@ bool on_bound(const Unknown& p, double z) {
   return z <= p.bounds.lower + margin || z >= p.bounds.upper - margin;
 }
 
-/// Gradient of the prediction (p x n) and response of the estimates (p x p, A^-1), given the
-/// parameters on their bounds. These do not follow the data, so their part of an error stays in the
-/// residual.
+/// Gradient of the prediction (p x n) and response of the estimates (p x p, A^-1), given the parameters on their
+/// bounds. These do not follow the data, so their part of an error stays in the residual.
 struct Followed {
   Eigen::MatrixXd gradient, response;
 };
@@ -134,8 +132,7 @@ Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
 }
 
 /// Returns A = J W J' + P without subtraction, invertible. `jacobian`: p x n, J W^1/2.
-Eigen::MatrixXd whole_information(const std::vector<Unknown>& free,
-                                  const Eigen::MatrixXd& jacobian) {
+Eigen::MatrixXd whole_information(const std::vector<Unknown>& free, const Eigen::MatrixXd& jacobian) {
   Eigen::MatrixXd a = jacobian * jacobian.transpose();
   for (Eigen::Index j = 0; j < a.rows(); ++j) {
     a(j, j) += free[static_cast<std::size_t>(j)].prior_precision();
@@ -159,16 +156,14 @@ double Discrepancy::reach(Eigen::Index j, double variance, double probability) c
   std::vector<double> sd;
   double most = 0.0, all = 0.0;
   for (const Sizes& s : posterior) {
-    sd.push_back(
-        std::sqrt(variance + s.muscle * s.muscle * by_muscle[j] + s.joint * s.joint * by_joint[j]));
+    sd.push_back(std::sqrt(variance + s.muscle * s.muscle * by_muscle[j] + s.joint * s.joint * by_joint[j]));
     most = std::max(most, sd.back());
     all += s.probability;
   }
   if (!(most > 0.0) || !std::isfinite(most)) return most;
   // The remaining pairs share the probability of the pairs below 1e-4. The probability within x is
   // concave in x, so Newton's steps from below stay below the root.
-  double x =
-      math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
+  double x = math::normal_quantile(0.5 + 0.5 * probability) * *std::min_element(sd.begin(), sd.end());
   for (int count = 0; count < 60; ++count) {
     double inside = 0.0, density = 0.0;
     for (std::size_t k = 0; k < sd.size(); ++k) {
@@ -210,8 +205,7 @@ Discrepancy discrepancy(const Estimator& estimator,
   const Eigen::MatrixXd a = whole_information(estimator.free(), gradient * root.asDiagonal());
   const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
   std::vector<bool> of_muscle;
-  for (const Eigen::Index b : kept)
-    of_muscle.push_back(shapes.channel[static_cast<std::size_t>(b)] >= 0);
+  for (const Eigen::Index b : kept) of_muscle.push_back(shapes.channel[static_cast<std::size_t>(b)] >= 0);
   Discrepancy result;
   result.posterior = posterior_sizes(left, h, of_muscle);
   for (const Discrepancy::Sizes& of : result.posterior) {
@@ -223,8 +217,7 @@ Discrepancy discrepancy(const Estimator& estimator,
   const Eigen::MatrixXd unit = response * sj.transpose();
   result.by_muscle = (unit * sizes_of(of_muscle, 1.0, 0.0).asDiagonal()).rowwise().squaredNorm();
   result.by_joint = (unit * sizes_of(of_muscle, 0.0, 1.0).asDiagonal()).rowwise().squaredNorm();
-  const Eigen::MatrixXd moved =
-      unit * sizes_of(of_muscle, result.relative_size, result.joint_size).asDiagonal();
+  const Eigen::MatrixXd moved = unit * sizes_of(of_muscle, result.relative_size, result.joint_size).asDiagonal();
   result.covariance = moved * moved.transpose();
   return result;
 }

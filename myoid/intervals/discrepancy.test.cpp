@@ -29,19 +29,16 @@ Found error_of(double power, std::uint64_t seed) {
   for (TrialData& trial : study.data.trials) {
     Eigen::MatrixXd seen = trial.activation.values();
     seen = seen.array().max(0.0).pow(power);
-    trial.activation =
-        TimeSeries(trial.activation.time_s(), trial.activation.channels(), std::move(seen));
+    trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), std::move(seen));
   }
   // 8 % below 6 Hz are 4 % below 1.5 Hz, what EMG of a bandwidth of 432 Hz has.
   EstimatorOptions options{.starts = 1};
-  for (const MuscleSetup& setup : study.data.muscles)
-    options.emg_bandwidth_hz[setup.emg_channel] = 432.0;
+  for (const MuscleSetup& setup : study.data.muscles) options.emg_bandwidth_hz[setup.emg_channel] = 432.0;
   const Estimator estimator(study.data, options);
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
   const Sandwich parts = sandwich(estimator, solution);
   const Discrepancy error = discrepancy(estimator, solution, parts.model_based);
-  return {error.relative_size,
-          (error.covariance.diagonal().array() / parts.model_based.diagonal().array()).mean()};
+  return {error.relative_size, (error.covariance.diagonal().array() / parts.model_based.diagonal().array()).mean()};
 }
 
 TEST(Discrepancy, IsSmallWhereTheModelIsRightAndSeenWhereTheEmgIsNotLinear) {
@@ -67,19 +64,16 @@ TEST(Discrepancy, AnIntervalHoldsItsShareOfAllSizesTogether) {
   // One size alone: a normal error of variance 1 + 9 (1/3)^2 + 4 = 6.
   error.posterior = {{1.0 / 3.0, 1.0, 1.0}};
   EXPECT_NEAR(error.reach(0, 1.0, 0.95), 1.959964 * std::sqrt(6.0), 1e-5);
-  // None in three cases of four, else ten times the noise: few errors come from there, most of the
-  // variance does.
+  // None in three cases of four, else ten times the noise: few errors come from there, most of the variance does.
   error.posterior = {{0.0, 0.0, 0.75}, {10.0 / 3.0, 0.0, 0.25}};
   const double reach = error.reach(0, 1.0, 0.95);
-  const double inside =
-      0.75 * std::erf(reach / std::sqrt(2.0)) + 0.25 * std::erf(reach / std::sqrt(2.0 * 101.0));
+  const double inside = 0.75 * std::erf(reach / std::sqrt(2.0)) + 0.25 * std::erf(reach / std::sqrt(2.0 * 101.0));
   EXPECT_NEAR(inside, 0.95, 1e-9);
   EXPECT_NEAR(error.reach(0, 0.0, 0.7), 0.0, 1e-9);  // three in four have no error at all
 }
 
 TEST(Discrepancy, AParameterOnItsBoundIsNoErrorOfTheModel) {
-  // No delay at all: the estimate lies on its bound, and what a negative delay would explain stays
-  // in the residual.
+  // No delay at all: the estimate lies on its bound, and what a negative delay would explain stays in the residual.
   const ElbowStudy study = elbow_study({.trials = 4,
                                         .seconds = 15.0,
                                         .delay_s = 0.0,
@@ -97,8 +91,7 @@ TEST(Discrepancy, AParameterOnItsBoundIsNoErrorOfTheModel) {
     const Estimator estimator(data, {.starts = 1});
     const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
     for (std::size_t j = 0; j < estimator.free().size(); ++j) {
-      if (estimator.free()[j].field->scope == Scope::channel &&
-          estimator.free()[j].field->name == "emg_delay")
+      if (estimator.free()[j].field->scope == Scope::channel && estimator.free()[j].field->name == "emg_delay")
         on_bound += solution.search.x[static_cast<Eigen::Index>(j)] < 1e-6 ? 1 : 0;
     }
     const Sandwich parts = sandwich(estimator, solution);

@@ -61,8 +61,7 @@ void read(const nlohmann::json& cell, Verdict& value) {
 std::span<const EstimateColumn> estimate_columns() { return kColumns; }
 
 std::optional<ParameterEstimate> estimate_of_json(const nlohmann::json& row) {
-  if (const auto estimate = row.find("estimate"); estimate == row.end() || !estimate->is_number())
-    return std::nullopt;
+  if (const auto estimate = row.find("estimate"); estimate == row.end() || !estimate->is_number()) return std::nullopt;
   ParameterEstimate e;
   for (const EstimateColumn& column : kColumns) {
     const auto cell = row.find(column.name);

@@ -57,9 +57,8 @@ void RouteRemarks::compare(ParameterEstimate& e) {
   beyond_ += beyond ? 1 : 0;
   if (ratio <= worst_) return;
   worst_ = ratio;
-  worst_text_ = fmt::format("{} {}, where {} gives {} times the width of {}", e.muscle, e.parameter,
-                            wide->route, ratio < 100.0 ? fmt::format("{:.1f}", ratio) : "over 100",
-                            narrow->route);
+  worst_text_ = fmt::format("{} {}, where {} gives {} times the width of {}", e.muscle, e.parameter, wide->route,
+                            ratio < 100.0 ? fmt::format("{:.1f}", ratio) : "over 100", narrow->route);
 }
 
 void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count) const {
@@ -69,10 +68,8 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
         "numbers, "
         "most for {}: {} (routes_disagree in parameters.csv)",
         disagree_, count, worst_text_,
-        beyond_ == 0
-            ? std::string("the wider one is what is reported")
-            : fmt::format("for {} of them a route is wider than what is reported: trust that one",
-                          beyond_)));
+        beyond_ == 0 ? std::string("the wider one is what is reported")
+                     : fmt::format("for {} of them a route is wider than what is reported: trust that one", beyond_)));
   }
   if (open_.empty()) return;
   constexpr std::size_t kNamed = 4;
@@ -80,8 +77,7 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
   warnings.push_back(fmt::format(
       "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at "
       "most",
-      open_.size(), count,
-      fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+      open_.size(), count, fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
       open_.size() > named ? ", ..." : ""));
 }
 
@@ -100,8 +96,7 @@ double span_but_for(double time_s, LengthsInTime lengths) {
     while (std::next(at) != to && passed_s + at->second < time_s) passed_s += (at++)->second;
     return at->first;
   };
-  return std::max(
-      0.0, end_of(lengths.rbegin(), lengths.rend()) - end_of(lengths.begin(), lengths.end()));
+  return std::max(0.0, end_of(lengths.rbegin(), lengths.rend()) - end_of(lengths.begin(), lengths.end()));
 }
 
 }  // namespace
@@ -139,8 +134,7 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
 std::string never_done(const Unknown& parameter, const ActiveMotion& motion, bool by_ratio) {
   const ParameterField& field = *parameter.field;
   if (field.scope != Scope::muscle) return "";
-  const bool lengthening =
-      field.field == kProduct || field.field == kPlateau || field.field == kSlopeRatio;
+  const bool lengthening = field.field == kProduct || field.field == kPlateau || field.field == kSlopeRatio;
   if (lengthening && !motion.lengthened) return "lengthened";
   const bool elsewhere = by_ratio && motion.lengthened;
   if (field.field == kCurvature && !motion.shortened && !elsewhere) return "shortened";
@@ -151,8 +145,7 @@ std::string known_beforehand(const Unknown& parameter, bool from_mvc) {
   const ParameterField& field = *parameter.field;
   if (parameter.prior_is_given) return "what the study gave beforehand";
   if (field.scope != Scope::muscle || field.zero_by_nature) return "what is expected beforehand";
-  if (field.field == kMaxForce && !from_mvc)
-    return "what any effort may be, 1/20 to 1 of the literature's strength";
+  if (field.field == kMaxForce && !from_mvc) return "what any effort may be, 1/20 to 1 of the literature's strength";
   return "the literature's value";
 }
 
@@ -187,15 +180,14 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
   return result;
 }
 
-void add_distances_to(std::vector<std::string>& warnings,
-                      const std::vector<PriorDistance>& distances) {
+void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances) {
   for (const PriorDistance& d : distances) {
     if (std::max(d.distance, d.farthest_distance) <= VerdictRules{}.prior_conflict) continue;
-    warnings.push_back(fmt::format(
-        "{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations "
-        "of their priors away, {} {:.1f}: use none of them before the cause is known (electrode, "
-        "sign, unit, mass, geometry)",
-        d.muscle, d.distance, d.farthest, d.farthest_distance));
+    warnings.push_back(
+        fmt::format("{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations "
+                    "of their priors away, {} {:.1f}: use none of them before the cause is known (electrode, "
+                    "sign, unit, mass, geometry)",
+                    d.muscle, d.distance, d.farthest, d.farthest_distance));
   }
 }
 
@@ -203,22 +195,20 @@ std::string lag_remark(const IdentificationResult& result) {
   if (!result.shared_lag_gain) return {};
   const double gain = std::abs(*result.shared_lag_gain);
   const bool clear = gain >= 4.0;  // two standard deviations
-  return fmt::format(
-      "The muscles follow their EMG {}; {}.",
-      result.lag == EmgLag::shared
-          ? "with the lags of excitation and activation, of which the delay is the mean"
-          : "with a delay that leaves its shape as it is, not with the lags of excitation and "
-            "activation",
-      clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
-            : std::string("the recording hardly tells which"));
+  return fmt::format("The muscles follow their EMG {}; {}.",
+                     result.lag == EmgLag::shared
+                         ? "with the lags of excitation and activation, of which the delay is the mean"
+                         : "with a delay that leaves its shape as it is, not with the lags of excitation and "
+                           "activation",
+                     clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
+                           : std::string("the recording hardly tells which"));
 }
 
 void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {
   if (count < 2 || estimates.size() < count || estimates.back().tied_to.empty()) return;
   const auto first = estimates.end() - static_cast<std::ptrdiff_t>(count);
-  const auto worst = std::max_element(first, estimates.end(), [](const auto& a, const auto& b) {
-    return severity(a.verdict) < severity(b.verdict);
-  });
+  const auto worst = std::max_element(
+      first, estimates.end(), [](const auto& a, const auto& b) { return severity(a.verdict) < severity(b.verdict); });
   const Verdict verdict = worst->verdict;
   const std::string reason = worst->reason;
   for (auto e = first; e != estimates.end(); ++e) {

@@ -32,24 +32,20 @@ class RouteRemarks {
   std::vector<std::string> open_;
 };
 
-/// The motions of a muscle while it is active (above 2 % of the greatest EMG) for at least a tenth
-/// of a second in total, faster than a hundredth of v_max, where f_v differs from 1 by a few
-/// percent.
+/// The motions of a muscle while it is active (above 2 % of the greatest EMG) for at least a tenth of a second in
+/// total, faster than a hundredth of v_max, where f_v differs from 1 by a few percent.
 struct ActiveMotion {
   bool shortened = false, lengthened = false;
   /// Range of musculotendon lengths, without a tenth of a second at either end [m].
   double length_span_m = 0.0;
 };
-/// Returns the active motion of every muscle in the calibration trials; activation acts `delay_s`
-/// later.
+/// Returns the active motion of every muscle in the calibration trials; activation acts `delay_s` later.
 [[nodiscard]] std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s);
 
 /// Returns the only motion in which a muscle's number acts, if the active muscle never made this
 /// motion (VerdictContext::never): "lengthened", "shortened"; empty: no motion is missing.
 /// `by_ratio`: V_sh acts in lengthening, too.
-[[nodiscard]] std::string never_done(const Unknown& parameter,
-                                     const ActiveMotion& motion,
-                                     bool by_ratio);
+[[nodiscard]] std::string never_done(const Unknown& parameter, const ActiveMotion& motion, bool by_ratio);
 
 /// Names the source of a number's prior in words.
 [[nodiscard]] std::string known_beforehand(const Unknown& parameter, bool from_mvc);
@@ -63,8 +59,7 @@ struct ActiveMotion {
                                                          const StudyData& data);
 
 /// Adds a line for each muscle whose distance exceeds VerdictRules::prior_conflict.
-void add_distances_to(std::vector<std::string>& warnings,
-                      const std::vector<PriorDistance>& distances);
+void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances);
 
 /// States in a sentence which lag of the EMG the fit chose (`shared_lag_gain`), and whether the
 /// recording separates it from the other. Empty if the study set the lag.

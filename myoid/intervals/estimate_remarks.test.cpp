@@ -19,8 +19,8 @@ ParameterEstimate routes(const std::string& parameter, double narrow, double wid
 
 TEST(RouteRemarks, SayOnceWhichNumbersDisagreeAndByHowMuchAtMost) {
   RouteRemarks remarks;
-  std::vector<ParameterEstimate> estimates{routes("a", 0.1, 0.14), routes("b", 0.1, 0.2),
-                                           routes("c", 0.1, 0.35), routes("d", 1e-300, 1e200)};
+  std::vector<ParameterEstimate> estimates{routes("a", 0.1, 0.14), routes("b", 0.1, 0.2), routes("c", 0.1, 0.35),
+                                           routes("d", 1e-300, 1e200)};
   for (ParameterEstimate& e : estimates) remarks.compare(e);
   EXPECT_FALSE(estimates[0].routes_disagree);
   EXPECT_TRUE(estimates[1].routes_disagree);
@@ -33,8 +33,7 @@ TEST(RouteRemarks, SayOnceWhichNumbersDisagreeAndByHowMuchAtMost) {
 }
 
 TEST(RouteRemarks, AreSilentOnWhatChanceMakesOfTheirWidths) {
-  // Of five trials alike a variance is known to sqrt(2 / 5), a width to 0.32: 3 of that are a
-  // factor of 2.6 either way.
+  // Of five trials alike a variance is known to sqrt(2 / 5), a width to 0.32: 3 of that are a factor of 2.6 either way.
   for (const auto& [wide, disagree] : {std::pair{0.25, false}, std::pair{0.28, true}}) {
     ParameterEstimate e = routes("a", 0.1, wide);
     e.estimate = 1.0;
@@ -121,8 +120,7 @@ TEST(RouteRemarks, SayOnceWhichProfilesAreOpen) {
   std::vector<std::string> lines;
   remarks.add_to(lines, 8);
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("6 of 8 numbers (BIC a, BIC b, BIC c, BIC d, ...)"), std::string::npos)
-      << lines[0];
+  EXPECT_NE(lines[0].find("6 of 8 numbers (BIC a, BIC b, BIC c, BIC d, ...)"), std::string::npos) << lines[0];
 }
 
 TEST(AgreeOnTied, TheWorstVerdictIsThatOfAll) {
@@ -134,9 +132,9 @@ TEST(AgreeOnTied, TheWorstVerdictIsThatOfAll) {
     e.reason = muscle;
     return e;
   };
-  std::vector<ParameterEstimate> estimates{
-      owner("X", "", Verdict::identified), owner("BIC", "", Verdict::identified),
-      owner("BRA", "BIC", Verdict::weak), owner("TRI", "BIC", Verdict::identified)};
+  std::vector<ParameterEstimate> estimates{owner("X", "", Verdict::identified), owner("BIC", "", Verdict::identified),
+                                           owner("BRA", "BIC", Verdict::weak),
+                                           owner("TRI", "BIC", Verdict::identified)};
   agree_on_tied(estimates, 3);
   EXPECT_EQ(estimates[0].verdict, Verdict::identified);
   for (std::size_t i = 1; i < 4; ++i) {
@@ -147,8 +145,7 @@ TEST(AgreeOnTied, TheWorstVerdictIsThatOfAll) {
 
 TEST(PriorDistances, AboveThreeMakeALineThatNamesTheMuscleAndTheFarthestNumber) {
   std::vector<std::string> lines;
-  add_distances_to(
-      lines, {{"BIC", 2.9, "force_length_width", 2.0}, {"TRI", 1.0, "max_isometric_force", 3.4}});
+  add_distances_to(lines, {{"BIC", 2.9, "force_length_width", 2.0}, {"TRI", 1.0, "max_isometric_force", 3.4}});
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].find("TRI has left"), 0U) << lines[0];
   EXPECT_NE(lines[0].find("max_isometric_force 3.4"), std::string::npos) << lines[0];

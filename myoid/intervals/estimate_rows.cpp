@@ -55,9 +55,7 @@ class RowMaker {
   [[nodiscard]] std::string owner_name(const Unknown& p, const Unknown::Target& target) const;
   /// Returns the trial without which the value would leave its own interval and change by more than
   /// kSubstance; empty: none.
-  [[nodiscard]] std::string rests_on(const RowScale& row,
-                                     const ParameterEstimate& e,
-                                     Eigen::Index at) const;
+  [[nodiscard]] std::string rests_on(const RowScale& row, const ParameterEstimate& e, Eigen::Index at) const;
   [[nodiscard]] double standard_deviation(Eigen::Index at) const;
   [[nodiscard]] bool determined(Eigen::Index at) const;
   [[nodiscard]] UnjudgedRow row_of_unknown(Eigen::Index at, const Unknown::Target& target) const;
@@ -88,8 +86,7 @@ bool RowMaker::plateau_is_flat(int muscle) const {
   const auto at = position(kPlateau, muscle);
   if (!at) return false;
   const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
-  return z_[*at] - quantile * std::sqrt(std::max(0.0, fit_.covariance(*at, *at))) <
-         VerdictRules{}.flat_plateau;
+  return z_[*at] - quantile * std::sqrt(std::max(0.0, fit_.covariance(*at, *at))) < VerdictRules{}.flat_plateau;
 }
 
 bool RowMaker::width_leans(int muscle) const {
@@ -110,14 +107,11 @@ std::string RowMaker::owner_name(const Unknown& p, const Unknown::Target& target
                                             : parameters.joints()[k];
 }
 
-std::string RowMaker::rests_on(const RowScale& row,
-                               const ParameterEstimate& e,
-                               Eigen::Index at) const {
+std::string RowMaker::rests_on(const RowScale& row, const ParameterEstimate& e, Eigen::Index at) const {
   if (!e.ci_low || !e.ci_high) return "";
   const Sandwich& sandwich = intervals_.sandwich;
   const double half = 0.5 * std::abs(z_of(row, *e.ci_high) - z_of(row, *e.ci_low));
-  const double substance =
-      kSubstance * (row.parameter->field->logarithmic ? 1.0 : std::abs(z_[at]));
+  const double substance = kSubstance * (row.parameter->field->logarithmic ? 1.0 : std::abs(z_[at]));
   Eigen::Index trial = 0;
   const Eigen::VectorXd shift = sandwich.trial_shift.row(at).cwiseAbs().transpose();
   if (shift.size() < 2 || !(shift.maxCoeff(&trial) > std::max(half, substance))) return "";
@@ -126,8 +120,7 @@ std::string RowMaker::rests_on(const RowScale& row,
 }
 
 double RowMaker::standard_deviation(Eigen::Index at) const {
-  return std::sqrt(std::max(0.0, fit_.covariance(at, at)) +
-                   intervals_.tendon_shift.row(at).squaredNorm());
+  return std::sqrt(std::max(0.0, fit_.covariance(at, at)) + intervals_.tendon_shift.row(at).squaredNorm());
 }
 
 bool RowMaker::determined(Eigen::Index at) const {
@@ -154,13 +147,11 @@ UnjudgedRow RowMaker::row_of_unknown(Eigen::Index at, const Unknown::Target& tar
   }
   if (p.prior.sd > 0.0) {
     e.prior_mean = row.value(p.prior.mean);
-    e.prior_sd =
-        p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
+    e.prior_sd = p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
     e.shrinkage = 1.0 - sd * sd / (p.prior.sd * p.prior.sd);
     e.prior_distance = distance_from_prior(p, z_[at]);
   }
-  const double tendon_share =
-      intervals_.tendon_shift.row(at).squaredNorm() / std::max(sd * sd, 1e-300);
+  const double tendon_share = intervals_.tendon_shift.row(at).squaredNorm() / std::max(sd * sd, 1e-300);
   std::string trial = rests_on(row, e, at);
   return {std::move(e), std::move(trial), tendon_share};
 }
@@ -183,8 +174,7 @@ UnjudgedRow RowMaker::row_of_product(std::size_t muscle) const {
                        {.curvature = position(kCurvature, owner).value_or(-1),
                         .plateau = position(kPlateau, owner).value_or(-1),
                         .ratio = position(kSlopeRatio, owner).value_or(-1)},
-                       estimator_.free(), z_, fit_.covariance,
-                       intervals_.bootstrap ? &*intervals_.bootstrap : nullptr);
+                       estimator_.free(), z_, fit_.covariance, intervals_.bootstrap ? &*intervals_.bootstrap : nullptr);
   return {.estimate = std::move(e), .rests_on = {}};
 }
 
@@ -224,8 +214,8 @@ VerdictContext RowMaker::context_of(const UnjudgedRow& row, Eigen::Index at, int
   v.beforehand = known_beforehand(p, options.from_mvc);
   v.prior_is_given = p.prior_is_given;
   v.prior_of_logarithm = p.field->logarithmic;
-  const bool low = std::abs(e.estimate - p.to_value(p.bounds.lower)) <=
-                   std::abs(e.estimate - p.to_value(p.bounds.upper));
+  const bool low =
+      std::abs(e.estimate - p.to_value(p.bounds.lower)) <= std::abs(e.estimate - p.to_value(p.bounds.upper));
   v.given_bound = low ? p.lower_is_given : p.upper_is_given;
   v.model_error = fit_.model_error;
   v.r2 = fit_.r2;
@@ -261,8 +251,7 @@ std::vector<ParameterEstimate> RowMaker::rows() const {
     agree_on_tied(rows, p.targets.size());
     if (!p.is(Scope::muscle, kSlopeRatio)) continue;
     for (const Unknown::Target& target : p.targets)
-      rows.push_back(
-          judged(row_of_product(static_cast<std::size_t>(target.owner)), at, target.owner));
+      rows.push_back(judged(row_of_product(static_cast<std::size_t>(target.owner)), at, target.owner));
   }
   return rows;
 }

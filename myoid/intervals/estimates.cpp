@@ -35,9 +35,7 @@ double explained_share(const ResidualModel& model, const Eigen::VectorXd& z) {
 }
 
 /// Computes the intervals by every route that the options ask for.
-Intervals all_intervals(const Estimator& estimator,
-                        const Estimator::Solution& solution,
-                        const StudyData& data) {
+Intervals all_intervals(const Estimator& estimator, const Estimator::Solution& solution, const StudyData& data) {
   const EstimatorOptions& options = estimator.options();
   Intervals intervals;
   intervals.sandwich = sandwich(estimator, solution);
@@ -72,11 +70,10 @@ IdentificationResult summary_of(const Estimator& estimator,
   result.values = model.parameters().values(z);
   result.lag = estimator.options().lag;
   result.r2 = explained_share(model, z);
-  for (const MuscleValues& values : result.values.muscles)
-    result.muscles.push_back(hill_parameters(values));
+  for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
-  result.covariance = intervals.sandwich.newey_west +
-                      intervals.sandwich.by_noise * intervals.sandwich.by_noise.transpose();
+  result.covariance =
+      intervals.sandwich.newey_west + intervals.sandwich.by_noise * intervals.sandwich.by_noise.transpose();
   if (intervals.model_error) {
     result.covariance += intervals.model_error->covariance;
     result.model_error = intervals.model_error->relative_size;
@@ -92,27 +89,21 @@ IdentificationResult summary_of(const Estimator& estimator,
 }
 
 /// Describes sets of parameters that the data hardly separate, one sentence per set.
-std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free,
-                                             const Eigen::MatrixXd& information) {
-  const auto is_gain = [&](Eigen::Index j) {
-    return free[static_cast<std::size_t>(j)].is(Scope::channel, kGain);
-  };
+std::vector<std::string> collinear_sentences(const std::vector<Unknown>& free, const Eigen::MatrixXd& information) {
+  const auto is_gain = [&](Eigen::Index j) { return free[static_cast<std::size_t>(j)].is(Scope::channel, kGain); };
   std::vector<std::string> sentences;
   for (const CollinearSet& set : collinear_sets(information)) {
     // A gain is a nuisance and always collinear with F_max.
     if (std::any_of(set.parameters.begin(), set.parameters.end(), is_gain)) continue;
     std::vector<std::string> names;
-    for (const Eigen::Index j : set.parameters)
-      names.push_back(free[static_cast<std::size_t>(j)].label);
-    sentences.push_back(
-        fmt::format("{} (collinearity index {:.0f})", fmt::join(names, ", "), set.index));
+    for (const Eigen::Index j : set.parameters) names.push_back(free[static_cast<std::size_t>(j)].label);
+    sentences.push_back(fmt::format("{} (collinearity index {:.0f})", fmt::join(names, ", "), set.index));
   }
   return sentences;
 }
 
 /// Returns the directions that the data leave open, each as a sum of parameters.
-std::vector<std::string> undetermined_sums(const std::vector<Unknown>& free,
-                                           const Eigen::MatrixXd& directions) {
+std::vector<std::string> undetermined_sums(const std::vector<Unknown>& free, const Eigen::MatrixXd& directions) {
   std::vector<std::string> sums;
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     std::vector<std::string> parts;
@@ -139,10 +130,10 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
         "where muscles work against each other");
   }
   if (result.r2 < VerdictRules{}.least_r2) {
-    warnings.push_back(fmt::format(
-        "the fit explains little of what it was fitted to (R2 {:.2f}): no number is called "
-        "identified; look for a wrong sign, unit, order of files or column",
-        result.r2));
+    warnings.push_back(
+        fmt::format("the fit explains little of what it was fitted to (R2 {:.2f}): no number is called "
+                    "identified; look for a wrong sign, unit, order of files or column",
+                    result.r2));
   }
   if (result.model_error > VerdictRules{}.model_error) {
     warnings.push_back(
@@ -155,8 +146,7 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
   }
   add_distances_to(warnings, result.prior_distances);
   if (result.bootstrap_failed > 0) {
-    warnings.push_back(fmt::format("{} of {} bootstrap replicates did not converge",
-                                   result.bootstrap_failed,
+    warnings.push_back(fmt::format("{} of {} bootstrap replicates did not converge", result.bootstrap_failed,
                                    result.bootstrap_failed + result.bootstrap_replicates));
   }
   return warnings;
@@ -173,13 +163,11 @@ IdentificationResult report_estimates(const Estimator& estimator,
   RouteRemarks routes;
   for (ParameterEstimate& e : result.estimates) routes.compare(e);
   routes.add_to(result.interval_warnings, result.estimates.size());
-  for (std::string& warning :
-       warnings_of(result, estimator.options(), solution.weighting.corrected))
+  for (std::string& warning : warnings_of(result, estimator.options(), solution.weighting.corrected))
     result.warnings.push_back(std::move(warning));
   result.collinear = collinear_sentences(estimator.free(), intervals.sandwich.information);
   result.undetermined = undetermined_sums(estimator.free(), intervals.sandwich.undetermined);
-  if (result.termination == math::Termination::converged)
-    result.diagnoses = signatures(result.estimates);
+  if (result.termination == math::Termination::converged) result.diagnoses = signatures(result.estimates);
   return result;
 }
 

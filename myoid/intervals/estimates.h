@@ -5,9 +5,8 @@
 
 namespace myoid::identification {
 
-/// Reports a solution of the estimator: estimates with intervals by every requested route,
-/// covariance, rank, collinear sets, diagnoses and warnings. Leaves predictions and computing time
-/// to the caller.
+/// Reports a solution of the estimator: estimates with intervals by every requested route, covariance, rank, collinear
+/// sets, diagnoses and warnings. Leaves predictions and computing time to the caller.
 [[nodiscard]] IdentificationResult report_estimates(const Estimator& estimator,
                                                     const Estimator::Solution& solution,
                                                     const StudyData& data);

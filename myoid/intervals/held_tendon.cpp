@@ -15,14 +15,12 @@ constexpr const char* kSlackName = "tendon_slack_length";
 
 bool concerns(const ParameterRule& rule, const std::string& muscle) {
   return rule.parameter == kSlackName &&
-         (rule.owners.empty() ||
-          std::find(rule.owners.begin(), rule.owners.end(), muscle) != rule.owners.end());
+         (rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(), muscle) != rule.owners.end());
 }
 
 bool is_slack_of(const Unknown& p, int muscle) {
   return p.field->scope == Scope::muscle && p.field->field == kSlack &&
-         std::any_of(p.targets.begin(), p.targets.end(),
-                     [&](const Unknown::Target& t) { return t.owner == muscle; });
+         std::any_of(p.targets.begin(), p.targets.end(), [&](const Unknown::Target& t) { return t.owner == muscle; });
 }
 
 /// Returns the derivative of the fitted torques by a held slack length, n.
@@ -62,8 +60,7 @@ double held_slack_sd_m(const StudyData& data, std::size_t muscle) {
   double sd_m = 0.0;
   if (const auto known = setup.priors.find(kSlackName); known != setup.priors.end())
     sd_m = known->second.sd * (known->second.logarithmic ? setup.start.tendon_slack_length_m : 1.0);
-  if (std::find(setup.fixed.begin(), setup.fixed.end(), kSlackName) != setup.fixed.end())
-    sd_m = 0.0;
+  if (std::find(setup.fixed.begin(), setup.fixed.end(), kSlackName) != setup.fixed.end()) sd_m = 0.0;
   for (const ParameterRule& rule : data.rules) {
     if (!concerns(rule, setup.name)) continue;
     if (rule.prior_sd) {
@@ -83,9 +80,8 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(z.size(), muscles);
   std::vector<std::size_t> unsure;
   for (std::size_t k = 0; k < data.muscles.size() && estimator.options().priors; ++k) {
-    const bool unknown =
-        std::any_of(estimator.free().begin(), estimator.free().end(),
-                    [&](const Unknown& p) { return is_slack_of(p, static_cast<int>(k)); });
+    const bool unknown = std::any_of(estimator.free().begin(), estimator.free().end(),
+                                     [&](const Unknown& p) { return is_slack_of(p, static_cast<int>(k)); });
     if (!unknown && held_slack_sd_m(data, k) > 0.0) unsure.push_back(k);
   }
   if (unsure.empty()) return shift;
@@ -110,8 +106,7 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
   const Eigen::LDLT<Eigen::MatrixXd> factor(a);
   for (const std::size_t k : unsure)
     shift.col(static_cast<Eigen::Index>(k)) =
-        -held_slack_sd_m(data, k) *
-        factor.solve(weighted * torque_by_slack(estimator, z, data, k).transpose());
+        -held_slack_sd_m(data, k) * factor.solve(weighted * torque_by_slack(estimator, z, data, k).transpose());
   return shift;
 }
 

@@ -18,9 +18,7 @@ using test::ElbowStudy;
 
 const std::string kSlackLength = "tendon_slack_length";
 
-ElbowStudy noisy() {
-  return elbow_study({.emg_cv = 0.04, .torque_sd_nm = 0.3, .with_priors = true, .seed = 4});
-}
+ElbowStudy noisy() { return elbow_study({.emg_cv = 0.04, .torque_sd_nm = 0.3, .with_priors = true, .seed = 4}); }
 
 const ParameterEstimate& length_of(const IdentificationResult& result, const std::string& muscle) {
   for (const ParameterEstimate& e : result.estimates) {
@@ -49,8 +47,7 @@ TEST(HeldTendon, TheShiftIsThatOfAFitWithALongerTendon) {
     const Unknown& p = estimator.free()[static_cast<std::size_t>(j)];
     // Gauss and Newton's curvature leaves out second derivatives times residuals: a tenth, and
     // nothing beside what is known beforehand.
-    EXPECT_NEAR(shift[j], difference[j], 0.1 * std::abs(difference[j]) + 0.01 * p.prior.sd + 1e-4)
-        << p.label;
+    EXPECT_NEAR(shift[j], difference[j], 0.1 * std::abs(difference[j]) + 0.01 * p.prior.sd + 1e-4) << p.label;
     if (p.label == "BIC.optimal_fiber_length") {
       EXPECT_NEAR(shift[j], -kSd_m, 0.1 * kSd_m);
     }
@@ -60,8 +57,7 @@ TEST(HeldTendon, TheShiftIsThatOfAFitWithALongerTendon) {
 TEST(HeldTendon, WhatNobodyMeasuredWidensTheIntervalOfTheOptimalLength) {
   ElbowStudy study = noisy();
   const IdentificationResult known = identify_torque(study.data, {.starts = 1});
-  for (MuscleSetup& m : study.data.muscles)
-    m.priors[kSlackLength] = literature_priors(m.start).at(kSlackLength);
+  for (MuscleSetup& m : study.data.muscles) m.priors[kSlackLength] = literature_priors(m.start).at(kSlackLength);
   const IdentificationResult generic = identify_torque(study.data, {.starts = 1});
   const double slack_m = study.data.muscles[0].start.tendon_slack_length_m;
   const ParameterEstimate& narrow = length_of(known, "BIC");
@@ -69,8 +65,7 @@ TEST(HeldTendon, WhatNobodyMeasuredWidensTheIntervalOfTheOptimalLength) {
   EXPECT_EQ(wide.estimate, narrow.estimate);
   // A tenth of the tendon, and the noise of the fit beside it.
   const double half = 0.5 * (*wide.ci_high - *wide.ci_low);
-  EXPECT_NEAR(half, std::hypot(1.96 * 0.10 * slack_m, 0.5 * (*narrow.ci_high - *narrow.ci_low)),
-              0.1 * half);
+  EXPECT_NEAR(half, std::hypot(1.96 * 0.10 * slack_m, 0.5 * (*narrow.ci_high - *narrow.ci_low)), 0.1 * half);
   EXPECT_EQ(narrow.verdict, Verdict::identified);
   EXPECT_NE(wide.verdict, Verdict::identified);
   EXPECT_NE(wide.reason.find("tendon slack length"), std::string::npos) << wide.reason;

@@ -65,15 +65,13 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
   }
   const bool said = tells_distance(ground) && !peak_of_none;
   if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
-    e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context),
-                            context.beforehand);
-  if (context.tendon_share > rules.mostly_tendon && e.verdict != Verdict::identified &&
-      std::isfinite(e.estimate))
+    e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context), context.beforehand);
+  if (context.tendon_share > rules.mostly_tendon && e.verdict != Verdict::identified && std::isfinite(e.estimate))
     e.reason +=
         "; most of its uncertainty is that of the tendon slack length, which is no measurement: "
         "with a rigid tendon the recording tells the sum of both";
-  if (e.parameter == "concentric_curvature" && context.speed_is_free &&
-      e.verdict != Verdict::identified && e.verdict != Verdict::non_physical)
+  if (e.parameter == "concentric_curvature" && context.speed_is_free && e.verdict != Verdict::identified &&
+      e.verdict != Verdict::non_physical)
     e.reason += "; v_max is not known, and another v_max asks for another V_sh";
 }
 

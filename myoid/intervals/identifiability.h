@@ -5,9 +5,7 @@
 namespace myoid::identification {
 
 /// Fills `verdict` and `reason` of an estimate whose other fields are complete.
-void judge(ParameterEstimate& estimate,
-           const VerdictContext& context,
-           const VerdictRules& rules = {});
+void judge(ParameterEstimate& estimate, const VerdictContext& context, const VerdictRules& rules = {});
 
 /// Returns the rank of a verdict; a greater rank is worse.
 [[nodiscard]] int severity(Verdict verdict);

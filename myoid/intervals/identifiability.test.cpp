@@ -148,8 +148,7 @@ TEST(Judge, ANarrowIntervalIsNotEnough) {
 
 TEST(Judge, NeverTrustsWhatIsNotAnAnswer) {
   EXPECT_EQ(verdict_of(estimate(0.01), {.determined = false}), Verdict::not_identifiable);
-  EXPECT_EQ(verdict_of(estimate(0.01), {.converged = false, .failure = "why"}),
-            Verdict::not_identifiable);
+  EXPECT_EQ(verdict_of(estimate(0.01), {.converged = false, .failure = "why"}), Verdict::not_identifiable);
   EXPECT_EQ(verdict_of(estimate(0.01), {.outside_physical = true}), Verdict::non_physical);
   ParameterEstimate bound = estimate(0.01);
   bound.at_bound = true;
@@ -246,8 +245,7 @@ TEST(Judge, SaysHowFarTheTruthMayBe) {
 TEST(Judge, AProductWithoutARiseInLengtheningHasNoMeaning) {
   EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_curvature_product"), {.plateau_is_flat = true}),
             Verdict::not_identifiable);
-  EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_plateau"), {.plateau_is_flat = true}),
-            Verdict::identified);
+  EXPECT_EQ(verdict_of(estimate(0.01, "eccentric_plateau"), {.plateau_is_flat = true}), Verdict::identified);
 }
 
 TEST(Judge, NamesTheErrorThatTheSourcePapersValuesAreTheSignatureOf) {
@@ -289,9 +287,7 @@ TEST(Judge, SaysWhosePriorItIsAndInWhatItIsMeasured) {
   EXPECT_EQ(e.reason.find("mostly what the study gave beforehand"), 0U) << e.reason;
   e.shrinkage = 0.9;
   judge(e, {.prior_distance = 4.0, .prior_of_logarithm = true});
-  EXPECT_NE(e.reason.find("4.0 standard deviations of the prior (of the logarithm)"),
-            std::string::npos)
-      << e.reason;
+  EXPECT_NE(e.reason.find("4.0 standard deviations of the prior (of the logarithm)"), std::string::npos) << e.reason;
 }
 
 TEST(Judge, APriorOfTheStudysOwnThatTheDataContradictIsToldSo) {

@@ -17,8 +17,7 @@ struct VerdictContext {
   bool from_mvc = true;           ///< EMG is relative to a maximal contraction.
   bool plateau_is_flat = false;   ///< V_ml of the same muscle is not clearly above 1.
   bool outside_physical = false;  ///< Value is outside the physical bounds of its field.
-  double prior_distance =
-      0.0;  ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
+  double prior_distance = 0.0;    ///< |estimate - prior mean| in spreads of the prior; 0 without a prior.
   /// The source of the prior in words: "the literature's value" or another.
   std::string beforehand = "the literature's value";
   bool prior_of_logarithm = false;  ///< The prior's standard deviation is that of the logarithm.
@@ -33,19 +32,17 @@ struct VerdictContext {
   std::optional<double> length_span;
   /// Share of the variance that an unmeasured tendon slack length causes.
   double tendon_share = 0.0;
-  double muscle_distance = 0.0;  ///< PriorDistance::distance of the muscle.
-  double relative_width = 0.0;  ///< For l_sh: its ratio to l0 of the same fit; 0 for other numbers.
-  double curve_width = 0.0;     ///< For other numbers: the ratio l_sh / l0 of their muscle.
-  bool width_leans = false;     ///< l_sh of that muscle is on a bound of real muscles.
-  std::string
-      shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
-  double model_error = 0.0;   ///< IdentificationResult::model_error.
-  std::string rests_on;  ///< Trial without which the value would leave its interval; empty: none.
-  bool shared_forces =
-      false;  ///< The force that was fitted is an optimizer's share of a torque, not measured.
-  bool given_strength = false;  ///< F_max is held at the user's value, and the fit is not exact.
-  double r2 = 1.0;              ///< IdentificationResult::r2.
-  std::string bad_company;      ///< Parameter of the same fit that left physiology; empty: none.
+  double muscle_distance = 0.0;       ///< PriorDistance::distance of the muscle.
+  double relative_width = 0.0;        ///< For l_sh: its ratio to l0 of the same fit; 0 for other numbers.
+  double curve_width = 0.0;           ///< For other numbers: the ratio l_sh / l0 of their muscle.
+  bool width_leans = false;           ///< l_sh of that muscle is on a bound of real muscles.
+  std::string shares_electrode_with;  ///< Another muscle that acts as the same EMG says; empty: none.
+  double model_error = 0.0;           ///< IdentificationResult::model_error.
+  std::string rests_on;               ///< Trial without which the value would leave its interval; empty: none.
+  bool shared_forces = false;         ///< The force that was fitted is an optimizer's share of a torque, not measured.
+  bool given_strength = false;        ///< F_max is held at the user's value, and the fit is not exact.
+  double r2 = 1.0;                    ///< IdentificationResult::r2.
+  std::string bad_company;            ///< Parameter of the same fit that left physiology; empty: none.
 };
 
 /// Returns the distance from the value to the farther end of its 95 % interval, because a bound

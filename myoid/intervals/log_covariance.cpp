@@ -6,9 +6,7 @@ namespace myoid::identification {
 namespace {
 
 /// Returns the reported standard error over the estimate; 0 without one.
-double relative_error(const IdentificationResult& method,
-                      std::string_view muscle,
-                      std::string_view parameter) {
+double relative_error(const IdentificationResult& method, std::string_view muscle, std::string_view parameter) {
   for (const ParameterEstimate& e : method.estimates) {
     if (e.muscle == muscle && e.parameter == parameter && e.std_error && e.estimate != 0.0)
       return *e.std_error / std::abs(e.estimate);
@@ -51,8 +49,7 @@ Eigen::MatrixXd log_covariance(const IdentificationResult& method,
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto a = rows[static_cast<std::size_t>(i)], b = rows[static_cast<std::size_t>(j)];
-      if (i == j || !a || !b || *a >= method.covariance.rows() || *b >= method.covariance.rows())
-        continue;
+      if (i == j || !a || !b || *a >= method.covariance.rows() || *b >= method.covariance.rows()) continue;
       const double size = std::sqrt(method.covariance(*a, *a) * method.covariance(*b, *b));
       if (size > 0.0) covariance(i, j) = method.covariance(*a, *b) / size * spread[i] * spread[j];
     }

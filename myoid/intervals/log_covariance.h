@@ -21,10 +21,9 @@ namespace myoid::identification {
 ///
 ///   C_ij = R_ij (s_i / x_i) (s_j / x_j),
 ///
-/// R the correlation of the fit's unknowns, s the standard errors as reported, x the estimates. A
-/// held number, or one without a standard error, has zeros. A number that is no unknown of the fit
-/// itself, such as V_sh V_shl behind a slope ratio, counts as uncorrelated. `names`: parameters as
-/// in parameters.csv.
+/// R the correlation of the fit's unknowns, s the standard errors as reported, x the estimates. A held number, or one
+/// without a standard error, has zeros. A number that is no unknown of the fit itself, such as V_sh V_shl behind a
+/// slope ratio, counts as uncorrelated. `names`: parameters as in parameters.csv.
 [[nodiscard]] Eigen::MatrixXd log_covariance(const IdentificationResult& method,
                                              const std::string& muscle,
                                              const std::vector<std::string>& names);

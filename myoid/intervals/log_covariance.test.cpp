@@ -7,8 +7,7 @@ namespace {
 
 TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
   IdentificationResult fit;
-  fit.free_parameters = {"BRA.optimal_fiber_length", "BIC.optimal_fiber_length",
-                         "TRI+BIC.max_isometric_force"};
+  fit.free_parameters = {"BRA.optimal_fiber_length", "BIC.optimal_fiber_length", "TRI+BIC.max_isometric_force"};
   fit.covariance = Eigen::Matrix3d::Identity();
   fit.covariance(1, 1) = 4.0;
   fit.covariance(2, 2) = 9.0;
@@ -25,8 +24,7 @@ TEST(LogCovariance, TakesReportedSpreadsAndTheCorrelationOfTheFit) {
   add("max_isometric_force", 500.0, 100.0);
   add("force_length_width", 0.05, 0.01);
   const Eigen::MatrixXd c = log_covariance(
-      fit, "BIC",
-      {"optimal_fiber_length", "max_isometric_force", "force_length_width", "eccentric_plateau"});
+      fit, "BIC", {"optimal_fiber_length", "max_isometric_force", "force_length_width", "eccentric_plateau"});
   EXPECT_NEAR(c(0, 0), 0.01, 1e-15);
   EXPECT_NEAR(c(1, 1), 0.04, 1e-15);
   EXPECT_NEAR(c(0, 1), 0.5 * 0.1 * 0.2, 1e-15);

@@ -64,8 +64,7 @@ void add_product_interval(ParameterEstimate& e,
   if (where.curvature < 0 || where.plateau < 0) return;
   const std::vector<Eigen::Index> three{where.curvature, where.plateau, where.ratio};
   constexpr int kDraws = 2000;
-  const Spread posterior =
-      spread_of(log_products(draws_about(z(three), covariance(three, three), kDraws)));
+  const Spread posterior = spread_of(log_products(draws_about(z(three), covariance(three, three), kDraws)));
   e.std_error = e.estimate * posterior.log_sd;
   e.ci_low = posterior.low;
   e.ci_high = posterior.high;
@@ -85,8 +84,8 @@ void add_product_interval(ParameterEstimate& e,
   }
   if (all_priors) {
     const Spread prior = spread_of(log_products(draws_about(mean, spread, kDraws)));
-    e.prior_mean = std::exp(std::log(std::max(mean[1] - 1.0, 0.002)) + mean[0] - mean[2] -
-                            std::log1p(std::exp(mean[0])));
+    e.prior_mean =
+        std::exp(std::log(std::max(mean[1] - 1.0, 0.002)) + mean[0] - mean[2] - std::log1p(std::exp(mean[0])));
     e.prior_sd = *e.prior_mean * prior.log_sd;
     e.shrinkage = 1.0 - std::pow(posterior.log_sd / prior.log_sd, 2);
   }

@@ -9,8 +9,7 @@ namespace {
 
 struct Muscle {
   Muscle() {
-    for (const char* name :
-         {"concentric_curvature", "eccentric_plateau", "eccentric_slope_ratio"}) {
+    for (const char* name : {"concentric_curvature", "eccentric_plateau", "eccentric_slope_ratio"}) {
       Unknown f;
       f.field = &parameter_field(name);
       free.push_back(f);
@@ -51,8 +50,8 @@ TEST(ProductEstimate, ItsPriorIsThatOfTheThree) {
 
 TEST(ProductEstimate, NothingWhereOneOfTheThreeIsNoUnknown) {
   Muscle m;
-  add_product_interval(m.e, {.curvature = 0, .plateau = -1, .ratio = 2}, m.free, m.z,
-                       Eigen::Matrix3d::Identity(), nullptr);
+  add_product_interval(m.e, {.curvature = 0, .plateau = -1, .ratio = 2}, m.free, m.z, Eigen::Matrix3d::Identity(),
+                       nullptr);
   EXPECT_FALSE(m.e.ci_low);
   EXPECT_TRUE(m.e.routes.empty());
 }

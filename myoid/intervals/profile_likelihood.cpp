@@ -12,8 +12,7 @@
 namespace myoid::identification {
 namespace {
 
-/// Least fall of C that makes a step of the other variables worth trying, as a share of C's rise to
-/// the goal.
+/// Least fall of C that makes a step of the other variables worth trying, as a share of C's rise to the goal.
 constexpr double kSmallFall = 0.05;
 constexpr int kMostSteps = 20;
 /// Distance of v from the goal, relative, within which the parabola gives the root.
@@ -30,10 +29,7 @@ struct Point {
 class Constrained {
  public:
   Constrained(const ProfileProblem& problem, Eigen::Index held, double goal)
-      : problem_(problem),
-        held_(held),
-        small_fall_(kSmallFall * 0.5 * goal * goal),
-        curvature_(problem.curvature) {}
+      : problem_(problem), held_(held), small_fall_(kSmallFall * 0.5 * goal * goal), curvature_(problem.curvature) {}
 
   [[nodiscard]] Point at(Eigen::VectorXd x) const {
     Point point{std::move(x), {}, 0.0};
@@ -47,8 +43,7 @@ class Constrained {
     const Eigen::VectorXd down = problem_.lower - from.x, up = problem_.upper - from.x;
     std::vector<Eigen::Index> moving;
     for (Eigen::Index k = 0; k < from.x.size(); ++k) {
-      const bool out =
-          (down[k] >= 0.0 && from.gradient[k] >= 0.0) || (up[k] <= 0.0 && from.gradient[k] <= 0.0);
+      const bool out = (down[k] >= 0.0 && from.gradient[k] >= 0.0) || (up[k] <= 0.0 && from.gradient[k] <= 0.0);
       if (k != held_ && !out) moving.push_back(k);
     }
     Eigen::VectorXd step = Eigen::VectorXd::Zero(from.x.size());
@@ -105,8 +100,7 @@ class Constrained {
   }
 
   /// Solves C_mm x = b, with the columns scaled to 1.
-  [[nodiscard]] Eigen::VectorXd solve(const std::vector<Eigen::Index>& moving,
-                                      const Eigen::VectorXd& b) const {
+  [[nodiscard]] Eigen::VectorXd solve(const std::vector<Eigen::Index>& moving, const Eigen::VectorXd& b) const {
     Eigen::MatrixXd matrix = curvature_(moving, moving);
     const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -134,10 +128,7 @@ double parabola_root(double t, double v, double slope, double goal) {
 
 }  // namespace
 
-std::optional<double> profile_distance(const ProfileProblem& problem,
-                                       Eigen::Index j,
-                                       bool above,
-                                       double goal) {
+std::optional<double> profile_distance(const ProfileProblem& problem, Eigen::Index j, bool above, double goal) {
   const double side = above ? 1.0 : -1.0;
   const Eigen::VectorXd& minimum = problem.minimum;
   const double reach = std::abs((above ? problem.upper[j] : problem.lower[j]) - minimum[j]);
@@ -192,8 +183,8 @@ std::vector<Interval> profile(const Estimator& estimator,
   const ProfileProblem problem{.cost =
                                    [&](const Eigen::VectorXd& z, Eigen::VectorXd& gradient) {
                                      estimator.options().progress.check();
-                                     NormalEquations at = estimator.normal_equations(
-                                         z, solution.weighting, Derivatives::gradient);
+                                     NormalEquations at =
+                                         estimator.normal_equations(z, solution.weighting, Derivatives::gradient);
                                      gradient = std::move(at.gradient);
                                      return at.cost;
                                    },
@@ -203,8 +194,7 @@ std::vector<Interval> profile(const Estimator& estimator,
                                .least = there.cost,
                                .gradient = there.gradient,
                                .curvature = there.curvature};
-  const Eigen::ArrayXd ratio =
-      variance.array() / inverse_of(there.curvature).diagonal().array().max(1e-300);
+  const Eigen::ArrayXd ratio = variance.array() / inverse_of(there.curvature).diagonal().array().max(1e-300);
   const Eigen::ArrayXd rise = (ratio.isFinite() && ratio > 0.0).select(ratio, 1.0);
   std::vector<Interval> intervals(static_cast<std::size_t>(p));
   std::atomic<int> done = 0;
@@ -214,11 +204,9 @@ std::vector<Interval> profile(const Estimator& estimator,
     const double goal = kNormal95 * std::sqrt(rise[j]);
     if (const auto distance = profile_distance(problem, j, above, goal)) {
       Interval& interval = intervals[static_cast<std::size_t>(j)];
-      (above ? interval.high : interval.low) =
-          problem.minimum[j] + (above ? *distance : -*distance);
+      (above ? interval.high : interval.low) = problem.minimum[j] + (above ? *distance : -*distance);
     }
-    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(2 * p),
-                                      "profiles");
+    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(2 * p), "profiles");
   });
   return intervals;
 }

@@ -40,8 +40,7 @@ TEST(ProfileLikelihood, OfAQuadraticReachesAsFarAsTheInverseOfItsCurvatureSays) 
   }
   // A curvature that is given too small, too large, without its ties: 0.02 of C are 0.5 % of v.
   const Eigen::Matrix3d apart = curvature().diagonal().asDiagonal();
-  for (const Eigen::Matrix3d& wrong :
-       {Eigen::Matrix3d(0.4 * curvature()), Eigen::Matrix3d(3.0 * curvature()), apart}) {
+  for (const Eigen::Matrix3d& wrong : {Eigen::Matrix3d(0.4 * curvature()), Eigen::Matrix3d(3.0 * curvature()), apart}) {
     problem.curvature = wrong;
     for (Eigen::Index j = 0; j < 3; ++j) {
       const double expected = kNormal95 * std::sqrt(covariance(j, j));
@@ -74,8 +73,7 @@ TEST(ProfileLikelihood, EndsWhereABoundIsAndNotedWhereTheOthersMeetTheirs) {
 
 TEST(ProfileLikelihood, WhereOneMeetsItsBoundTheRestAnswersToThat) {
   // z_0 and z_2 go together, by 5 for each 1 of z_1; z_2 may go 0.05. Then z_0 goes where
-  // dC/dz_0 = 0, (5 t + 99 0.05) / 100. Cut off without an answer, z_0 would climb out of the
-  // valley.
+  // dC/dz_0 = 0, (5 t + 99 0.05) / 100. Cut off without an answer, z_0 would climb out of the valley.
   Eigen::Matrix3d h;
   h << 100.0, -5.0, -99.0, -5.0, 60.0, -5.0, -99.0, -5.0, 100.0;
   ProfileProblem problem = quadratic(h);
@@ -115,8 +113,7 @@ TEST(ProfileLikelihood, FollowsACurvedValley) {
                                .gradient = Eigen::Vector2d::Zero(),
                                .curvature = h};
   for (const bool above : {false, true})
-    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kNormal95 * 0.3,
-                0.01 * kNormal95 * 0.3);
+    EXPECT_NEAR(profile_distance(problem, 0, above).value(), kNormal95 * 0.3, 0.01 * kNormal95 * 0.3);
   const auto profiled = [&](double y) {
     double least = 1e300;
     for (int i = -2000; i <= 2000; ++i) least = std::min(least, cost(std::sqrt(y) + 1e-5 * i, y));
@@ -142,8 +139,7 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWh
   const Estimator estimator(study.data, {.starts = 1});
   const Estimator::Solution solution = estimator.solve(estimator.model().parameters().start());
   const Eigen::VectorXd rise = Eigen::VectorXd::LinSpaced(solution.search.x.size(), 0.4, 2.0);
-  const Eigen::VectorXd variance =
-      rise.cwiseProduct(sandwich(estimator, solution).model_based.diagonal());
+  const Eigen::VectorXd variance = rise.cwiseProduct(sandwich(estimator, solution).model_based.diagonal());
   const std::vector<Interval> intervals = profile(estimator, solution, variance);
   int checked = 0;
   for (std::size_t j = 0; j < intervals.size(); j += 3) {
@@ -154,8 +150,7 @@ TEST(ProfileLikelihood, OfARecordingIsWhereFitsWithThatParameterHeldAreWorseByWh
       std::vector<bool> held(intervals.size(), false);
       held[j] = true;
       // Levenberg-Marquardt, of which the profile uses nothing. v to 2 %.
-      const NormalSearchResult fit =
-          estimator.search(start, solution.weighting, 1e-9, 1e-11, 200, {}, held);
+      const NormalSearchResult fit = estimator.search(start, solution.weighting, 1e-9, 1e-11, 200, {}, held);
       const double goal = kNormal95 * std::sqrt(rise[static_cast<Eigen::Index>(j)]);
       EXPECT_NEAR(std::sqrt(2.0 * (fit.cost - solution.search.cost)), goal, 0.02 * goal)
           << estimator.free()[j].label << " " << *end;

@@ -35,8 +35,7 @@ std::vector<RouteInterval> routes_of(const RowOfFit& of) {
   const auto add_normal = [&](const std::string& route, double variance, double spread) {
     const double sd = std::sqrt(std::max(0.0, variance));
     if (!std::isfinite(sd)) return;
-    routes.push_back(
-        {route, of.clipped(of.z - quantile() * sd), of.clipped(of.z + quantile() * sd), spread});
+    routes.push_back({route, of.clipped(of.z - quantile() * sd), of.clipped(of.z + quantile() * sd), spread});
   };
   const double by_trials = s.trial_spread.size() > of.at ? s.trial_spread[of.at] : 0.0;
   add_normal("sandwich", s.newey_west(of.at, of.at), s.sample_spread);
@@ -49,8 +48,7 @@ std::vector<RouteInterval> routes_of(const RowOfFit& of) {
     if (r.low || r.high || route == "profile") routes.push_back(std::move(r));
   };
   const auto index = static_cast<std::size_t>(of.at);
-  if (const auto& bootstrap = of.intervals.bootstrap)
-    add("bootstrap", bootstrap->intervals[index], bootstrap->spread);
+  if (const auto& bootstrap = of.intervals.bootstrap) add("bootstrap", bootstrap->intervals[index], bootstrap->spread);
   if (of.intervals.profiles) add("profile", (*of.intervals.profiles)[index], 0.0);
   return routes;
 }
@@ -76,12 +74,10 @@ double reach_of_trials(const Sandwich& sandwich, Eigen::Index at) {
 double whole_reach(const RowOfFit& of, double noise) {
   const Intervals& intervals = of.intervals;
   const double sd = noise / quantile();
-  const double of_tendons =
-      intervals.tendon_shift.cols() > 0 ? intervals.tendon_shift.row(of.at).squaredNorm() : 0.0;
+  const double of_tendons = intervals.tendon_shift.cols() > 0 ? intervals.tendon_shift.row(of.at).squaredNorm() : 0.0;
   const double variance = sd * sd + std::pow(intervals.sandwich.by_noise[of.at], 2) + of_tendons;
-  const double whole = intervals.model_error
-                           ? intervals.model_error->reach(of.at, variance, kReportedProbability)
-                           : quantile() * std::sqrt(variance);
+  const double whole = intervals.model_error ? intervals.model_error->reach(of.at, variance, kReportedProbability)
+                                             : quantile() * std::sqrt(variance);
   return std::max(reach_of_trials(intervals.sandwich, of.at), whole);
 }
 
@@ -92,11 +88,7 @@ double z_of(const RowScale& row, double value) {
   return row.parameter->field->logarithmic ? std::log(std::max(x, 1e-300)) : x;
 }
 
-void add_routes(ParameterEstimate& e,
-                const RowScale& row,
-                const Intervals& intervals,
-                Eigen::Index at,
-                double z) {
+void add_routes(ParameterEstimate& e, const RowScale& row, const Intervals& intervals, Eigen::Index at, double z) {
   const RowOfFit of{.row = row, .intervals = intervals, .at = at, .z = z};
   e.routes = routes_of(of);
   const auto [below, above] = reaches_of_noise(of);

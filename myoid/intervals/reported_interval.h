@@ -35,10 +35,6 @@ struct RowScale {
 /// Fills `e.routes` with all intervals, and `e.ci_low`, `e.ci_high` with the reported 95 % one.
 /// Either side reaches as far as the wider of sandwich and profile, plus the model's error, and at
 /// least as far as trials differ (with few trials by the jackknife, which is never too small).
-void add_routes(ParameterEstimate& e,
-                const RowScale& row,
-                const Intervals& intervals,
-                Eigen::Index at,
-                double z);
+void add_routes(ParameterEstimate& e, const RowScale& row, const Intervals& intervals, Eigen::Index at, double z);
 
 }  // namespace myoid::identification

@@ -61,9 +61,7 @@ TEST(ReportedInterval, WhatTheNoiseLevelLeavesOpenComesOnTopAsAVariance) {
   EXPECT_NEAR(*one.reported(0.06).ci_high, 0.06 + kNormal95 * std::sqrt(5.0) * 1e-3, 1e-12);
 }
 
-TEST(ReportedInterval, EndsAtTheBoundOfWhatIsPossible) {
-  EXPECT_EQ(*OneNumber().reported(0.001).ci_low, 0.0);
-}
+TEST(ReportedInterval, EndsAtTheBoundOfWhatIsPossible) { EXPECT_EQ(*OneNumber().reported(0.001).ci_low, 0.0); }
 
 TEST(ReportedInterval, ANumberOnALogarithmIsReportedInItsUnitWithTheRatioOfATie) {
   OneNumber one;

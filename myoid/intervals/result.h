@@ -23,7 +23,7 @@ enum class Verdict {
   weak,              ///< The recording determines it in part; the interval is wide.
   prior_dominated,   ///< The value is mostly the prior's.
   not_identifiable,  ///< The recording does not determine it.
-  non_physical,  ///< No muscle can have the value: the fit describes something other than a muscle.
+  non_physical,      ///< No muscle can have the value: the fit describes something other than a muscle.
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
@@ -48,12 +48,12 @@ struct ParameterEstimate {
   std::optional<double> std_error;
   std::optional<double> ci_low, ci_high;  ///< 95 %, by the first of `routes`.
   std::vector<RouteInterval> routes;      ///< At least two, where they were asked for.
-  bool routes_disagree = false;  ///< One interval is more than 1.5 times as wide as another.
+  bool routes_disagree = false;           ///< One interval is more than 1.5 times as wide as another.
   std::optional<double> prior_mean, prior_sd;
-  std::optional<double> prior_distance;  ///< Distance of the estimate from the prior's mean, in
-                                         ///< prior spreads (in the prior's scale).
-  std::optional<double> shrinkage;  ///< 1 - posterior variance / prior variance; negative if the
-                                    ///< model's error exceeds the prior.
+  std::optional<double> prior_distance;         ///< Distance of the estimate from the prior's mean, in
+                                                ///< prior spreads (in the prior's scale).
+  std::optional<double> shrinkage;              ///< 1 - posterior variance / prior variance; negative if the
+                                                ///< model's error exceeds the prior.
   std::optional<SourceShares> variance_shares;  ///< By the posterior; else empty.
   bool at_bound = false;
   Verdict verdict = Verdict::not_identifiable;
@@ -70,8 +70,7 @@ struct TrialFit {
   Eigen::VectorXd literature_torque_nm;  ///< By the starting parameters.
   /// The law with the identified parameters, not smoothed; by the posterior, its expectation.
   Eigen::VectorXd torque_fit_nm;
-  /// Standard deviation of a measured torque about the prediction, from parameters and noise.
-  /// Empty: unknown.
+  /// Standard deviation of a measured torque about the prediction, from parameters and noise. Empty: unknown.
   Eigen::VectorXd torque_sd_nm;
   /// Cut-off at which the prediction's noise does least harm (smooth_prediction.h).
   double smooth_hz = 0.0;
@@ -79,9 +78,8 @@ struct TrialFit {
   Eigen::MatrixXd force_fit_n;         ///< n x m
   Eigen::MatrixXd force_sd_n;          ///< n x m: from the parameters. Empty: unknown.
   Score score;                         ///< Score of `torque_fit_nm`.
-  /// Score of both torques below the fit's cut-off (EstimatorOptions::residual_cutoff_hz). It
-  /// leaves out most of the EMG envelope's noise, which the prediction carries and a muscle does
-  /// not.
+  /// Score of both torques below the fit's cut-off (EstimatorOptions::residual_cutoff_hz). It leaves out most of the
+  /// EMG envelope's noise, which the prediction carries and a muscle does not.
   Score band;
 };
 
@@ -145,16 +143,15 @@ struct IdentificationResult {
   std::vector<ParameterEstimate> estimates;
   /// With the estimates (methods force, torque).
   std::vector<muscle::HillParameters<double>> muscles;
-  ModelValues values;  ///< All numbers of the model with the estimates (methods force, torque).
+  ModelValues values;          ///< All numbers of the model with the estimates (methods force, torque).
   EmgLag lag = EmgLag::delay;  ///< The law by which the muscles follow their EMG.
   /// Chi-square of the lag `delay` minus that of `shared`, if the fit chose the lag by it. A
   /// positive value favors `shared`.
   std::optional<double> shared_lag_gain;
   double delay_s = 0.0;      ///< Delay of the first channel.
   Eigen::VectorXd solution;  ///< In the solver's scale (method torque).
-  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic), for
-  /// given slack lengths of the tendons. Standard errors and intervals include the slack lengths'
-  /// uncertainty (`held_tendon_shift`).
+  /// Covariance of the free parameters in the solver's scale (logarithms where logarithmic), for given slack lengths of
+  /// the tendons. Standard errors and intervals include the slack lengths' uncertainty (`held_tendon_shift`).
   Eigen::MatrixXd covariance;
   std::vector<std::string> free_parameters;  ///< Names of the rows of `covariance`.
   /// Draws of the values of `free_parameters` (SI) from the posterior, one column each, and their
@@ -165,14 +162,14 @@ struct IdentificationResult {
   Eigen::VectorXd noise;
   /// Sets of numbers that the data hardly separate, as sentences.
   std::vector<std::string> collinear;
-  std::vector<std::string> undetermined;  ///< Combinations that the data leave open, as sentences.
+  std::vector<std::string> undetermined;       ///< Combinations that the data leave open, as sentences.
   std::vector<PriorDistance> prior_distances;  ///< One for each muscle with priors.
   std::vector<std::string> diagnoses;          ///< Errors whose signature the values carry.
   std::vector<std::string> warnings;           ///< About the fit as a whole.
   std::vector<std::string> interval_warnings;  ///< About how the intervals of numbers were found.
   std::vector<BranchTest> branch_tests;        ///< Method paper.
-  std::vector<BasinTable> basins;  ///< One for each fit, if several starts were asked for.
-  int bootstrap_replicates = 0;    ///< Number of converged replicates.
+  std::vector<BasinTable> basins;              ///< One for each fit, if several starts were asked for.
+  int bootstrap_replicates = 0;                ///< Number of converged replicates.
   int bootstrap_failed = 0;
   bool exact = false;  ///< The data are free of noise and are fitted without priors and weights.
   int samples_used = 0;

@@ -9,8 +9,7 @@
 
 namespace myoid::identification {
 
-double coefficient_of_determination(const Eigen::VectorXd& reference,
-                                    const Eigen::VectorXd& predicted) {
+double coefficient_of_determination(const Eigen::VectorXd& reference, const Eigen::VectorXd& predicted) {
   const double total = (reference.array() - reference.mean()).square().sum();
   return total > 0.0 ? 1.0 - (reference - predicted).squaredNorm() / total : 0.0;
 }
@@ -41,15 +40,12 @@ std::string r2_text(double r2) {
   return fmt::format("{:.{}f}", r2, r2 < -99.0 ? 0 : 3);
 }
 
-Eigen::VectorXd below(const Eigen::VectorXd& time_s,
-                      const Eigen::VectorXd& torque_nm,
-                      double cutoff_hz) {
+Eigen::VectorXd below(const Eigen::VectorXd& time_s, const Eigen::VectorXd& torque_nm, double cutoff_hz) {
   const Eigen::Index n = time_s.size();
   if (n < 8 || !(cutoff_hz > 0.0)) return torque_nm;
   const TimeSeries series(time_s, {{"torque", Unit::newton_meter}}, torque_nm);
   if (cutoff_hz > 0.4 * series.mean_rate_hz() || !series.is_uniform()) return torque_nm;
-  return signals::zero_phase_filter(series, math::FilterBand::low_pass, cutoff_hz,
-                                    {.order = 2, .corrected = true})
+  return signals::zero_phase_filter(series, math::FilterBand::low_pass, cutoff_hz, {.order = 2, .corrected = true})
       .values()
       .col(0);
 }

@@ -20,8 +20,7 @@ std::vector<Block> blocks_of(const ResidualModel& model, double block_s) {
     Eigen::Index count = 1;
     if (block_s > 0.0) {
       count = std::max<Eigen::Index>(
-          1, static_cast<Eigen::Index>(
-                 std::lround(static_cast<double>(piece.count) / (model.rate_hz() * block_s))));
+          1, static_cast<Eigen::Index>(std::lround(static_cast<double>(piece.count) / (model.rate_hz() * block_s))));
     }
     for (Eigen::Index b = 0; b < count; ++b) {
       const Eigen::Index begin = piece.count * b / count;
@@ -40,10 +39,8 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * a * scale.asDiagonal();
   const math::SymmetricEigen eigen = math::symmetric_eigen(scaled);
-  const Eigen::VectorXd values =
-      eigen.values.cwiseMax(1e-14 * eigen.values.maxCoeff()).cwiseInverse();
-  return scale.asDiagonal() * eigen.vectors * values.asDiagonal() * eigen.vectors.transpose() *
-         scale.asDiagonal();
+  const Eigen::VectorXd values = eigen.values.cwiseMax(1e-14 * eigen.values.maxCoeff()).cwiseInverse();
+  return scale.asDiagonal() * eigen.vectors * values.asDiagonal() * eigen.vectors.transpose() * scale.asDiagonal();
 }
 
 Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
@@ -61,8 +58,8 @@ Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
 
 double student_factor(double freedom) {
   constexpr double kProbability = 0.975;
-  const double wider = math::student_quantile(kProbability, std::max(3.0, freedom)) /
-                       math::normal_quantile(kProbability);
+  const double wider =
+      math::student_quantile(kProbability, std::max(3.0, freedom)) / math::normal_quantile(kProbability);
   return wider * wider;
 }
 

@@ -13,15 +13,14 @@ namespace myoid::identification {
 
 /// Rows that a bootstrap draws together.
 struct Block {
-  int stratum = 0;  ///< Trial; 0 for all blocks if whole trials are drawn.
+  int stratum = 0;                                          ///< Trial; 0 for all blocks if whole trials are drawn.
   std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;  ///< First and count.
 };
 
 /// Returns blocks of about `block_s` within each trial, with all of its joints; 0: whole trials.
 [[nodiscard]] std::vector<Block> blocks_of(const ResidualModel& model, double block_s);
 
-/// Returns the inverse of a symmetric matrix by unit diagonal; near-zero directions stay
-/// near-infinite.
+/// Returns the inverse of a symmetric matrix by unit diagonal; near-zero directions stay near-infinite.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 
 /// Returns the sum of a part's scores with the spread of a part that is not fitted: L (I - L^-1
@@ -35,10 +34,9 @@ struct Block {
 /// one's (3 degrees at least).
 [[nodiscard]] double student_factor(double freedom);
 
-/// Returns A^-1 B A^-1 with B from sums over blocks of 2 s, each as if not fitted. Student's
-/// quantile for the number of blocks that inform a parameter (Satterthwaite 1946) enlarges the
-/// variances. Empty with fewer than 8 blocks, or if A has no factor. `a`: information and
-/// `precision`, which is that of the priors.
+/// Returns A^-1 B A^-1 with B from sums over blocks of 2 s, each as if not fitted. Student's quantile for the number of
+/// blocks that inform a parameter (Satterthwaite 1946) enlarges the variances. Empty with fewer than 8 blocks, or if A
+/// has no factor. `a`: information and `precision`, which is that of the priors.
 [[nodiscard]] std::optional<Eigen::MatrixXd> block_covariance(const ResidualModel& model,
                                                               const Estimator::Scores& by_sample,
                                                               const Eigen::MatrixXd& a,

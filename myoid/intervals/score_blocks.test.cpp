@@ -34,11 +34,8 @@ TEST(BlockCovariance, HoldsTheErrorsOfPlainLeastSquares) {
       setup.start = study.truth[static_cast<std::size_t>(&setup - study.data.muscles.data())];
       setup.fixed = {"concentric_curvature", "eccentric_curvature_product", "eccentric_plateau"};
     }
-    const Estimator estimator(study.data, {.muscles = {"TRI"},
-                                           .priors = false,
-                                           .delay_s = study.delay_s,
-                                           .weights = false,
-                                           .starts = 1});
+    const Estimator estimator(
+        study.data, {.muscles = {"TRI"}, .priors = false, .delay_s = study.delay_s, .weights = false, .starts = 1});
     const Eigen::VectorXd truth = estimator.model().parameters().start();
     const Estimator::Solution solution = estimator.solve(truth);
     const Sandwich parts = sandwich(estimator, solution);

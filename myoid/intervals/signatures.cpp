@@ -28,8 +28,7 @@ std::map<std::string, Pattern> patterns_of(const std::vector<ParameterEstimate>&
       p.narrowest = std::min(p.narrowest, ratio);
       p.widest = std::max(p.widest, ratio);
     }
-    if (e.parameter == "optimal_fiber_length")
-      p.length_ratio = std::min(p.length_ratio.value_or(ratio), ratio);
+    if (e.parameter == "optimal_fiber_length") p.length_ratio = std::min(p.length_ratio.value_or(ratio), ratio);
     if (e.parameter == "concentric_curvature") p.curvature = e.estimate;
     if (e.parameter == "eccentric_curvature_product") p.product = e.estimate;
     if (e.parameter == "eccentric_plateau") p.plateau = e.estimate;
@@ -39,16 +38,12 @@ std::map<std::string, Pattern> patterns_of(const std::vector<ParameterEstimate>&
 
 /// Returns true for an optimal length far too short with a width far too large: the far flank of
 /// this curve acts as a gain below 1.
-bool is_flank(const Pattern& p) {
-  return p.widest > 1.5 && p.length_ratio && *p.length_ratio < 0.5;
-}
+bool is_flank(const Pattern& p) { return p.widest > 1.5 && p.length_ratio && *p.length_ratio < 0.5; }
 
 bool product_is_not_positive(const Pattern& p) { return p.product && *p.product <= 0.0; }
 
 /// Returns true for a step of force between shortening and lengthening.
-bool is_step(const Pattern& p) {
-  return p.plateau && *p.plateau < 0.6 && p.product && std::abs(*p.product) < 0.15;
-}
+bool is_step(const Pattern& p) { return p.plateau && *p.plateau < 0.6 && p.product && std::abs(*p.product) < 0.15; }
 
 /// Returns true for a force-velocity curve without an effect of velocity.
 bool without_velocity(const Pattern& p) {
@@ -60,8 +55,7 @@ bool without_velocity(const Pattern& p) {
 /// Returns true for a narrow force-length curve with a strongly bent force-velocity curve.
 bool narrow_and_bent(const Pattern& p) {
   const bool bent = p.curvature && *p.curvature < 0.12;
-  return p.narrowest < 0.5 && !is_step(p) &&
-         (bent || product_is_not_positive(p) || (p.plateau && *p.plateau > 1.6));
+  return p.narrowest < 0.5 && !is_step(p) && (bent || product_is_not_positive(p) || (p.plateau && *p.plateau > 1.6));
 }
 
 }  // namespace
@@ -70,23 +64,23 @@ std::vector<std::string> signatures(const std::vector<ParameterEstimate>& estima
   std::vector<std::string> found;
   for (const auto& [muscle, p] : patterns_of(estimates)) {
     if (without_velocity(p)) {
-      found.push_back(fmt::format(
-          "{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, "
-          "or V_sh V_shl not positive with V_ml near 1), as when the force lags the EMG "
-          "and no delay is allowed for",
-          muscle));
+      found.push_back(
+          fmt::format("{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, "
+                      "or V_sh V_shl not positive with V_ml near 1), as when the force lags the EMG "
+                      "and no delay is allowed for",
+                      muscle));
     }
     if (is_step(p)) {
-      found.push_back(fmt::format(
-          "{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between "
-          "shortening and lengthening: EMG is there while (almost) no force is assigned "
-          "(co-contraction, or F_max or the EMG gain too high)",
-          muscle));
+      found.push_back(
+          fmt::format("{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between "
+                      "shortening and lengthening: EMG is there while (almost) no force is assigned "
+                      "(co-contraction, or F_max or the EMG gain too high)",
+                      muscle));
     } else if (is_flank(p)) {
-      found.push_back(fmt::format(
-          "{}: gain_mismatch: an optimal length far below and a width far above their starting "
-          "values act as a gain: F_max or the EMG gain is too high",
-          muscle));
+      found.push_back(
+          fmt::format("{}: gain_mismatch: an optimal length far below and a width far above their starting "
+                      "values act as a gain: F_max or the EMG gain is too high",
+                      muscle));
     }
     if (narrow_and_bent(p)) {
       found.push_back(

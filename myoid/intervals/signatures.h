@@ -7,10 +7,9 @@
 
 namespace myoid::identification {
 
-/// Names the single errors whose signature the estimates carry, by muscle: an EMG delay that the
-/// fit ignores, co-contraction that force sharing set to zero, EMG and force that disagree in gain.
-/// The signatures come from simulations of each error alone; a signature is no proof. The estimates
-/// must be a minimum of a converged fit.
+/// Names the single errors whose signature the estimates carry, by muscle: an EMG delay that the fit ignores,
+/// co-contraction that force sharing set to zero, EMG and force that disagree in gain. The signatures come from
+/// simulations of each error alone; a signature is no proof. The estimates must be a minimum of a converged fit.
 [[nodiscard]] std::vector<std::string> signatures(const std::vector<ParameterEstimate>& estimates);
 
 }  // namespace myoid::identification

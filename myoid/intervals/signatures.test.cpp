@@ -50,17 +50,14 @@ OneMuscle one_hertz(double lead_s) {
   const auto force = [&](double t) { return std::max(40.0 * std::sin(w * t) + 5.0, 3.0); };
   const auto length = [&](double t) { return 0.122 + 0.025 * std::sin(w * t); };
   const auto speed = [&](double t) { return 0.025 * w * std::cos(w * t); };
-  const auto activation = [&](double t) {
-    return force(t) / muscle::hill_force(1.0, length(t), speed(t), p);
-  };
+  const auto activation = [&](double t) { return force(t) / muscle::hill_force(1.0, length(t), speed(t), p); };
   trial.length_m = at(length);
   trial.velocity_mps = at(speed);
   trial.moment_arm_m = Eigen::MatrixXd::Ones(kSamples, 1);
   trial.force_n = at(force);
   trial.torque_nm = trial.force_n.col(0);
-  trial.activation =
-      TimeSeries(trial.time_s, {{"M", Unit::dimensionless}},
-                 Eigen::MatrixXd(at([&](double t) { return activation(t + lead_s); })));
+  trial.activation = TimeSeries(trial.time_s, {{"M", Unit::dimensionless}},
+                                Eigen::MatrixXd(at([&](double t) { return activation(t + lead_s); })));
   study.data.trials.push_back(std::move(trial));
   return study;
 }

@@ -22,17 +22,15 @@ namespace {
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::VectorXd scale = a.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * a * scale.asDiagonal());
-  const bool regular = factor.info() == Eigen::Success &&
-                       factor.matrixLLT().diagonal().minCoeff() > 1e-5;  // 1 in each column
+  const bool regular =
+      factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > 1e-5;  // 1 in each column
   if (!regular) return inverse_of(a) * b;
   return scale.cwiseProduct(factor.solve(scale.cwiseProduct(b)));
 }
 
 /// Returns true if the smallest eigenvalue of these rows and columns surely exceeds `least`: A -
 /// least I then has a Cholesky factor.
-bool above_in_all_directions(const Eigen::MatrixXd& a,
-                             const std::vector<Eigen::Index>& set,
-                             double least) {
+bool above_in_all_directions(const Eigen::MatrixXd& a, const std::vector<Eigen::Index>& set, double least) {
   Eigen::Matrix4d factor;
   const std::size_t n = set.size();
   for (std::size_t j = 0; j < n; ++j) {
@@ -62,8 +60,7 @@ double quantile(std::vector<double> values, double share) {
 /// Returns the precision of the prior of every unknown; 0: no prior.
 Eigen::VectorXd prior_precision(const std::vector<Unknown>& free) {
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t j = 0; j < free.size(); ++j)
-    precision[static_cast<Eigen::Index>(j)] = free[j].prior_precision();
+  for (std::size_t j = 0; j < free.size(); ++j) precision[static_cast<Eigen::Index>(j)] = free[j].prior_precision();
   return precision;
 }
 
@@ -93,8 +90,7 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   const double largest_norm = norm.maxCoeff();
   Eigen::VectorXd unit(p);
   for (Eigen::Index j = 0; j < p; ++j) unit[j] = norm[j] > 0.0 ? 1.0 / norm[j] : 0.0;
-  const math::SymmetricEigen eigen =
-      math::symmetric_eigen(unit.asDiagonal() * information * unit.asDiagonal());
+  const math::SymmetricEigen eigen = math::symmetric_eigen(unit.asDiagonal() * information * unit.asDiagonal());
   const Eigen::VectorXd& values = eigen.values;  // rising
   const double top = values[values.size() - 1];
   Rank result;
@@ -108,24 +104,19 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   result.undetermined = eigen.vectors(Eigen::all, open);
   result.determined.assign(static_cast<std::size_t>(p), true);
   for (Eigen::Index j = 0; j < p; ++j) {
-    result.determined[static_cast<std::size_t>(j)] =
-        norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
+    result.determined[static_cast<std::size_t>(j)] = norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
   }
   return result;
 }
 
 /// Returns the covariance of the scores' sum by the autocorrelation of all residuals together.
-Eigen::MatrixXd by_autocorrelation(const Estimator& estimator,
-                                   const Estimator::Scores& by_sample,
-                                   double share) {
+Eigen::MatrixXd by_autocorrelation(const Estimator& estimator, const Estimator::Scores& by_sample, double share) {
   const ResidualModel& model = estimator.model();
   const double told_apart_hz = 8.0 * estimator.options().residual_cutoff_hz.value_or(6.25);
-  const auto stride =
-      static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
-  return share * math::covariance_of_sum(
-                     by_sample.rows,
-                     math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
-                     model.piece_lengths(), stride);
+  const auto stride = static_cast<Eigen::Index>(std::max(1.0, std::floor(model.rate_hz() / told_apart_hz)));
+  return share * math::covariance_of_sum(by_sample.rows,
+                                         math::positive_autocorrelation(by_sample.residual, model.piece_lengths()),
+                                         model.piece_lengths(), stride);
 }
 
 /// Returns the covariance with unchanged correlations and no variance below `least`.
@@ -144,7 +135,7 @@ Eigen::MatrixXd at_least(Eigen::MatrixXd covariance, const Eigen::VectorXd& leas
 struct OverTrials {
   std::vector<int> trials;  ///< Sandwich::trials.
   Eigen::MatrixXd shift;    ///< Sandwich::trial_shift.
-  Eigen::MatrixXd sums;  ///< Sums of the scores, each with the spread that it has outside the fit.
+  Eigen::MatrixXd sums;     ///< Sums of the scores, each with the spread that it has outside the fit.
   /// Expected share of each trial in the variance over trials, and its square, summed.
   Eigen::VectorXd shares, squared_shares;
 };
@@ -160,8 +151,7 @@ OverTrials over_trials(const ResidualModel& model,
   OverTrials result;
   std::vector<int>& trials = result.trials;
   for (const Piece& piece : model.pieces()) {
-    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end())
-      trials.push_back(piece.trial);
+    if (std::find(trials.begin(), trials.end(), piece.trial) == trials.end()) trials.push_back(piece.trial);
   }
   const Eigen::Index p = whole.rows();
   result.sums.resize(p, static_cast<Eigen::Index>(trials.size()));
@@ -179,8 +169,7 @@ OverTrials over_trials(const ResidualModel& model,
       of_trial += part * part.transpose();
     }
     result.shift.col(k) = solve_positive(whole - of_trial, sum);
-    const Eigen::VectorXd share =
-        (model_based * of_trial).cwiseProduct(model_based).rowwise().sum();
+    const Eigen::VectorXd share = (model_based * of_trial).cwiseProduct(model_based).rowwise().sum();
     result.shares += share;
     result.squared_shares += share.cwiseAbs2();
     result.sums.col(k) = factor.info() == Eigen::Success ? unfitted(factor, of_trial, sum) : sum;
@@ -194,9 +183,7 @@ Eigen::MatrixXd squares_about_mean(const Eigen::MatrixXd& columns) {
 }
 
 /// Makes intervals from the converged replicates; the others are empty in `found`.
-BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found,
-                                 std::size_t blocks,
-                                 Eigen::Index p) {
+BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found, std::size_t blocks, Eigen::Index p) {
   BootstrapResult result;
   std::vector<std::size_t> good;
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -213,14 +200,12 @@ BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found,
   // Each end is a quantile of the replicates with sd sqrt(0.975 0.025 / R) / 0.0585 (density at
   // 1.96); the blocks are a sample themselves.
   if (!good.empty())
-    result.spread = std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())),
-                               std::sqrt(0.5 / static_cast<double>(blocks)));
+    result.spread =
+        std::hypot(0.96 / std::sqrt(static_cast<double>(good.size())), std::sqrt(0.5 / static_cast<double>(blocks)));
   if (good.size() < 40) return result;
   for (Eigen::Index j = 0; j < p; ++j) {
-    const std::vector<double> values(result.replicates.col(j).begin(),
-                                     result.replicates.col(j).end());
-    result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025),
-                                                     quantile(values, 0.975)};
+    const std::vector<double> values(result.replicates.col(j).begin(), result.replicates.col(j).end());
+    result.intervals[static_cast<std::size_t>(j)] = {quantile(values, 0.025), quantile(values, 0.975)};
   }
   return result;
 }
@@ -234,8 +219,7 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
   Sandwich result;
   result.information = by_sample.information;
   result.model_based = inverse_of(with_priors(result.information, precision));
-  result.by_noise =
-      largest_log_sd(solution.weighting.noise) * result.model_based * by_sample.attenuation;
+  result.by_noise = largest_log_sd(solution.weighting.noise) * result.model_based * by_sample.attenuation;
   Rank rank = rank_of(result.information);
   result.rank = rank.rank;
   result.condition = rank.condition;
@@ -244,43 +228,35 @@ Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solutio
 
   const Eigen::MatrixXd scores = by_sample.scores.transpose();
   const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
-  const Eigen::MatrixXd b =
-      with_priors(math::newey_west(scores, model.piece_lengths(), lag), precision);
+  const Eigen::MatrixXd b = with_priors(math::newey_west(scores, model.piece_lengths(), lag), precision);
   result.newey_west = result.model_based * b * result.model_based;
   // The triangle of lags gives Var(B) / B^2 = 4/3 L / n; the width varies with the root of B.
-  result.sample_spread =
-      0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
-                      static_cast<double>(model.sample_count()));
+  result.sample_spread = 0.5 * std::sqrt(4.0 / 3.0 * static_cast<double>(std::max<Eigen::Index>(1, lag)) /
+                                         static_cast<double>(model.sample_count()));
   if (estimator.options().weights) {
     // Few effective samples make B uncertain, and B counts the autocovariances only up to its
     // longest lag. The autocorrelation of all samples together bounds B from below.
     const Eigen::MatrixXd expected =
         with_priors(by_autocorrelation(estimator, by_sample, solution.weighting.share), precision);
-    const Eigen::VectorXd least =
-        (result.model_based * expected).cwiseProduct(result.model_based).rowwise().sum();
+    const Eigen::VectorXd least = (result.model_based * expected).cwiseProduct(result.model_based).rowwise().sum();
     result.newey_west = at_least(std::move(result.newey_west), least);
   }
 
   const Eigen::MatrixXd whole = with_priors(by_sample.rows * by_sample.rows.transpose(), precision);
-  const Eigen::MatrixXd of_priors =
-      result.model_based * precision.asDiagonal() * result.model_based;
-  OverTrials over =
-      over_trials(model, scores, by_sample.rows, whole, result.model_based, of_priors.diagonal());
+  const Eigen::MatrixXd of_priors = result.model_based * precision.asDiagonal() * result.model_based;
+  OverTrials over = over_trials(model, scores, by_sample.rows, whole, result.model_based, of_priors.diagonal());
   if (!estimator.options().weights) {
     // Without weights, few effective samples make Newey and West's estimate a third too small.
     // Blocks of many correlation times, each as if not fitted, with the quantile of their number,
     // are not too small (Bell & McCaffrey 2002).
-    if (const auto over_blocks = block_covariance(model, by_sample, whole, precision))
-      result.newey_west = *over_blocks;
+    if (const auto over_blocks = block_covariance(model, by_sample, whole, precision)) result.newey_west = *over_blocks;
   }
   result.trials = std::move(over.trials);
   result.trial_shift = std::move(over.shift);
   const auto clusters = static_cast<double>(result.trials.size());
   if (result.trials.size() >= 5)
-    result.jackknife =
-        (clusters - 1.0) / clusters * squares_about_mean(result.trial_shift) + of_priors;
-  result.trial_spread =
-      (0.5 * over.squared_shares.array()).sqrt() / over.shares.array().max(1e-300);
+    result.jackknife = (clusters - 1.0) / clusters * squares_about_mean(result.trial_shift) + of_priors;
+  result.trial_spread = (0.5 * over.squared_shares.array()).sqrt() / over.shares.array().max(1e-300);
   if (result.trials.size() >= 8) {
     const Eigen::MatrixXd sum = with_priors(over.sums * over.sums.transpose(), precision);
     result.cluster = result.model_based * sum * result.model_based;
@@ -306,10 +282,8 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
       while (end < blocks.size() && blocks[end].stratum == blocks[first].stratum) ++end;
       for (std::size_t draw = first; draw < end; ++draw) {
         const Block& block =
-            blocks[first +
-                   static_cast<std::size_t>(random.below(static_cast<Eigen::Index>(end - first)))];
-        for (const auto& [begin, length] : block.rows)
-          variant.multiplicity.segment(begin, length).array() += 1.0;
+            blocks[first + static_cast<std::size_t>(random.below(static_cast<Eigen::Index>(end - first)))];
+        for (const auto& [begin, length] : block.rows) variant.multiplicity.segment(begin, length).array() += 1.0;
       }
       first = end;
     }
@@ -318,18 +292,14 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
       const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
       if (f.prior.sd > 0.0) variant.prior_mean[j] = f.prior.mean + f.prior.sd * random.normal();
     }
-    const NormalSearchResult fit =
-        estimator.search(solution.search.x, solution.weighting, 1e-4, 1e-3, 30, variant);
+    const NormalSearchResult fit = estimator.search(solution.search.x, solution.weighting, 1e-4, 1e-3, 30, variant);
     if (fit.termination == math::Termination::converged) found[k] = fit.x;
-    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(count),
-                                      "bootstrap");
+    estimator.options().progress.tell(static_cast<double>(++done) / static_cast<double>(count), "bootstrap");
   });
   return bootstrap_result(found, blocks.size(), p);
 }
 
-std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
-                                         double limit,
-                                         std::size_t count) {
+std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, double limit, std::size_t count) {
   const Eigen::Index p = information.rows();
   std::vector<CollinearSet> found;
   std::vector<Eigen::Index> usable;
@@ -341,13 +311,11 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
   const auto contains_smaller = [&](const std::vector<Eigen::Index>& set) {
     return std::any_of(found.begin(), found.end(), [&](const CollinearSet& other) {
       return other.parameters.size() < set.size() &&
-             std::includes(set.begin(), set.end(), other.parameters.begin(),
-                           other.parameters.end());
+             std::includes(set.begin(), set.end(), other.parameters.begin(), other.parameters.end());
     });
   };
   const auto consider = [&](const std::vector<Eigen::Index>& set) {
-    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set))
-      return;
+    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set)) return;
     const double smallest = math::symmetric_eigenvalues(unit(set, set))[0];
     const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
     if (index > limit) found.push_back({set, index});
@@ -362,8 +330,7 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
         for (std::size_t k = j + 1; k < n; ++k)
-          for (std::size_t l = k + 1; l < n; ++l)
-            consider({usable[i], usable[j], usable[k], usable[l]});
+          for (std::size_t l = k + 1; l < n; ++l) consider({usable[i], usable[j], usable[k], usable[l]});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const CollinearSet& a, const CollinearSet& b) { return a.index > b.index; });

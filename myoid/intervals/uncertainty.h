@@ -25,17 +25,15 @@ struct Sandwich {
   /// (K - 1)/K times the sum of the squared shifts, plus the prior's share as in the other two;
   /// needs at least 5 trials.
   std::optional<Eigen::MatrixXd> jackknife;
-  /// Standard deviations by chance of the logarithm of an interval's width, from the sums over
-  /// trials and from the jackknife, by parameter. They grow as fewer trials inform the parameter
-  /// (Satterthwaite 1946).
+  /// Standard deviations by chance of the logarithm of an interval's width, from the sums over trials and from the
+  /// jackknife, by parameter. They grow as fewer trials inform the parameter (Satterthwaite 1946).
   Eigen::VectorXd trial_spread;
   /// The same of Newey and West's interval, with its triangle of lags.
   double sample_spread = 0.0;
   Eigen::MatrixXd model_based;  ///< A^-1
   Eigen::MatrixXd information;  ///< Information of the data alone, nu J'WJ.
-  /// Change of the estimates if the variance of the EMG's noise grows by its own spread
-  /// (NoiseLevel::log_variance_sd). The change is large if the data hardly separate the muscles
-  /// from quantities without noise.
+  /// Change of the estimates if the variance of the EMG's noise grows by its own spread (NoiseLevel::log_variance_sd).
+  /// The change is large if the data hardly separate the muscles from quantities without noise.
   Eigen::VectorXd by_noise;
   int rank = 0;                  ///< Rank of the data with unit columns, tolerance 1e-7.
   double condition = 0.0;        ///< Condition of J with unit columns.
@@ -53,13 +51,12 @@ struct BootstrapResult {
   Eigen::MatrixXd replicates;  ///< Converged replicates, one per row.
   int failed = 0;
   std::vector<Interval> intervals;  ///< 2.5 and 97.5 % quantiles.
-  double spread = 0.0;  ///< As Sandwich::trial_spread, by the numbers of replicates and blocks.
+  double spread = 0.0;              ///< As Sandwich::trial_spread, by the numbers of replicates and blocks.
 };
 /// Refits to resampled data: draws blocks with replacement within each trial (whole trials if
 /// `bootstrap_block_s` is 0) and prior means from the priors; the weights are the solution's.
 /// Replicates run in parallel; number k depends on the seed and k alone.
-[[nodiscard]] BootstrapResult bootstrap(const Estimator& estimator,
-                                        const Estimator::Solution& solution);
+[[nodiscard]] BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution& solution);
 
 /// Parameters that the data hardly separate, with the collinearity index 1 / sqrt(smallest
 /// eigenvalue) of S'S, S the sensitivities with unit columns (Brun and others 2001).

@@ -44,11 +44,8 @@ TEST(Uncertainty, RoutesAgreeOnAWellBehavedRecording) {
 
 TEST(Uncertainty, AProfileHasTheScaleOfTheSandwichWhateverTheCostsIs) {
   // Plain least squares: the cost counts every sample in N m squared, as if each stood alone.
-  const ElbowStudy study = elbow_study({.trials = 8,
-                                        .seconds = 10.0,
-                                        .torque_sd_nm = 0.05,
-                                        .truth_from_prior = true,
-                                        .with_priors = true});
+  const ElbowStudy study =
+      elbow_study({.trials = 8, .seconds = 10.0, .torque_sd_nm = 0.05, .truth_from_prior = true, .with_priors = true});
   EstimatorOptions options{.priors = false, .weights = false, .starts = 1};
   options.intervals = {.profile = true};
   int checked = 0;
@@ -80,8 +77,7 @@ TEST(Sandwich, WhatATrialMovesIsWhatTheFitWithoutItSays) {
   Estimator::Variant without;
   without.multiplicity = Eigen::VectorXd::Ones(estimator.model().sample_count());
   without.multiplicity.segment(piece.first, piece.count).setZero();
-  const NormalSearchResult fit =
-      estimator.search(all.search.x, all.weighting, 1e-9, 1e-12, 100, without);
+  const NormalSearchResult fit = estimator.search(all.search.x, all.weighting, 1e-9, 1e-12, 100, without);
   const Eigen::VectorXd moved = fit.x - all.search.x;
   const Eigen::VectorXd sd = parts.model_based.diagonal().cwiseSqrt();
   for (Eigen::Index j = 0; j < moved.size(); ++j) {
@@ -118,8 +114,7 @@ TEST(Sandwich, SumsOverTrialsAreAsWideAsTheNoiseWhereTheModelIsRightAndTheJackkn
       count += 1.0;
     }
   }
-  // Eight sums know a variance to 50 %; eight studies and some parameters, that hang together, to
-  // 15 % or so.
+  // Eight sums know a variance to 50 %; eight studies and some parameters, that hang together, to 15 % or so.
   EXPECT_NEAR(over_trials / count, 1.0, 0.3);
   EXPECT_GT(jackknife, over_trials);
 }
@@ -130,25 +125,21 @@ TEST(Sandwich, WhereNothingIsMultipliedByEmgItsNoiseMovesNothing) {
   for (MuscleSetup& setup : study.data.muscles) {
     for (const muscle::HillField& field : muscle::kHillFields) setup.fixed.emplace_back(field.name);
   }
-  study.data.rules.push_back(
-      {.parameter = "joint_torque_offset", .free = true, .prior_mean = 0.0, .prior_sd = 1.0});
+  study.data.rules.push_back({.parameter = "joint_torque_offset", .free = true, .prior_mean = 0.0, .prior_sd = 1.0});
   const Estimator still(study.data, {.delay_s = 0.05, .starts = 1});
   const Estimator::Solution solution = still.solve(still.model().parameters().start());
   EXPECT_EQ(sandwich(still, solution).by_noise.norm(), 0.0);
-  // With strengths to find it moves them, and towards stronger ones: more noise, more to make up
-  // for.
-  const ElbowStudy whole = elbow_study(
-      {.trials = 2, .seconds = 10.0, .emg_cv = 0.08, .torque_sd_nm = 0.5, .with_priors = true});
+  // With strengths to find it moves them, and towards stronger ones: more noise, more to make up for.
+  const ElbowStudy whole =
+      elbow_study({.trials = 2, .seconds = 10.0, .emg_cv = 0.08, .torque_sd_nm = 0.5, .with_priors = true});
   EstimatorOptions options{.starts = 1};
-  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"})
-    options.emg_bandwidth_hz[channel] = 432.0;
+  for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) options.emg_bandwidth_hz[channel] = 432.0;
   const Estimator moving(whole.data, options);
   const Estimator::Solution found = moving.solve(moving.model().parameters().start());
   const Eigen::VectorXd moved = sandwich(moving, found).by_noise;
   double strengths = 0.0;
   for (std::size_t j = 0; j < moving.free().size(); ++j) {
-    if (moving.free()[j].field->name == "max_isometric_force")
-      strengths += moved[static_cast<Eigen::Index>(j)];
+    if (moving.free()[j].field->name == "max_isometric_force") strengths += moved[static_cast<Eigen::Index>(j)];
   }
   EXPECT_GT(strengths, 0.0);
 }

@@ -20,20 +20,15 @@ std::string verdict_rules_markdown(const VerdictRules& r) {
   const auto percent = [](double share) { return fmt::format("{:g} %", 100.0 * share); };
   const auto ms = [](double seconds) { return fmt::format("{:g} ms", 1000.0 * seconds); };
   row("farther end of the 95 % interval from the value, of `identified`",
-      fmt::format("at most {}; delay: {}", percent(r.identified_half_width),
-                  ms(r.delay_identified_s)));
-  row("the same, of `weak`",
-      fmt::format("at most {}; delay: {}", percent(r.weak_half_width), ms(r.delay_weak_s)));
-  row("1 − posterior/prior variance, of `prior_dominated`",
-      fmt::format("below {:g}", r.least_shrinkage));
+      fmt::format("at most {}; delay: {}", percent(r.identified_half_width), ms(r.delay_identified_s)));
+  row("the same, of `weak`", fmt::format("at most {}; delay: {}", percent(r.weak_half_width), ms(r.delay_weak_s)));
+  row("1 − posterior/prior variance, of `prior_dominated`", fmt::format("below {:g}", r.least_shrinkage));
   row("the same, of `weak` at best", fmt::format("below {:g}", r.half_shrinkage));
   row("the recording does not narrow the prior", fmt::format("below {:g}", r.any_shrinkage));
-  row("distance from the prior's mean, of `weak` at best",
-      fmt::format("above {:g} spreads", r.prior_conflict));
+  row("distance from the prior's mean, of `weak` at best", fmt::format("above {:g} spreads", r.prior_conflict));
   row("distance at which a value that is not narrowed is called the literature's",
       fmt::format("at most {:g} spread", r.prior_stays));
-  row("systematic error of the model, of `weak` at best",
-      fmt::format("above {}", percent(r.model_error)));
+  row("systematic error of the model, of `weak` at best", fmt::format("above {}", percent(r.model_error)));
   row("torque of moving joints that their angle, rate and acceleration explain, of `weak` at best",
       fmt::format("above {}", percent(r.motion_alone)));
   row("R² of the fit, of `weak` at best", fmt::format("below {:g}", r.least_r2));
@@ -45,10 +40,8 @@ std::string verdict_rules_markdown(const VerdictRules& r) {
   row("activation of an active muscle", fmt::format("above {}", percent(r.active)));
   row("speed of a muscle that shortens or lengthens",
       fmt::format("above {:g} v_max, for {:g} s", r.moving_share, r.least_s));
-  row("share of the variance that makes an uncertainty the tendon's",
-      fmt::format("above {:g}", r.mostly_tendon));
-  row("a delay on its bound that counts as none",
-      fmt::format("at most {:g} µs", 1e6 * r.no_delay_s));
+  row("share of the variance that makes an uncertainty the tendon's", fmt::format("above {:g}", r.mostly_tendon));
+  row("a delay on its bound that counts as none", fmt::format("at most {:g} µs", 1e6 * r.no_delay_s));
   return text;
 }
 

@@ -11,13 +11,12 @@ struct VerdictRules {
   /// Half width, value to farther end of the 95 % interval over the value. Up to this limit a
   /// number is `identified`: nine times in ten the value is within 10 % (0.10 times 1.96 / 1.645).
   double identified_half_width = 0.12;
-  double weak_half_width = 0.60;  ///< Up to this half width `weak`, beyond it `not_identifiable`.
-  double least_shrinkage = 0.30;  ///< Below, the value is `prior_dominated`.
-  double half_shrinkage = 0.50;  ///< Below, at most `weak`: half of the information is the prior's.
+  double weak_half_width = 0.60;      ///< Up to this half width `weak`, beyond it `not_identifiable`.
+  double least_shrinkage = 0.30;      ///< Below, the value is `prior_dominated`.
+  double half_shrinkage = 0.50;       ///< Below, at most `weak`: half of the information is the prior's.
   double delay_identified_s = 0.012;  ///< Half width of the EMG delay, absolute.
   double delay_weak_s = 0.05;
-  double model_error =
-      0.20;  ///< Systematic error of the model above which nothing is `identified`.
+  double model_error = 0.20;  ///< Systematic error of the model above which nothing is `identified`.
   /// Share of a moving joint's torque that its angle, rate and acceleration explain, above which
   /// nothing of a muscle is `identified`.
   double motion_alone = 0.98;
@@ -28,7 +27,7 @@ struct VerdictRules {
   /// Share of the optimal fiber length. If a muscle's active lengths span less, F_max f_l(l) is one
   /// number, and the data do not determine l0 and l_sh.
   double least_length_span = 0.05;
-  double flat_plateau = 1.02;  ///< A V_ml whose interval reaches below leaves P open.
+  double flat_plateau = 1.02;                              ///< A V_ml whose interval reaches below leaves P open.
   muscle::Range relative_width = muscle::kRelativeWidths;  ///< l_sh over l0 of real muscles.
   [[nodiscard]] bool possible(double width) const {
     return width == 0.0 || (width >= relative_width.lower && width <= relative_width.upper);

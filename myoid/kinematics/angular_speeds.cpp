@@ -49,14 +49,12 @@ std::vector<int> angular_speed_joints(const model::BodyModel& model) {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const model::Joint& joint = model.joints[j];
     for (const char* kind : {"BallJoint", "FreeJoint", "EllipsoidJoint", "ScapulothoracicJoint"})
-      if (joint.class_name == kind && turns_about_axes(joint))
-        joints.push_back(static_cast<int>(j));
+      if (joint.class_name == kind && turns_about_axes(joint)) joints.push_back(static_cast<int>(j));
   }
   return joints;
 }
 
-Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model,
-                                const Eigen::Ref<const Eigen::VectorXd>& q) {
+Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
   Eigen::MatrixXd N = Eigen::MatrixXd::Identity(q.size(), q.size());
   for (const int j : angular_speed_joints(model)) {
     const model::Joint& joint = model.joints[at(j)];
@@ -74,8 +72,7 @@ Eigen::VectorXd on_rates(const model::BodyModel& model,
   if (!takes_rates_for_speeds(model)) return on_speeds;
   for (const int j : angular_speed_joints(model)) {
     const model::Joint& joint = model.joints[at(j)];
-    const Vec3 forces =
-        axes_in_parent(angles_of(joint, q)).transpose() * angles_of(joint, on_speeds);
+    const Vec3 forces = axes_in_parent(angles_of(joint, q)).transpose() * angles_of(joint, on_speeds);
     for (Eigen::Index k = 0; k < 3; ++k) on_speeds[joint.coordinates[at(k)]] = forces[k];
   }
   return on_speeds;
@@ -94,8 +91,7 @@ JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& mo
       const Mat3 E = axes_in_parent(angles_of(joint, motion.q.values().row(i).transpose()));
       const Eigen::PartialPivLU<Mat3> solver(E);
       const Vec3 rates = solver.solve(angles_of(joint, qdot.row(i).transpose()));
-      const Vec3 second =
-          solver.solve(angles_of(joint, qddot.row(i).transpose()) - carried(E, rates));
+      const Vec3 second = solver.solve(angles_of(joint, qddot.row(i).transpose()) - carried(E, rates));
       for (Eigen::Index k = 0; k < 3; ++k) {
         qdot(i, joint.coordinates[at(k)]) = rates[k];
         qddot(i, joint.coordinates[at(k)]) = second[k];

@@ -32,9 +32,8 @@ namespace myoid::kinematics {
 /// Returns true if the model has such joints and behaves as OpenSim's (Compat).
 [[nodiscard]] bool takes_rates_for_speeds(const model::BodyModel& model);
 
-/// Returns the motion of OpenSim's model when its speeds and their derivatives are set to the rates
-/// of `motion`: q, qdot = N u, qddot = N du/dt + dN/dt u. Returns `motion` unchanged unless
-/// takes_rates_for_speeds.
+/// Returns the motion of OpenSim's model when its speeds and their derivatives are set to the rates of `motion`: q,
+/// qdot = N u, qddot = N du/dt + dN/dt u. Returns `motion` unchanged unless takes_rates_for_speeds.
 [[nodiscard]] JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion);
 
 }  // namespace myoid::kinematics

@@ -30,8 +30,7 @@ model::BodyModel on_joint(const std::string& kind, int coordinates, const model:
 
 JointMotion one_row(const model::BodyModel& model, const Eigen::MatrixXd& rows) {
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : model.coordinates)
-    channels.push_back({c.name, Unit::dimensionless});
+  for (const model::Coordinate& c : model.coordinates) channels.push_back({c.name, Unit::dimensionless});
   const auto series = [&](int row) {
     return TimeSeries(Eigen::VectorXd::Zero(1), channels, Eigen::MatrixXd(rows.row(row)));
   };
@@ -49,8 +48,7 @@ TEST_P(AngularSpeeds, AreTheAngularVelocityOfTheBodyInItsParentFrame) {
   std::mt19937 random(4711);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (int trial = 0; trial < 10; ++trial) {
-    const Eigen::MatrixXd rows =
-        Eigen::MatrixXd::NullaryExpr(3, count, [&] { return number(random); });
+    const Eigen::MatrixXd rows = Eigen::MatrixXd::NullaryExpr(3, count, [&] { return number(random); });
     const JointMotion moved = moved_by_speeds(model, one_row(model, rows));
     const Eigen::VectorXd q = moved.q.values().row(0), qd = moved.qdot.values().row(0),
                           qdd = moved.qddot.values().row(0);
@@ -87,8 +85,7 @@ TEST(AngularSpeedsOfAModel, ActOnlyWhereOpenSimIsReproduced) {
   const model::BodyModel exact = on_joint("BallJoint", 3, {});
   EXPECT_FALSE(takes_rates_for_speeds(exact));
   const Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(3, 3, 0.4);
-  EXPECT_EQ(moved_by_speeds(exact, one_row(exact, rows)).qdot.values(),
-            Eigen::MatrixXd(rows.row(1)));
+  EXPECT_EQ(moved_by_speeds(exact, one_row(exact, rows)).qdot.values(), Eigen::MatrixXd(rows.row(1)));
   EXPECT_TRUE(takes_rates_for_speeds(on_joint("BallJoint", 3, model::kOpenSim452)));
   EXPECT_FALSE(takes_rates_for_speeds(on_joint("GimbalJoint", 3, model::kOpenSim452)));
 }

@@ -34,33 +34,29 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
     const auto weight = options.marker_weights.find(name);
     if (weight == options.marker_weights.end() && options.only_named_markers) continue;
     const double w = weight == options.marker_weights.end() ? 1.0 : weight->second;
-    if (!(w >= 0.0))
-      throw InvalidInput(fmt::format("marker '{}': weight {}, expected 0 or more", name, w));
+    if (!(w >= 0.0)) throw InvalidInput(fmt::format("marker '{}': weight {}, expected 0 or more", name, w));
     pairs.push_back({i, it - markers.names.begin(), w});
   }
   for (const auto& [name, weight] : options.marker_weights) {
     if (model.find_marker(name)) continue;
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);
-    throw InvalidInput(fmt::format("marker weight: the model has no marker '{}'; there are {}",
-                                   name, fmt::join(names, ", ")));
+    throw InvalidInput(
+        fmt::format("marker weight: the model has no marker '{}'; there are {}", name, fmt::join(names, ", ")));
   }
   for (const std::string& name : markers.names) {
     if (!model.find_marker(name)) unknown.push_back(name);
   }
   if (!unseen.empty())
-    notes.push_back(fmt::format("markers of the model that are not in the recording: {}",
-                                fmt::join(unseen, ", ")));
+    notes.push_back(fmt::format("markers of the model that are not in the recording: {}", fmt::join(unseen, ", ")));
   if (!unknown.empty())
-    notes.push_back(fmt::format("markers of the recording that are not in the model: {}",
-                                fmt::join(unknown, ", ")));
+    notes.push_back(fmt::format("markers of the recording that are not in the model: {}", fmt::join(unknown, ", ")));
   if (pairs.empty()) {
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);
     const auto some = [](const std::vector<std::string>& all) {
       const std::vector<std::string> head(
-          all.begin(),
-          all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
+          all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
       return fmt::format("{}{}", fmt::join(head, ", "), all.size() > head.size() ? ", ..." : "");
     };
     throw InvalidInput(
@@ -76,8 +72,7 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
 std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   const Eigen::VectorXd rest = model.default_q();
   std::vector<Eigen::VectorXd> starts{rest, Eigen::VectorXd(rest.array() + 0.3)};
-  const Vec3 up =
-      model.gravity_G.norm() > 0.0 ? Vec3(-model.gravity_G.normalized()) : Vec3(Vec3::UnitY());
+  const Vec3 up = model.gravity_G.norm() > 0.0 ? Vec3(-model.gravity_G.normalized()) : Vec3(Vec3::UnitY());
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, rest, state);
   for (const model::Joint& joint : model.joints) {
@@ -101,26 +96,20 @@ std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
 }
 
 bool better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
-  return (a.converged && !b.converged && a.cost <= b.cost * (1.0 + 1e-9)) ||
-         a.cost < b.cost * (1.0 - 1e-9);
+  return (a.converged && !b.converged && a.cost <= b.cost * (1.0 + 1e-9)) || a.cost < b.cost * (1.0 - 1e-9);
 }
 
 /// Returns true if a pose replaces the minimum nearest to the start: at half of its cost or less.
-bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
-  return a.converged && a.cost < 0.5 * b.cost;
-}
+bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b) { return a.converged && a.cost < 0.5 * b.cost; }
 
-void check_tasks(const model::BodyModel& model,
-                 const std::vector<CoordinateTask>& tasks,
-                 Eigen::Index frames) {
+void check_tasks(const model::BodyModel& model, const std::vector<CoordinateTask>& tasks, Eigen::Index frames) {
   for (const CoordinateTask& task : tasks) {
     (void)model.coordinate_index(task.coordinate);
     if (!(task.weight >= 0.0))
-      throw InvalidInput(fmt::format("coordinate '{}': weight {}, expected 0 or more",
-                                     task.coordinate, task.weight));
+      throw InvalidInput(fmt::format("coordinate '{}': weight {}, expected 0 or more", task.coordinate, task.weight));
     if (task.values.size() != 0 && task.values.size() != frames)
-      throw InvalidInput(fmt::format("coordinate '{}': {} target values for {} frames",
-                                     task.coordinate, task.values.size(), frames));
+      throw InvalidInput(
+          fmt::format("coordinate '{}': {} target values for {} frames", task.coordinate, task.values.size(), frames));
   }
 }
 
@@ -128,10 +117,7 @@ void check_tasks(const model::BodyModel& model,
 class FrameSequence {
  public:
   FrameSequence(const model::BodyModel& model, const IkOptions& options, PoseFit& fit)
-      : barrier_(options.range_barrier),
-        fit_(fit),
-        posture_(model.default_q()),
-        fresh_(fresh_starts(model)) {}
+      : barrier_(options.range_barrier), fit_(fit), posture_(model.default_q()), fresh_(fresh_starts(model)) {}
 
   /// Returns the posture of the latest frame.
   [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
@@ -144,8 +130,7 @@ class FrameSequence {
     if (!std::isfinite(cost_before_) || !pose.converged || jumped) {
       for (const Eigen::VectorXd& start : fresh_) {
         PoseFit::Pose again = solve_from(start);
-        if (pose.converged ? much_better(again, pose) : better(again, pose))
-          pose = std::move(again);
+        if (pose.converged ? much_better(again, pose) : better(again, pose)) pose = std::move(again);
       }
     }
     pose.cost = fit_.place(pose.q);
@@ -202,8 +187,7 @@ std::vector<Channel> error_channels(const model::BodyModel& model, const std::ve
   return channels;
 }
 
-std::vector<Channel> location_channels(const model::BodyModel& model,
-                                       const std::vector<Pair>& pairs) {
+std::vector<Channel> location_channels(const model::BodyModel& model, const std::vector<Pair>& pairs) {
   std::vector<Channel> channels;
   for (const Pair& pair : pairs) {
     for (const char* axis : {"_tx", "_ty", "_tz"})
@@ -221,8 +205,7 @@ IkResult inverse_kinematics(const model::BodyModel& model,
   const Eigen::Index frames = markers.frame_count();
   check_tasks(model, options.tasks, frames);
   PoseFit fit(model, options, pair_markers(model, markers, options, result.notes));
-  if (fit.free().empty())
-    throw ModelError("inverse kinematics: every coordinate of the model is locked");
+  if (fit.free().empty()) throw ModelError("inverse kinematics: every coordinate of the model is locked");
   const auto pairs = static_cast<Eigen::Index>(fit.pairs().size());
   Eigen::MatrixXd q(frames, static_cast<Eigen::Index>(model.coordinates.size()));
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(frames, 3 + pairs);
@@ -232,8 +215,7 @@ IkResult inverse_kinematics(const model::BodyModel& model,
   for (Eigen::Index frame = 0; frame < frames; ++frame) {
     if (frame % 256 == 0) {
       options.progress.check();
-      options.progress.tell(static_cast<double>(frame) / static_cast<double>(frames),
-                            "inverse kinematics");
+      options.progress.tell(static_cast<double>(frame) / static_cast<double>(frames), "inverse kinematics");
     }
     fit.set_targets(markers, frame);
     if (fit.seen_count() == 0) {
@@ -257,8 +239,7 @@ IkResult inverse_kinematics(const model::BodyModel& model,
   }
   result.q = TimeSeries(markers.time_s, coordinate_channels(model), std::move(q));
   result.errors = TimeSeries(markers.time_s, error_channels(model, fit.pairs()), std::move(errors));
-  result.marker_locations =
-      TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));
+  result.marker_locations = TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));
   for (std::size_t k = 0; k < undetermined.size(); ++k) {
     if (undetermined[k]) result.undetermined.push_back(model.coordinates[at(fit.free()[k])].name);
   }

@@ -24,12 +24,10 @@ struct CoordinateTask {
 struct IkOptions {
   std::map<std::string, double> marker_weights{};  ///< By name; other markers have weight 1.
   std::vector<CoordinateTask> tasks{};
-  /// True: markers without an entry in `marker_weights` do not count, as with OpenSim's marker
-  /// tasks.
+  /// True: markers without an entry in `marker_weights` do not count, as with OpenSim's marker tasks.
   bool only_named_markers = false;
-  /// Above 0: a barrier of this weight, added to J (range_barrier.h) [m^2], keeps clamped
-  /// coordinates inside their ranges. A coordinate that no marker determines goes to the middle of
-  /// its range.
+  /// Above 0: a barrier of this weight, added to J (range_barrier.h) [m^2], keeps clamped coordinates inside their
+  /// ranges. A coordinate that no marker determines goes to the middle of its range.
   double range_barrier = 0.0;
   int max_iterations = 200;
   Progress progress{};
@@ -61,14 +59,13 @@ struct IkResult {
 ///
 ///   J(q) = sum w_i |x_i - m_i(q)|^2 / (2 sum w_i) + sum W_j (q_j - q_j*)^2 / 2
 ///
-/// over the markers seen in the frame. Newton's method with the damping of Levenberg and Marquardt
-/// uses analytic Jacobians and the second derivatives of the chains of rotations. The first frame
-/// and every frame in which the method stalls or J jumps are solved again from other postures (the
-/// default posture, also turned about the vertical); a solution with J of half or less wins. Locked
-/// coordinates stay at their default value, prescribed coordinates follow their function, clamped
-/// coordinates stay within their range. Couplers are eliminated; every step meets the other
-/// constraints (model/constraints.h). Throws InvalidInput if no marker of the file is in the model,
-/// or a weight is negative or of an unknown marker; ModelError if the model cannot be posed.
+/// over the markers seen in the frame. Newton's method with the damping of Levenberg and Marquardt uses analytic
+/// Jacobians and the second derivatives of the chains of rotations. The first frame and every frame in which the method
+/// stalls or J jumps are solved again from other postures (the default posture, also turned about the vertical); a
+/// solution with J of half or less wins. Locked coordinates stay at their default value, prescribed coordinates follow
+/// their function, clamped coordinates stay within their range. Couplers are eliminated; every step meets the other
+/// constraints (model/constraints.h). Throws InvalidInput if no marker of the file is in the model, or a weight is
+/// negative or of an unknown marker; ModelError if the model cannot be posed.
 [[nodiscard]] IkResult inverse_kinematics(const model::BodyModel& model,
                                           const recording::MarkerSeries& markers,
                                           const IkOptions& options = {});

@@ -22,9 +22,7 @@ Unit coordinate_unit(const model::Coordinate& coordinate, int order) {
   }
 }
 
-MotionResult joint_motion(const model::BodyModel& model,
-                          const TimeSeries& q,
-                          const MotionOptions& options) {
+MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, const MotionOptions& options) {
   MotionResult result;
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   const Eigen::VectorXd time = options.time_s.value_or(q.time_s());
@@ -42,17 +40,15 @@ MotionResult joint_motion(const model::BodyModel& model,
     const auto column = q.find(coordinate.name);
     if (!column) {
       value.col(c).setConstant(coordinate.default_value);
-      result.notes.push_back(fmt::format(
-          "coordinate '{}' is not in the motion; it rests at {:.4g} {}", coordinate.name,
-          coordinate.default_value, symbol(coordinate_unit(coordinate, 0))));
+      result.notes.push_back(fmt::format("coordinate '{}' is not in the motion; it rests at {:.4g} {}", coordinate.name,
+                                         coordinate.default_value, symbol(coordinate_unit(coordinate, 0))));
       continue;
     }
     ++found;
     const Eigen::VectorXd samples = q.values().col(*column);
-    const math::Spline spline =
-        options.cutoff_hz
-            ? math::Spline::smooth(q.time_s(), samples, {.cutoff_hz = options.cutoff_hz})
-            : knots->interpolate(samples);
+    const math::Spline spline = options.cutoff_hz
+                                    ? math::Spline::smooth(q.time_s(), samples, {.cutoff_hz = options.cutoff_hz})
+                                    : knots->interpolate(samples);
     const math::SplineValues values = spline.evaluate(time);
     value.col(c) = values.value;
     first.col(c) = values.first;
@@ -66,12 +62,11 @@ MotionResult joint_motion(const model::BodyModel& model,
   }
   for (const Channel& channel : q.channels()) {
     if (!model.find_coordinate(channel.name)) {
-      result.notes.push_back(fmt::format(
-          "column '{}' of the motion is no coordinate of the model; ignored", channel.name));
+      result.notes.push_back(
+          fmt::format("column '{}' of the motion is no coordinate of the model; ignored", channel.name));
     }
   }
-  result.motion = {TimeSeries(time, channels[0], std::move(value)),
-                   TimeSeries(time, channels[1], std::move(first)),
+  result.motion = {TimeSeries(time, channels[0], std::move(value)), TimeSeries(time, channels[1], std::move(first)),
                    TimeSeries(time, channels[2], std::move(second))};
   return result;
 }

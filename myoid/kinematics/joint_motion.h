@@ -9,8 +9,7 @@
 
 namespace myoid::kinematics {
 
-/// Coordinates, their rates and accelerations on one clock; channels are the model's coordinates,
-/// in its order.
+/// Coordinates, their rates and accelerations on one clock; channels are the model's coordinates, in its order.
 struct JointMotion {
   TimeSeries q;      ///< [rad] or [m]
   TimeSeries qdot;   ///< [rad/s] or [m/s]
@@ -20,8 +19,7 @@ struct JointMotion {
 };
 
 struct MotionOptions {
-  /// -3 dB of the quintic smoothing spline [Hz]; empty: the interpolating quintic spline, no
-  /// smoothing.
+  /// -3 dB of the quintic smoothing spline [Hz]; empty: the interpolating quintic spline, no smoothing.
   std::optional<double> cutoff_hz;
   /// Clock of the result; empty: that of the input.
   std::optional<Eigen::VectorXd> time_s;

@@ -22,8 +22,7 @@ model::BodyModel arm() { return model::parse_osim(model::arm4_osim({}), "arm4.os
 /// Markers of the model along coordinates of our own.
 recording::MarkerSeries markers_of(const model::BodyModel& m, const Eigen::MatrixXd& q) {
   recording::MarkerSeries series;
-  series.time_s =
-      Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
+  series.time_s = Eigen::VectorXd::LinSpaced(q.rows(), 0.0, 0.01 * static_cast<double>(q.rows() - 1));
   series.positions_m.resize(q.rows(), static_cast<Eigen::Index>(3 * m.markers.size()));
   for (const model::Marker& marker : m.markers) series.names.push_back(marker.name);
   model::BodyState state = model::make_state(m);
@@ -74,10 +73,8 @@ TEST(InverseKinematics, AMissingMarkerIsLeftOutOfItsFrames) {
   const model::BodyModel m = arm();
   const Eigen::MatrixXd q = swing(m, 30);
   recording::MarkerSeries markers = markers_of(m, q);
-  const auto wrist =
-      std::find(markers.names.begin(), markers.names.end(), "r_wrist") - markers.names.begin();
-  for (Eigen::Index frame = 10; frame < 20; ++frame)
-    markers.positions_m.block<1, 3>(frame, 3 * wrist).setConstant(NAN);
+  const auto wrist = std::find(markers.names.begin(), markers.names.end(), "r_wrist") - markers.names.begin();
+  for (Eigen::Index frame = 10; frame < 20; ++frame) markers.positions_m.block<1, 3>(frame, 3 * wrist).setConstant(NAN);
   const IkResult result = inverse_kinematics(m, markers);
   EXPECT_LT((result.q.values() - q).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_TRUE(std::isnan(result.errors.column("r_wrist")[15]));
@@ -139,12 +136,11 @@ TEST(InverseKinematics, ConvergesWhereTheMarkersLieFarFromTheModel) {
       const auto column = static_cast<Eigen::Index>(c);
       beside.col(column).array() += step;
       if (coordinate.clamped)  // at an end of its range only the inside is to be compared
-        beside.col(column) =
-            beside.col(column).cwiseMax(coordinate.lower).cwiseMin(coordinate.upper);
+        beside.col(column) = beside.col(column).cwiseMax(coordinate.lower).cwiseMin(coordinate.upper);
       const Eigen::MatrixXd here = markers_of(m, result.q.values()).positions_m;
       const Eigen::MatrixXd there = markers_of(m, beside).positions_m;
-      const Eigen::VectorXd rise = (there - markers.positions_m).rowwise().squaredNorm() -
-                                   (here - markers.positions_m).rowwise().squaredNorm();
+      const Eigen::VectorXd rise =
+          (there - markers.positions_m).rowwise().squaredNorm() - (here - markers.positions_m).rowwise().squaredNorm();
       // Where both are the same pose the rise is 0; elsewhere second order: above 1e-9.
       EXPECT_GE(rise.minCoeff(), 0.0) << coordinate.name;
     }
@@ -155,18 +151,14 @@ TEST(InverseKinematics, AgreesWithOpenSimsConvergedSolution) {
   const auto folder = test::data_folder() / "opensim/trial_arm26";
   MYOID_REQUIRE_DATA(folder);
   const model::BodyModel m = model::read_osim(folder / "model.osim");
-  const IkResult result =
-      inverse_kinematics(m, recording::read_trc(folder / "arm26_elbow_flex.trc").markers);
+  const IkResult result = inverse_kinematics(m, recording::read_trc(folder / "arm26_elbow_flex.trc").markers);
   const recording::Storage tight = recording::read_storage(folder / "opensim/ik_tight.mot");
   ASSERT_EQ(result.q.sample_count(), tight.data.sample_count());
   for (const char* name : {"r_shoulder_elev", "r_elbow_flex"}) {
     // The reference has 8 decimals; 0.002 degrees is what its own convergence promises.
-    EXPECT_LT((result.q.column(name) / kDegree - tight.data.column(name)).cwiseAbs().maxCoeff(),
-              0.002)
-        << name;
+    EXPECT_LT((result.q.column(name) / kDegree - tight.data.column(name)).cwiseAbs().maxCoeff(), 0.002) << name;
   }
-  const recording::Storage errors =
-      recording::read_storage(folder / "opensim/tight_ik_marker_errors.sto");
+  const recording::Storage errors = recording::read_storage(folder / "opensim/tight_ik_marker_errors.sto");
   const Eigen::VectorXd theirs = errors.data.column("total_squared_error");
   // Ours is never above theirs by more than the eighth decimal they print.
   EXPECT_LE((result.errors.column("total_squared_error") - theirs).maxCoeff(), 0.51e-8);
@@ -184,8 +176,7 @@ TEST(JointMotion, DifferentiatesEveryCoordinateAndRestsWhereTheMotionIsSilent) {
 
 TEST(JointMotion, RefusesAMotionOfAnotherModel) {
   EXPECT_THROW(
-      (void)joint_motion(
-          arm(), {Eigen::VectorXd::LinSpaced(5, 0, 1), {{"knee"}}, Eigen::MatrixXd::Zero(5, 1)}),
+      (void)joint_motion(arm(), {Eigen::VectorXd::LinSpaced(5, 0, 1), {{"knee"}}, Eigen::MatrixXd::Zero(5, 1)}),
       InvalidInput);
 }
 

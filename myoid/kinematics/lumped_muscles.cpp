@@ -5,8 +5,7 @@ namespace {
 
 /// Returns the weighted means over the heads of each group: n x groups from n x muscles.
 Eigen::MatrixXd lumped(const Eigen::MatrixXd& of_heads, const std::vector<MuscleGroup>& groups) {
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero(of_heads.rows(), static_cast<Eigen::Index>(groups.size()));
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(of_heads.rows(), static_cast<Eigen::Index>(groups.size()));
   for (Eigen::Index g = 0; g < result.cols(); ++g) {
     const MuscleGroup& group = groups[static_cast<std::size_t>(g)];
     for (std::size_t i = 0; i < group.members.size(); ++i)

@@ -22,8 +22,7 @@ struct Shift {
 
 /// Returns the mean of all distances as vectors if it makes more than 90 % of their mean square:
 /// angles cannot explain a displacement that all markers share.
-std::optional<Shift> common_shift(const recording::MarkerSeries& markers,
-                                  const TimeSeries& model_places) {
+std::optional<Shift> common_shift(const recording::MarkerSeries& markers, const TimeSeries& model_places) {
   Vec3 sum = Vec3::Zero();
   double squares = 0.0;
   int count = 0;

@@ -63,10 +63,8 @@ TEST(MarkerMisfit, NamesAShiftThatAllMarkersShare) {
   }
   // A hinge may swing towards the shift; what is left of it is the same for all but little.
   kinematics::IkOptions options;
-  options.tasks.push_back(
-      {"elbow_flexion", arm.default_q()[arm.coordinate_index("elbow_flexion")], 1e3});
-  const MarkerMisfit m =
-      marker_misfit(arm, markers, kinematics::inverse_kinematics(arm, markers, options));
+  options.tasks.push_back({"elbow_flexion", arm.default_q()[arm.coordinate_index("elbow_flexion")], 1e3});
+  const MarkerMisfit m = marker_misfit(arm, markers, kinematics::inverse_kinematics(arm, markers, options));
   EXPECT_FALSE(m.wrong_unit);
   EXPECT_NE(m.warning.find("(0.000, -0.800, 0.100) m"), std::string::npos) << m.warning;
 }

@@ -14,8 +14,8 @@ std::vector<signals::ExpectedSegment> segments_of(const model::BodyModel& model,
     const auto it = std::find(markers.names.begin(), markers.names.end(), marker.name);
     if (it == markers.names.end()) continue;
     signals::ExpectedSegment& e = by_body[marker.body];
-    e.segment.name = marker.body >= 0 ? model.bodies[static_cast<std::size_t>(marker.body)].name
-                                      : std::string("ground");
+    e.segment.name =
+        marker.body >= 0 ? model.bodies[static_cast<std::size_t>(marker.body)].name : std::string("ground");
     e.segment.markers.push_back(it - markers.names.begin());
     e.local_m.conservativeResize(3, e.local_m.cols() + 1);
     e.local_m.col(e.local_m.cols() - 1) = marker.p_BM;

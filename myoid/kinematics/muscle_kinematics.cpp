@@ -28,9 +28,7 @@ struct MuscleTables {
 /// The muscles of one thread, frame by frame.
 class MuscleFrames {
  public:
-  MuscleFrames(const model::BodyModel& model,
-               const std::vector<PathSurrogate>* surrogates,
-               MuscleTables& tables)
+  MuscleFrames(const model::BodyModel& model, const std::vector<PathSurrogate>* surrogates, MuscleTables& tables)
       : model_(model),
         surrogates_(surrogates),
         tables_(tables),
@@ -91,8 +89,8 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model,
                                    const JointMotion& motion,
                                    const MuscleKinematicsOptions& options) {
   if (options.surrogates && options.surrogates->size() != model.muscles.size()) {
-    throw InvalidInput(fmt::format("expected a path surrogate for each of {} muscles, found {}",
-                                   model.muscles.size(), options.surrogates->size()));
+    throw InvalidInput(fmt::format("expected a path surrogate for each of {} muscles, found {}", model.muscles.size(),
+                                   options.surrogates->size()));
   }
   const Eigen::Index frames = motion.sample_count();
   MuscleTables tables(frames, model);
@@ -101,23 +99,20 @@ MuscleKinematics muscle_kinematics(const model::BodyModel& model,
   parallel_ranges<Eigen::Index>(frames, 64, [&](const auto& range) {
     MuscleFrames muscles(model, options.surrogates, tables);
     options.progress.check();
-    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame)
-      muscles.compute(motion, frame);
+    for (Eigen::Index frame = range.begin(); frame != range.end(); ++frame) muscles.compute(motion, frame);
     from_surrogates += muscles.from_surrogates();
     done += static_cast<Eigen::Index>(range.size());
     options.progress.tell(static_cast<double>(done) / static_cast<double>(frames), "muscle paths");
   });
   const Eigen::VectorXd& time = motion.q.time_s();
   const std::vector<Channel> meters = muscle_channels(model, Unit::meter);
-  MuscleKinematics result{
-      TimeSeries(time, meters, std::move(tables.length)),
-      TimeSeries(time, muscle_channels(model, Unit::meter_per_second), std::move(tables.velocity)),
-      {},
-      from_surrogates};
+  MuscleKinematics result{TimeSeries(time, meters, std::move(tables.length)),
+                          TimeSeries(time, muscle_channels(model, Unit::meter_per_second), std::move(tables.velocity)),
+                          {},
+                          from_surrogates};
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     if (model.coordinates[c].locked) continue;
-    result.moment_arm.emplace(model.coordinates[c].name,
-                              TimeSeries(time, meters, std::move(tables.arms[c])));
+    result.moment_arm.emplace(model.coordinates[c].name, TimeSeries(time, meters, std::move(tables.arms[c])));
   }
   return result;
 }

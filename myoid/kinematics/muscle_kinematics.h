@@ -28,9 +28,8 @@ struct MuscleKinematicsOptions {
   Progress progress;
 };
 
-/// Computes lengths, velocities and moment arms of all muscles along a motion. Parallel over
-/// frames, with equal results for every number of threads. Throws Interrupted if a stop is
-/// requested.
+/// Computes lengths, velocities and moment arms of all muscles along a motion. Parallel over frames, with equal results
+/// for every number of threads. Throws Interrupted if a stop is requested.
 [[nodiscard]] MuscleKinematics muscle_kinematics(const model::BodyModel& model,
                                                  const JointMotion& motion,
                                                  const MuscleKinematicsOptions& options = {});

@@ -25,8 +25,7 @@ TEST(MuscleKinematics, LengthsChangeByTheIntegralOfTheVelocity) {
     double integral = 0.0;
     for (Eigen::Index i = 100; i + 2 <= 400; i += 2) {
       integral += 0.01 / 3.0 *
-                  (k.velocity.values()(i, c) + 4.0 * k.velocity.values()(i + 1, c) +
-                   k.velocity.values()(i + 2, c));
+                  (k.velocity.values()(i, c) + 4.0 * k.velocity.values()(i + 1, c) + k.velocity.values()(i + 2, c));
     }
     EXPECT_NEAR(k.length.values()(400, c) - k.length.values()(100, c), integral, 1e-8);
   }
@@ -39,8 +38,8 @@ TEST(MuscleKinematics, PowerBalances) {
   const MuscleKinematics k = muscle_kinematics(m, motion);
   const Eigen::VectorXd rate = motion.qdot.column("elbow_flexion");
   for (Eigen::Index c = 0; c < k.length.channel_count(); ++c) {
-    const Eigen::VectorXd sum = k.velocity.values().col(c) +
-                                k.moment_arm.at("elbow_flexion").values().col(c).cwiseProduct(rate);
+    const Eigen::VectorXd sum =
+        k.velocity.values().col(c) + k.moment_arm.at("elbow_flexion").values().col(c).cwiseProduct(rate);
     EXPECT_LT(sum.cwiseAbs().maxCoeff(), 1e-15);
   }
 }

@@ -15,9 +15,7 @@
 namespace myoid::kinematics {
 namespace {
 
-std::string axis_name(const std::string& sensor, std::size_t axis) {
-  return fmt::format("{}|{}", sensor, "xyz"[axis]);
-}
+std::string axis_name(const std::string& sensor, std::size_t axis) { return fmt::format("{}|{}", sensor, "xyz"[axis]); }
 
 /// Returns the model with all bodies at the origin of ground, free to turn as before, and a marker
 /// at the end of every axis of every sensor.
@@ -48,8 +46,8 @@ model::BodyModel turning_only(const model::BodyModel& model,
   turning.markers.clear();
   for (const SensorOnBody& sensor : sensors) {
     for (std::size_t k = 0; k < 3; ++k) {
-      turning.markers.push_back({axis_name(series.names[sensor.column], k), sensor.body,
-                                 sensor.R_BS.col(static_cast<Eigen::Index>(k))});
+      turning.markers.push_back(
+          {axis_name(series.names[sensor.column], k), sensor.body, sensor.R_BS.col(static_cast<Eigen::Index>(k))});
     }
   }
   return turning;
@@ -61,8 +59,7 @@ recording::MarkerSeries axis_ends(const recording::OrientationSeries& series,
   markers.time_s = series.time_s;
   markers.positions_m.resize(series.time_s.size(), 9 * static_cast<Eigen::Index>(sensors.size()));
   for (std::size_t s = 0; s < sensors.size(); ++s) {
-    for (std::size_t k = 0; k < 3; ++k)
-      markers.names.push_back(axis_name(series.names[sensors[s].column], k));
+    for (std::size_t k = 0; k < 3; ++k) markers.names.push_back(axis_name(series.names[sensors[s].column], k));
     for (Eigen::Index i = 0; i < series.time_s.size(); ++i) {
       const Mat3 R = series.rotation(i, sensors[s].column);
       markers.positions_m.block<1, 9>(i, 9 * static_cast<Eigen::Index>(s)) =
@@ -126,8 +123,7 @@ class AngleFit {
         T.row(c.dependent) = evaluate(c.function, q[c.independent]).first * T.row(c.independent);
       for (const model::LoopConstraint& c : model_.constraints) {
         const auto& f = std::get<model::FunctionConstraint>(c.law);
-        const Eigen::VectorXd gradient =
-            evaluate(f.function, Eigen::VectorXd(q(f.independent))).gradient;
+        const Eigen::VectorXd gradient = evaluate(f.function, Eigen::VectorXd(q(f.independent))).gradient;
         const Eigen::RowVectorXd rate = gradient.transpose() * T(f.independent, Eigen::all);
         T.row(f.dependent) = rate;
       }
@@ -170,8 +166,8 @@ class AngleFit {
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const model::Coordinate& c = model_.coordinates[at(free_[k])];
       const auto i = static_cast<Eigen::Index>(k);
-      const bool out = (q[free_[k]] >= c.upper - 1e-9 && pull_[i] > 0.0) ||
-                       (q[free_[k]] <= c.lower + 1e-9 && pull_[i] < 0.0);
+      const bool out =
+          (q[free_[k]] >= c.upper - 1e-9 && pull_[i] > 0.0) || (q[free_[k]] <= c.lower + 1e-9 && pull_[i] < 0.0);
       if (!c.clamped || !out) continue;
       pull_[i] = 0.0;
       hessian_.row(i).setZero();
@@ -186,8 +182,7 @@ class AngleFit {
       const double before = value;
       value += step[static_cast<Eigen::Index>(k)];
       // A coordinate that begins outside its range by round-off may stay there.
-      if (c.clamped)
-        value = std::clamp(value, std::min(c.lower, before), std::max(c.upper, before));
+      if (c.clamped) value = std::clamp(value, std::min(c.lower, before), std::max(c.upper, before));
     }
     return model::assemble(model_, q).q;
   }
@@ -212,8 +207,7 @@ Eigen::MatrixXd angles_between(const model::BodyModel& model,
     for (std::size_t s = 0; s < sensors.size(); ++s) {
       const Mat3 R_GS = state.X_GB[at(sensors[s].body)].R * sensors[s].R_BS;
       const Mat3 apart = R_GS.transpose() * series.rotation(i, sensors[s].column);
-      angles(i, static_cast<Eigen::Index>(s)) =
-          apart.allFinite() ? Eigen::AngleAxisd(apart).angle() : std::nan("");
+      angles(i, static_cast<Eigen::Index>(s)) = apart.allFinite() ? Eigen::AngleAxisd(apart).angle() : std::nan("");
     }
   }
   return angles;
@@ -252,8 +246,7 @@ OrientationFit fit_orientations(const model::BodyModel& model,
     postures.row(i) = q.transpose();
   }
   fit.q = TimeSeries(series.time_s, solved.q.channels(), std::move(postures));
-  fit.errors_rad = TimeSeries(series.time_s, std::move(channels),
-                              angles_between(turning, fit.q, series, sensors));
+  fit.errors_rad = TimeSeries(series.time_s, std::move(channels), angles_between(turning, fit.q, series, sensors));
   fit.frames_without_sensors = solved.frames_without_markers;
   fit.undetermined = std::move(solved.undetermined);
   return fit;

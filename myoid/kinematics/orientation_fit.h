@@ -28,12 +28,11 @@ struct OrientationFit {
 ///
 ///   minimize  sum_i w_i theta_i^2 / 2,
 ///
-/// where theta_i is the angle between a sensor's frame in the model and its measured orientation,
-/// over the sensors seen in the frame, as in OpenSim. Inverse kinematics of three points on the
-/// axes of each sensor, in a model whose bodies only turn, gives the least sum_i w_i (1 - cos
-/// theta_i); Gauss-Newton steps refine it. Translational coordinates keep their default values.
-/// Throws InvalidInput for no sensor or a weight below 0, ModelError for a model with closed loops,
-/// in which places matter.
+/// where theta_i is the angle between a sensor's frame in the model and its measured orientation, over the sensors seen
+/// in the frame, as in OpenSim. Inverse kinematics of three points on the axes of each sensor, in a model whose bodies
+/// only turn, gives the least sum_i w_i (1 - cos theta_i); Gauss-Newton steps refine it. Translational coordinates keep
+/// their default values. Throws InvalidInput for no sensor or a weight below 0, ModelError for a model with closed
+/// loops, in which places matter.
 [[nodiscard]] OrientationFit fit_orientations(const model::BodyModel& model,
                                               const recording::OrientationSeries& series,
                                               const std::vector<SensorOnBody>& sensors,

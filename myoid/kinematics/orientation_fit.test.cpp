@@ -33,16 +33,13 @@ class FittedOrientations : public ::testing::Test {
   /// Orientations of the postures, each turned by up to `noise_rad` about a random axis.
   void measure(const std::vector<Eigen::VectorXd>& postures, double noise_rad) {
     const auto frames = static_cast<Eigen::Index>(postures.size());
-    series_.time_s =
-        Eigen::VectorXd::LinSpaced(frames, 0.0, 0.01 * static_cast<double>(frames - 1));
+    series_.time_s = Eigen::VectorXd::LinSpaced(frames, 0.0, 0.01 * static_cast<double>(frames - 1));
     series_.quaternions.resize(frames, 4 * static_cast<Eigen::Index>(sensors_.size()));
     for (Eigen::Index i = 0; i < frames; ++i) {
       for (std::size_t s = 0; s < sensors_.size(); ++s) {
         const Mat3 error = rotation_body_xyz(noise_rad * Vec3(uniform(), uniform(), uniform()));
-        const Eigen::Quaterniond q(
-            Mat3(sensor_at(postures[static_cast<std::size_t>(i)], s) * error));
-        series_.quaternions.block<1, 4>(i, 4 * static_cast<Eigen::Index>(s)) << q.w(), q.x(), q.y(),
-            q.z();
+        const Eigen::Quaterniond q(Mat3(sensor_at(postures[static_cast<std::size_t>(i)], s) * error));
+        series_.quaternions.block<1, 4>(i, 4 * static_cast<Eigen::Index>(s)) << q.w(), q.x(), q.y(), q.z();
       }
     }
   }
@@ -84,17 +81,13 @@ TEST_F(FittedOrientations, GiveTheAnglesBack) {
   EXPECT_EQ(fit.frames_not_converged, 0);
   for (std::size_t i = 0; i < postures.size(); ++i) {
     // Newton's steps stop at 1e-9 or so; a quaternion has sixteen digits.
-    EXPECT_LT((fit.q.values().row(static_cast<Eigen::Index>(i)).transpose() - postures[i])
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-6)
+    EXPECT_LT((fit.q.values().row(static_cast<Eigen::Index>(i)).transpose() - postures[i]).cwiseAbs().maxCoeff(), 1e-6)
         << i;
   }
   EXPECT_LT(fit.errors_rad.values().maxCoeff(), 1e-6);
 }
 
-// With noise: the cost, computed another way, is flat at the solution and rises along every
-// coordinate that is free.
+// With noise: the cost, computed another way, is flat at the solution and rises along every coordinate that is free.
 TEST_F(FittedOrientations, HaveTheLeastCost) {
   measure(swing(), 0.2);
   const OrientationFit fit = fit_orientations(arm_, series_, sensors_);
@@ -115,8 +108,8 @@ TEST_F(FittedOrientations, HaveTheLeastCost) {
     }
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
       const Mat3 apart = sensor_at(q, s).transpose() * series_.rotation(i, s);
-      EXPECT_NEAR(fit.errors_rad.values()(i, static_cast<Eigen::Index>(s)),
-                  std::acos(0.5 * (apart.trace() - 1.0)), 1e-9);
+      EXPECT_NEAR(fit.errors_rad.values()(i, static_cast<Eigen::Index>(s)), std::acos(0.5 * (apart.trace() - 1.0)),
+                  1e-9);
     }
   }
 }
@@ -130,8 +123,7 @@ TEST_F(FittedOrientations, LeaveOutWhatIsMissingAndRefuseLoops) {
   EXPECT_EQ(fit.frames_without_sensors, 1);
   EXPECT_EQ(fit.q.values().row(5), fit.q.values().row(4));
   model::BodyModel loop = arm_;
-  loop.constraints.push_back(
-      {"loop", "PointConstraint", model::FrameConstraint{.body1 = 0, .body2 = 1}});
+  loop.constraints.push_back({"loop", "PointConstraint", model::FrameConstraint{.body1 = 0, .body2 = 1}});
   EXPECT_THROW((void)fit_orientations(loop, series_, sensors_), ModelError);
   EXPECT_THROW((void)fit_orientations(arm_, series_, {}), InvalidInput);
 }

@@ -21,8 +21,7 @@
 namespace myoid::kinematics {
 namespace {
 
-void add_exponents(
-    int left, int position, Eigen::RowVectorXi& row, Eigen::MatrixXi& all, Eigen::Index& count) {
+void add_exponents(int left, int position, Eigen::RowVectorXi& row, Eigen::MatrixXi& all, Eigen::Index& count) {
   if (position + 1 == row.size()) {
     row[position] = left;
     all.row(count++) = row;
@@ -51,9 +50,7 @@ void prepare(int dimensions, int degree, SurrogateWorkspace& w) {
 }
 
 /// Computes T_0 .. T_degree of every coordinate and their derivatives by q.
-void fill_tables(const PathSurrogate& s,
-                 const Eigen::Ref<const Eigen::VectorXd>& q,
-                 SurrogateWorkspace& w) {
+void fill_tables(const PathSurrogate& s, const Eigen::Ref<const Eigen::VectorXd>& q, SurrogateWorkspace& w) {
   for (Eigen::Index i = 0; i < w.value.cols(); ++i) {
     const double width = s.upper[i] - s.lower[i];
     const double x = (2.0 * q[s.coordinates[at(i)]] - s.lower[i] - s.upper[i]) / width;
@@ -64,8 +61,7 @@ void fill_tables(const PathSurrogate& s,
     w.slope(1, i) = 2.0 / width;
     for (Eigen::Index k = 2; k <= s.degree; ++k) {
       w.value(k, i) = 2.0 * x * w.value(k - 1, i) - w.value(k - 2, i);
-      w.slope(k, i) =
-          4.0 / width * w.value(k - 1, i) + 2.0 * x * w.slope(k - 1, i) - w.slope(k - 2, i);
+      w.slope(k, i) = 4.0 / width * w.value(k - 1, i) + 2.0 * x * w.slope(k - 1, i) - w.slope(k - 2, i);
     }
   }
 }
@@ -105,11 +101,8 @@ void add_up(const PathSurrogate& s,
 }
 
 /// Calls add_up for any number of coordinates.
-void add_up_many(const PathSurrogate& s,
-                 SurrogateWorkspace& w,
-                 Eigen::Index level,
-                 int left,
-                 const Eigen::Index*& term) {
+void add_up_many(
+    const PathSurrogate& s, SurrogateWorkspace& w, Eigen::Index level, int left, const Eigen::Index*& term) {
   const Eigen::Index below = w.value.cols() - level - 1;
   double* const sum = w.sums.col(level).data();
   if (below == 3) return add_up<3>(s, w, level, left, term, sum);
@@ -164,8 +157,7 @@ class TruePath {
       : model_(model), path_(path), q_(model.default_q()), state_(model::make_state(model)) {}
 
   const model::PathResult& at(const PathSurrogate& s, const Eigen::VectorXd& x) {
-    for (std::size_t i = 0; i < s.coordinates.size(); ++i)
-      q_[s.coordinates[i]] = x[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < s.coordinates.size(); ++i) q_[s.coordinates[i]] = x[static_cast<Eigen::Index>(i)];
     model::apply_couplers(model_, q_);
     model::compute_poses(model_, q_, state_);
     model::compute_path(model_, path_, state_, workspace_, result_);
@@ -187,8 +179,7 @@ class TruePath {
     // Chains of couplers: as often as there are couplers.
     for (std::size_t pass = 0; pass < model.couplers.size(); ++pass) {
       for (const model::CoordinateCoupler& k : model.couplers)
-        C.row(k.dependent) =
-            model::evaluate(k.function, state.q[k.independent]).first * C.row(k.independent);
+        C.row(k.dependent) = model::evaluate(k.function, state.q[k.independent]).first * C.row(k.independent);
     }
     return C;
   }
@@ -209,16 +200,13 @@ Eigen::MatrixXd scaled(Eigen::MatrixXd unit, const PathSurrogate& s) {
       const Eigen::Index which = (row / 5) % (2 * unit.cols());
       unit(row, which / 2) = which % 2 == 0 ? 0.0 : 1.0;
     }
-    unit.row(row) =
-        s.lower.transpose() + unit.row(row).cwiseProduct((s.upper - s.lower).transpose());
+    unit.row(row) = s.lower.transpose() + unit.row(row).cwiseProduct((s.upper - s.lower).transpose());
   }
   return unit;
 }
 
 Eigen::MatrixXd training_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
-  return scaled(
-      math::sobol_points(count, static_cast<int>(s.coordinates.size()), {.scramble_seed = seed}),
-      s);
+  return scaled(math::sobol_points(count, static_cast<int>(s.coordinates.size()), {.scramble_seed = seed}), s);
 }
 
 Eigen::MatrixXd unseen_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
@@ -234,8 +222,7 @@ Eigen::MatrixXd truth_at(TruePath& path, const PathSurrogate& s, const Eigen::Ma
   for (Eigen::Index row = 0; row < postures.rows(); ++row) {
     const model::PathResult& result = path.at(s, postures.row(row).transpose());
     truth(row, 0) = result.length_m;
-    for (Eigen::Index i = 0; i < postures.cols(); ++i)
-      truth(row, 1 + i) = result.moment_arm_m[s.coordinates[at(i)]];
+    for (Eigen::Index i = 0; i < postures.cols(); ++i) truth(row, 1 + i) = result.moment_arm_m[s.coordinates[at(i)]];
   }
   return truth;
 }
@@ -265,8 +252,7 @@ void solve(PathSurrogate& s,
       block.row(0) /= options.length_tolerance_m;
       block.bottomRows(d) /= -options.arm_tolerance_m;
       wanted[k * (1 + d)] = truth(begin + k, 0) / options.length_tolerance_m;
-      wanted.segment(k * (1 + d) + 1, d) =
-          truth.row(begin + k).tail(d).transpose() / options.arm_tolerance_m;
+      wanted.segment(k * (1 + d) + 1, d) = truth.row(begin + k).tail(d).transpose() / options.arm_tolerance_m;
     }
     const auto used = rows.topRows(count * (1 + d));
     normal.selfadjointView<Eigen::Lower>().rankUpdate(used.transpose());
@@ -300,15 +286,12 @@ void measure(PathSurrogate& s,
     }
   }
   s.length_rms_m = std::sqrt(s.length_rms_m / static_cast<double>(postures.rows()));
-  s.arm_rms_m = std::sqrt(s.arm_rms_m / static_cast<double>(std::max<Eigen::Index>(
-                                            1, postures.rows() * postures.cols())));
-  s.within_tolerance =
-      s.length_error_m <= options.length_tolerance_m && s.arm_error_m <= options.arm_tolerance_m;
+  s.arm_rms_m =
+      std::sqrt(s.arm_rms_m / static_cast<double>(std::max<Eigen::Index>(1, postures.rows() * postures.cols())));
+  s.within_tolerance = s.length_error_m <= options.length_tolerance_m && s.arm_error_m <= options.arm_tolerance_m;
 }
 
-PathSurrogate fit(const model::BodyModel& model,
-                  const model::Muscle& muscle,
-                  const SurrogateOptions& options) {
+PathSurrogate fit(const model::BodyModel& model, const model::Muscle& muscle, const SurrogateOptions& options) {
   PathSurrogate s;
   s.muscle = muscle.name;
   const auto append = [](Eigen::VectorXd& list, double value) {
@@ -342,8 +325,7 @@ PathSurrogate fit(const model::BodyModel& model,
   // A path with lengths that are not finite has no polynomial.
   if (!unseen_truth.allFinite()) return best;
   const auto badness = [&](const PathSurrogate& x) {
-    return std::max(x.length_error_m / options.length_tolerance_m,
-                    x.arm_error_m / options.arm_tolerance_m);
+    return std::max(x.length_error_m / options.length_tolerance_m, x.arm_error_m / options.arm_tolerance_m);
   };
   for (s.degree = 1; s.degree <= options.max_degree; ++s.degree) {
     const double terms = term_count(d, s.degree);
@@ -381,15 +363,13 @@ Eigen::MatrixXi exponents(int coordinates, int degree) {
 std::vector<int> acting_coordinates(const model::BodyModel& model, const model::MusclePath& path) {
   std::set<model::BodyIndex> bodies;
   std::set<int> acting;
-  if (path.function)
-    acting.insert(path.function->coordinates.begin(), path.function->coordinates.end());
+  if (path.function) acting.insert(path.function->coordinates.begin(), path.function->coordinates.end());
   for (const model::PathPoint& point : path.points) {
     bodies.insert(point.body);
     if (point.moving && point.moving->coordinate >= 0) acting.insert(point.moving->coordinate);
     if (point.condition) acting.insert(point.condition->coordinate);
   }
-  for (const model::PathWrap& wrap : path.wraps)
-    bodies.insert(model.wrap_objects[at(wrap.wrap_object)].body);
+  for (const model::PathWrap& wrap : path.wraps) bodies.insert(model.wrap_objects[at(wrap.wrap_object)].body);
   // Joints above one body but not above another.
   std::vector<std::size_t> times(model.joints.size(), 0);
   for (model::BodyIndex body : bodies) {
@@ -413,21 +393,17 @@ std::vector<int> acting_coordinates(const model::BodyModel& model, const model::
   return {acting.begin(), acting.end()};
 }
 
-std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
-                                          const SurrogateOptions& options) {
+std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model, const SurrogateOptions& options) {
   std::vector<PathSurrogate> all(model.muscles.size());
   std::atomic<std::size_t> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t m) {
     all[m] = fit(model, model.muscles[m], options);
-    options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()),
-                          "path surrogates");
+    options.progress.tell(static_cast<double>(++done) / static_cast<double>(all.size()), "path surrogates");
   });
   return all;
 }
 
-bool covers(const model::BodyModel& model,
-            const PathSurrogate& surrogate,
-            const Eigen::Ref<const Eigen::VectorXd>& q) {
+bool covers(const model::BodyModel& model, const PathSurrogate& surrogate, const Eigen::Ref<const Eigen::VectorXd>& q) {
   for (std::size_t i = 0; i < surrogate.coordinates.size(); ++i) {
     const double value = q[surrogate.coordinates[i]];
     const auto k = static_cast<Eigen::Index>(i);
@@ -438,8 +414,7 @@ bool covers(const model::BodyModel& model,
     if (!(std::abs(q[surrogate.held[i]] - held_at) <= 1e-12)) return false;
   }
   for (const model::CoordinateCoupler& k : model.couplers) {
-    if (!(std::abs(q[k.dependent] - model::evaluate(k.function, q[k.independent]).value) <= 1e-6))
-      return false;
+    if (!(std::abs(q[k.dependent] - model::evaluate(k.function, q[k.independent]).value) <= 1e-6)) return false;
   }
   return true;
 }

@@ -49,18 +49,15 @@ struct SurrogateOptions {
 /// Returns the exponents of the terms, one row each, in order of their sum: terms x coordinates.
 [[nodiscard]] Eigen::MatrixXi exponents(int coordinates, int degree);
 
-/// Returns the coordinates that may change the path: those of the joints between its bodies and of
-/// its moving and conditional points, with dependent ones replaced by the coordinates that drive
-/// them.
-[[nodiscard]] std::vector<int> acting_coordinates(const model::BodyModel& model,
-                                                  const model::MusclePath& path);
+/// Returns the coordinates that may change the path: those of the joints between its bodies and of its moving and
+/// conditional points, with dependent ones replaced by the coordinates that drive them.
+[[nodiscard]] std::vector<int> acting_coordinates(const model::BodyModel& model, const model::MusclePath& path);
 
-/// Fits one surrogate per muscle, in the model's order and the mode of `model.compat`: length and
-/// moment arms together by least squares at Sobol points of the coordinates' ranges (at most 3 rad
-/// or 1 m to either side of the default), with locked coordinates at their default. The degree
-/// rises from 1 until both greatest errors are within tolerance; otherwise the best degree stays
-/// and is marked. No polynomial follows a path that jumps. Parallel over muscles, with equal
-/// results for every number of threads.
+/// Fits one surrogate per muscle, in the model's order and the mode of `model.compat`: length and moment arms together
+/// by least squares at Sobol points of the coordinates' ranges (at most 3 rad or 1 m to either side of the default),
+/// with locked coordinates at their default. The degree rises from 1 until both greatest errors are within tolerance;
+/// otherwise the best degree stays and is marked. No polynomial follows a path that jumps. Parallel over muscles, with
+/// equal results for every number of threads.
 [[nodiscard]] std::vector<PathSurrogate> fit_surrogates(const model::BodyModel& model,
                                                         const SurrogateOptions& options = {});
 

@@ -103,8 +103,7 @@ TEST(PathSurrogate, StandsForThePathInACoupledModel) {
   model::BodyModel m = model::read_osim(test::data_folder() / "opensim/rajagopal2016/model.osim");
   std::erase_if(m.muscles, [](const model::Muscle& muscle) { return muscle.name != "vasint_r"; });
   ASSERT_EQ(m.muscles.size(), 1U);
-  const SurrogateOptions options{
-      .length_tolerance_m = 1e-3, .arm_tolerance_m = 3e-3, .max_degree = 12};
+  const SurrogateOptions options{.length_tolerance_m = 1e-3, .arm_tolerance_m = 3e-3, .max_degree = 12};
   const std::vector<PathSurrogate> all = fit_surrogates(m, options);
   EXPECT_TRUE(all[0].within_tolerance) << all[0].length_error_m << " " << all[0].arm_error_m;
   EXPECT_EQ(all[0].coordinates, std::vector<int>{m.coordinate_index("knee_angle_r")});
@@ -125,14 +124,11 @@ TEST(PathSurrogate, StandsForThePathInACoupledModel) {
   const MuscleKinematics fitted = muscle_kinematics(m, motion, {.surrogates = &all});
   EXPECT_EQ(path.from_surrogates, 0);
   EXPECT_EQ(fitted.from_surrogates, 101);
-  EXPECT_LT((fitted.length.values() - path.length.values()).cwiseAbs().maxCoeff(),
-            1.1 * all[0].length_error_m);
+  EXPECT_LT((fitted.length.values() - path.length.values()).cwiseAbs().maxCoeff(), 1.1 * all[0].length_error_m);
   for (const char* name : {"knee_angle_r", "knee_angle_r_beta"}) {
     // By the patella's own coordinate the knee follows: about the inverse of their ratio.
     const double ratio = std::string(name) == "knee_angle_r" ? 1.0 : 3.0;
-    EXPECT_LT((fitted.moment_arm.at(name).values() - path.moment_arm.at(name).values())
-                  .cwiseAbs()
-                  .maxCoeff(),
+    EXPECT_LT((fitted.moment_arm.at(name).values() - path.moment_arm.at(name).values()).cwiseAbs().maxCoeff(),
               ratio * options.arm_tolerance_m)
         << name;
   }
@@ -159,8 +155,7 @@ TEST(PathSurrogate, IsTheSameForEveryNumberOfThreads) {
   const std::vector<PathSurrogate> many = fit_surrogates(m);
   const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const std::vector<PathSurrogate> single = fit_surrogates(m);
-  for (std::size_t i = 0; i < many.size(); ++i)
-    EXPECT_EQ(many[i].coefficient_m, single[i].coefficient_m);
+  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[i].coefficient_m, single[i].coefficient_m);
 }
 
 }  // namespace

@@ -64,15 +64,13 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
       } else {
         for (const model::TransformAxis& axis : joint.rotation) {
           const auto& added = chain.coordinates;
-          if (axis.coordinate >= 0 &&
-              std::find(added.begin(), added.end(), axis.coordinate) == added.end())
+          if (axis.coordinate >= 0 && std::find(added.begin(), added.end(), axis.coordinate) == added.end())
             add(axis.coordinate);
         }
       }
     }
   }
-  for (const CoordinateTask& task : options.tasks)
-    task_index_.push_back(model.coordinate_index(task.coordinate));
+  for (const CoordinateTask& task : options.tasks) task_index_.push_back(model.coordinate_index(task.coordinate));
   seen_.assign(pairs_.size(), false);
   target_.assign(pairs_.size(), Vec3::Zero());
 }
@@ -136,8 +134,7 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   model::compute_poses(model_, q, state_);
   double cost = 0.0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (seen_[i])
-      cost += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
+    if (seen_[i]) cost += pairs_[i].weight * scale_ * (marker_position(i) - target_[i]).squaredNorm();
   }
   for (std::size_t j = 0; j < task_index_.size(); ++j) {
     const double off = q[task_index_[j]] - target_of(j);
@@ -147,8 +144,7 @@ double PoseFit::cost_at(const Eigen::VectorXd& q) {
   return cost;
 }
 
-/// Returns the velocity, per rate of a coordinate, of the chain body's point at the origin of
-/// ground.
+/// Returns the velocity, per rate of a coordinate, of the chain body's point at the origin of ground.
 Vec3 PoseFit::origin_rate(const Chain& chain, std::size_t place) const {
   const std::size_t c = at(chain.coordinates[place]);
   return state_.H_v_G[c] + state_.X_GB[chain.body_of[place]].p.cross(state_.H_w_G[c]);
@@ -180,8 +176,7 @@ void PoseFit::gather_pulls() {
   }
 }
 
-/// Adds the derivatives by the coordinate at place b of a chain, also mixed with earlier
-/// coordinates.
+/// Adds the derivatives by the coordinate at place b of a chain, also mixed with earlier coordinates.
 void PoseFit::add_coordinate(const Chain& chain, std::size_t b, const Pull& pull) {
   const int cb = chain.coordinates[b];
   const int kb = reduced_[at(cb)];
@@ -244,8 +239,7 @@ void PoseFit::linearize(const Eigen::VectorXd& q) {
 
 Eigen::VectorXd PoseFit::moved(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const {
   Eigen::VectorXd next = q;
-  for (std::size_t k = 0; k < free_.size(); ++k)
-    next[free_[k]] += step[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < free_.size(); ++k) next[free_[k]] += step[static_cast<Eigen::Index>(k)];
   obey(next);
   return next;
 }
@@ -263,8 +257,7 @@ double PoseFit::farthest_turn(const Eigen::VectorXd& step) const {
 Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   const auto n = static_cast<Eigen::Index>(free_.size());
   const Eigen::MatrixXd all = model::constraint_jacobian(model_, state_);
-  const Eigen::MatrixXd loops =
-      all.bottomRows(all.rows() - static_cast<Eigen::Index>(model_.couplers.size()));
+  const Eigen::MatrixXd loops = all.bottomRows(all.rows() - static_cast<Eigen::Index>(model_.couplers.size()));
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loops.rows(), n);
   for (Eigen::Index c = 0; c < q.size(); ++c) {
     if (reduced_[at(c)] >= 0) rows.col(reduced_[at(c)]) += gain_[c] * loops.col(c);
@@ -272,23 +265,21 @@ Eigen::MatrixXd PoseFit::allowed_directions(const Eigen::VectorXd& q) const {
   return math::null_space(rows);
 }
 
-/// Returns the free coordinates at an end of their range whose descent leads outside: they are
-/// held.
+/// Returns the free coordinates at an end of their range whose descent leads outside: they are held.
 std::vector<bool> PoseFit::held_at_ends(const Eigen::VectorXd& q) const {
   std::vector<bool> held(free_.size(), false);
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const auto& coordinate = model_.coordinates[at(free_[k])];
     const double value = q[free_[k]];
     const double slope = gradient_[static_cast<Eigen::Index>(k)];
-    held[k] = coordinate.clamped && ((value <= coordinate.lower && slope > 0.0) ||
-                                     (value >= coordinate.upper && slope < 0.0));
+    held[k] = coordinate.clamped &&
+              ((value <= coordinate.lower && slope > 0.0) || (value >= coordinate.upper && slope < 0.0));
   }
   return held;
 }
 
-/// Returns the damped step of the free coordinates from q; empty where the matrix is not positive
-/// definite. `N` spans the allowed steps (no columns: all). Held coordinates have no step and no
-/// gradient.
+/// Returns the damped step of the free coordinates from q; empty where the matrix is not positive definite. `N` spans
+/// the allowed steps (no columns: all). Held coordinates have no step and no gradient.
 std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
                                                     const std::vector<bool>& held,
                                                     const Eigen::MatrixXd& N,
@@ -324,8 +315,7 @@ std::optional<Eigen::VectorXd> PoseFit::damped_step(const Eigen::VectorXd& q,
 void PoseFit::descend(Pose& pose, double& damping) {
   linearize(pose.q);
   const std::vector<bool> held = held_at_ends(pose.q);
-  const Eigen::MatrixXd N =
-      model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
+  const Eigen::MatrixXd N = model_.constraints.empty() ? Eigen::MatrixXd() : allowed_directions(pose.q);
   const double size = std::max(gauss_.diagonal().maxCoeff(), 1e-300);
   bool second_order = true;
   for (;;) {
@@ -381,8 +371,7 @@ PoseFit::Pose PoseFit::solve(Eigen::VectorXd start) {
 
 PoseFit::Pose PoseFit::solve_inside(Eigen::VectorXd start, double barrier) {
   Pose pose{std::move(start), 0.0, false};
-  for (double weight = std::max(barrier, kFirstBarrier);;
-       weight = std::max(barrier, 0.1 * weight)) {
+  for (double weight = std::max(barrier, kFirstBarrier);; weight = std::max(barrier, 0.1 * weight)) {
     barrier_.set_weight(weight);
     pose = solve(std::move(pose.q));
     if (weight == barrier) break;
@@ -396,20 +385,16 @@ void PoseFit::unwind(Pose& pose) {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const model::Coordinate& coordinate = model_.coordinates[at(free_[k])];
     const double value = pose.q[free_[k]];
-    if (coordinate.motion != model::MotionType::rotational ||
-        (value >= coordinate.lower && value <= coordinate.upper))
+    if (coordinate.motion != model::MotionType::rotational || (value >= coordinate.lower && value <= coordinate.upper))
       continue;
     const double turns = std::round((0.5 * (coordinate.lower + coordinate.upper) - value) / kTurn);
     Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_.size()));
     step[static_cast<Eigen::Index>(k)] = turns * kTurn;
     const Eigen::VectorXd q = moved(pose.q, step);
     const double back = q[free_[k]];
-    // Whole turns may change the cost through the coordinate's functions, couplers or tasks: then
-    // the coordinate stays.
+    // Whole turns may change the cost through the coordinate's functions, couplers or tasks: then the coordinate stays.
     const bool same = std::abs(cost_at(q) - pose.cost) <= 1e-9 * pose.cost + 1e-15;
-    const auto outside = [&](double x) {
-      return std::max({0.0, coordinate.lower - x, x - coordinate.upper});
-    };
+    const auto outside = [&](double x) { return std::max({0.0, coordinate.lower - x, x - coordinate.upper}); };
     if (same && outside(back) < outside(value)) pose.q = q;
   }
 }
@@ -421,8 +406,7 @@ void PoseFit::collect_undetermined(std::vector<bool>& undetermined) {
   const math::SymmetricEigen eigen = math::symmetric_eigen(gauss_);
   const double largest = eigen.values.size() > 0 ? eigen.values[eigen.values.size() - 1] : 0.0;
   for (Eigen::Index k = 0; k < gauss_.cols(); ++k) {
-    // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest
-    // singular value.
+    // Eigenvalues are squared singular values of the Jacobian: the limit is 1e-7 of the largest singular value.
     if (eigen.values[k] > 1e-14 * largest) continue;
     for (Eigen::Index j = 0; j < gauss_.cols(); ++j) {
       if (std::abs(eigen.vectors(j, k)) > 1e-3) undetermined[at(j)] = true;

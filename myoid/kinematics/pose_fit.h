@@ -43,8 +43,7 @@ class PoseFit {
   /// through the minima with stronger barriers, whose path stays near the middle of the ranges.
   [[nodiscard]] Pose solve_inside(Eigen::VectorXd start, double barrier);
 
-  /// Brings coordinates outside their range back into it, or nearer, by whole turns that leave pose
-  /// and cost unchanged.
+  /// Brings coordinates outside their range back into it, or nearer, by whole turns that leave pose and cost unchanged.
   void unwind(Pose& pose);
 
   /// Sets the posture for the functions below; returns 2 J there.

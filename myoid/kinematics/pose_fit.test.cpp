@@ -142,8 +142,7 @@ TEST(PoseFit, ABarrierBalancesTheMarkersPullToTheEndOfARange) {
   const PoseFit::Pose pose = fit.solve_inside(Eigen::VectorXd::Zero(2), mu);
   ASSERT_TRUE(pose.converged);
   EXPECT_LT(pose.q[0], 2.0);
-  EXPECT_NEAR(r2 * std::sin(pose.q[0] - 2.2),
-              mu * (1.0 / (pose.q[0] + 2.0) - 1.0 / (2.0 - pose.q[0])), 1e-10);
+  EXPECT_NEAR(r2 * std::sin(pose.q[0] - 2.2), mu * (1.0 / (pose.q[0] + 2.0) - 1.0 / (2.0 - pose.q[0])), 1e-10);
   // Afterwards there is none.
   EXPECT_DOUBLE_EQ(fit.solve(Eigen::VectorXd::Zero(2)).q[0], 2.0);
 }

@@ -9,8 +9,7 @@ namespace myoid::kinematics {
 RangeBarrier::RangeBarrier(const model::BodyModel& model, const std::vector<Eigen::Index>& free) {
   for (std::size_t k = 0; k < free.size(); ++k) {
     const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(free[k])];
-    if (c.clamped && c.lower < c.upper)
-      ranges_.push_back({free[k], static_cast<Eigen::Index>(k), c.lower, c.upper});
+    if (c.clamped && c.lower < c.upper) ranges_.push_back({free[k], static_cast<Eigen::Index>(k), c.lower, c.upper});
   }
 }
 

@@ -27,13 +27,10 @@ class RangeBarrier {
   /// Returns B at the coordinates of the whole model; infinite on and beyond an end.
   [[nodiscard]] double value(const Eigen::VectorXd& q) const;
   /// Adds the derivatives of B by the free coordinates; q inside the ranges.
-  void add_derivatives(const Eigen::VectorXd& q,
-                       Eigen::VectorXd& gradient,
-                       Eigen::MatrixXd& hessian) const;
+  void add_derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) const;
   /// Moves coordinates nearer to an end than `share` of the range, or beyond, to that distance.
   void move_inside(Eigen::VectorXd& q, double share) const;
-  /// Returns the share of a step of the free coordinates that covers at most 0.99 of the way to any
-  /// end; <= 1.
+  /// Returns the share of a step of the free coordinates that covers at most 0.99 of the way to any end; <= 1.
   [[nodiscard]] double longest_share(const Eigen::VectorXd& q, const Eigen::VectorXd& step) const;
 
  private:

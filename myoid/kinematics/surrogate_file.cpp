@@ -20,9 +20,7 @@ using nlohmann::ordered_json;
 constexpr std::string_view kKind = "myoid path surrogates";
 constexpr int kVersion = 1;
 
-ordered_json json_numbers(const Eigen::VectorXd& values) {
-  return std::vector<double>(values.begin(), values.end());
-}
+ordered_json json_numbers(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
 
 /// Reads null as infinity, which JSON lacks.
 double number_of(const ordered_json& value) {
@@ -36,8 +34,7 @@ Eigen::VectorXd vector_of(const ordered_json& value) {
 
 ordered_json names(const model::BodyModel& model, const std::vector<int>& coordinates) {
   ordered_json list = ordered_json::array();
-  for (const int c : coordinates)
-    list.push_back(model.coordinates[static_cast<std::size_t>(c)].name);
+  for (const int c : coordinates) list.push_back(model.coordinates[static_cast<std::size_t>(c)].name);
   return list;
 }
 
@@ -66,16 +63,13 @@ kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const orde
 }
 
 /// Checks the numbers of a file that is JSON of the right shape.
-void check(const kinematics::PathSurrogate& s,
-           const std::string& muscle,
-           const std::filesystem::path& path) {
+void check(const kinematics::PathSurrogate& s, const std::string& muscle, const std::filesystem::path& path) {
   const auto d = static_cast<Eigen::Index>(s.coordinates.size());
   const bool fits =
-      s.muscle == muscle && s.degree >= 0 && s.degree <= 64 && s.lower.size() == d &&
-      s.upper.size() == d && ((s.upper - s.lower).array() > 0.0).all() &&
-      s.held_at.size() == static_cast<Eigen::Index>(s.held.size()) && s.coefficient_m.allFinite() &&
-      s.coefficient_m.size() ==
-          static_cast<Eigen::Index>(kinematics::term_count(static_cast<int>(d), s.degree));
+      s.muscle == muscle && s.degree >= 0 && s.degree <= 64 && s.lower.size() == d && s.upper.size() == d &&
+      ((s.upper - s.lower).array() > 0.0).all() && s.held_at.size() == static_cast<Eigen::Index>(s.held.size()) &&
+      s.coefficient_m.allFinite() &&
+      s.coefficient_m.size() == static_cast<Eigen::Index>(kinematics::term_count(static_cast<int>(d), s.degree));
   if (!fits) {
     throw ReadError(path, 0,
                     fmt::format("the surrogate of muscle '{}' is damaged; delete the file, it will "
@@ -90,8 +84,8 @@ std::string surrogate_key(std::string_view model_text,
                           const model::Compat& compat,
                           const kinematics::SurrogateOptions& options) {
   return sha256(fmt::format("{} {}\n{}\n{} {} {} {} {}\n{}", kKind, kVersion, name_of(compat),
-                            options.length_tolerance_m, options.arm_tolerance_m, options.max_degree,
-                            options.max_terms, options.seed, model_text));
+                            options.length_tolerance_m, options.arm_tolerance_m, options.max_degree, options.max_terms,
+                            options.seed, model_text));
 }
 
 void write_surrogates(const std::filesystem::path& path,
@@ -118,18 +112,17 @@ void write_surrogates(const std::filesystem::path& path,
   recording::write_file(path, json_text(object, 1) + "\n");
 }
 
-std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
-    const std::filesystem::path& path, const model::BodyModel& model, const std::string& key) {
+std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(const std::filesystem::path& path,
+                                                                      const model::BodyModel& model,
+                                                                      const std::string& key) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
     const ordered_json object = parse_ordered_json(recording::read_text_file(path));
     if (object.value("kind", "") != kKind) {
-      throw ReadError(path, 0,
-                      "this is no file of path surrogates; it is left as it is, give another name");
+      throw ReadError(path, 0, "this is no file of path surrogates; it is left as it is, give another name");
     }
-    if (object.value("version", 0) != kVersion || object.value("key", "") != key)
-      return std::nullopt;
+    if (object.value("version", 0) != kVersion || object.value("key", "") != key) return std::nullopt;
     std::vector<kinematics::PathSurrogate> all;
     for (const ordered_json& entry : object.at("muscles")) {
       all.push_back(surrogate_of(model, entry));
@@ -138,8 +131,7 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
     }
     if (all.size() != model.muscles.size())
       throw ReadError(path, 0,
-                      fmt::format("expected {} muscles, found {}", model.muscles.size(),
-                                  object.at("muscles").size()));
+                      fmt::format("expected {} muscles, found {}", model.muscles.size(), object.at("muscles").size()));
     return all;
   } catch (const nlohmann::json::exception& error) {
     throw ReadError(path, 0,

@@ -24,7 +24,8 @@ void write_surrogates(const std::filesystem::path& path,
 
 /// Reads the surrogates of a file; empty for a missing file or another key. Throws ReadError if the
 /// file holds no surrogates or contradicts the model whose key it has.
-[[nodiscard]] std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(
-    const std::filesystem::path& path, const model::BodyModel& model, const std::string& key);
+[[nodiscard]] std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(const std::filesystem::path& path,
+                                                                                    const model::BodyModel& model,
+                                                                                    const std::string& key);
 
 }  // namespace myoid::kinematics

@@ -48,8 +48,7 @@ TEST_F(SurrogateFile, IsNotTakenForAnotherModelOrOtherOptions) {
   write_surrogates(path_, model_, key_, fitted_);
   EXPECT_FALSE(read_surrogates(path_, model_, surrogate_key(text_ + " ", model_.compat, options_)));
   EXPECT_FALSE(read_surrogates(path_, model_, surrogate_key(text_, model::kOpenSim452, options_)));
-  EXPECT_FALSE(read_surrogates(path_, model_,
-                               surrogate_key(text_, model_.compat, {.length_tolerance_m = 1e-5})));
+  EXPECT_FALSE(read_surrogates(path_, model_, surrogate_key(text_, model_.compat, {.length_tolerance_m = 1e-5})));
 }
 
 TEST_F(SurrogateFile, RefusesWhatIsDamagedOrSomethingElse) {

@@ -40,8 +40,7 @@ struct Matio {
 template <typename Function>
 void find(void* library, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(library, name));
-  if (function == nullptr)
-    throw InvalidInput(fmt::format("{} has no function {}", MYOID_MATIO_SONAME, name));
+  if (function == nullptr) throw InvalidInput(fmt::format("{} has no function {}", MYOID_MATIO_SONAME, name));
 }
 
 /// Loads libmatio once.
@@ -49,10 +48,10 @@ const Matio& matio() {
   static const Matio loaded = [] {
     void* library = dlopen(MYOID_MATIO_SONAME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-      throw InvalidInput(fmt::format(
-          "a MATLAB file needs the library {0}, which is not there ({1}); install it (Debian 12: "
-          "apt install libmatio11)",
-          MYOID_MATIO_SONAME, dlerror()));
+      throw InvalidInput(
+          fmt::format("a MATLAB file needs the library {0}, which is not there ({1}); install it (Debian 12: "
+                      "apt install libmatio11)",
+                      MYOID_MATIO_SONAME, dlerror()));
     Matio m;
     find(library, "Mat_CreateVer", m.create);
     find(library, "Mat_Close", m.close);
@@ -129,15 +128,13 @@ class Maker {
   matvar_t* made(const char* name, const MatTexts& v) const {
     std::vector<matvar_t*> cells;
     for (const std::string& text : v.texts) cells.push_back(made(nullptr, text));
-    return array(name, MAT_C_CELL, MAT_T_CELL, v.row ? 1 : cells.size(), v.row ? cells.size() : 1,
-                 cells.data());
+    return array(name, MAT_C_CELL, MAT_T_CELL, v.row ? 1 : cells.size(), v.row ? cells.size() : 1, cells.data());
   }
   matvar_t* made(const char* name, const std::vector<MatStruct>& v) const {
     std::vector<const char*> names;
     for (const auto& field : v.front().fields) names.push_back(field.first.c_str());
     std::size_t dims[2] = {1, v.size()};
-    matvar_t* variable =
-        checked(m_.structure(name, 2, dims, names.data(), static_cast<unsigned>(names.size())));
+    matvar_t* variable = checked(m_.structure(name, 2, dims, names.data(), static_cast<unsigned>(names.size())));
     for (std::size_t i = 0; i < v.size(); ++i) {
       for (std::size_t f = 0; f < names.size(); ++f)
         m_.set_field(variable, f, i, (*this)(nullptr, v[i].fields.at(f).second));
@@ -154,8 +151,7 @@ class Scratch {
   Scratch() {
     std::string pattern = (fs::temp_directory_path() / "myoid.XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
-      throw InvalidInput(fmt::format("cannot make a temporary folder in {}: {}",
-                                     fs::temp_directory_path().string(),
+      throw InvalidInput(fmt::format("cannot make a temporary folder in {}: {}", fs::temp_directory_path().string(),
                                      std::generic_category().message(errno)));
     folder_ = pattern;
   }
@@ -179,19 +175,18 @@ void write_mat_file(const fs::path& path, const MatStruct& variables) {
   const Matio& m = matio();
   const Scratch scratch;
   const std::string header = fmt::format("MATLAB 5.0 MAT-file, by myoid {}", version());
-  std::unique_ptr<mat_t, decltype(m.close)> file(
-      m.create(scratch.file().c_str(), header.c_str(), MAT_FT_MAT5), m.close);
+  std::unique_ptr<mat_t, decltype(m.close)> file(m.create(scratch.file().c_str(), header.c_str(), MAT_FT_MAT5),
+                                                 m.close);
   bool written = file != nullptr;
   for (const auto& [name, value] : variables.fields) {
     if (!written) break;
-    const std::unique_ptr<matvar_t, decltype(m.release)> variable(Maker(m)(name.c_str(), value),
-                                                                  m.release);
+    const std::unique_ptr<matvar_t, decltype(m.release)> variable(Maker(m)(name.c_str(), value), m.release);
     written = m.write(file.get(), variable.get(), MAT_COMPRESSION_ZLIB) == 0;
   }
   if (written) written = m.close(file.release()) == 0;
   if (!written)
-    throw InvalidInput(fmt::format("{}: libmatio cannot write it by way of {}; is that disk full?",
-                                   path.string(), scratch.file()));
+    throw InvalidInput(
+        fmt::format("{}: libmatio cannot write it by way of {}; is that disk full?", path.string(), scratch.file()));
   recording::write_file(path, recording::read_bytes(scratch.file()));
 }
 
@@ -207,9 +202,7 @@ void require_matio() {
       "build it again");
 }
 
-void write_mat_file(const std::filesystem::path& /*path*/, const MatStruct& /*variables*/) {
-  require_matio();
-}
+void write_mat_file(const std::filesystem::path& /*path*/, const MatStruct& /*variables*/) { require_matio(); }
 
 }  // namespace myoid
 

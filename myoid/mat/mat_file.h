@@ -20,8 +20,7 @@ struct MatTexts {
 
 /// A value of a MATLAB file: numbers, a column of logical values, a text (UTF-8), a cell array of
 /// texts, or a 1 x n array of structs, all with the same fields.
-using MatValue =
-    std::variant<Eigen::MatrixXd, std::vector<bool>, std::string, MatTexts, std::vector<MatStruct>>;
+using MatValue = std::variant<Eigen::MatrixXd, std::vector<bool>, std::string, MatTexts, std::vector<MatStruct>>;
 
 /// Fields in order. A name has letters, digits and underscores, and begins with a letter.
 struct MatStruct {

@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using recording::CsvTable;
 
-/// Returns a name of MATLAB for a field: other characters become '_', and it has 63 characters at
-/// most.
+/// Returns a name of MATLAB for a field: other characters become '_', and it has 63 characters at most.
 std::string field_name(const std::string& text, std::set<std::string>& taken) {
   constexpr std::size_t kMost = 63, kRoomForNumber = 4;
   std::string name = text;
@@ -39,15 +38,13 @@ std::string field_name(const std::string& text, std::set<std::string>& taken) {
 
 std::size_t column_of(const CsvTable& table, const std::string& name, const fs::path& path) {
   const auto it = std::find(table.names.begin(), table.names.end(), name);
-  if (it == table.names.end())
-    throw ReadError(path, table.header_line, fmt::format("has no column '{}'", name));
+  if (it == table.names.end()) throw ReadError(path, table.header_line, fmt::format("has no column '{}'", name));
   return static_cast<std::size_t>(it - table.names.begin());
 }
 
 /// Returns a column of texts, of `true` and `false`, or of numbers with NaN for an empty cell.
 MatValue column(const CsvTable& table, std::size_t c) {
-  static const std::set<std::string> texts{"muscle", "parameter", "unit",  "method",
-                                           "case",   "verdict",   "reason"};
+  static const std::set<std::string> texts{"muscle", "parameter", "unit", "method", "case", "verdict", "reason"};
   static const std::set<std::string> flags{"at_bound", "routes_disagree"};
   if (texts.contains(table.names[c])) {
     MatTexts cells;
@@ -61,8 +58,7 @@ MatValue column(const CsvTable& table, std::size_t c) {
   }
   Eigen::MatrixXd cells(static_cast<Eigen::Index>(table.rows.size()), 1);
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    cells(static_cast<Eigen::Index>(i), 0) =
-        recording::parse_number(table.rows[i][c]).value_or(kNan);
+    cells(static_cast<Eigen::Index>(i), 0) = recording::parse_number(table.rows[i][c]).value_or(kNan);
   return cells;
 }
 
@@ -93,10 +89,7 @@ MatStruct draws_of(const fs::path& path, const CsvTable& parameters, const fs::p
     name_units.texts.push_back(units[table.names[c].substr(table.names[c].rfind('.') + 1)]);
     values.col(k++) = std::get<Eigen::MatrixXd>(column(table, c));
   }
-  return {{{"names", names},
-           {"units", name_units},
-           {"values", values},
-           {"weights", column(table, weight)}}};
+  return {{{"names", names}, {"units", name_units}, {"values", values}, {"weights", column(table, weight)}}};
 }
 
 MatStruct series_of(const fs::path& path) {
@@ -104,8 +97,7 @@ MatStruct series_of(const fs::path& path) {
   MatTexts names{.row = true}, units{.row = true};
   for (const Channel& channel : file.data.channels()) {
     names.texts.push_back(channel.name);
-    units.texts.push_back(
-        recording::result_unit(path.stem().string(), channel.name, file.in_degrees));
+    units.texts.push_back(recording::result_unit(path.stem().string(), channel.name, file.in_degrees));
   }
   return {{{"names", names},
            {"units", units},
@@ -128,15 +120,11 @@ MatStruct all_series(const fs::path& folder) {
   MatStruct all;
   std::set<std::string> taken;
   for (const fs::path& file : files)
-    all.fields.emplace_back(field_name(file.stem().string(), taken),
-                            std::vector<MatStruct>{series_of(file)});
+    all.fields.emplace_back(field_name(file.stem().string(), taken), std::vector<MatStruct>{series_of(file)});
   return all;
 }
 
-MatStruct trial(const fs::path& folder,
-                const std::string& name,
-                const std::string& use,
-                const std::string& failure) {
+MatStruct trial(const fs::path& folder, const std::string& name, const std::string& use, const std::string& failure) {
   return {{{"name", name},
            {"use", use},
            {"failure", failure},
@@ -163,16 +151,14 @@ class Remarks {
   void add_faults(const std::string& trial, const json& faults) {
     for (const json& fault : faults)
       add(trial, fault.at("fault").get<std::string>(), fault.at("level").get<std::string>(),
-          fault.at("channel").get<std::string>(), fault.at("begin_s").get<double>(),
-          fault.at("end_s").get<double>(), fault.at("message").get<std::string>());
+          fault.at("channel").get<std::string>(), fault.at("begin_s").get<double>(), fault.at("end_s").get<double>(),
+          fault.at("message").get<std::string>());
   }
-  void add_note(const std::string& trial, const std::string& text) {
-    add(trial, "", "note", "", kNan, kNan, text);
-  }
+  void add_note(const std::string& trial, const std::string& text) { add(trial, "", "note", "", kNan, kNan, text); }
   [[nodiscard]] MatStruct columns() const {
     const auto vector = [](const std::vector<double>& values) {
-      return Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(
-          values.data(), static_cast<Eigen::Index>(values.size())));
+      return Eigen::MatrixXd(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
     };
     return {{{"trial", trials_},
              {"code", codes_},
@@ -212,8 +198,7 @@ void add_run(const fs::path& folder, MatStruct& variables) {
   remarks.add_faults("", run.at("faults"));
   for (const json& t : run.at("trials")) {
     const auto name = t.at("name").get<std::string>();
-    trials.push_back(
-        trial(folder, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
+    trials.push_back(trial(folder, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
     remarks.add_faults(name, t.at("faults"));
     for (const json& note : t.at("notes")) remarks.add_note(name, note.get<std::string>());
   }
@@ -233,14 +218,13 @@ MatStruct matlab_results(const fs::path& folder) {
   MatStruct variables;
   variables.fields.emplace_back("parameters", std::vector<MatStruct>{parameters_of(parameters)});
   if (fs::exists(folder / "posterior.csv"))
-    variables.fields.emplace_back(
-        "draws", std::vector<MatStruct>{draws_of(folder / "posterior.csv", parameters, file)});
+    variables.fields.emplace_back("draws",
+                                  std::vector<MatStruct>{draws_of(folder / "posterior.csv", parameters, file)});
   if (fs::exists(folder / "run.json")) {
     try {
       add_run(folder, variables);
     } catch (const json::exception& error) {
-      throw ReadError(folder / "run.json", 0,
-                      fmt::format("is no record of a run of this version: {}", error.what()));
+      throw ReadError(folder / "run.json", 0, fmt::format("is no record of a run of this version: {}", error.what()));
     }
   } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
     variables.fields.emplace_back("trials", std::move(trials));
@@ -250,13 +234,10 @@ MatStruct matlab_results(const fs::path& folder) {
 
 void check_mat_file(const fs::path& file) {
   if (file.extension() != ".mat")
-    throw InvalidInput(
-        fmt::format("{}: expected the name of a MATLAB file, which ends in .mat", file.string()));
+    throw InvalidInput(fmt::format("{}: expected the name of a MATLAB file, which ends in .mat", file.string()));
   require_matio();
 }
 
-void write_results_mat(const fs::path& folder, const fs::path& file) {
-  write_mat_file(file, matlab_results(folder));
-}
+void write_results_mat(const fs::path& folder, const fs::path& file) { write_mat_file(file, matlab_results(folder)); }
 
 }  // namespace myoid

@@ -6,8 +6,7 @@
 
 namespace myoid {
 
-/// Returns the results in a folder that `run` or `identify` wrote as variables of MATLAB, read from
-/// the files:
+/// Returns the results in a folder that `run` or `identify` wrote as variables of MATLAB, read from the files:
 ///
 ///   parameters  the columns of parameters.csv; the column `case` is called `fit_case`
 ///   trials      name, use, failure, series; a series has names, units, time [s], values,
@@ -20,8 +19,7 @@ namespace myoid {
 /// Variables whose files are not there are left out. Throws ReadError for a damaged file.
 [[nodiscard]] MatStruct matlab_results(const std::filesystem::path& folder);
 
-/// Throws InvalidInput, before anything is computed, if `file` does not end in .mat, or as
-/// `require_matio`.
+/// Throws InvalidInput, before anything is computed, if `file` does not end in .mat, or as `require_matio`.
 void check_mat_file(const std::filesystem::path& file);
 /// Writes the results in a folder as a MATLAB file.
 void write_results_mat(const std::filesystem::path& folder, const std::filesystem::path& file);

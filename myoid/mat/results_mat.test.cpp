@@ -29,9 +29,7 @@ class ResultsMat : public testing::Test {
           "muscle,parameter,unit,case,estimate,ci_low,at_bound\n"
           "BIC,max_isometric_force,N,both,600.5,,true\nBIC,emg_delay,s,both,0.04,0.03,false\n");
   }
-  void write(const std::string& name, const std::string& text) {
-    recording::write_file(folder / name, text);
-  }
+  void write(const std::string& name, const std::string& text) { recording::write_file(folder / name, text); }
   test::TemporaryFolder folder;
 };
 
@@ -51,8 +49,7 @@ TEST_F(ResultsMat, ColumnsKeepTheirKindAndAnEmptyCellIsNaN) {
 }
 
 TEST_F(ResultsMat, DrawsHaveTheUnitsOfTheirParameters) {
-  write("posterior.csv",
-        "weight,BIC.max_isometric_force,subject.emg_delay\n0.5,600,0.04\n0.5,610,0.05\n");
+  write("posterior.csv", "weight,BIC.max_isometric_force,subject.emg_delay\n0.5,600,0.04\n0.5,610,0.05\n");
   const MatStruct found = matlab_results(folder.path());
   const MatStruct& draws = part(found, "draws");
   EXPECT_EQ(std::get<MatTexts>(field(draws, "units")).texts, (std::vector<std::string>{"N", "s"}));
@@ -94,8 +91,7 @@ TEST_F(ResultsMat, RemarksAreColumnsAndADamagedRecordIsNamed) {
                                     "begin_s": 1.5, "end_s": 2.0, "message": "two"}]}]})");
   const MatStruct found = matlab_results(folder.path());
   const MatStruct& remarks = part(found, "remarks");
-  EXPECT_EQ(std::get<MatTexts>(field(remarks, "text")).texts,
-            (std::vector<std::string>{"two", "one"}));
+  EXPECT_EQ(std::get<MatTexts>(field(remarks, "text")).texts, (std::vector<std::string>{"two", "one"}));
   EXPECT_EQ(std::get<Eigen::MatrixXd>(field(remarks, "begin_s"))(0, 0), 1.5);
   EXPECT_EQ(std::get<std::string>(field(part(found, "run"), "version")), "1");
   for (const char* text : {"{\"trials\": []}", "{"}) {

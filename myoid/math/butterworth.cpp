@@ -12,9 +12,7 @@ namespace myoid::math {
 namespace {
 
 void check(int order, double cutoff_hz, double rate_hz) {
-  if (order < 1)
-    throw InvalidInput(
-        fmt::format("Butterworth filter: found order {}, expected 1 or more", order));
+  if (order < 1) throw InvalidInput(fmt::format("Butterworth filter: found order {}, expected 1 or more", order));
   if (!(cutoff_hz > 0.0) || !(cutoff_hz < 0.5 * rate_hz)) {
     throw InvalidInput(
         fmt::format("Butterworth filter: a cut-off of {} Hz does not fit data sampled at {} Hz; it "
@@ -25,10 +23,7 @@ void check(int order, double cutoff_hz, double rate_hz) {
 
 }  // namespace
 
-std::vector<SecondOrderSection> design_butterworth(FilterBand band,
-                                                   int order,
-                                                   double cutoff_hz,
-                                                   double rate_hz) {
+std::vector<SecondOrderSection> design_butterworth(FilterBand band, int order, double cutoff_hz, double rate_hz) {
   check(order, cutoff_hz, rate_hz);
   const double w = std::tan(kPi * cutoff_hz / rate_hz);
   std::vector<SecondOrderSection> sections;

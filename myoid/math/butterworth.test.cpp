@@ -37,10 +37,8 @@ TEST(Butterworth, FollowsTheAnalogPrototypeAtPreWarpedFrequencies) {
 }
 
 TEST(Butterworth, PassesAConstantOrStopsIt) {
-  EXPECT_NEAR(gain(design_butterworth(FilterBand::low_pass, 3, 6.0, 100.0), 0.0, 100.0), 1.0,
-              kRoundOff);
-  EXPECT_NEAR(gain(design_butterworth(FilterBand::high_pass, 3, 6.0, 100.0), 0.0, 100.0), 0.0,
-              kRoundOff);
+  EXPECT_NEAR(gain(design_butterworth(FilterBand::low_pass, 3, 6.0, 100.0), 0.0, 100.0), 1.0, kRoundOff);
+  EXPECT_NEAR(gain(design_butterworth(FilterBand::high_pass, 3, 6.0, 100.0), 0.0, 100.0), 0.0, kRoundOff);
 }
 
 TEST(TwoPassCutOff, MakesTheTwoPassesTogetherMinusThreeDecibel) {

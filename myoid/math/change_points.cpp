@@ -17,19 +17,16 @@ void validate(const Eigen::MatrixXd& x, const ChangePointOptions& options) {
   if (x.rows() == 0 || x.cols() == 0) throw InvalidInput("change points: there is no sample");
   if (!x.allFinite()) throw InvalidInput("change points: a sample is not finite");
   if (options.min_length < 1) {
-    throw InvalidInput(
-        fmt::format("change points: min_length is {}; 1 is the least", options.min_length));
+    throw InvalidInput(fmt::format("change points: min_length is {}; 1 is the least", options.min_length));
   }
   if (options.penalty && !(*options.penalty > 0.0)) {
-    throw InvalidInput(
-        fmt::format("change points: the penalty is {}; it must be positive", *options.penalty));
+    throw InvalidInput(fmt::format("change points: the penalty is {}; it must be positive", *options.penalty));
   }
   if (!(options.samples_per_independent > 0.0)) {
-    throw InvalidInput(fmt::format("change points: samples_per_independent is {}; positive",
-                                   options.samples_per_independent));
+    throw InvalidInput(
+        fmt::format("change points: samples_per_independent is {}; positive", options.samples_per_independent));
   }
-  if (options.noise_sd &&
-      (options.noise_sd->size() != x.cols() || !(options.noise_sd->array() > 0.0).all())) {
+  if (options.noise_sd && (options.noise_sd->size() != x.cols() || !(options.noise_sd->array() > 0.0).all())) {
     throw InvalidInput(fmt::format("change points: noise_sd needs {} positive values", x.cols()));
   }
 }
@@ -38,8 +35,7 @@ Eigen::VectorXd noise_from_differences(const Eigen::MatrixXd& x) {
   Eigen::VectorXd sd = Eigen::VectorXd::Ones(x.cols());
   for (Eigen::Index j = 0; j < x.cols() && x.rows() > 1; ++j) {
     std::vector<double> differences;
-    for (Eigen::Index i = 1; i < x.rows(); ++i)
-      differences.push_back(std::abs(x(i, j) - x(i - 1, j)));
+    for (Eigen::Index i = 1; i < x.rows(); ++i) differences.push_back(std::abs(x(i, j) - x(i - 1, j)));
     const double robust = 1.482602218505602 * median(differences) / std::numbers::sqrt2;
     if (robust > 0.0) sd[j] = robust;
   }
@@ -109,14 +105,11 @@ ChangePoints change_points(const Eigen::MatrixXd& x, const ChangePointOptions& o
   if (options.cost == SegmentCost::mean)
     result.noise_sd = options.noise_sd ? *options.noise_sd : noise_from_differences(x);
   const auto columns = static_cast<double>(x.cols());
-  const double parameters =
-      options.cost == SegmentCost::mean_and_variance ? 2.0 * columns : columns;
-  const double criterion =
-      (parameters + 1.0) * std::log(static_cast<double>(std::max<Eigen::Index>(n, 2)));
+  const double parameters = options.cost == SegmentCost::mean_and_variance ? 2.0 * columns : columns;
+  const double criterion = (parameters + 1.0) * std::log(static_cast<double>(std::max<Eigen::Index>(n, 2)));
   result.penalty = options.penalty.value_or(criterion) * options.samples_per_independent;
 
-  // best[t] is the least cost of the first t samples; best[0] cancels the penalty of the first
-  // segment.
+  // best[t] is the least cost of the first t samples; best[0] cancels the penalty of the first segment.
   const Costs costs(x, options.cost, result.noise_sd);
   std::vector<double> best(static_cast<std::size_t>(n + 1), kInfinity);
   std::vector<Eigen::Index> last(static_cast<std::size_t>(n + 1), 0);
@@ -137,11 +130,9 @@ ChangePoints change_points(const Eigen::MatrixXd& x, const ChangePointOptions& o
         last[static_cast<std::size_t>(end)] = c.begin;
       }
     }
-    // A start that is worse here even without the penalty remains worse once a segment fits after
-    // it.
+    // A start that is worse here even without the penalty remains worse once a segment fits after it.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (through[k] >= least)
-        candidates[k].useless_from = std::min(candidates[k].useless_from, end + shortest);
+      if (through[k] >= least) candidates[k].useless_from = std::min(candidates[k].useless_from, end + shortest);
     }
   }
   result.cost = best[static_cast<std::size_t>(n)];

@@ -48,14 +48,11 @@ struct ChangePoints {
   Eigen::VectorXd noise_sd;       ///< The noise used by `mean`; empty otherwise.
 };
 
-/// Finds the segments with the least total cost exactly, by dynamic programming with pruning (PELT:
-/// Killick, Fearnhead and Eckley 2012, the pruning delayed by `min_length`). Rows of x are samples
-/// in time order; columns are signals that change together. Smaller variances than 1e-8 of the
-/// column's own (or 1e-300) are raised to that value. The time grows with n for many changes and
-/// with n^2 for none (measured: 1 s for 10 000 samples). Throws InvalidInput if x has no rows or
-/// columns or is not finite, or for options that are not positive or of the wrong size;
-/// Interrupted.
-[[nodiscard]] ChangePoints change_points(const Eigen::MatrixXd& x,
-                                         const ChangePointOptions& options = {});
+/// Finds the segments with the least total cost exactly, by dynamic programming with pruning (PELT: Killick, Fearnhead
+/// and Eckley 2012, the pruning delayed by `min_length`). Rows of x are samples in time order; columns are signals that
+/// change together. Smaller variances than 1e-8 of the column's own (or 1e-300) are raised to that value. The time
+/// grows with n for many changes and with n^2 for none (measured: 1 s for 10 000 samples). Throws InvalidInput if x has
+/// no rows or columns or is not finite, or for options that are not positive or of the wrong size; Interrupted.
+[[nodiscard]] ChangePoints change_points(const Eigen::MatrixXd& x, const ChangePointOptions& options = {});
 
 }  // namespace myoid::math

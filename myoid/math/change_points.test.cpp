@@ -22,10 +22,7 @@ Eigen::MatrixXd noise(Eigen::Index n, Eigen::Index columns, std::uint64_t seed) 
 }
 
 /// The cost of one segment from its definition, by two passes.
-double direct_cost(const Eigen::MatrixXd& x,
-                   Eigen::Index begin,
-                   Eigen::Index end,
-                   const ChangePointOptions& options) {
+double direct_cost(const Eigen::MatrixXd& x, Eigen::Index begin, Eigen::Index end, const ChangePointOptions& options) {
   double cost = 0.0;
   for (Eigen::Index j = 0; j < x.cols(); ++j) {
     const Eigen::VectorXd part = x.col(j).segment(begin, end - begin);
@@ -50,8 +47,7 @@ TEST(ChangePoints, AreTheBestOfAllSegmentationsByBruteForce) {
       Eigen::MatrixXd x = noise(n, columns, seed);
       x.middleRows(5, 4).array() += 2.0;
       x.bottomRows(5) *= 0.3;
-      for (const SegmentCost cost :
-           {SegmentCost::mean, SegmentCost::variance, SegmentCost::mean_and_variance}) {
+      for (const SegmentCost cost : {SegmentCost::mean, SegmentCost::variance, SegmentCost::mean_and_variance}) {
         for (const Eigen::Index shortest : {2, 3, 5}) {
           const ChangePointOptions options{.cost = cost,
                                            .penalty = 3.0,
@@ -98,14 +94,13 @@ TEST(ChangePoints, PruningLosesNothing) {
     x.middleRows(20, 15).array() += 1.5;
     x.middleRows(40, 10) *= 3.0;
     const ChangePointOptions options{.penalty = 4.0, .min_length = shortest};
-    std::vector<double> best(static_cast<std::size_t>(n + 1),
-                             std::numeric_limits<double>::infinity());
+    std::vector<double> best(static_cast<std::size_t>(n + 1), std::numeric_limits<double>::infinity());
     best[0] = -4.0;
     for (Eigen::Index end = shortest; end <= n; ++end) {
       for (Eigen::Index begin = 0; begin + shortest <= end; ++begin) {
-        best[static_cast<std::size_t>(end)] = std::min(
-            best[static_cast<std::size_t>(end)],
-            best[static_cast<std::size_t>(begin)] + direct_cost(x, begin, end, options) + 4.0);
+        best[static_cast<std::size_t>(end)] =
+            std::min(best[static_cast<std::size_t>(end)],
+                     best[static_cast<std::size_t>(begin)] + direct_cost(x, begin, end, options) + 4.0);
       }
     }
     EXPECT_NEAR(change_points(x, options).cost, best.back(), 1e-6) << seed;
@@ -133,8 +128,7 @@ TEST(ChangePoints, FindsAChangeOfTheNoiseAlone) {
       Eigen::MatrixXd x = noise(400, 1, seed);
       x.topRows(180) *= 3.0;
       const ChangePoints found = change_points(x, {.cost = cost});
-      near += found.segments.size() == 2U &&
-              std::abs(static_cast<double>(found.segments[0].end) - 180.0) <= 6.0;
+      near += found.segments.size() == 2U && std::abs(static_cast<double>(found.segments[0].end) - 180.0) <= 6.0;
     }
     EXPECT_GE(near, 15) << static_cast<int>(cost);
   }
@@ -142,8 +136,7 @@ TEST(ChangePoints, FindsAChangeOfTheNoiseAlone) {
 
 TEST(ChangePoints, SeldomFindsAChangeInNoise) {
   // The criterion's false alarms are rare, not none: at most 2 of 40 series are asked.
-  for (const SegmentCost cost :
-       {SegmentCost::mean, SegmentCost::variance, SegmentCost::mean_and_variance}) {
+  for (const SegmentCost cost : {SegmentCost::mean, SegmentCost::variance, SegmentCost::mean_and_variance}) {
     int alarms = 0;
     for (std::uint64_t seed = 100; seed < 140; ++seed)
       alarms += change_points(noise(500, 1, seed), {.cost = cost}).segments.size() > 1 ? 1 : 0;
@@ -158,8 +151,7 @@ TEST(ChangePoints, CorrelatedNoiseNeedsItsPenaltyInflated) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Eigen::MatrixXd x = noise(500, 1, seed);
     for (Eigen::Index i = 1; i < 500; ++i) x(i, 0) += 0.8 * x(i - 1, 0);
-    ChangePointOptions options{.cost = SegmentCost::mean,
-                               .noise_sd = Eigen::VectorXd::Constant(1, 1.0 / 0.6)};
+    ChangePointOptions options{.cost = SegmentCost::mean, .noise_sd = Eigen::VectorXd::Constant(1, 1.0 / 0.6)};
     plain += change_points(x, options).segments.size() > 1 ? 1 : 0;
     options.samples_per_independent = 9.0;
     inflated += change_points(x, options).segments.size() > 1 ? 1 : 0;
@@ -189,8 +181,7 @@ TEST(ChangePoints, RefusesWhatIsNoSeries) {
   EXPECT_THROW((void)change_points(Eigen::MatrixXd::Constant(9, 1, std::nan(""))), InvalidInput);
   EXPECT_THROW((void)change_points(noise(9, 1, 1), {.penalty = -1.0}), InvalidInput);
   EXPECT_THROW((void)change_points(noise(9, 1, 1), {.min_length = 0}), InvalidInput);
-  EXPECT_THROW((void)change_points(noise(9, 1, 1), {.noise_sd = Eigen::VectorXd::Ones(2)}),
-               InvalidInput);
+  EXPECT_THROW((void)change_points(noise(9, 1, 1), {.noise_sd = Eigen::VectorXd::Ones(2)}), InvalidInput);
 }
 
 }  // namespace

@@ -14,11 +14,9 @@ CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
                             const Eigen::VectorXd& residual,
                             const CovarianceOptions& options) {
   if (jacobian.rows() != residual.size()) {
-    throw InvalidInput(
-        fmt::format("covariance: {} rows of J for {} residuals", jacobian.rows(), residual.size()));
+    throw InvalidInput(fmt::format("covariance: {} rows of J for {} residuals", jacobian.rows(), residual.size()));
   }
-  if (!jacobian.allFinite() || !residual.allFinite())
-    throw InvalidInput("covariance: J or r is not finite");
+  if (!jacobian.allFinite() || !residual.allFinite()) throw InvalidInput("covariance: J or r is not finite");
   const Eigen::Index p = jacobian.cols();
   Eigen::VectorXd scale(p);
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -33,21 +31,17 @@ CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
   const double largest = p > 0 ? result.singular_values[0] : 0.0;
   const double smallest = p > 0 ? result.singular_values[p - 1] : 0.0;
   result.condition = smallest > 0.0 ? largest / smallest : std::numeric_limits<double>::infinity();
-  while (result.rank < p && result.singular_values[result.rank] > options.rank_tolerance * largest)
-    ++result.rank;
+  while (result.rank < p && result.singular_values[result.rank] > options.rank_tolerance * largest) ++result.rank;
   result.unscaled = Eigen::MatrixXd::Zero(p, p);
   for (Eigen::Index k = 0; k < result.rank; ++k) {
-    const Eigen::VectorXd direction =
-        scale.cwiseProduct(svd.matrixV().col(k)) / result.singular_values[k];
+    const Eigen::VectorXd direction = scale.cwiseProduct(svd.matrixV().col(k)) / result.singular_values[k];
     result.unscaled += direction * direction.transpose();
   }
   const Eigen::Index freedom = jacobian.rows() - result.rank;
-  result.residual_variance =
-      freedom > 0 ? residual.squaredNorm() / static_cast<double>(freedom) : 0.0;
+  result.residual_variance = freedom > 0 ? residual.squaredNorm() / static_cast<double>(freedom) : 0.0;
   // If J has fewer rows than columns, its thin SVD lacks undetermined directions: J'J has all.
   const Eigen::JacobiSVD<Eigen::MatrixXd> square(
-      (scale.asDiagonal() * jacobian.transpose() * jacobian * scale.asDiagonal()).eval(),
-      Eigen::ComputeFullV);
+      (scale.asDiagonal() * jacobian.transpose() * jacobian * scale.asDiagonal()).eval(), Eigen::ComputeFullV);
   const Eigen::MatrixXd& v = svd.matrixV().cols() == p ? svd.matrixV() : square.matrixV();
   result.undetermined.resize(p, p - result.rank);
   result.determined.assign(static_cast<std::size_t>(p), true);

@@ -13,17 +13,14 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 Eigen::VectorXd nearest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   return a.colPivHouseholderQr().solve(b);
 }
 
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a,
-                                  const Eigen::VectorXd& b,
-                                  std::optional<double> threshold) {
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, std::optional<double> threshold) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   if (threshold) decomposition.setThreshold(*threshold);
   return decomposition.compute(a).solve(b);
@@ -36,9 +33,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   return basis.rightCols(a.cols() - qr.rank());
 }
 
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
-  return a.completeOrthogonalDecomposition().pseudoInverse();
-}
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) { return a.completeOrthogonalDecomposition().pseudoInverse(); }
 
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -15,15 +15,13 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;
 };
 
-/// Decomposes a symmetric matrix by tridiagonalization and the QR iteration; reads its lower
-/// triangle.
+/// Decomposes a symmetric matrix by tridiagonalization and the QR iteration; reads its lower triangle.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 /// Computes the eigenvalues alone, rising.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// Returns an x that minimizes |a x - b|, by QR with column pivoting. Of dependent columns some
-/// have coefficient 0.
+/// Returns an x that minimizes |a x - b|, by QR with column pivoting. Of dependent columns some have coefficient 0.
 [[nodiscard]] Eigen::VectorXd nearest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// Returns the shortest x that minimizes |a x - b|, by a complete orthogonal decomposition. A pivot
@@ -39,9 +37,8 @@ struct SymmetricEigen {
 /// Returns the Moore-Penrose inverse, by a complete orthogonal decomposition.
 [[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
-/// Returns the rotation R with the greatest trace of R' m, by the singular values of m (Kabsch,
-/// 1976). With m = sum a b' over pairs of centered points, R turns the b onto the a at the least
-/// squared distance.
+/// Returns the rotation R with the greatest trace of R' m, by the singular values of m (Kabsch, 1976). With m = sum a
+/// b' over pairs of centered points, R turns the b onto the a at the least squared distance.
 [[nodiscard]] Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m);
 
 }  // namespace myoid::math

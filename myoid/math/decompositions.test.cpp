@@ -37,15 +37,13 @@ TEST(Decompositions, TheShortestSolutionIsPerpendicularToTheNullSpace) {
   const Eigen::MatrixXd free = null_space(a);
   ASSERT_EQ(free.cols(), 2);
   EXPECT_NEAR((a * free).norm(), 0.0, kFewOperations);
-  EXPECT_NEAR((free.transpose() * free - Eigen::MatrixXd::Identity(2, 2)).norm(), 0.0,
-              kFewOperations);
+  EXPECT_NEAR((free.transpose() * free - Eigen::MatrixXd::Identity(2, 2)).norm(), 0.0, kFewOperations);
   EXPECT_NEAR((free.transpose() * x).norm(), 0.0, kFewOperations);
 }
 
 TEST(Decompositions, ThePseudoInverseOfAColumnIsTheRowOverItsSquare) {
   const Eigen::MatrixXd a{{3.0}, {4.0}};
-  EXPECT_NEAR((pseudo_inverse(a) - Eigen::RowVector2d(3.0, 4.0) / 25.0).norm(), 0.0,
-              kFewOperations);
+  EXPECT_NEAR((pseudo_inverse(a) - Eigen::RowVector2d(3.0, 4.0) / 25.0).norm(), 0.0, kFewOperations);
 }
 
 TEST(Decompositions, TheNearestRotationIsTheTurnAndNeverAReflection) {

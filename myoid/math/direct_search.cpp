@@ -26,13 +26,13 @@ CountedCost::CountedCost(const DirectSearchProblem& problem, Eigen::Index parame
   if (lower_.size() == 0) lower_ = Eigen::VectorXd::Constant(parameters, -kInfinity);
   if (upper_.size() == 0) upper_ = Eigen::VectorXd::Constant(parameters, kInfinity);
   if (lower_.size() != parameters || upper_.size() != parameters) {
-    throw InvalidInput(fmt::format("direct search: {} lower and {} upper bounds for {} parameters",
-                                   lower_.size(), upper_.size(), parameters));
+    throw InvalidInput(fmt::format("direct search: {} lower and {} upper bounds for {} parameters", lower_.size(),
+                                   upper_.size(), parameters));
   }
   for (Eigen::Index j = 0; j < parameters; ++j) {
     if (!(lower_[j] <= upper_[j])) {
-      throw InvalidInput(fmt::format("direct search: parameter {} has the bounds [{}, {}]", j + 1,
-                                     lower_[j], upper_[j]));
+      throw InvalidInput(
+          fmt::format("direct search: parameter {} has the bounds [{}, {}]", j + 1, lower_[j], upper_[j]));
     }
   }
 }
@@ -43,8 +43,6 @@ double CountedCost::operator()(const Eigen::VectorXd& x) {
   return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
 }
 
-Eigen::VectorXd CountedCost::clipped(const Eigen::VectorXd& x) const {
-  return x.cwiseMax(lower_).cwiseMin(upper_);
-}
+Eigen::VectorXd CountedCost::clipped(const Eigen::VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
 
 }  // namespace myoid::math

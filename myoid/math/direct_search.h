@@ -29,8 +29,7 @@ struct DirectSearchResult {
   int restarts = 0;    ///< Simplices started where another shrank; 0 in annealing.
 };
 
-/// Returns 1/2 |r(x)|^2 of a least-squares problem with its bounds, so that other solvers find the
-/// same minimum.
+/// Returns 1/2 |r(x)|^2 of a least-squares problem with its bounds, so that other solvers find the same minimum.
 [[nodiscard]] DirectSearchProblem direct_search_problem(const LeastSquaresProblem& problem);
 
 /// The problem as the searches see it: with all bounds, counted evaluations, and x clipped. Throws

@@ -40,8 +40,7 @@ TEST(CountedCost, RefusesBoundsThatAreNone) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   EXPECT_THROW(CountedCost({.cost = bowl, .lower = one, .upper = -one}, 1), InvalidInput);
   EXPECT_THROW(CountedCost({.cost = bowl, .lower = one, .upper = {}}, 2), InvalidInput);
-  EXPECT_THROW(CountedCost({.cost = bowl, .lower = std::nan("") * one, .upper = {}}, 1),
-               InvalidInput);
+  EXPECT_THROW(CountedCost({.cost = bowl, .lower = std::nan("") * one, .upper = {}}, 1), InvalidInput);
   EXPECT_THROW(CountedCost({.cost = bowl, .lower = {}, .upper = {}}, 0), InvalidInput);
 }
 

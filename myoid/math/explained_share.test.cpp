@@ -7,8 +7,7 @@ namespace {
 
 TEST(ExplainedShare, IsOneMinusTheErrorsShareOfTheVariance) {
   // Residuals 1, 0, -1; deviations from the mean -3, 0, 3.
-  EXPECT_DOUBLE_EQ(explained_share(Eigen::Vector3d(2, 4, 6), Eigen::Vector3d(1, 4, 7)),
-                   1.0 - 2.0 / 18.0);
+  EXPECT_DOUBLE_EQ(explained_share(Eigen::Vector3d(2, 4, 6), Eigen::Vector3d(1, 4, 7)), 1.0 - 2.0 / 18.0);
   EXPECT_LT(explained_share(Eigen::Vector3d(7, 4, 1), Eigen::Vector3d(1, 4, 7)), 0.0);
 }
 

@@ -24,9 +24,7 @@ struct Search {
     ++result.evaluations;
     problem.evaluate(x, r, jacobian);
   }
-  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const {
-    return x.cwiseMax(lower).cwiseMin(upper);
-  }
+  [[nodiscard]] Eigen::VectorXd clipped(const Eigen::VectorXd& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
 };
 
 double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
@@ -35,16 +33,13 @@ double column_norm(const Eigen::MatrixXd& jacobian, Eigen::Index j) {
 }
 
 /// Returns max |cos(J column, r)| over the variables that may move.
-double largest_cosine(const Eigen::MatrixXd& jacobian,
-                      const Eigen::VectorXd& r,
-                      const std::vector<bool>& held) {
+double largest_cosine(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, const std::vector<bool>& held) {
   const double norm = r.norm();
   if (norm == 0.0) return 0.0;
   double largest = 0.0;
   for (Eigen::Index j = 0; j < jacobian.cols(); ++j) {
     if (!held[static_cast<std::size_t>(j)]) {
-      largest =
-          std::max(largest, std::abs(jacobian.col(j).dot(r)) / (column_norm(jacobian, j) * norm));
+      largest = std::max(largest, std::abs(jacobian.col(j).dot(r)) / (column_norm(jacobian, j) * norm));
     }
   }
   return largest;
@@ -70,27 +65,23 @@ void finish(Search& search, Termination termination, std::string message) {
 void gauss_newton(Search& search) {
   LeastSquaresResult& result = search.result;
   const std::vector<bool> none(static_cast<std::size_t>(result.x.size()), false);
-  for (result.iterations = 0; result.iterations < search.options.max_iterations;
-       ++result.iterations) {
+  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
     search.options.progress.check();
     if (!result.jacobian.allFinite()) {
       return finish(search, Termination::not_finite,
                     "the Jacobian is not finite; the search left the domain of the model");
     }
     Eigen::VectorXd scale(result.x.size());
-    for (Eigen::Index j = 0; j < scale.size(); ++j)
-      scale[j] = 1.0 / column_norm(result.jacobian, j);
+    for (Eigen::Index j = 0; j < scale.size(); ++j) scale[j] = 1.0 / column_norm(result.jacobian, j);
     const Eigen::MatrixXd scaled = result.jacobian * scale.asDiagonal();
-    const Eigen::VectorXd step =
-        scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-result.residual).eval());
+    const Eigen::VectorXd step = scale.cwiseProduct(scaled.colPivHouseholderQr().solve(-result.residual).eval());
     const Eigen::VectorXd x = search.clipped(result.x + step);
     Eigen::VectorXd r = result.residual;
     Eigen::MatrixXd jacobian = result.jacobian;
     search.evaluate(x, r, &jacobian);
     const double cost = 0.5 * r.squaredNorm();
     if (!std::isfinite(cost) || !x.allFinite()) {
-      return finish(search, Termination::not_finite,
-                    "a full Gauss-Newton step left the domain of the model");
+      return finish(search, Termination::not_finite, "a full Gauss-Newton step left the domain of the model");
     }
     const Eigen::VectorXd moved = x - result.x;
     result.x = x;
@@ -107,8 +98,7 @@ void gauss_newton(Search& search) {
       return finish(search, Termination::no_descent, "plain Gauss-Newton steps diverged");
     }
   }
-  finish(search, Termination::iteration_limit,
-         fmt::format("not converged after {} iterations", result.iterations));
+  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
 }
 
 /// The linear problem of one iteration in scaled variables, min |J d + r| with |d| <= radius, ready
@@ -120,8 +110,7 @@ class TrustRegion {
   TrustRegion(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
     const Eigen::Index rows = std::min(jacobian.rows(), jacobian.cols());
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    const Eigen::MatrixXd triangle =
-        qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd triangle = qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
     Eigen::VectorXd rotated = residual;
     rotated.applyOnTheLeft(qr.householderQ().adjoint());
     svd_.compute(triangle, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -167,8 +156,7 @@ class TrustRegion {
   }
   [[nodiscard]] Eigen::VectorXd step_of(double mu) const {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(svd_.matrixV().rows());
-    for (Eigen::Index i = 0; i < projected_.size(); ++i)
-      d -= coefficient(i, mu) * svd_.matrixV().col(i);
+    for (Eigen::Index i = 0; i < projected_.size(); ++i) d -= coefficient(i, mu) * svd_.matrixV().col(i);
     return d;
   }
 
@@ -177,16 +165,14 @@ class TrustRegion {
   double rank_floor_ = 0.0;
 };
 
-/// Searches by More's trust region (1978): |D d| <= radius, D the greatest column norms so far, so
-/// that the search does not depend on the units of the parameters. The radius follows the gain
-/// ratio.
+/// Searches by More's trust region (1978): |D d| <= radius, D the greatest column norms so far, so that the search does
+/// not depend on the units of the parameters. The radius follows the gain ratio.
 void levenberg_marquardt(Search& search) {
   LeastSquaresResult& result = search.result;
   const Eigen::Index p = result.x.size();
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(p);
   double radius = 0.0;
-  for (result.iterations = 0; result.iterations < search.options.max_iterations;
-       ++result.iterations) {
+  for (result.iterations = 0; result.iterations < search.options.max_iterations; ++result.iterations) {
     search.options.progress.check();
     // Variables that lean on a bound and are pushed further out stay there.
     const Eigen::VectorXd gradient = result.jacobian.transpose() * result.residual;
@@ -199,10 +185,9 @@ void levenberg_marquardt(Search& search) {
       if (!out) moving.push_back(j);
       scale[j] = std::max(scale[j], column_norm(result.jacobian, j));
     }
-    if (moving.empty())
-      return finish(search, Termination::converged, "every parameter leans on a bound");
-    if (result.cost == 0.0 || largest_cosine(result.jacobian, result.residual, held) <=
-                                  search.options.gradient_tolerance) {
+    if (moving.empty()) return finish(search, Termination::converged, "every parameter leans on a bound");
+    if (result.cost == 0.0 ||
+        largest_cosine(result.jacobian, result.residual, held) <= search.options.gradient_tolerance) {
       return finish(search, Termination::converged, "the gradient vanishes");
     }
     const Eigen::Index q = static_cast<Eigen::Index>(moving.size());
@@ -235,8 +220,7 @@ void levenberg_marquardt(Search& search) {
       const double cost = 0.5 * r.squaredNorm();
       const double model_cost = 0.5 * (result.residual + result.jacobian * moved).squaredNorm();
       const double promised = result.cost - model_cost;
-      const double ratio =
-          std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
+      const double ratio = std::isfinite(cost) && promised > 0.0 ? (result.cost - cost) / promised : -1.0;
       const double previous = result.cost;
       if (ratio > 1e-4 || (std::isfinite(cost) && cost < result.cost)) {
         search.evaluate(x, r, &next);
@@ -261,32 +245,24 @@ void levenberg_marquardt(Search& search) {
       }
       if (!accepted) {
         if (promised <= search.options.cost_tolerance * result.cost) {
-          return finish(search, Termination::converged,
-                        "the cost can fall no further within round-off");
+          return finish(search, Termination::converged, "the cost can fall no further within round-off");
         }
         // The minimum of the parabola through the cost and its slope here and the cost there.
         const double slope = gradient.dot(moved);
         const double rise = cost - previous;
-        const double shrink =
-            std::isfinite(rise) && rise > slope ? -0.5 * slope / (rise - slope) : 0.1;
+        const double shrink = std::isfinite(rise) && rise > slope ? -0.5 * slope / (rise - slope) : 0.1;
         radius = std::clamp(shrink, 0.1, 0.5) * std::min(radius, size);
-        if (radius < 1e-300)
-          return finish(search, Termination::no_descent, "no step lowers the cost");
+        if (radius < 1e-300) return finish(search, Termination::no_descent, "no step lowers the cost");
       }
     }
   }
-  finish(search, Termination::iteration_limit,
-         fmt::format("not converged after {} iterations", result.iterations));
+  finish(search, Termination::iteration_limit, fmt::format("not converged after {} iterations", result.iterations));
 }
 
-Eigen::VectorXd filled(const Eigen::VectorXd& bound,
-                       Eigen::Index size,
-                       double otherwise,
-                       std::string_view what) {
+Eigen::VectorXd filled(const Eigen::VectorXd& bound, Eigen::Index size, double otherwise, std::string_view what) {
   if (bound.size() == 0) return Eigen::VectorXd::Constant(size, otherwise);
   if (bound.size() != size) {
-    throw InvalidInput(
-        fmt::format("least squares: {} {} bounds for {} parameters", bound.size(), what, size));
+    throw InvalidInput(fmt::format("least squares: {} {} bounds for {} parameters", bound.size(), what, size));
   }
   return bound;
 }
@@ -328,8 +304,7 @@ LeastSquaresResult minimize(const LeastSquaresProblem& problem,
     throw InvalidInput("least squares: the residual or its Jacobian is not finite at the start");
   }
   result.cost_history.push_back(result.cost);
-  options.method == LeastSquaresMethod::gauss_newton ? gauss_newton(search)
-                                                     : levenberg_marquardt(search);
+  options.method == LeastSquaresMethod::gauss_newton ? gauss_newton(search) : levenberg_marquardt(search);
   return std::move(search.result);
 }
 

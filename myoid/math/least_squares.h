@@ -13,8 +13,8 @@ namespace myoid::math {
 
 /// Computes residuals and, if `jacobian` is not null, their derivatives at x. The caller sets the
 /// sizes: r has `residual_count` entries, J is residual_count x parameter_count.
-using ResidualFunction = std::function<void(
-    const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
+using ResidualFunction =
+    std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
 
 struct LeastSquaresProblem {
   Eigen::Index residual_count = 0;
@@ -24,17 +24,17 @@ struct LeastSquaresProblem {
 };
 
 enum class LeastSquaresMethod {
-  gauss_newton,  ///< Full steps d of J d = -r by column-pivoted QR without damping, as in the
-                 ///< source paper.
+  gauss_newton,         ///< Full steps d of J d = -r by column-pivoted QR without damping, as in the
+                        ///< source paper.
   levenberg_marquardt,  ///< More's scaled trust region, projected onto the bounds.
 };
 
 struct LeastSquaresOptions {
   LeastSquaresMethod method = LeastSquaresMethod::levenberg_marquardt;
   int max_iterations = 200;
-  double initial_radius = 3.0;    ///< Radius of the trust region at the start, in units of |D x|.
-  double step_tolerance = 1e-12;  ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
-  double cost_tolerance = 1e-15;  ///< Stop when the cost falls by less than this share.
+  double initial_radius = 3.0;        ///< Radius of the trust region at the start, in units of |D x|.
+  double step_tolerance = 1e-12;      ///< Stop when |d| <= tol (|x| + tol), in scaled variables.
+  double cost_tolerance = 1e-15;      ///< Stop when the cost falls by less than this share.
   double gradient_tolerance = 1e-14;  ///< Stop when all |cos(free J column, r)| are below.
   Progress progress;
 };

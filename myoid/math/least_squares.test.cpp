@@ -34,17 +34,13 @@ TEST(LevenbergMarquardt, FindsNistsCertifiedParametersAndStandardDeviationsFromB
     const NistProblem nist = test::read_nist(name);
     ASSERT_EQ(nist.starts.size(), 2U);
     for (std::size_t s = 0; s < nist.starts.size(); ++s) {
-      const LeastSquaresResult fit =
-          minimize(least_squares(nist), nist.starts[s], {.max_iterations = 1000});
-      const CovarianceResult covariance_of_fit =
-          covariance(fit.jacobian, fit.residual, {.rank_tolerance = 1e-14});
-      EXPECT_EQ(fit.termination, Termination::converged)
-          << name << " start " << s + 1 << ": " << fit.message;
+      const LeastSquaresResult fit = minimize(least_squares(nist), nist.starts[s], {.max_iterations = 1000});
+      const CovarianceResult covariance_of_fit = covariance(fit.jacobian, fit.residual, {.rank_tolerance = 1e-14});
+      EXPECT_EQ(fit.termination, Termination::converged) << name << " start " << s + 1 << ": " << fit.message;
       for (Eigen::Index j = 0; j < fit.x.size(); ++j) {
         EXPECT_GE(test::correct_digits(fit.x[j], nist.certified[j]), 6.0)
             << name << " start " << s + 1 << " b" << j + 1;
-        const double deviation =
-            std::sqrt(covariance_of_fit.unscaled(j, j) * covariance_of_fit.residual_variance);
+        const double deviation = std::sqrt(covariance_of_fit.unscaled(j, j) * covariance_of_fit.residual_variance);
         EXPECT_GE(test::correct_digits(deviation, nist.standard_deviation[j]), 6.0)
             << name << " start " << s + 1 << " sd of b" << j + 1;
       }
@@ -53,12 +49,11 @@ TEST(LevenbergMarquardt, FindsNistsCertifiedParametersAndStandardDeviationsFromB
 }
 
 TEST(GaussNewton, FindsThemWithFullStepsFromTheNearerStartWhereThoseLead) {
-  for (const char* name : {"Misra1a", "Misra1b", "Misra1c", "Misra1d", "DanWood", "BoxBOD", "Rat42",
-                           "Chwirut1", "Chwirut2", "Gauss1", "Gauss2", "Kirby2"}) {
+  for (const char* name : {"Misra1a", "Misra1b", "Misra1c", "Misra1d", "DanWood", "BoxBOD", "Rat42", "Chwirut1",
+                           "Chwirut2", "Gauss1", "Gauss2", "Kirby2"}) {
     const NistProblem nist = test::read_nist(name);
-    const LeastSquaresResult fit =
-        minimize(least_squares(nist), nist.starts[1],
-                 {.method = LeastSquaresMethod::gauss_newton, .max_iterations = 200});
+    const LeastSquaresResult fit = minimize(least_squares(nist), nist.starts[1],
+                                            {.method = LeastSquaresMethod::gauss_newton, .max_iterations = 200});
     for (Eigen::Index j = 0; j < fit.x.size(); ++j)
       EXPECT_GE(test::correct_digits(fit.x[j], nist.certified[j]), 6.0) << name << " b" << j + 1;
   }

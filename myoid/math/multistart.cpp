@@ -17,12 +17,12 @@ namespace {
 void validate(const MultistartOptions& options) {
   const Eigen::Index p = options.lower.size();
   if (p == 0 || options.upper.size() != p) {
-    throw InvalidInput(fmt::format("multistart: the box has {} lower and {} upper ends",
-                                   options.lower.size(), options.upper.size()));
+    throw InvalidInput(
+        fmt::format("multistart: the box has {} lower and {} upper ends", options.lower.size(), options.upper.size()));
   }
   if (!options.logarithmic.empty() && static_cast<Eigen::Index>(options.logarithmic.size()) != p) {
-    throw InvalidInput(fmt::format("multistart: {} logarithmic flags for {} parameters",
-                                   options.logarithmic.size(), p));
+    throw InvalidInput(
+        fmt::format("multistart: {} logarithmic flags for {} parameters", options.logarithmic.size(), p));
   }
   if (options.starts < 0 || options.starts + static_cast<Eigen::Index>(options.given.size()) < 1)
     throw InvalidInput(fmt::format("multistart: {} starts; at least 1 is needed", options.starts));
@@ -30,8 +30,7 @@ void validate(const MultistartOptions& options) {
     throw InvalidInput("multistart: the tolerances must not be negative");
   for (Eigen::Index j = 0; j < p; ++j) {
     const double low = options.lower[j], high = options.upper[j];
-    const bool logarithmic =
-        !options.logarithmic.empty() && options.logarithmic[static_cast<std::size_t>(j)];
+    const bool logarithmic = !options.logarithmic.empty() && options.logarithmic[static_cast<std::size_t>(j)];
     if (!std::isfinite(low) || !std::isfinite(high) || low > high || (logarithmic && low <= 0.0)) {
       throw InvalidInput(
           fmt::format("multistart: parameter {} has the box [{}, {}]; finite ends that rise{} are "
@@ -41,8 +40,7 @@ void validate(const MultistartOptions& options) {
   }
   for (const Eigen::VectorXd& start : options.given) {
     if (start.size() != p) {
-      throw InvalidInput(
-          fmt::format("multistart: a given start has {} parameters, the box {}", start.size(), p));
+      throw InvalidInput(fmt::format("multistart: a given start has {} parameters, the box {}", start.size(), p));
     }
   }
 }
@@ -56,8 +54,7 @@ struct Box {
   }
   [[nodiscard]] double inside(Eigen::Index j, double share) const {
     const double low = options.lower[j], high = options.upper[j];
-    const double value =
-        logarithmic(j) ? low * std::pow(high / low, share) : low + share * (high - low);
+    const double value = logarithmic(j) ? low * std::pow(high / low, share) : low + share * (high - low);
     return std::clamp(value, low, high);
   }
   [[nodiscard]] double share(Eigen::Index j, double value) const {
@@ -74,8 +71,7 @@ struct Box {
   }
 };
 
-/// Gathers the minima into basins, lowest first, so that the best member names the basin; ties go
-/// by index.
+/// Gathers the minima into basins, lowest first, so that the best member names the basin; ties go by index.
 void gather(const Box& box, MultistartResult& result) {
   std::vector<Eigen::Index> order(result.minima.size());
   std::iota(order.begin(), order.end(), 0);
@@ -87,9 +83,8 @@ void gather(const Box& box, MultistartResult& result) {
     if (failed) result.failed.push_back(i);
     return failed;
   });
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return minimum(a).cost < minimum(b).cost;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return minimum(a).cost < minimum(b).cost; });
   for (const Eigen::Index i : order) {
     auto basin = std::find_if(result.basins.begin(), result.basins.end(),
                               [&](const Basin& known) { return box.same(known.x, minimum(i).x); });
@@ -118,9 +113,7 @@ MultistartResult multistart(const LocalSearch& search, const MultistartOptions& 
   if (options.starts > 0)
     cube = sobol_points(
         options.starts, static_cast<int>(std::min<Eigen::Index>(p, 1000)),
-        {.first = 1,
-         .scramble_seed =
-             options.scramble_seed});  // 1 skips the origin: the first point is the center
+        {.first = 1, .scramble_seed = options.scramble_seed});  // 1 skips the origin: the first point is the center
   for (Eigen::Index i = 0; i < cube.rows(); ++i) {
     Eigen::VectorXd start(p);
     for (Eigen::Index j = 0; j < p; ++j) start[j] = box.inside(j, cube(i, j));
@@ -159,10 +152,8 @@ MultistartResult multistart(const LeastSquaresProblem& problem,
         end.termination = Termination::not_finite;
         if (!std::isfinite(r.squaredNorm()) || !jacobian.allFinite()) return end;
         const LeastSquaresResult fit = minimize(problem, inside, quiet);
-        return LocalMinimum{.termination = fit.termination,
-                            .x = fit.x,
-                            .cost = fit.cost,
-                            .evaluations = fit.evaluations + 1};
+        return LocalMinimum{
+            .termination = fit.termination, .x = fit.x, .cost = fit.cost, .evaluations = fit.evaluations + 1};
       },
       options);
 }

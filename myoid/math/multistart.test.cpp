@@ -93,8 +93,7 @@ TEST(Multistart, FindsNistsCertifiedMinimumOfGauss3FromABox) {
                             .logarithmic = std::vector<bool>(8, true)};
   const MultistartResult result = multistart(least_squares(nist), {}, options);
   ASSERT_FALSE(result.basins.empty());
-  for (Eigen::Index j = 0; j < 8; ++j)
-    EXPECT_NEAR(result.basins.front().x[j] / nist.certified[j], 1.0, 1e-6);
+  for (Eigen::Index j = 0; j < 8; ++j) EXPECT_NEAR(result.basins.front().x[j] / nist.certified[j], 1.0, 1e-6);
   EXPECT_NEAR(2.0 * result.basins.front().cost / nist.residual_sum_of_squares, 1.0, 1e-9);
 }
 
@@ -126,10 +125,9 @@ TEST(Multistart, StartsOutsideTheDomainAreCountedNotFatal) {
     r[0] = std::log(x[0]);
     if (j != nullptr) (*j)(0, 0) = 1.0 / x[0];
   };
-  const MultistartResult result = multistart(problem, {},
-                                             {.starts = 16,
-                                              .lower = Eigen::VectorXd::Constant(1, -2.0),
-                                              .upper = Eigen::VectorXd::Constant(1, 2.0)});
+  const MultistartResult result = multistart(
+      problem, {},
+      {.starts = 16, .lower = Eigen::VectorXd::Constant(1, -2.0), .upper = Eigen::VectorXd::Constant(1, 2.0)});
   ASSERT_EQ(result.basins.size(), 1U);
   EXPECT_NEAR(result.basins[0].x[0], 1.0, 1e-9);
   EXPECT_EQ(result.failed.size() + result.basins[0].members.size(), 16U);
@@ -137,17 +135,13 @@ TEST(Multistart, StartsOutsideTheDomainAreCountedNotFatal) {
 }
 
 TEST(Multistart, RefusesBoxesThatAreNone) {
-  const LocalSearch search = [](const Eigen::VectorXd& x, Eigen::Index) {
-    return LocalMinimum{.x = x};
-  };
+  const LocalSearch search = [](const Eigen::VectorXd& x, Eigen::Index) { return LocalMinimum{.x = x}; };
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   EXPECT_THROW((void)multistart(search, {}), InvalidInput);
   EXPECT_THROW((void)multistart(search, {.lower = one, .upper = -one}), InvalidInput);
-  EXPECT_THROW((void)multistart(search, {.lower = 0.0 * one, .upper = one, .logarithmic = {true}}),
-               InvalidInput);
+  EXPECT_THROW((void)multistart(search, {.lower = 0.0 * one, .upper = one, .logarithmic = {true}}), InvalidInput);
   EXPECT_THROW((void)multistart(search, {.starts = 0, .lower = -one, .upper = one}), InvalidInput);
-  EXPECT_THROW((void)multistart(search, {.lower = -one, .upper = one, .given = {{}}}),
-               InvalidInput);
+  EXPECT_THROW((void)multistart(search, {.lower = -one, .upper = one, .given = {{}}}), InvalidInput);
   std::stop_source stop;
   stop.request_stop();
   MultistartOptions options{.lower = -one, .upper = one};

@@ -65,13 +65,11 @@ NaturalBasis natural_basis(const Eigen::VectorXd& t, int m) {
       const double u = half * (1.0 + node[g]);
       std::array<double, 3> value{};
       for (Eigen::Index j = first; j <= last; ++j)
-        value[static_cast<std::size_t>(j - first)] =
-            value_at(&b.pieces((j - i + m - 1) * m, i), m, u);
+        value[static_cast<std::size_t>(j - first)] = value_at(&b.pieces((j - i + m - 1) * m, i), m, u);
       for (Eigen::Index j = first; j <= last; ++j) {
         for (Eigen::Index k = j; k <= last; ++k) {
           b.gram(j, k - j) += weight[g] * half * value[static_cast<std::size_t>(j - first)] *
-                              value[static_cast<std::size_t>(k - first)] /
-                              kFactorial[static_cast<std::size_t>(m)];
+                              value[static_cast<std::size_t>(k - first)] / kFactorial[static_cast<std::size_t>(m)];
         }
       }
     }
@@ -88,9 +86,7 @@ NaturalBasis natural_basis(const Eigen::VectorXd& t, int m) {
   return b;
 }
 
-std::array<double, 3> highest_derivative(const NaturalBasis& basis,
-                                         const Eigen::VectorXd& c,
-                                         Eigen::Index i) {
+std::array<double, 3> highest_derivative(const NaturalBasis& basis, const Eigen::VectorXd& c, Eigen::Index i) {
   std::array<double, 3> sum{};
   const int m = basis.m;
   const Eigen::Index first = std::max<Eigen::Index>(0, i - m + 1);

@@ -8,10 +8,9 @@ namespace myoid::math {
 
 inline constexpr std::array<double, 4> kFactorial{1.0, 1.0, 2.0, 6.0};  ///< 0! to 3!
 
-/// The common part of natural splines of degree 2m - 1 (m = 1, 2, 3) over the same knots t_0 < .. <
-/// t_(n-1). Their m-th derivative is s^(m) = sum_j c_j M_j with the B-splines M_j of degree m - 1
-/// over t_j .. t_(j+m), of unit integral: the divided difference of order m is [t_j .. t_(j+m)] s =
-/// 1/m! * integral M_j s^(m) (Peano).
+/// The common part of natural splines of degree 2m - 1 (m = 1, 2, 3) over the same knots t_0 < .. < t_(n-1). Their m-th
+/// derivative is s^(m) = sum_j c_j M_j with the B-splines M_j of degree m - 1 over t_j .. t_(j+m), of unit integral:
+/// the divided difference of order m is [t_j .. t_(j+m)] s = 1/m! * integral M_j s^(m) (Peano).
 struct NaturalBasis {
   int m = 3;
   Eigen::VectorXd knots;
@@ -32,9 +31,8 @@ struct NaturalBasis {
                                                        const Eigen::VectorXd& c,
                                                        Eigen::Index i);
 
-/// Factors a symmetric positive definite band matrix (by diagonals, as NaturalBasis::gram) as L D
-/// L'. Its rows are scaled to a unit diagonal first, because uneven knots give rows of very
-/// different size. O(n).
+/// Factors a symmetric positive definite band matrix (by diagonals, as NaturalBasis::gram) as L D L'. Its rows are
+/// scaled to a unit diagonal first, because uneven knots give rows of very different size. O(n).
 class BandFactor {
  public:
   BandFactor() = default;  ///< Factors the matrix without rows.

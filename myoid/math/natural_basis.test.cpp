@@ -55,8 +55,7 @@ TEST(NaturalBasis, DividedDifferencesOfPowers) {
     for (Eigen::Index j = 0; j < basis.difference.rows(); ++j) {
       for (int power = 0; power <= m; ++power) {
         double sum = 0.0;
-        for (int k = 0; k <= m; ++k)
-          sum += basis.difference(j, k) * std::pow(basis.knots[j + k], power);
+        for (int k = 0; k <= m; ++k) sum += basis.difference(j, k) * std::pow(basis.knots[j + k], power);
         EXPECT_NEAR(sum, power == m ? 1.0 : 0.0, 1e-11);
       }
     }

@@ -40,8 +40,7 @@ class Simplex {
  public:
   /// Builds a right-angled simplex at `corner`, with edges to the side of `sign`, or inward
   /// at a bound.
-  Simplex(CountedCost& cost, Vertex corner, const Eigen::VectorXd& edges, double sign)
-      : cost_(cost) {
+  Simplex(CountedCost& cost, Vertex corner, const Eigen::VectorXd& edges, double sign) : cost_(cost) {
     vertices_.push_back(std::move(corner));
     const Eigen::VectorXd origin = vertices_.front().x;
     for (Eigen::Index j = 0; j < edges.size(); ++j) {
@@ -60,8 +59,7 @@ class Simplex {
     const double spread = vertices_.back().cost - best().cost;
     if (spread <= options.cost_tolerance * std::abs(best().cost)) return true;
     for (const Vertex& vertex : vertices_) {
-      const Eigen::ArrayXd reach =
-          options.step_tolerance * best().x.array().abs().max(edges.array());
+      const Eigen::ArrayXd reach = options.step_tolerance * best().x.array().abs().max(edges.array());
       if (((vertex.x - best().x).array().abs() > reach).any()) return false;
     }
     return true;
@@ -82,13 +80,11 @@ class Simplex {
       worst = reflected;
     } else {
       const bool outside = reflected.cost < worst.cost;
-      const Vertex contracted =
-          at(center + (outside ? by.reflect * by.contract : -by.contract) * away);
+      const Vertex contracted = at(center + (outside ? by.reflect * by.contract : -by.contract) * away);
       if (contracted.cost < std::min(reflected.cost, worst.cost)) {
         worst = contracted;
       } else {
-        for (std::size_t i = 1; i <= last; ++i)
-          vertices_[i] = at(best().x + by.shrink * (vertices_[i].x - best().x));
+        for (std::size_t i = 1; i <= last; ++i) vertices_[i] = at(best().x + by.shrink * (vertices_[i].x - best().x));
       }
     }
     sort();
@@ -117,8 +113,7 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
   CountedCost cost(problem, start.size());
   if (!start.allFinite()) throw InvalidInput("nelder_mead: the start is not finite");
   if (!(options.first_edge > 0.0)) {
-    throw InvalidInput(
-        fmt::format("nelder_mead: first_edge is {}; it must be positive", options.first_edge));
+    throw InvalidInput(fmt::format("nelder_mead: first_edge is {}; it must be positive", options.first_edge));
   }
   const Coefficients by = coefficients(start.size(), options.adaptive);
   Vertex best{cost.clipped(start), 0.0};
@@ -143,8 +138,7 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
       result.message = fmt::format("not converged after {} evaluations", cost.evaluations());
       break;
     }
-    const bool confirmed =
-        result.restarts > 0 && before - best.cost <= options.restart_tolerance * std::abs(before);
+    const bool confirmed = result.restarts > 0 && before - best.cost <= options.restart_tolerance * std::abs(before);
     if (confirmed || options.max_restarts == 0) {
       result.termination = Termination::converged;
       result.message = confirmed ? "a fresh simplex found nothing lower" : "the simplex shrank";
@@ -152,8 +146,7 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
     }
     if (result.restarts >= options.max_restarts) {
       result.termination = Termination::iteration_limit;
-      result.message =
-          fmt::format("still improving after {} restarts of the simplex", result.restarts);
+      result.message = fmt::format("still improving after {} restarts of the simplex", result.restarts);
       break;
     }
     sign = -sign;  // the next simplex points the other way

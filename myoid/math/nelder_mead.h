@@ -21,12 +21,11 @@ struct NelderMeadOptions {
   Progress progress;
 };
 
-/// Minimizes a cost within its bounds by the downhill simplex of Nelder and Mead (1965). A shrunken
-/// simplex alone proves nothing (McKinnon 1998): the search restarts there until a new simplex
-/// finds nothing lower. Points outside the bounds are moved onto them. The search begins at
-/// `start`, clipped. `converged`: a restart confirmed the point; with max_restarts = 0, the simplex
-/// shrank. Same input, same result. Throws InvalidInput as CountedCost does, or if the start is not
-/// finite or has no finite cost; Interrupted.
+/// Minimizes a cost within its bounds by the downhill simplex of Nelder and Mead (1965). A shrunken simplex alone
+/// proves nothing (McKinnon 1998): the search restarts there until a new simplex finds nothing lower. Points outside
+/// the bounds are moved onto them. The search begins at `start`, clipped. `converged`: a restart confirmed the point;
+/// with max_restarts = 0, the simplex shrank. Same input, same result. Throws InvalidInput as CountedCost does, or if
+/// the start is not finite or has no finite cost; Interrupted.
 [[nodiscard]] DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
                                              const Eigen::VectorXd& start,
                                              const NelderMeadOptions& options = {});

@@ -40,13 +40,11 @@ void validate(const OdeOptions& options, long state_count) {
   positive(options.absolute_tolerance, "absolute_tolerance");
   positive(options.max_step_s, "max_step_s");
   if (!(options.first_step_s >= 0.0) || !std::isfinite(options.first_step_s)) {
-    throw InvalidInput(
-        fmt::format("first_step_s is {}, expected 0 (chosen) or more", options.first_step_s));
+    throw InvalidInput(fmt::format("first_step_s is {}, expected 0 (chosen) or more", options.first_step_s));
   }
-  if (!options.absolute_tolerances.empty() &&
-      static_cast<long>(options.absolute_tolerances.size()) != state_count) {
-    throw InvalidInput(fmt::format("{} absolute tolerances for {} states",
-                                   options.absolute_tolerances.size(), state_count));
+  if (!options.absolute_tolerances.empty() && static_cast<long>(options.absolute_tolerances.size()) != state_count) {
+    throw InvalidInput(
+        fmt::format("{} absolute tolerances for {} states", options.absolute_tolerances.size(), state_count));
   }
   for (const double value : options.absolute_tolerances) positive(value, "absolute tolerance");
 }

@@ -6,8 +6,7 @@
 
 namespace myoid::math {
 
-/// The end of an integration. Only `done` is an answer; the results up to the time reached are
-/// valid in all cases.
+/// The end of an integration. Only `done` is an answer; the results up to the time reached are valid in all cases.
 enum class OdeStatus {
   done,
   too_many_steps,  ///< `OdeOptions::max_steps` did not suffice.

@@ -10,9 +10,8 @@
 
 namespace myoid::math {
 
-/// Finds sign changes of `events`, so that no step crosses a kink of the right-hand side. A
-/// quantity has changed once it is beyond zero by more than `kEventDeadband`; it has no sign until
-/// it first leaves zero.
+/// Finds sign changes of `events`, so that no step crosses a kink of the right-hand side. A quantity has changed once
+/// it is beyond zero by more than `kEventDeadband`; it has no sign until it first leaves zero.
 inline constexpr double kEventDeadband = 1e-10;
 class EventSigns {
  public:
@@ -36,8 +35,7 @@ class EventSigns {
       if (std::abs(g[i]) > kEventDeadband) sign_[i] = g[i] > 0.0 ? 1 : -1;
     }
   }
-  /// Passes a crossing: the quantity gets its new sign, and quantities at zero have none until they
-  /// leave it.
+  /// Passes a crossing: the quantity gets its new sign, and quantities at zero have none until they leave it.
   void pass(std::span<const double> g) {
     for (std::size_t i = 0; i < sign_.size(); ++i) {
       if (g[i] * sign_[i] < -kEventDeadband) {
@@ -56,18 +54,13 @@ class EventSigns {
 /// change sign at kinks; `on_step(stepper)` receives every step and ends the integration by
 /// returning false. `rate` is passed on to steppers that need it: `integrate(stepper, ..., rate)`.
 template <typename Stepper, typename Events, typename OnStep, typename... Rate>
-OdeStatus integrate(Stepper& stepper,
-                    double end_s,
-                    EventSigns& signs,
-                    Events&& events,
-                    OnStep&& on_step,
-                    Rate&... rate) {
+OdeStatus integrate(
+    Stepper& stepper, double end_s, EventSigns& signs, Events&& events, OnStep&& on_step, Rate&... rate) {
   using T = std::remove_cvref_t<decltype(stepper.state()[0])>;
   std::vector<double> g(signs.size());
   std::vector<T> y(signs.size() > 0 ? stepper.size() : 0);
   while (stepper.time_s() < end_s) {
-    if (const OdeStatus status = stepper.step(end_s, rate...); status != OdeStatus::done)
-      return status;
+    if (const OdeStatus status = stepper.step(end_s, rate...); status != OdeStatus::done) return status;
     if (signs.size() > 0) {
       events(stepper.time_s(), stepper.state().data(), g.data());
       if (signs.crossed(g)) {
@@ -84,8 +77,7 @@ OdeStatus integrate(Stepper& stepper,
         events(high, y.data(), g.data());
         signs.pass(g);
         if (high < stepper.time_s()) {
-          if (const OdeStatus status = stepper.shorten(high, rate...); status != OdeStatus::done)
-            return status;
+          if (const OdeStatus status = stepper.shorten(high, rate...); status != OdeStatus::done) return status;
         }
       } else {
         signs.learn(g);

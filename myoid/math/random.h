@@ -36,9 +36,8 @@ class Random {
   bool has_spare_ = false;
 };
 
-/// Returns a seed for one purpose, from the seed of the whole: streams of different names are
-/// independent, so a further trial or channel does not change the noise of the others. FNV-1a of
-/// the name, mixed by the finalizer of SplitMix64.
+/// Returns a seed for one purpose, from the seed of the whole: streams of different names are independent, so a further
+/// trial or channel does not change the noise of the others. FNV-1a of the name, mixed by the finalizer of SplitMix64.
 [[nodiscard]] std::uint64_t seed_for(std::uint64_t seed, std::string_view purpose);
 
 }  // namespace myoid::math

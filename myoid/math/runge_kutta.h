@@ -17,10 +17,9 @@ template <typename T>
 requires requires(const T& x) { x.a; }
 double plain(const T& x) { return plain(x.a); }
 
-/// The explicit method of Dormand and Prince (1980), order 5 with an embedded order 4, for problems
-/// that are not stiff. Within a step a continuously differentiable polynomial of order 4
-/// interpolates. `T` is double or ceres::Jet; a Jet carries derivatives exactly through the steps,
-/// whose sizes follow the values alone.
+/// The explicit method of Dormand and Prince (1980), order 5 with an embedded order 4, for problems that are not stiff.
+/// Within a step a continuously differentiable polynomial of order 4 interpolates. `T` is double or ceres::Jet; a Jet
+/// carries derivatives exactly through the steps, whose sizes follow the values alone.
 ///
 /// `rate(t, y, ydot)` writes dy/dt. It returns void, or a bool that is false where it cannot be
 /// evaluated. Nothing is allocated after `start`.
@@ -28,8 +27,7 @@ template <typename T>
 class RungeKutta {
  public:
   /// Throws InvalidInput if the options are not usable.
-  RungeKutta(std::size_t state_count, OdeOptions options)
-      : n_(state_count), options_(std::move(options)) {
+  RungeKutta(std::size_t state_count, OdeOptions options) : n_(state_count), options_(std::move(options)) {
     validate(options_, static_cast<long>(n_));
     for (auto* v : {&y_, &next_, &stage_}) v->assign(n_, T(0.0));
     for (auto& k : k_) k.assign(n_, T(0.0));
@@ -54,16 +52,14 @@ class RungeKutta {
   OdeStatus step(double limit_s, Rate&& rate) {
     bool rejected = false;
     while (true) {
-      if (statistics_.steps + statistics_.rejected >= options_.max_steps)
-        return OdeStatus::too_many_steps;
+      if (statistics_.steps + statistics_.rejected >= options_.max_steps) return OdeStatus::too_many_steps;
       double h = std::min(step_, options_.max_step_s);
       bool at_limit = false;
       if (time_ + 1.01 * h >= limit_s) {
         h = limit_s - time_;
         at_limit = true;
       }
-      if (!(h > 1e-14 * std::max(1.0, std::abs(time_))) && !at_limit)
-        return OdeStatus::step_too_small;
+      if (!(h > 1e-14 * std::max(1.0, std::abs(time_))) && !at_limit) return OdeStatus::step_too_small;
       const bool evaluated = stages(h, rate);
       const double error = evaluated ? error_norm(h) : std::numeric_limits<double>::infinity();
       if (!(error < 1.0)) {
@@ -121,13 +117,11 @@ class RungeKutta {
     const double s = h > 0.0 ? (time_s - previous_) / h : 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       y[i] = dense_[0][i] +
-             s * (dense_[1][i] +
-                  (1.0 - s) * (dense_[2][i] + s * (dense_[3][i] + (1.0 - s) * dense_[4][i])));
+             s * (dense_[1][i] + (1.0 - s) * (dense_[2][i] + s * (dense_[3][i] + (1.0 - s) * dense_[4][i])));
     }
   }
 
-  /// Returns the same as a polynomial of s = time - previous_time_s(), increasing powers up to the
-  /// fourth.
+  /// Returns the same as a polynomial of s = time - previous_time_s(), increasing powers up to the fourth.
   [[nodiscard]] std::array<T, 5> polynomial(std::size_t i) const {
     const double h = time_ - previous_;
     const T& b = dense_[1][i];
@@ -174,32 +168,28 @@ class RungeKutta {
   }
 
   double error_norm(double h) const {
-    static constexpr double kError[] = {
-        71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
-        -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
+    static constexpr double kError[] = {71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
+                                        -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       double e = 0.0;
       for (std::size_t s = 0; s < 7; ++s) e += kError[s] * plain(k_[s][i]);
       const double scale =
-          tolerance(i) +
-          options_.relative_tolerance * std::max(std::abs(plain(y_[i])), std::abs(plain(next_[i])));
+          tolerance(i) + options_.relative_tolerance * std::max(std::abs(plain(y_[i])), std::abs(plain(next_[i])));
       sum += (h * e / scale) * (h * e / scale);
     }
     return std::sqrt(sum / static_cast<double>(n_));
   }
 
   double tolerance(std::size_t i) const {
-    return options_.absolute_tolerances.empty() ? options_.absolute_tolerance
-                                                : options_.absolute_tolerances[i];
+    return options_.absolute_tolerances.empty() ? options_.absolute_tolerance : options_.absolute_tolerances[i];
   }
 
   void accept(double h) {
-    static constexpr double kDense[] = {
-        -12715105075.0 / 11282082432.0,  0.0,
-        87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
-        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
-        69997945.0 / 29380423.0};
+    static constexpr double kDense[] = {-12715105075.0 / 11282082432.0,  0.0,
+                                        87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
+                                        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+                                        69997945.0 / 29380423.0};
     for (std::size_t i = 0; i < n_; ++i) {
       const T difference = next_[i] - y_[i];
       const T bend = h * k_[0][i] - difference;
@@ -217,8 +207,7 @@ class RungeKutta {
     time_ += h;
   }
 
-  /// Returns a first step after Hairer, Norsett & Wanner: so small that the first two terms of the
-  /// series agree.
+  /// Returns a first step after Hairer, Norsett & Wanner: so small that the first two terms of the series agree.
   double first_step() const {
     double y_norm = 0.0;
     double rate_norm = 0.0;
@@ -227,8 +216,7 @@ class RungeKutta {
       y_norm += std::pow(plain(y_[i]) / scale, 2);
       rate_norm += std::pow(plain(k_[0][i]) / scale, 2);
     }
-    const double h =
-        y_norm > 1e-10 && rate_norm > 1e-10 ? 0.01 * std::sqrt(y_norm / rate_norm) : 1e-6;
+    const double h = y_norm > 1e-10 && rate_norm > 1e-10 ? 0.01 * std::sqrt(y_norm / rate_norm) : 1e-6;
     return std::min(h, 1e-3);
   }
 

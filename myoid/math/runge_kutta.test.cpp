@@ -27,8 +27,7 @@ double error_after(int steps) {
   options.max_step_s = options.first_step_s = 10.0 / steps;
   RungeKutta<double> solver(2, options);
   EXPECT_EQ(solver.start(0.0, std::span<const double>(kBegin), kOscillator), OdeStatus::done);
-  for (int k = 1; k <= steps; ++k)
-    EXPECT_EQ(solver.step(10.0 * k / steps, kOscillator), OdeStatus::done);
+  for (int k = 1; k <= steps; ++k) EXPECT_EQ(solver.step(10.0 * k / steps, kOscillator), OdeStatus::done);
   return std::hypot(solver.state()[0] - std::cos(10.0), solver.state()[1] + std::sin(10.0));
 }
 
@@ -41,8 +40,7 @@ TEST(RungeKutta, HalfTheStepIsAThirtySecondOfTheError) {
 TEST(RungeKutta, ATighterToleranceReducesTheErrorInProportion) {
   double before = 0.0;
   for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-    RungeKutta<double> solver(2,
-                              {.relative_tolerance = tolerance, .absolute_tolerance = tolerance});
+    RungeKutta<double> solver(2, {.relative_tolerance = tolerance, .absolute_tolerance = tolerance});
     ASSERT_EQ(solver.start(0.0, std::span<const double>(kBegin), kOscillator), OdeStatus::done);
     while (solver.time_s() < 10.0) {
       ASSERT_EQ(solver.step(10.0, kOscillator), OdeStatus::done);
@@ -125,8 +123,7 @@ TEST(RungeKutta, SaysWhyItDoesNotGoOn) {
   EXPECT_NEAR(solver.time_s(), 1.0, 1e-6);
 
   RungeKutta<double> short_of_steps(2, {.max_steps = 3});
-  ASSERT_EQ(short_of_steps.start(0.0, std::span<const double>(kBegin), kOscillator),
-            OdeStatus::done);
+  ASSERT_EQ(short_of_steps.start(0.0, std::span<const double>(kBegin), kOscillator), OdeStatus::done);
   status = OdeStatus::done;
   while (status == OdeStatus::done) status = short_of_steps.step(10.0, kOscillator);
   EXPECT_EQ(status, OdeStatus::too_many_steps);

@@ -34,13 +34,12 @@ ShapePreservingCurve::ShapePreservingCurve(const Eigen::Ref<const Eigen::VectorX
   }
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!std::isfinite(time_(k)) || !std::isfinite(value_(k))) {
-      throw InvalidInput(fmt::format("{}: sample {} is ({}, {}), expected finite numbers", what,
-                                     k + 1, time_(k), value_(k)));
+      throw InvalidInput(
+          fmt::format("{}: sample {} is ({}, {}), expected finite numbers", what, k + 1, time_(k), value_(k)));
     }
     if (k > 0 && !(time_(k) > time_(k - 1))) {
       throw InvalidInput(
-          fmt::format("{}: time {} s follows {} s, expected strictly increasing times", what,
-                      time_(k), time_(k - 1)));
+          fmt::format("{}: time {} s follows {} s, expected strictly increasing times", what, time_(k), time_(k - 1)));
     }
   }
   const auto h = [&](Eigen::Index k) { return time_(k + 1) - time_(k); };
@@ -72,8 +71,7 @@ ShapePreservingCurve::Point ShapePreservingCurve::at(double time_s) const {
   const double rise = (value_(k + 1) - value_(k)) / h;
   const double c2 = (3.0 * rise - 2.0 * slope_(k) - slope_(k + 1)) / h;
   const double c3 = (slope_(k) + slope_(k + 1) - 2.0 * rise) / (h * h);
-  return {value_(k) + t * (slope_(k) + t * (c2 + t * c3)),
-          slope_(k) + t * (2.0 * c2 + t * 3.0 * c3)};
+  return {value_(k) + t * (slope_(k) + t * (c2 + t * c3)), slope_(k) + t * (2.0 * c2 + t * 3.0 * c3)};
 }
 
 }  // namespace myoid::math

@@ -6,10 +6,9 @@
 
 namespace myoid::math {
 
-/// A curve through samples of uneven spacing that neither overshoots nor adds wiggles. It is cubic
-/// between samples, with the slopes of Fritsch & Butland (1984), SIAM J Sci Stat Comput 5:300-304:
-/// zero at extrema, else a weighted harmonic mean of the neighboring slopes. The first derivative
-/// is continuous. Beyond its ends the curve is constant.
+/// A curve through samples of uneven spacing that neither overshoots nor adds wiggles. It is cubic between samples,
+/// with the slopes of Fritsch & Butland (1984), SIAM J Sci Stat Comput 5:300-304: zero at extrema, else a weighted
+/// harmonic mean of the neighboring slopes. The first derivative is continuous. Beyond its ends the curve is constant.
 class ShapePreservingCurve {
  public:
   struct Point {

@@ -17,8 +17,7 @@ Eigen::VectorXd vector(std::initializer_list<double> values) {
 }
 
 TEST(ShapePreservingCurve, PassesItsSamplesAndHasTheSlopeOfItsValue) {
-  const ShapePreservingCurve curve(vector({0.0, 0.1, 0.4, 0.5, 1.0}),
-                                   vector({1.0, 3.0, 3.5, 2.0, 2.2}), "test");
+  const ShapePreservingCurve curve(vector({0.0, 0.1, 0.4, 0.5, 1.0}), vector({1.0, 3.0, 3.5, 2.0, 2.2}), "test");
   EXPECT_EQ(curve.at(0.1).value, 3.0);
   EXPECT_NEAR(curve.at(1.0).value, 2.2, 1e-15);
   const double h = 1e-6;  // truncation h^2 f''' / 6 with f''' below 1e4: 2e-9
@@ -50,8 +49,7 @@ TEST(ShapePreservingCurve, IsExactForLinesAndStandsStillOutside) {
 }
 
 TEST(ShapePreservingCurve, SlopesAreThoseOfFritschAndButland) {
-  // Interior: 3 (h0 + h1) / ((2 h1 + h0) / s0 + (h1 + 2 h0) / s1) for steps h0, h1 of slopes s0,
-  // s1.
+  // Interior: 3 (h0 + h1) / ((2 h1 + h0) / s0 + (h1 + 2 h0) / s1) for steps h0, h1 of slopes s0, s1.
   const ShapePreservingCurve curve(vector({0.0, 1.0, 3.0}), vector({0.0, 2.0, 3.0}), "test");
   EXPECT_NEAR(curve.at(1.0).slope, 9.0 / (5.0 / 2.0 + 4.0 / 0.5), 1e-15);
 }
@@ -59,8 +57,7 @@ TEST(ShapePreservingCurve, SlopesAreThoseOfFritschAndButland) {
 TEST(ShapePreservingCurve, RefusesWhatIsNoFunctionOfTime) {
   EXPECT_THROW(ShapePreservingCurve(vector({0.0}), vector({1.0}), "x"), InvalidInput);
   EXPECT_THROW(ShapePreservingCurve(vector({0.0, 0.0}), vector({1.0, 2.0}), "x"), InvalidInput);
-  EXPECT_THROW(ShapePreservingCurve(vector({0.0, 1.0}), vector({1.0, std::nan("")}), "x"),
-               InvalidInput);
+  EXPECT_THROW(ShapePreservingCurve(vector({0.0, 1.0}), vector({1.0, std::nan("")}), "x"), InvalidInput);
 }
 
 }  // namespace

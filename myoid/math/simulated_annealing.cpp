@@ -15,14 +15,12 @@ namespace {
 
 void validate(const CountedCost& cost, const AnnealingOptions& options) {
   const Eigen::VectorXd& reach = options.reach;
-  if (reach.size() > 0 &&
-      (reach.size() != cost.lower().size() || !reach.allFinite() || (reach.array() < 0.0).any()))
+  if (reach.size() > 0 && (reach.size() != cost.lower().size() || !reach.allFinite() || (reach.array() < 0.0).any()))
     throw InvalidInput("simulated annealing: reach must be one finite width per parameter");
   if (reach.size() == 0 && (!cost.lower().allFinite() || !cost.upper().allFinite()))
     throw InvalidInput("simulated annealing: every parameter needs two finite bounds");
   if (!(options.cooling > 0.0 && options.cooling < 1.0)) {
-    throw InvalidInput(
-        fmt::format("simulated annealing: cooling is {}; between 0 and 1", options.cooling));
+    throw InvalidInput(fmt::format("simulated annealing: cooling is {}; between 0 and 1", options.cooling));
   }
   if (options.cycles < 1 || options.adjustments < 1 || options.stop_temperatures < 1 ||
       !(options.first_temperature >= 0.0) || !(options.spread_cooling >= 0.0)) {
@@ -53,10 +51,7 @@ class Spread {
 };
 
 /// Returns the spread of the cost over a box.
-double spread_of_costs(CountedCost& cost,
-                       const Eigen::VectorXd& lower,
-                       const Eigen::VectorXd& upper,
-                       Random& random) {
+double spread_of_costs(CountedCost& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, Random& random) {
   const Eigen::Index p = lower.size();
   Spread costs;
   for (Eigen::Index i = 0; i < 20 * p; ++i) {
@@ -68,8 +63,7 @@ double spread_of_costs(CountedCost& cost,
   return std::isfinite(spread) && spread > 0.0 ? spread : 1.0;
 }
 
-/// Returns the ratio of the next temperature to the present one; `spread` is that of the costs at
-/// the present one.
+/// Returns the ratio of the next temperature to the present one; `spread` is that of the costs at the present one.
 double cooling(const AnnealingOptions& options, double temperature, double spread) {
   if (!(options.spread_cooling > 0.0)) return options.cooling;
   const double slowest = options.cooling * options.cooling;
@@ -99,8 +93,7 @@ struct Walk {
                                 std::isfinite(high) ? high : x[j] + step[j]);
     }
     const double value = cost(next);
-    const double luck =
-        random.uniform();  // drawn in every case, so that the stream does not depend on the cost
+    const double luck = random.uniform();  // drawn in every case, so that the stream does not depend on the cost
     if (!(value <= current) && !(luck < std::exp((current - value) / temperature))) return false;
     x = next;
     current = value;
@@ -123,8 +116,7 @@ struct Walk {
         }
       }
       for (Eigen::Index j = 0; j < p; ++j) {
-        const double share =
-            static_cast<double>(accepted[static_cast<std::size_t>(j)]) / options.cycles;
+        const double share = static_cast<double>(accepted[static_cast<std::size_t>(j)]) / options.cycles;
         if (share > 0.6) step[j] *= 1.0 + options.step_growth * (share - 0.6) / 0.4;
         if (share < 0.4) step[j] /= 1.0 + options.step_growth * (0.4 - share) / 0.4;
         step[j] = std::min(step[j], reach[j]);
@@ -144,15 +136,13 @@ DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
   Random random(options.seed);
   const Eigen::VectorXd inside = cost.clipped(start);
   const double first_cost = cost(inside);
-  if (!std::isfinite(first_cost))
-    throw InvalidInput("simulated annealing: no finite cost at the start");
+  if (!std::isfinite(first_cost)) throw InvalidInput("simulated annealing: no finite cost at the start");
   const bool near = options.reach.size() > 0;
   const Eigen::VectorXd reach = near ? options.reach : cost.upper() - cost.lower();
   const Eigen::VectorXd low = near ? cost.clipped(inside - 0.5 * reach) : cost.lower();
   const Eigen::VectorXd high = near ? cost.clipped(inside + 0.5 * reach) : cost.upper();
-  const double first_temperature = options.first_temperature > 0.0
-                                       ? options.first_temperature
-                                       : spread_of_costs(cost, low, high, random);
+  const double first_temperature =
+      options.first_temperature > 0.0 ? options.first_temperature : spread_of_costs(cost, low, high, random);
   Walk walk{.cost = cost,
             .random = random,
             .options = options,
@@ -178,13 +168,12 @@ DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
     const double tolerance = options.cost_tolerance * (std::abs(walk.lowest) + scale);
     ends.push_back(walk.current);
     if (static_cast<int>(ends.size()) > options.stop_temperatures) ends.pop_front();
-    const bool frozen = static_cast<int>(ends.size()) == options.stop_temperatures &&
-                        std::all_of(ends.begin(), ends.end(),
-                                    [&](double end) { return end - walk.lowest <= tolerance; });
+    const bool frozen =
+        static_cast<int>(ends.size()) == options.stop_temperatures &&
+        std::all_of(ends.begin(), ends.end(), [&](double end) { return end - walk.lowest <= tolerance; });
     if (frozen) {
       result.termination = Termination::converged;
-      result.message =
-          fmt::format("{} temperatures in a row ended at the best cost", options.stop_temperatures);
+      result.message = fmt::format("{} temperatures in a row ended at the best cost", options.stop_temperatures);
       break;
     }
     walk.x = walk.best;

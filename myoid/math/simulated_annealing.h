@@ -12,8 +12,7 @@ namespace myoid::math {
 struct AnnealingOptions {
   std::uint64_t seed = 1;
   int max_evaluations = 200000;
-  /// First temperature. 0: the standard deviation of the cost over 20 random points per parameter
-  /// of the box.
+  /// First temperature. 0: the standard deviation of the cost over 20 random points per parameter of the box.
   double first_temperature = 0.0;
   double cooling = 0.85;  ///< Ratio of successive temperatures.
   /// lambda above 0: the temperature instead falls by exp(-lambda temperature / spread of the costs
@@ -33,17 +32,15 @@ struct AnnealingOptions {
   Progress progress;
 };
 
-/// Minimizes a cost within its bounds by simulated annealing; bounds must be finite unless `reach`
-/// is given. Each parameter has a step that keeps half of its moves accepted (Corana, Marchesi,
-/// Martini and Ridella 1987). A move changes one parameter by a uniform step and is accepted with
-/// probability min(1, exp(-rise / temperature)); a move outside the bounds is drawn again inside.
-/// After each temperature the search continues from the best point. The end is near the global
-/// minimum to about sqrt(cost_tolerance) in x: polish it with another solver. Slower cooling and
-/// more adjustments find it more often. Of 40 seeds on Rastrigin's function in 2, 4 and 6
-/// parameters, 39, 10 and 5 find it with the defaults (24 000 evaluations per parameter), and 40,
-/// 40 and 26 with cooling 0.95 and 40 adjustments (300 000). Same seed, same result, on every
-/// machine with the same std::exp. Throws as nelder_mead does, or if a bound is infinite and no
-/// reach given.
+/// Minimizes a cost within its bounds by simulated annealing; bounds must be finite unless `reach` is given. Each
+/// parameter has a step that keeps half of its moves accepted (Corana, Marchesi, Martini and Ridella 1987). A move
+/// changes one parameter by a uniform step and is accepted with probability min(1, exp(-rise / temperature)); a move
+/// outside the bounds is drawn again inside. After each temperature the search continues from the best point. The end
+/// is near the global minimum to about sqrt(cost_tolerance) in x: polish it with another solver. Slower cooling and
+/// more adjustments find it more often. Of 40 seeds on Rastrigin's function in 2, 4 and 6 parameters, 39, 10 and 5 find
+/// it with the defaults (24 000 evaluations per parameter), and 40, 40 and 26 with cooling 0.95 and 40 adjustments (300
+/// 000). Same seed, same result, on every machine with the same std::exp. Throws as nelder_mead does, or if a bound is
+/// infinite and no reach given.
 [[nodiscard]] DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
                                                      const Eigen::VectorXd& start,
                                                      const AnnealingOptions& options = {});

@@ -19,8 +19,7 @@ constexpr int kBits = 32;
 /// plus random ones of the digits before it, plus a random digit.
 class Scramble {
  public:
-  Scramble(std::uint64_t seed, int dimension)
-      : random_(seed, static_cast<std::uint64_t>(dimension)) {
+  Scramble(std::uint64_t seed, int dimension) : random_(seed, static_cast<std::uint64_t>(dimension)) {
     for (int i = 0; i < kBits; ++i) {
       const std::uint32_t diagonal = 1U << (kBits - 1 - i);
       const std::uint32_t before = i == 0 ? 0U : ~0U << (kBits - i);
@@ -47,13 +46,12 @@ class Scramble {
 
 Eigen::MatrixXd sobol_points(Eigen::Index count, int dimensions, const SobolOptions& options) {
   if (dimensions < 1 || dimensions > kSobolMaxDimensions) {
-    throw InvalidInput(fmt::format("sobol: {} dimensions; 1 to {} are tabulated", dimensions,
-                                   kSobolMaxDimensions));
+    throw InvalidInput(fmt::format("sobol: {} dimensions; 1 to {} are tabulated", dimensions, kSobolMaxDimensions));
   }
   constexpr Eigen::Index kMost = Eigen::Index{1} << kBits;
   if (count < 0 || options.first < 0 || count > kMost || options.first > kMost - count) {
-    throw InvalidInput(fmt::format("sobol: {} points from index {}; the sequence has 2^{} points",
-                                   count, options.first, kBits));
+    throw InvalidInput(
+        fmt::format("sobol: {} points from index {}; the sequence has 2^{} points", count, options.first, kBits));
   }
   std::vector<Scramble> scrambles;
   if (options.scramble_seed) {
@@ -67,9 +65,7 @@ Eigen::MatrixXd sobol_points(Eigen::Index count, int dimensions, const SobolOpti
     const bool origin = options.first + i == 0;
     for (int d = 0; d < dimensions; ++d) {
       const auto x = origin ? 0U : static_cast<std::uint32_t>(engine());
-      points(i, d) = scrambles.empty()
-                         ? x * 0x1.0p-32
-                         : (scrambles[static_cast<std::size_t>(d)](x) + 0.5) * 0x1.0p-32;
+      points(i, d) = scrambles.empty() ? x * 0x1.0p-32 : (scrambles[static_cast<std::size_t>(d)](x) + 0.5) * 0x1.0p-32;
     }
   }
   return points;

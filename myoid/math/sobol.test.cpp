@@ -15,9 +15,8 @@ namespace {
 TEST(Sobol, FirstTenPointsInThreeDimensionsAreJoeAndKuos) {
   // The worked example that accompanies the direction numbers.
   Eigen::MatrixXd expected(10, 3);
-  expected << 0, 0, 0, 0.5, 0.5, 0.5, 0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.375, 0.375, 0.625,
-      0.875, 0.875, 0.125, 0.625, 0.125, 0.875, 0.125, 0.625, 0.375, 0.1875, 0.3125, 0.9375, 0.6875,
-      0.8125, 0.4375;
+  expected << 0, 0, 0, 0.5, 0.5, 0.5, 0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.375, 0.375, 0.625, 0.875, 0.875, 0.125,
+      0.625, 0.125, 0.875, 0.125, 0.625, 0.375, 0.1875, 0.3125, 0.9375, 0.6875, 0.8125, 0.4375;
   EXPECT_EQ(sobol_points(10, 3), expected);
 }
 
@@ -28,8 +27,7 @@ TEST(Sobol, EveryDimensionFillsEverySliceOnce) {
     const Eigen::MatrixXd points = sobol_points(1024, kSobolMaxDimensions, options);
     for (int d = 0; d < kSobolMaxDimensions; ++d) {
       std::set<int> slices;
-      for (Eigen::Index i = 0; i < points.rows(); ++i)
-        slices.insert(static_cast<int>(points(i, d) * 1024.0));
+      for (Eigen::Index i = 0; i < points.rows(); ++i) slices.insert(static_cast<int>(points(i, d) * 1024.0));
       EXPECT_EQ(slices.size(), 1024U) << "dimension " << d + 1;
       EXPECT_EQ(*slices.rbegin(), 1023);
     }
@@ -46,8 +44,7 @@ TEST(Sobol, FirstTwoDimensionsFillEveryElementaryRectangleOnceScrambledOrNot) {
     for (int k = 0; k <= 8; ++k) {
       std::set<std::pair<int, int>> cells;
       for (Eigen::Index i = 0; i < 256; ++i) {
-        cells.emplace(static_cast<int>(std::ldexp(points(i, 0), k)),
-                      static_cast<int>(std::ldexp(points(i, 1), 8 - k)));
+        cells.emplace(static_cast<int>(std::ldexp(points(i, 0), k)), static_cast<int>(std::ldexp(points(i, 1), 8 - k)));
       }
       EXPECT_EQ(cells.size(), 256U) << "shape 2^-" << k;
     }

@@ -37,10 +37,7 @@ BandFactor penalized(const NaturalBasis& basis, double lambda) {
 }
 
 /// Solves (G/m! + lambda m! Q'Q) c = Q'y,  g = y - lambda m! Q c.
-Fit fit(const NaturalBasis& basis,
-        const BandFactor& system,
-        double lambda,
-        const Eigen::VectorXd& y) {
+Fit fit(const NaturalBasis& basis, const BandFactor& system, double lambda, const Eigen::VectorXd& y) {
   const int m = basis.m;
   const Eigen::MatrixXd& q = basis.difference;
   const Eigen::Index count = q.rows();
@@ -53,33 +50,28 @@ Fit fit(const NaturalBasis& basis,
   Fit result{y, system.solve(std::move(right))};
   if (lambda == 0.0) return result;
   const double factor = lambda * kFactorial[static_cast<std::size_t>(m)];
-  for (Eigen::Index j = 0; j < count; ++j)
-    result.g.segment(j, m + 1) -= factor * result.c[j] * q.row(j).transpose();
+  for (Eigen::Index j = 0; j < count; ++j) result.g.segment(j, m + 1) -= factor * result.c[j] * q.row(j).transpose();
   return result;
 }
 
 void check_times(const Eigen::VectorXd& t, Eigen::Index least) {
   if (t.size() < least) {
-    throw InvalidInput(
-        fmt::format("spline: {} samples are too few; at least {} are needed", t.size(), least));
+    throw InvalidInput(fmt::format("spline: {} samples are too few; at least {} are needed", t.size(), least));
   }
   for (Eigen::Index i = 0; i < t.size(); ++i) {
-    if (!std::isfinite(t[i]))
-      throw InvalidInput(fmt::format("spline: time {} is not a number", i + 1));
+    if (!std::isfinite(t[i])) throw InvalidInput(fmt::format("spline: time {} is not a number", i + 1));
     if (i > 0 && !(t[i] > t[i - 1])) {
-      throw InvalidInput(fmt::format(
-          "spline: time does not increase at sample {} ({} s after {} s)", i + 1, t[i], t[i - 1]));
+      throw InvalidInput(
+          fmt::format("spline: time does not increase at sample {} ({} s after {} s)", i + 1, t[i], t[i - 1]));
     }
   }
 }
 
 void check_values(const Eigen::VectorXd& t, const Eigen::VectorXd& y) {
-  if (t.size() != y.size())
-    throw InvalidInput(fmt::format("spline: {} times for {} values", t.size(), y.size()));
+  if (t.size() != y.size()) throw InvalidInput(fmt::format("spline: {} times for {} values", t.size(), y.size()));
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     if (!std::isfinite(y[i])) {
-      throw InvalidInput(
-          fmt::format("spline: sample {} is not a number; fill the gaps first", i + 1));
+      throw InvalidInput(fmt::format("spline: sample {} is not a number; fill the gaps first", i + 1));
     }
   }
 }
@@ -128,13 +120,11 @@ Spline::Spline(const NaturalBasis& basis, const Eigen::VectorXd& g, const Eigen:
     if (m == 2) {
       a[1] = (g[i + 1] - g[i] - particular) / h;
     } else if (m == 3 && i + 2 < n) {
-      // Slope and curvature follow from the values at the next two knots, since s''' is known on
-      // both intervals.
+      // Slope and curvature follow from the values at the next two knots, since s''' is known on both intervals.
       const double h2 = t[i + 2] - t[i + 1];
       const SplineValue end = horner(coefficients_, i + 1, h);
       const double onward = ((next[2] * h2 + next[1]) * h2 + next[0]) * h2 * h2 * h2;
-      const double particular2 =
-          end.value - g[i] + end.first * h2 + 0.5 * end.second * h2 * h2 + onward;
+      const double particular2 = end.value - g[i] + end.first * h2 + 0.5 * end.second * h2 * h2 + onward;
       const double total = h + h2;
       const double d1 = (g[i + 1] - g[i] - particular) / h;
       const double d2 = (g[i + 2] - g[i] - particular2) / total;
@@ -196,9 +186,7 @@ Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t,
   }
   const double h = (times[times.size() - 1] - times[0]) / static_cast<double>(times.size() - 1);
   const NaturalBasis basis = natural_basis(times, m);
-  const auto fitted = [&](double lambda) {
-    return fit(basis, penalized(basis, lambda), lambda, values);
-  };
+  const auto fitted = [&](double lambda) { return fit(basis, penalized(basis, lambda), lambda, values); };
   const auto lambda_of = [&](double cutoff_hz) {
     return (std::sqrt(2.0) - 1.0) / (h * std::pow(2.0 * kPi * cutoff_hz, 6));
   };
@@ -206,17 +194,14 @@ Spline Spline::smooth(const Eigen::Ref<const Eigen::VectorXd>& t,
   if (options.cutoff_hz) {
     if (!(*options.cutoff_hz > 0.0)) {
       throw InvalidInput(
-          fmt::format("smoothing spline: found a cut-off of {} Hz, expected a positive one",
-                      *options.cutoff_hz));
+          fmt::format("smoothing spline: found a cut-off of {} Hz, expected a positive one", *options.cutoff_hz));
     }
     lambda = lambda_of(*options.cutoff_hz);
   } else {
     if (!(*options.noise_sd >= 0.0)) {
-      throw InvalidInput(fmt::format("smoothing spline: found a noise of {}, expected 0 or more",
-                                     *options.noise_sd));
+      throw InvalidInput(fmt::format("smoothing spline: found a noise of {}, expected 0 or more", *options.noise_sd));
     }
-    // The residual rises with lambda: bisect log(lambda) between cut-offs of the whole record and
-    // half the rate.
+    // The residual rises with lambda: bisect log(lambda) between cut-offs of the whole record and half the rate.
     double low = std::log(lambda_of(0.5 / h));
     double high = std::log(lambda_of(0.1 / (h * static_cast<double>(times.size()))));
     const double wanted = *options.noise_sd * *options.noise_sd * static_cast<double>(times.size());
@@ -240,8 +225,7 @@ SplineValue Spline::at(double t) const {
 }
 
 SplineValues Spline::evaluate(const Eigen::Ref<const Eigen::VectorXd>& t) const {
-  SplineValues values{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()),
-                      Eigen::VectorXd(t.size())};
+  SplineValues values{Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size()), Eigen::VectorXd(t.size())};
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const SplineValue v = at(t[i]);
     values.value[i] = v.value;

@@ -21,19 +21,16 @@ struct SplineValues {
 };
 
 struct SmoothingOptions {
-  /// Frequency [Hz] at which the spline passes 1/sqrt(2) of the amplitude, for evenly spaced
-  /// samples.
+  /// Frequency [Hz] at which the spline passes 1/sqrt(2) of the amplitude, for evenly spaced samples.
   std::optional<double> cutoff_hz;
-  /// Standard deviation of the noise in y's unit; the penalty is the largest whose residual does
-  /// not exceed it.
+  /// Standard deviation of the noise in y's unit; the penalty is the largest whose residual does not exceed it.
   std::optional<double> noise_sd;
 };
 
-/// A natural spline of degree 2m - 1 (m = 1, 2, 3: linear, cubic, quintic) over strictly
-/// increasing, possibly uneven knots. It minimizes sum (y_i - s(t_i))^2 + lambda * integral
-/// (s^(m))^2; with lambda = 0 it interpolates. At both ends and beyond, s^(m) and all higher
-/// derivatives vanish: a quintic continues as a parabola, a cubic as a line. Values there say
-/// nothing about the data.
+/// A natural spline of degree 2m - 1 (m = 1, 2, 3: linear, cubic, quintic) over strictly increasing, possibly uneven
+/// knots. It minimizes sum (y_i - s(t_i))^2 + lambda * integral (s^(m))^2; with lambda = 0 it interpolates. At both
+/// ends and beyond, s^(m) and all higher derivatives vanish: a quintic continues as a parabola, a cubic as a line.
+/// Values there say nothing about the data.
 class Spline {
  public:
   /// Returns the natural spline through the points; OpenSim's tools differentiate a motion by it

@@ -13,8 +13,7 @@
 namespace myoid::math {
 
 double normal_quantile(double p) {
-  if (!(p > 0.0 && p < 1.0))
-    throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
+  if (!(p > 0.0 && p < 1.0)) throw InvalidInput("normal quantile: the probability must lie between 0 and 1");
   return boost::math::quantile(boost::math::normal(), p);
 }
 
@@ -28,8 +27,7 @@ double student_quantile(double p, double freedom) {
 
 double chi_squared_tail(double x, double freedom) {
   if (!(x >= 0.0 && freedom > 0.0))
-    throw InvalidInput(
-        "chi-squared: the value must not be negative, the degrees of freedom must lie above 0");
+    throw InvalidInput("chi-squared: the value must not be negative, the degrees of freedom must lie above 0");
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), x));
 }
 
@@ -37,8 +35,7 @@ double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  return values.size() % 2 == 1 ? *middle
-                                : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  return values.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 double upper_median(std::vector<double> values) {
@@ -58,8 +55,7 @@ Eigen::VectorXd positive_autocorrelation(const Eigen::Ref<const Eigen::VectorXd>
     Eigen::Index begin = 0;
     for (const Eigen::Index length : pieces) {
       if (lag < length)
-        product +=
-            centered.segment(begin, length - lag).dot(centered.segment(begin + lag, length - lag));
+        product += centered.segment(begin, length - lag).dot(centered.segment(begin + lag, length - lag));
       begin += length;
     }
     if (product <= 0.0) break;
@@ -68,8 +64,7 @@ Eigen::VectorXd positive_autocorrelation(const Eigen::Ref<const Eigen::VectorXd>
   return Eigen::Map<const Eigen::VectorXd>(rho.data(), static_cast<Eigen::Index>(rho.size()));
 }
 
-double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x,
-                             const std::vector<Eigen::Index>& pieces) {
+double effective_sample_size(const Eigen::Ref<const Eigen::VectorXd>& x, const std::vector<Eigen::Index>& pieces) {
   const auto n = static_cast<double>(x.size());
   if (n < 2) return n;
   return std::max(1.0, n / (2.0 * positive_autocorrelation(x, pieces).sum() - 1.0));
@@ -101,12 +96,9 @@ Eigen::MatrixXd covariance_of_sum(const Eigen::MatrixXd& weights,
   return 0.5 * (sum + sum.transpose());
 }
 
-Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
-                           const std::vector<Eigen::Index>& pieces,
-                           Eigen::Index lag) {
-  // The Bartlett-weighted sum of all products of samples up to `lag` apart equals the sum of the
-  // squares of all sums over lag + 1 consecutive samples, divided by lag + 1; windows extend beyond
-  // both ends.
+Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores, const std::vector<Eigen::Index>& pieces, Eigen::Index lag) {
+  // The Bartlett-weighted sum of all products of samples up to `lag` apart equals the sum of the squares of all sums
+  // over lag + 1 consecutive samples, divided by lag + 1; windows extend beyond both ends.
   const Eigen::Index p = scores.cols();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   Eigen::Index begin = 0;

@@ -6,12 +6,10 @@
 
 namespace myoid::math {
 
-/// Returns the quantile of the standard normal distribution, 0 < p < 1, to round-off. Throws
-/// InvalidInput outside.
+/// Returns the quantile of the standard normal distribution, 0 < p < 1, to round-off. Throws InvalidInput outside.
 [[nodiscard]] double normal_quantile(double p);
 
-/// Returns the quantile of Student's t with `freedom` > 0 degrees of freedom, 0 < p < 1. Throws
-/// InvalidInput outside.
+/// Returns the quantile of Student's t with `freedom` > 0 degrees of freedom, 0 < p < 1. Throws InvalidInput outside.
 [[nodiscard]] double student_quantile(double p, double freedom);
 
 /// Returns the probability that chi-squared with `freedom` > 0 degrees of freedom exceeds x >= 0.
@@ -43,9 +41,8 @@ namespace myoid::math {
                                                 const std::vector<Eigen::Index>& pieces,
                                                 Eigen::Index stride = 1);
 
-/// Returns the long-run covariance of a sum of scores (n x p) after Newey and West (1987): G_0 +
-/// sum_l (1 - l/(L+1)) (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only.
-/// Positive semidefinite.
+/// Returns the long-run covariance of a sum of scores (n x p) after Newey and West (1987): G_0 + sum_l (1 - l/(L+1))
+/// (G_l + G_l'), with G_l = sum_t g_t g_{t-l}', lags within `pieces` only. Positive semidefinite.
 [[nodiscard]] Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
                                          const std::vector<Eigen::Index>& pieces,
                                          Eigen::Index lag);

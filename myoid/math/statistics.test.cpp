@@ -76,8 +76,7 @@ TEST(ChiSquaredTail, WithOneTwoAndFourDegreesOfFreedomIsTheClosedForm) {
 TEST(EffectiveSampleSize, OfAnAutoregressiveSeriesIsTheClosedForm) {
   // rho_k = rho^k: n_eff = n (1 - rho)/(1 + rho).
   const Eigen::Index n = 200000;
-  EXPECT_NEAR(effective_sample_size(autoregressive(n, 0.8), {n}) / static_cast<double>(n),
-              0.2 / 1.8, 0.01);
+  EXPECT_NEAR(effective_sample_size(autoregressive(n, 0.8), {n}) / static_cast<double>(n), 0.2 / 1.8, 0.01);
 }
 
 TEST(PositiveAutocorrelation, OfAnAutoregressiveSequenceFallsByItsFactor) {
@@ -85,8 +84,7 @@ TEST(PositiveAutocorrelation, OfAnAutoregressiveSequenceFallsByItsFactor) {
   const Eigen::Index n = 200000;
   const Eigen::VectorXd rho = positive_autocorrelation(autoregressive(n, 0.8), {n});
   ASSERT_GT(rho.size(), 6);
-  for (Eigen::Index k = 0; k < 6; ++k)
-    EXPECT_NEAR(rho[k], std::pow(0.8, static_cast<double>(k)), 0.02);
+  for (Eigen::Index k = 0; k < 6; ++k) EXPECT_NEAR(rho[k], std::pow(0.8, static_cast<double>(k)), 0.02);
   EXPECT_GT(rho.minCoeff(), 0.0);
   EXPECT_EQ(positive_autocorrelation(Eigen::VectorXd::Ones(5), {5}), Eigen::VectorXd::Ones(1));
 }
@@ -153,8 +151,7 @@ TEST(NeweyWest, OfAnAutoregressiveScoreTendsToItsLongRunVariance) {
 }
 
 TEST(NeweyWest, IsTheWeightedSumOfTheProductsOfLaggedScores) {
-  // The definition: sum_l (1 - |l| / (L + 1)) sum_t g_t g_(t - l)', within pieces; one is shorter
-  // than the lag.
+  // The definition: sum_l (1 - |l| / (L + 1)) sum_t g_t g_(t - l)', within pieces; one is shorter than the lag.
   const Eigen::Index lag = 7;
   const std::vector<Eigen::Index> pieces{40, 5, 23};
   Eigen::MatrixXd g(68, 3);
@@ -168,14 +165,12 @@ TEST(NeweyWest, IsTheWeightedSumOfTheProductsOfLaggedScores) {
     for (Eigen::Index s = begin; s < begin + length; ++s) {
       for (Eigen::Index t = begin; t < begin + length; ++t) {
         const auto apart = static_cast<double>(std::abs(s - t));
-        expected += std::max(0.0, 1.0 - apart / static_cast<double>(lag + 1)) *
-                    g.row(s).transpose() * g.row(t);
+        expected += std::max(0.0, 1.0 - apart / static_cast<double>(lag + 1)) * g.row(s).transpose() * g.row(t);
       }
     }
     begin += length;
   }
-  EXPECT_LT((newey_west(g, pieces, lag) - expected).cwiseAbs().maxCoeff(),
-            1e-12 * expected.cwiseAbs().maxCoeff());
+  EXPECT_LT((newey_west(g, pieces, lag) - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
 TEST(NeweyWest, DoesNotJoinTheEndOfOneTrialToTheNext) {

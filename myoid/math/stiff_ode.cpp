@@ -106,8 +106,7 @@ struct StiffIntegrator::Parts {
   static int rate(double t, N_Vector y, N_Vector ydot, void* data) {
     auto& self = *static_cast<Parts*>(data);
     double* out = NV_DATA_S(ydot);
-    const bool good =
-        self.problem.rate(t, NV_DATA_S(y), out) && finite(out, self.problem.state_count);
+    const bool good = self.problem.rate(t, NV_DATA_S(y), out) && finite(out, self.problem.state_count);
     if (!good) self.failed = true;
     return good ? 0 : 1;
   }
@@ -168,8 +167,7 @@ struct StiffIntegrator::Parts {
   }
 };
 
-StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options)
-    : parts_(std::make_unique<Parts>()) {
+StiffIntegrator::StiffIntegrator(StiffProblem problem, const OdeOptions& options) : parts_(std::make_unique<Parts>()) {
   Parts& p = *parts_;
   validate(options, static_cast<long>(problem.state_count));
   if (problem.state_count == 0 || !problem.rate)
@@ -231,9 +229,7 @@ StiffIntegrator::~StiffIntegrator() = default;
 StiffIntegrator::StiffIntegrator(StiffIntegrator&&) noexcept = default;
 StiffIntegrator& StiffIntegrator::operator=(StiffIntegrator&&) noexcept = default;
 
-OdeStatus StiffIntegrator::start(double time_s,
-                                 std::span<const double> y,
-                                 std::span<const double> s) {
+OdeStatus StiffIntegrator::start(double time_s, std::span<const double> y, std::span<const double> s) {
   Parts& p = *parts_;
   if (y.size() != p.problem.state_count) throw InvalidInput("start: wrong number of states");
   std::copy(y.begin(), y.end(), NV_DATA_S(p.y.get()));
@@ -316,13 +312,11 @@ OdeStatus StiffIntegrator::hop(double dt_s) {
   const std::size_t n = p.problem.state_count;
   double* y = NV_DATA_S(p.y.get());
   std::vector<double> rate(n);
-  if (!p.problem.rate(p.time, y, rate.data()) || !finite(rate.data(), n))
-    return OdeStatus::rate_failed;
+  if (!p.problem.rate(p.time, y, rate.data()) || !finite(rate.data(), n)) return OdeStatus::rate_failed;
   if (p.quadrature) {
     std::vector<double> power(p.problem.quadrature_count);
     if (!p.problem.quadrature(p.time, y, power.data())) return OdeStatus::rate_failed;
-    for (std::size_t k = 0; k < power.size(); ++k)
-      NV_DATA_S(p.quadrature.get())[k] += dt_s * power[k];
+    for (std::size_t k = 0; k < power.size(); ++k) NV_DATA_S(p.quadrature.get())[k] += dt_s * power[k];
   }
   if (p.problem.sensitivity_count > 0) {
     std::vector<double> change(n * p.problem.sensitivity_count);
@@ -330,11 +324,9 @@ OdeStatus StiffIntegrator::hop(double dt_s) {
       p.s_in[k] = NV_DATA_S(p.sensitivity->raw[k]);
       p.s_out[k] = change.data() + k * n;
     }
-    if (!p.problem.sensitivity(p.time, y, p.s_in.data(), p.s_out.data()))
-      return OdeStatus::rate_failed;
+    if (!p.problem.sensitivity(p.time, y, p.s_in.data(), p.s_out.data())) return OdeStatus::rate_failed;
     for (std::size_t k = 0; k < p.problem.sensitivity_count; ++k) {
-      for (std::size_t i = 0; i < n; ++i)
-        NV_DATA_S(p.sensitivity->raw[k])[i] += dt_s * change[k * n + i];
+      for (std::size_t i = 0; i < n; ++i) NV_DATA_S(p.sensitivity->raw[k])[i] += dt_s * change[k * n + i];
     }
   }
   for (std::size_t i = 0; i < n; ++i) y[i] += dt_s * rate[i];

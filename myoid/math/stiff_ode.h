@@ -13,14 +13,12 @@ namespace myoid::math {
 /// to the last argument.
 struct StiffProblem {
   std::size_t state_count = 0;
-  /// Computes dy/dt; false if it cannot be evaluated: the step is then repeated with a shorter
-  /// length.
+  /// Computes dy/dt; false if it cannot be evaluated: the step is then repeated with a shorter length.
   std::function<bool(double t, const double* y, double* ydot)> rate;
   /// Computes df/dy, column by column; without this function differences approximate it.
   std::function<void(double t, const double* y, double* jacobian)> jacobian;
 
-  /// Number of integrals over time of functions of the states, dz/dt; the integrals do not act on
-  /// the states.
+  /// Number of integrals over time of functions of the states, dz/dt; the integrals do not act on the states.
   std::size_t quadrature_count = 0;
   std::function<bool(double t, const double* y, double* zdot)> quadrature;
 
@@ -28,13 +26,11 @@ struct StiffProblem {
   /// and `sdot` hold one array of states per parameter. The tolerances of the states apply, so that
   /// a parameter's unit should make its derivatives as large as the states.
   std::size_t sensitivity_count = 0;
-  std::function<bool(double t, const double* y, const double* const* s, double* const* sdot)>
-      sensitivity;
+  std::function<bool(double t, const double* y, const double* const* s, double* const* sdot)> sensitivity;
 };
 
-/// Backward differentiation formulas of variable order (1 to 5) and step with Newton's method, by
-/// SUNDIALS' CVODES. For stiff problems. Like `RungeKutta` it gives the steps one by one, with an
-/// interpolant over the last one.
+/// Backward differentiation formulas of variable order (1 to 5) and step with Newton's method, by SUNDIALS' CVODES. For
+/// stiff problems. Like `RungeKutta` it gives the steps one by one, with an interpolant over the last one.
 class StiffIntegrator {
  public:
   /// Throws InvalidInput if the options do not fit the problem.

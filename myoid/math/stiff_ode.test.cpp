@@ -50,8 +50,7 @@ TEST(StiffIntegrator, TheJacobianGivenAndThatByDifferencesLeadToTheSame) {
     j[2] = 0.0, j[5] = 6e7 * y[1], j[8] = 0.0;
     for (int c = 0; c < 3; ++c) j[3 * c + 1] = -j[3 * c] - j[3 * c + 2];
   };
-  StiffIntegrator solver(std::move(problem),
-                         {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-14});
+  StiffIntegrator solver(std::move(problem), {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-14});
   solver.start(0.0, std::array{1.0, 0.0, 0.0});
   ASSERT_EQ(run(solver, 40.0), OdeStatus::done);
   EXPECT_NEAR(solver.state()[0], 0.7158270688, 1e-8);

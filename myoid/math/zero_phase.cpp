@@ -17,13 +17,11 @@ Eigen::Index impulse_length(const std::vector<SecondOrderSection>& sections) {
   double radius = 0.0;
   for (const SecondOrderSection& s : sections) {
     const double discriminant = s.a1 * s.a1 - 4.0 * s.a2;
-    const double r =
-        discriminant < 0.0 ? std::sqrt(s.a2) : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant));
+    const double r = discriminant < 0.0 ? std::sqrt(s.a2) : 0.5 * (std::abs(s.a1) + std::sqrt(discriminant));
     radius = std::max(radius, r);
   }
   if (radius <= 0.0) return 1;
-  return static_cast<Eigen::Index>(
-      std::ceil(std::log(1e-8) / std::log(std::min(radius, 1.0 - 1e-9))));
+  return static_cast<Eigen::Index>(std::ceil(std::log(1e-8) / std::log(std::min(radius, 1.0 - 1e-9))));
 }
 
 void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x) {
@@ -43,9 +41,7 @@ void run(const std::vector<SecondOrderSection>& sections, std::vector<double>& x
 }
 
 /// Returns x with `pad` more samples on either side.
-std::vector<double> extended(const Eigen::Ref<const Eigen::VectorXd>& x,
-                             Eigen::Index pad,
-                             Ends ends) {
+std::vector<double> extended(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index pad, Ends ends) {
   const Eigen::Index n = x.size();
   // Sample i of the signal reflected to and fro between its ends.
   const auto mirrored = [&](Eigen::Index i) {
@@ -70,13 +66,10 @@ Eigen::VectorXd zero_phase(const std::vector<SecondOrderSection>& sections,
                            const Eigen::Ref<const Eigen::VectorXd>& x,
                            Ends ends) {
   const Eigen::Index n = x.size();
-  if (n < 4)
-    throw InvalidInput(
-        fmt::format("zero-phase filter: {} samples are too few; at least 4 are needed", n));
+  if (n < 4) throw InvalidInput(fmt::format("zero-phase filter: {} samples are too few; at least 4 are needed", n));
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!std::isfinite(x[i])) {
-      throw InvalidInput(
-          fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
+      throw InvalidInput(fmt::format("zero-phase filter: sample {} is not a number; fill the gaps first", i + 1));
     }
   }
   const Eigen::Index response = 3 * impulse_length(sections);

@@ -10,9 +10,7 @@
 namespace myoid::math {
 namespace {
 
-std::vector<SecondOrderSection> low_pass() {
-  return design_butterworth(FilterBand::low_pass, 2, 6.0, 100.0);
-}
+std::vector<SecondOrderSection> low_pass() { return design_butterworth(FilterBand::low_pass, 2, 6.0, 100.0); }
 
 Eigen::VectorXd noise(Eigen::Index n) {
   std::mt19937_64 engine(7);
@@ -29,8 +27,7 @@ TEST(ZeroPhase, ReproducesAConstant) {
 TEST(ZeroPhase, ASineKeepsItsPhaseAndHasTheSquaredGain) {
   const double f = 4.0;
   Eigen::VectorXd x(2000);
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    x[i] = std::sin(2.0 * M_PI * f * static_cast<double>(i) / 100.0);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(2.0 * M_PI * f * static_cast<double>(i) / 100.0);
   const Eigen::VectorXd y = zero_phase(low_pass(), x);
   const double g = gain(low_pass(), f, 100.0);
   // Away from the ends; end transients decay below 1e-6 within 3 s.
@@ -48,9 +45,7 @@ TEST(ZeroPhase, IsLinear) {
   const Eigen::VectorXd x = noise(300);
   const Eigen::VectorXd y = x.array().square();
   const Eigen::VectorXd together = zero_phase(low_pass(), 2.0 * x - 3.0 * y);
-  EXPECT_LT((together - 2.0 * zero_phase(low_pass(), x) + 3.0 * zero_phase(low_pass(), y))
-                .cwiseAbs()
-                .maxCoeff(),
+  EXPECT_LT((together - 2.0 * zero_phase(low_pass(), x) + 3.0 * zero_phase(low_pass(), y)).cwiseAbs().maxCoeff(),
             1e-12);
 }
 

@@ -34,8 +34,7 @@ BasinTable find_basins(const math::LocalSearch& search,
       continue;
     }
     const double best = found.basins.front().cost;
-    const double variance =
-        plain_samples > 0 ? 2.0 * best / static_cast<double>(plain_samples) : 1.0;
+    const double variance = plain_samples > 0 ? 2.0 * best / static_cast<double>(plain_samples) : 1.0;
     table.basins.push_back({.x = basin.x,
                             .cost = basin.cost,
                             .starts = static_cast<int>(basin.members.size()),
@@ -53,8 +52,7 @@ BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, i
         const NormalSearchResult end = estimator.search(start, weighting, 1e-9, 1e-12);
         return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
       },
-      start_box(estimator), starts,
-      estimator.options().weights ? 0 : estimator.model().sample_count(),
+      start_box(estimator), starts, estimator.options().weights ? 0 : estimator.model().sample_count(),
       {{}, estimator.options().progress.stop});
   table.fit = "all muscles";
   return table;
@@ -93,8 +91,8 @@ void report_other_minima(const BasinTable& table,
       const double value = free[j].to_value(basin.x[static_cast<Eigen::Index>(j)]);
       if (value >= *e->ci_low && value <= *e->ci_high) continue;
       beyond = true;
-      outside.push_back(fmt::format("{} {} {:.4g} instead of {:.4g} [{:.4g}, {:.4g}]", e->muscle,
-                                    e->parameter, value, e->estimate, *e->ci_low, *e->ci_high));
+      outside.push_back(fmt::format("{} {} {:.4g} instead of {:.4g} [{:.4g}, {:.4g}]", e->muscle, e->parameter, value,
+                                    e->estimate, *e->ci_low, *e->ci_high));
       if (e->verdict != Verdict::identified) continue;
       e->verdict = Verdict::weak;
       e->reason += fmt::format("; but another minimum, as good, has {:.4g}", value);
@@ -105,21 +103,18 @@ void report_other_minima(const BasinTable& table,
   }
   if (outside.empty()) return;
   const std::size_t named = std::min(kNamed, outside.size());
-  result.warnings.push_back(fmt::format(
-      "{} of {} other starts of the search end at a minimum that is {}, with numbers outside of "
-      "their intervals ({}{}): an interval describes one minimum only, and which of them is "
-      "the person's this recording does not tell; more kinds of movement tell them apart",
-      starts, table.starts,
-      least < cost - kLower ? fmt::format("lower (chi-square less by {:.1f})", 2.0 * (cost - least))
-                            : std::string("as good"),
-      fmt::join(outside.begin(), outside.begin() + static_cast<std::ptrdiff_t>(named), "; "),
-      outside.size() > named ? fmt::format("; and {} more", outside.size() - named) : ""));
+  result.warnings.push_back(
+      fmt::format("{} of {} other starts of the search end at a minimum that is {}, with numbers outside of "
+                  "their intervals ({}{}): an interval describes one minimum only, and which of them is "
+                  "the person's this recording does not tell; more kinds of movement tell them apart",
+                  starts, table.starts,
+                  least < cost - kLower ? fmt::format("lower (chi-square less by {:.1f})", 2.0 * (cost - least))
+                                        : std::string("as good"),
+                  fmt::join(outside.begin(), outside.begin() + static_cast<std::ptrdiff_t>(named), "; "),
+                  outside.size() > named ? fmt::format("; and {} more", outside.size() - named) : ""));
 }
 
-void look_around(const StudyData& data,
-                 EstimatorOptions options,
-                 IdentificationResult& result,
-                 int starts) {
+void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result, int starts) {
   if (!options.weights || options.estimator == EstimatorKind::posterior || result.exact ||
       result.termination != math::Termination::converged)
     return;
@@ -128,15 +123,11 @@ void look_around(const StudyData& data,
   const Estimator estimator(data, options);
   if (result.solution.size() != estimator.model().parameters().size()) return;
   const Estimator::Solution here = estimator.solve(result.solution);
-  report_other_minima(result.basins.empty() ? find_basins(estimator, here.weighting, starts)
-                                            : result.basins.front(),
+  report_other_minima(result.basins.empty() ? find_basins(estimator, here.weighting, starts) : result.basins.front(),
                       estimator.free(), here.search.cost, result);
 }
 
-BasinTable find_paper_basins(const StudyData& data,
-                             std::size_t muscle,
-                             bool shortening,
-                             int starts) {
+BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool shortening, int starts) {
   const PaperCase samples = paper_case(data, muscle, shortening);
   const StartBox box = start_box(samples, data.muscles[muscle]);
   BasinTable table;

@@ -8,10 +8,9 @@
 
 namespace myoid::identification {
 
-/// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin
-/// if no unknown differs by more than 0.04 spreads. `plain_samples` is the number of residuals of
-/// an unweighted cost, whose variance then scales the cost to chi-square; 0: the cost is weighted.
-/// Throws Interrupted.
+/// Searches from the given start and Sobol points of the box, in parallel. Two ends are one basin if no unknown differs
+/// by more than 0.04 spreads. `plain_samples` is the number of residuals of an unweighted cost, whose variance then
+/// scales the cost to chi-square; 0: the cost is weighted. Throws Interrupted.
 [[nodiscard]] BasinTable find_basins(const math::LocalSearch& search,
                                      const StartBox& box,
                                      int starts,
@@ -19,9 +18,7 @@ namespace myoid::identification {
                                      const Progress& progress = {});
 
 /// Returns the minima of the estimator's own search, with these weights.
-[[nodiscard]] BasinTable find_basins(const Estimator& estimator,
-                                     const Weighting& weighting,
-                                     int starts);
+[[nodiscard]] BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, int starts);
 
 /// Number of starts from which a reported fit looks for other minima.
 inline constexpr int kUsualLook = 24;
@@ -34,9 +31,8 @@ void look_around(const StudyData& data,
                  IdentificationResult& result,
                  int starts = kUsualLook);
 
-/// Warns of numbers that other minima of the table put outside their reported intervals. Such
-/// minima are lower than `cost` or at most a chi-square of 4 above it. Identified numbers among
-/// them become weak.
+/// Warns of numbers that other minima of the table put outside their reported intervals. Such minima are lower than
+/// `cost` or at most a chi-square of 4 above it. Identified numbers among them become weak.
 void report_other_minima(const BasinTable& table,
                          const std::vector<Unknown>& free,
                          double cost,
@@ -44,9 +40,6 @@ void report_other_minima(const BasinTable& table,
 
 /// Returns the minima of the source paper's plain Gauss-Newton steps on one muscle in one branch.
 /// Empty if every number is held or the case is not fitted (PaperCase::obstacle).
-[[nodiscard]] BasinTable find_paper_basins(const StudyData& data,
-                                           std::size_t muscle,
-                                           bool shortening,
-                                           int starts);
+[[nodiscard]] BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool shortening, int starts);
 
 }  // namespace myoid::identification

@@ -23,16 +23,15 @@ const StartBox kBox{.given = Eigen::VectorXd::Constant(1, 0.9),
 /// Two valleys, at -0.5 with cost 10 and at 0.5 with `higher`; the search ends in its start's,
 /// short of convergence from beyond 0.8 and nowhere from below -0.9.
 math::LocalMinimum descend(const Eigen::VectorXd& start, double higher) {
-  if (start[0] < -0.9)
-    return {math::Termination::not_finite, start, std::numeric_limits<double>::infinity(), 1};
+  if (start[0] < -0.9) return {math::Termination::not_finite, start, std::numeric_limits<double>::infinity(), 1};
   const bool right = start[0] > 0.0;
   return {start[0] > 0.8 ? math::Termination::iteration_limit : math::Termination::converged,
           Eigen::VectorXd::Constant(1, right ? 0.5 : -0.5), right ? higher : 10.0, 1};
 }
 
 TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
-  const BasinTable table = find_basins(
-      [](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, 13.0); }, kBox, 65);
+  const BasinTable table =
+      find_basins([](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, 13.0); }, kBox, 65);
   EXPECT_EQ(table.starts, 65);
   ASSERT_EQ(table.basins.size(), 2U);
   const BasinRow& best = table.basins[0];
@@ -69,10 +68,8 @@ TEST(Basins, AMinimumAsGoodOutsideOfAnIntervalIsSaid) {
                                 .verdict = Verdict::identified});
     BasinTable table;
     table.starts = 24;
-    table.basins.push_back({.x = Eigen::VectorXd::Constant(1, other_m),
-                            .cost = other_cost,
-                            .starts = 5,
-                            .converged = converged});
+    table.basins.push_back(
+        {.x = Eigen::VectorXd::Constant(1, other_m), .cost = other_cost, .starts = 5, .converged = converged});
     report_other_minima(table, free, 100.0, result);
     return result;
   };
@@ -89,8 +86,8 @@ TEST(Basins, AMinimumAsGoodOutsideOfAnIntervalIsSaid) {
 
 TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
   const auto rival = [](double higher, Eigen::Index plain_samples) {
-    return find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, higher); },
-                       kBox, 9, plain_samples)
+    return find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, higher); }, kBox, 9,
+                       plain_samples)
         .basins.at(1)
         .rival;
   };
@@ -124,15 +121,14 @@ test::ElbowStudy forces_from(double off) {
 TEST(Basins, OfThePublishedMethodAndOfOursHaveTheTruthOfExactDataForTheirBest) {
   const test::ElbowStudy study = forces_from(1.05);
   const double l0 = study.truth[0].optimal_fiber_length_m;
-  const IdentificationResult paper =
-      identify_paper(study.data, {.multistart = 9, .muscles = {"BIC"}});
+  const IdentificationResult paper = identify_paper(study.data, {.multistart = 9, .muscles = {"BIC"}});
   ASSERT_EQ(paper.basins.size(), 2U);
   EXPECT_EQ(paper.basins[0].fit, "BIC shortening");
   EXPECT_EQ(paper.basins[1].fit, "BIC lengthening");
   EXPECT_EQ(paper.basins[0].starts, 9);
   EXPECT_NEAR(paper.basins[0].basins[0].x[0], l0, 1e-6 * l0);
-  const IdentificationResult force = identify_force(
-      study.data, {.estimator = {.muscles = {"BIC"}, .multistart = 9}, .detect_exact = true});
+  const IdentificationResult force =
+      identify_force(study.data, {.estimator = {.muscles = {"BIC"}, .multistart = 9}, .detect_exact = true});
   ASSERT_EQ(force.basins.size(), 1U);
   EXPECT_EQ(force.basins[0].fit, "BIC");
   EXPECT_EQ(force.basins[0].starts, 9);
@@ -152,9 +148,8 @@ TEST(Basins, AFitFromSeveralStartsEndsInTheLowest) {
   trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), emg);
   for (std::size_t k = 0; k < 4; ++k) {
     study.data.muscles[k].start = study.truth[k];
-    study.data.muscles[k].fixed = {"max_isometric_force", "optimal_fiber_length",
-                                   "force_length_width",  "concentric_curvature",
-                                   "eccentric_plateau",   "eccentric_curvature_product"};
+    study.data.muscles[k].fixed = {"max_isometric_force",  "optimal_fiber_length", "force_length_width",
+                                   "concentric_curvature", "eccentric_plateau",    "eccentric_curvature_product"};
   }
   trial.torque_nm = predict(study.data, trial, study.truth, 0.12).torque_nm;
   TorqueOptions options{.delay_prior_mean_s = 0.05,

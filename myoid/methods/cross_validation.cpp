@@ -18,15 +18,10 @@
 namespace myoid::identification {
 namespace {
 
-double duration_s(const TrialData& trial) {
-  return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0];
-}
+double duration_s(const TrialData& trial) { return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]; }
 
-/// Returns the duration from which a trial is cut into blocks: half of it remains beside a block
-/// and its gaps.
-double least_for_blocks_s(const CrossValidationOptions& how) {
-  return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks);
-}
+/// Returns the duration from which a trial is cut into blocks: half of it remains beside a block and its gaps.
+double least_for_blocks_s(const CrossValidationOptions& how) { return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks); }
 
 TrialData used(TrialData trial, bool calibration) {
   trial.calibration = calibration;
@@ -38,8 +33,7 @@ void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split
   const Eigen::Index n = trial.time_s.size();
   const Eigen::Index begin = n * b / how.blocks;
   const Eigen::Index end = n * (b + 1) / how.blocks;
-  const auto gap = static_cast<Eigen::Index>(
-      std::ceil(how.gap_s * static_cast<double>(n - 1) / duration_s(trial)));
+  const auto gap = static_cast<Eigen::Index>(std::ceil(how.gap_s * static_cast<double>(n - 1) / duration_s(trial)));
   std::vector<TrialData>& to = split.data.trials;
   to.push_back(used(part(trial, begin, end - begin), false));
   if (begin > 2 * gap) to.push_back(used(part(trial, 0, begin - gap), true));
@@ -82,17 +76,14 @@ std::vector<Split> named_splits(const StudyData& data,
                                 const CrossValidationOptions& how,
                                 std::string& why_not) {
   const auto name_of = [&](const TrialData& trial) {
-    return how.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition
-                                                                       : trial.name;
+    return how.kind == FoldKind::condition && !trial.condition.empty() ? trial.condition : trial.name;
   };
   std::vector<Split> result;
   for (const TrialData* trial : trials) {
     const std::string name = name_of(*trial);
-    if (std::any_of(result.begin(), result.end(), [&](const Split& s) { return s.name == name; }))
-      continue;
+    if (std::any_of(result.begin(), result.end(), [&](const Split& s) { return s.name == name; })) continue;
     Split split{name, {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
-    for (const TrialData* other : trials)
-      split.data.trials.push_back(used(*other, name_of(*other) != name));
+    for (const TrialData* other : trials) split.data.trials.push_back(used(*other, name_of(*other) != name));
     result.push_back(std::move(split));
   }
   if (result.size() >= 2) return result;
@@ -213,8 +204,7 @@ Fold score_joint(const std::string& name,
     identified.add(measured, torque(rows));
     smooth.add(measured, below(t.time_s, torque, found.smooth_hz)(rows));
     if (found.torque_sd_nm.size() > 0) deviation.emplace_back(found.torque_sd_nm(rows));
-    band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows),
-             below(t.time_s, torque, by.cutoff_hz)(rows));
+    band.add(below(t.time_s, t.torque_nm, by.cutoff_hz)(rows), below(t.time_s, torque, by.cutoff_hz)(rows));
     literature.add(measured, (resting + from.gain * muscles)(rows));
     regression.add(measured, (resting + regressed)(rows));
     if (by.paper) paper.add(measured, by_paper(t, by)(rows));
@@ -238,30 +228,25 @@ Fold score_joint(const std::string& name,
   fold.band = band.scored();
   fold.literature = literature.scored();
   fold.regression = regression.scored();
-  fold.constant =
-      score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), from.mean_nm));
+  fold.constant = score(fold.measured_nm, Eigen::VectorXd::Constant(fold.measured_nm.size(), from.mean_nm));
   if (by.paper) fold.paper = paper.scored();
   return fold;
 }
 
 /// Adds the curves of method `paper` from the calibration trials.
 void add_paper(const StudyData& data, const std::vector<std::string>& muscles, Predictors& by) {
-  for (const ParameterEstimate& e :
-       identify_paper(data, {.muscles = muscles, .diagnoses = false}).estimates) {
+  for (const ParameterEstimate& e : identify_paper(data, {.muscles = muscles, .diagnoses = false}).estimates) {
     if (!std::isfinite(e.estimate)) continue;
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
       if (data.muscles[k].name == e.muscle)
-        (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*
-            muscle::hill_field(e.parameter).member = e.estimate;
+        (e.fit_case == "shortening" ? by.shortening : by.lengthening)[k].*muscle::hill_field(e.parameter).member =
+            e.estimate;
     }
   }
 }
 
 /// Fits one split and scores the trials that it left out, joint by joint.
-std::vector<Fold> score_split(Split split,
-                              const SplitFit& fit_to,
-                              const EstimatorOptions& options,
-                              bool with_paper) {
+std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const EstimatorOptions& options, bool with_paper) {
   EstimatorOptions of_fold = of_a_fold(options);
   const IdentificationResult fit = fit_to(split.data, of_fold);
   const TrialPredictions predictions(split.data, of_fold, fit);
@@ -277,9 +262,8 @@ std::vector<Fold> score_split(Split split,
                 .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
   std::vector<TrialData> training, held;
   for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
-  by.paper = with_paper && std::all_of(training.begin(), training.end(), [](const TrialData& t) {
-               return t.force_n.rows() == t.time_s.size();
-             });
+  by.paper = with_paper && std::all_of(training.begin(), training.end(),
+                                       [](const TrialData& t) { return t.force_n.rows() == t.time_s.size(); });
   if (by.paper) add_paper(split.data, options.muscles, by);
   std::vector<Fold> folds;
   const UnseenEffort unseen = unseen_effort(split.data);
@@ -325,16 +309,14 @@ double best_lag_s(const Eigen::VectorXd& time_s,
   return static_cast<double>(at) * step;
 }
 
-std::vector<Split> splits(const StudyData& data,
-                          const CrossValidationOptions& how,
-                          std::string* why_not) {
+std::vector<Split> splits(const StudyData& data, const CrossValidationOptions& how, std::string* why_not) {
   std::vector<const TrialData*> trials;
   for (const TrialData& trial : data.trials) {
     if (trial.calibration && trial.time_s.size() > 1) trials.push_back(&trial);
   }
   std::string reason;
-  std::vector<Split> result = how.kind == FoldKind::block ? block_splits(data, trials, how, reason)
-                                                          : named_splits(data, trials, how, reason);
+  std::vector<Split> result =
+      how.kind == FoldKind::block ? block_splits(data, trials, how, reason) : named_splits(data, trials, how, reason);
   if (why_not != nullptr) *why_not = std::move(reason);
   return result;
 }
@@ -355,8 +337,7 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
     worst = f.identified.rmse_nm() / f.fitted.rmse_nm();
     where = f.trial;
   }
-  const bool bad =
-      count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
+  const bool bad = count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
   if (!bad) return "";
   return fmt::format(
       "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of "
@@ -374,8 +355,7 @@ std::string beyond_what_was_fitted(const std::vector<Fold>& folds) {
   std::vector<std::string> found;
   for (const Fold& f : folds) {
     if (f.unseen.ratio >= kFar && f.identified.r2() < kBadly && found.size() < kNamed)
-      found.push_back(
-          fmt::format("'{}': {} {:.1f} times", f.trial, f.unseen.channel, f.unseen.ratio));
+      found.push_back(fmt::format("'{}': {} {:.1f} times", f.trial, f.unseen.channel, f.unseen.ratio));
   }
   return fmt::format("{}", fmt::join(found, ", "));
 }
@@ -400,8 +380,7 @@ std::vector<Fold> cross_validate(const StudyData& data,
     of_split[f] = score_split(std::move(all[f]), fit, shared, how.paper);
   });
   std::vector<Fold> folds;
-  for (std::vector<Fold>& of_one : of_split)
-    std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
+  for (std::vector<Fold>& of_one : of_split) std::move(of_one.begin(), of_one.end(), std::back_inserter(folds));
   return folds;
 }
 

@@ -24,16 +24,14 @@ struct CrossValidationOptions {
   bool paper = true;  ///< Also fits method `paper` to the others, if there are forces.
 };
 
-/// One division of a study's trials: a fit uses the trials with `TrialData::calibration`, the
-/// others are predicted.
+/// One division of a study's trials: a fit uses the trials with `TrialData::calibration`, the others are predicted.
 struct Split {
   std::string name;  ///< The trial, the condition, or "block 2 of 5".
   StudyData data;
 };
 
-/// Returns all splits of the calibration trials; trials held back for validation are in none. Needs
-/// at least two trials or conditions, or trials with five blocks; otherwise empty, with the reason
-/// in `why_not`, if given.
+/// Returns all splits of the calibration trials; trials held back for validation are in none. Needs at least two trials
+/// or conditions, or trials with five blocks; otherwise empty, with the reason in `why_not`, if given.
 [[nodiscard]] std::vector<Split> splits(const StudyData& data,
                                         const CrossValidationOptions& options = {},
                                         std::string* why_not = nullptr);
@@ -46,16 +44,15 @@ struct Fold {
   std::vector<ParameterEstimate> parameters;
   EmgLag lag = EmgLag::delay;
   bool converged = true;
-  Score fitted;            ///< Score of the same parameters on the fitted trials.
-  Score identified;        ///< Score of the fit to the others.
-  Score smooth;            ///< Score of this prediction below `smooth_hz` (smooth_prediction.h).
-  double smooth_hz = 0.0;  ///< Cut-off of the first trial; 0: not smoothed.
-  Score band;              ///< Score with both torques below the fit's own cut-off.
-  Score
-      literature;  ///< Score of literature parameters with the one gain that fits the others best.
-  Score regression;  ///< Score of the torque's regression on activation times moment arm of every
-                     ///< muscle.
-  Score constant;    ///< Score of the mean torque of the others.
+  Score fitted;                ///< Score of the same parameters on the fitted trials.
+  Score identified;            ///< Score of the fit to the others.
+  Score smooth;                ///< Score of this prediction below `smooth_hz` (smooth_prediction.h).
+  double smooth_hz = 0.0;      ///< Cut-off of the first trial; 0: not smoothed.
+  Score band;                  ///< Score with both torques below the fit's own cut-off.
+  Score literature;            ///< Score of literature parameters with the one gain that fits the others best.
+  Score regression;            ///< Score of the torque's regression on activation times moment arm of every
+                               ///< muscle.
+  Score constant;              ///< Score of the mean torque of the others.
   std::optional<Score> paper;  ///< Score of method paper on the others, if there are forces.
   double gain = 1.0;           ///< Gain of the literature's parameters.
   double lag_s = 0.0;          ///< Lag of the identified prediction.
@@ -69,10 +66,9 @@ struct Fold {
 /// fitted trials, such as activations relative to the greatest effort in them.
 using SplitFit = std::function<IdentificationResult(StudyData& data, EstimatorOptions& options)>;
 
-/// Leaves out and predicts one part after another, folds in parallel; samples are never shuffled.
-/// `fit` is the reported fit on fewer trials, without anything from another fit; it gets
-/// `of_a_fold(options)`. Predictions are those of TrialPredictions, not smoothed. One entry for
-/// each part and joint; empty where `splits` is.
+/// Leaves out and predicts one part after another, folds in parallel; samples are never shuffled. `fit` is the reported
+/// fit on fewer trials, without anything from another fit; it gets `of_a_fold(options)`. Predictions are those of
+/// TrialPredictions, not smoothed. One entry for each part and joint; empty where `splits` is.
 [[nodiscard]] std::vector<Fold> cross_validate(const StudyData& data,
                                                const SplitFit& fit,
                                                const EstimatorOptions& options,

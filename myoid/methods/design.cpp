@@ -17,8 +17,7 @@ using Gathered = std::vector<Eigen::MatrixXd>;
 
 class Designer {
  public:
-  Designer(const DesignProblem& problem, const DesignOptions& options)
-      : problem_(problem), options_(options) {
+  Designer(const DesignProblem& problem, const DesignOptions& options) : problem_(problem), options_(options) {
     const auto p = static_cast<Eigen::Index>(problem.parameters.size());
     if (problem.prior_precision.rows() != p || problem.prior_precision.cols() != p)
       throw InvalidInput("design: the prior's precision does not have one row per parameter");
@@ -27,18 +26,16 @@ class Designer {
     persons_ = problem.catalogue.front().per_person.size();
     for (const MovementInformation& movement : problem.catalogue) {
       if (movement.per_person.size() != persons_ || persons_ == 0)
-        throw InvalidInput(
-            fmt::format("design: movement '{}' is not given for every person", movement.name));
+        throw InvalidInput(fmt::format("design: movement '{}' is not given for every person", movement.name));
       std::size_t able = 0;
       for (const Eigen::MatrixXd& m : movement.per_person) {
         if (m.size() == 0) continue;
         if (m.rows() != p || m.cols() != p)
-          throw InvalidInput(
-              fmt::format("design: the information of '{}' has the wrong size", movement.name));
+          throw InvalidInput(fmt::format("design: the information of '{}' has the wrong size", movement.name));
         ++able;
       }
-      feasible_.push_back(able > 0 && static_cast<double>(able) >=
-                                          options.least_feasible * static_cast<double>(persons_));
+      feasible_.push_back(able > 0 &&
+                          static_cast<double>(able) >= options.least_feasible * static_cast<double>(persons_));
     }
     if (std::none_of(feasible_.begin(), feasible_.end(), [](bool f) { return f; }))
       throw InvalidInput("design: no movement of the catalogue can be done by these persons");
@@ -66,8 +63,7 @@ class Designer {
  private:
   [[nodiscard]] static Eigen::MatrixXd covariance(const Eigen::MatrixXd& precision) {
     const Eigen::LLT<Eigen::MatrixXd> factor(precision);
-    if (factor.info() != Eigen::Success)
-      throw InvalidInput("design: the prior's precision is not positive definite");
+    if (factor.info() != Eigen::Success) throw InvalidInput("design: the prior's precision is not positive definite");
     return factor.solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
   }
 
@@ -81,8 +77,7 @@ class Designer {
     Eigen::MatrixXd block(t, t);
     for (Eigen::Index a = 0; a < t; ++a) {
       for (Eigen::Index b = 0; b < t; ++b)
-        block(a, b) = s(problem_.targets[static_cast<std::size_t>(a)],
-                        problem_.targets[static_cast<std::size_t>(b)]);
+        block(a, b) = s(problem_.targets[static_cast<std::size_t>(a)], problem_.targets[static_cast<std::size_t>(b)]);
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(block);
     const Eigen::MatrixXd triangle = factor.matrixL();

@@ -8,8 +8,7 @@
 
 namespace myoid::identification {
 
-/// The information of one movement about the parameters, for each of several persons drawn from the
-/// priors.
+/// The information of one movement about the parameters, for each of several persons drawn from the priors.
 struct MovementInformation {
   std::string name;
   double duration_s = 0.0;
@@ -32,16 +31,16 @@ enum class DesignCriterion {
 
 struct DesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;
-  int movements = 8;     ///< Number of movements to choose.
-  int most_of_each = 2;  ///< Limit on the repetitions of one movement.
+  int movements = 8;                                          ///< Number of movements to choose.
+  int most_of_each = 2;                                       ///< Limit on the repetitions of one movement.
   double budget_s = std::numeric_limits<double>::infinity();  ///< Limit on the recording time.
   double least_feasible = 0.8;  ///< Share of the persons who must be able to do a movement.
 };
 
 struct DesignStep {
   std::size_t movement = 0;  ///< Index in the catalogue.
-  double criterion = 0.0;  ///< Mean over the persons after this step; decreases from step to step.
-  Eigen::VectorXd sd;      ///< p: root mean posterior variance after this and all earlier steps.
+  double criterion = 0.0;    ///< Mean over the persons after this step; decreases from step to step.
+  Eigen::VectorXd sd;        ///< p: root mean posterior variance after this and all earlier steps.
 };
 
 struct DesignResult {
@@ -56,11 +55,9 @@ struct DesignResult {
 ///
 ///   log det S_tt   (D)   or   sum_t S_tt / P_tt   (A),     S = (P^-1 + sum_m n_m M_m)^-1,
 ///
-/// with P the prior covariance and t the targets. The best movement is added repeatedly, then
-/// movements are exchanged one by one until nothing improves (Fedorov). Ties go to the first
-/// movement of the catalogue, so that the result does not depend on threads. Throws InvalidInput if
-/// sizes disagree, there is no target, or no person can do any movement.
-[[nodiscard]] DesignResult choose_movements(const DesignProblem& problem,
-                                            const DesignOptions& options = {});
+/// with P the prior covariance and t the targets. The best movement is added repeatedly, then movements are exchanged
+/// one by one until nothing improves (Fedorov). Ties go to the first movement of the catalogue, so that the result does
+/// not depend on threads. Throws InvalidInput if sizes disagree, there is no target, or no person can do any movement.
+[[nodiscard]] DesignResult choose_movements(const DesignProblem& problem, const DesignOptions& options = {});
 
 }  // namespace myoid::identification

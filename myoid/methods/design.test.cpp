@@ -58,8 +58,7 @@ TEST(ChooseMovements, FindsNearlyWhatTryingAllTriplesFinds) {
         for (std::size_t c = 0; c < b; ++c) best = std::min(best, d_criterion(problem, {a, b, c}));
     const double found = result.steps.back().criterion;
     EXPECT_NEAR(found,
-                d_criterion(problem, {result.steps[0].movement, result.steps[1].movement,
-                                      result.steps[2].movement}),
+                d_criterion(problem, {result.steps[0].movement, result.steps[1].movement, result.steps[2].movement}),
                 1e-9);
     EXPECT_LE(found, best + 0.01 * std::abs(best)) << seed;
   }
@@ -67,8 +66,7 @@ TEST(ChooseMovements, FindsNearlyWhatTryingAllTriplesFinds) {
 
 TEST(ChooseMovements, EveryStepShrinksTheIntervalsAndTheCriterion) {
   for (const DesignCriterion criterion : {DesignCriterion::d_optimal, DesignCriterion::a_optimal}) {
-    const DesignResult result =
-        choose_movements(random_problem(5, 6, 20, 4), {.criterion = criterion, .movements = 6});
+    const DesignResult result = choose_movements(random_problem(5, 6, 20, 4), {.criterion = criterion, .movements = 6});
     Eigen::VectorXd sd = result.prior_sd;
     double value = result.prior_criterion;
     for (const DesignStep& step : result.steps) {
@@ -98,10 +96,8 @@ TEST(ChooseMovements, TellsApartWhatTheTargetsNeed) {
 TEST(ChooseMovements, KeepsTheBudgetTheRepetitionsAndWhatPeopleCanDo) {
   DesignProblem problem = random_problem(3, 4, 6, 5);
   problem.catalogue[2].duration_s = 100.0;
-  for (std::size_t person = 0; person < 2; ++person)
-    problem.catalogue[4].per_person[person] = Eigen::MatrixXd();
-  const DesignResult result =
-      choose_movements(problem, {.movements = 10, .most_of_each = 2, .budget_s = 65.0});
+  for (std::size_t person = 0; person < 2; ++person) problem.catalogue[4].per_person[person] = Eigen::MatrixXd();
+  const DesignResult result = choose_movements(problem, {.movements = 10, .most_of_each = 2, .budget_s = 65.0});
   EXPECT_EQ(result.steps.size(), 6U);
   std::vector<int> count(6, 0);
   for (const DesignStep& step : result.steps) ++count[step.movement];

@@ -33,10 +33,7 @@ std::string ExchangedElectrodes::sentence() const {
       first, second, exchanged.rms_nm, exchanged.r2, as_named.rms_nm, as_named.r2);
 }
 
-LabelFit fit_of_labels(const StudyData& data,
-                       double delay_s,
-                       const std::string& first,
-                       const std::string& second) {
+LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string& first, const std::string& second) {
   StudyData named;  // the trials are not changed, and not copied
   named.muscles = data.muscles;
   std::vector<muscle::HillParameters<double>> literature;
@@ -60,8 +57,7 @@ LabelFit fit_of_labels(const StudyData& data,
       // No electrode shows the resting torque of the joint.
       const Eigen::VectorXd resting = identification::resting_torque_nm(trial);
       const Eigen::VectorXd active = trial.torque_nm - resting;
-      const Eigen::VectorXd torque =
-          identification::predict(named, trial, literature, delay_s).torque_nm - resting;
+      const Eigen::VectorXd torque = identification::predict(named, trial, literature, delay_s).torque_nm - resting;
       Sides sides{identification::below(trial.time_s, active, kCutoff_hz)(rows),
                   identification::below(trial.time_s, torque, kCutoff_hz)(rows)};
       product += sides.predicted.dot(sides.measured);

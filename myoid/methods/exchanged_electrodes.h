@@ -29,11 +29,10 @@ struct ExchangedElectrodes {
                                      const std::string& first = "",
                                      const std::string& second = "");
 
-/// Finds the pair of channels whose exchange lowers the error of the literature's muscles most. The
-/// gain must exceed the uncertainty of their strengths (beliefs::kStrengthRatio) in at least three
-/// of four trials, and the exchanged fit must describe the torque (R2 above 0.5). Empty if there is
-/// no such pair.
-[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(
-    const identification::StudyData& data, double delay_s);
+/// Finds the pair of channels whose exchange lowers the error of the literature's muscles most. The gain must exceed
+/// the uncertainty of their strengths (beliefs::kStrengthRatio) in at least three of four trials, and the exchanged fit
+/// must describe the torque (R2 above 0.5). Empty if there is no such pair.
+[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const identification::StudyData& data,
+                                                                      double delay_s);
 
 }  // namespace myoid::identification

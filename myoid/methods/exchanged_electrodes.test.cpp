@@ -46,8 +46,8 @@ TEST(ExchangedElectrodes, OfTwoSidesAreFoundAndOfOneSideWhereTheirSignalsDiffer)
       if (!found) continue;
       // The channels still bear the names of the muscles that they should be on.
       const std::string name = data.muscles[0].emg_channel;
-      const bool right = (found->first == name && found->second == "BIC") ||
-                         (found->first == "BIC" && found->second == name);
+      const bool right =
+          (found->first == name && found->second == "BIC") || (found->first == "BIC" && found->second == name);
       (other == 3 ? opposed : synergists) += right ? 1 : 0;
     }
   }

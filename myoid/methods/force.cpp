@@ -20,10 +20,10 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   one.muscles.push_back(data.muscles[muscle]);
   for (const TrialData& trial : data.trials) {
     if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(fmt::format(
-          "method force: trial '{}' has no muscle forces; measure them, or share the torque first "
-          "(myoid so)",
-          trial.name));
+      throw InvalidInput(
+          fmt::format("method force: trial '{}' has no muscle forces; measure them, or share the torque first "
+                      "(myoid so)",
+                      trial.name));
     }
     TrialData t;
     t.name = trial.name;
@@ -46,8 +46,7 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
     ParameterRule kept = rule;
     kept.owners.clear();
     kept.tie = false;
-    const std::string& name =
-        scope == Scope::muscle ? one.muscles[0].name : one.muscles[0].emg_channel;
+    const std::string& name = scope == Scope::muscle ? one.muscles[0].name : one.muscles[0].emg_channel;
     const bool named = std::find(rule.owners.begin(), rule.owners.end(), name) != rule.owners.end();
     if (rule.owners.empty() || named) one.rules.push_back(std::move(kept));
   }
@@ -65,18 +64,14 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
   for (const std::string& name : options.speed_may_be_free) {
     if (name == one.muscles.front().name) speed.push_back(name);
   }
-  return options.detect_exact ? identify_torque_or_exact(one, once, speed)
-                              : identify_torque(one, once);
+  return options.detect_exact ? identify_torque_or_exact(one, once, speed) : identify_torque(one, once);
 }
 
 namespace {
 
 /// Copies the fit of muscle k into the result of all muscles.
-void take_over(IdentificationResult fit,
-               const StudyData& data,
-               std::size_t k,
-               bool shared_forces,
-               IdentificationResult& all) {
+void take_over(
+    IdentificationResult fit, const StudyData& data, std::size_t k, bool shared_forces, IdentificationResult& all) {
   const std::string& name = data.muscles[k].name;
   const auto column = static_cast<Eigen::Index>(k);
   all.muscles[k] = fit.muscles.front();
@@ -122,14 +117,11 @@ void take_over(IdentificationResult fit,
 }
 
 /// Predicts the forces of muscle k, which is not fitted, by its starting values.
-void predict_unfitted(const StudyData& one,
-                      std::size_t k,
-                      const EstimatorOptions& options,
-                      IdentificationResult& all) {
+void predict_unfitted(const StudyData& one, std::size_t k, const EstimatorOptions& options, IdentificationResult& all) {
   const auto column = static_cast<Eigen::Index>(k);
   for (std::size_t t = 0; t < one.trials.size(); ++t) {
-    const Prediction p = predict(one, one.trials[t], {one.muscles.front().start},
-                                 options.delay_s.value_or(options.delay_prior_mean_s));
+    const Prediction p =
+        predict(one, one.trials[t], {one.muscles.front().start}, options.delay_s.value_or(options.delay_prior_mean_s));
     all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
     all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
   }
@@ -155,8 +147,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const StudyData one = force_study(data, k);
     all.muscles.push_back(data.muscles[k].start);
-    const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(),
-                                                   data.muscles[k].name) != wanted.end();
+    const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(), data.muscles[k].name) != wanted.end();
     if (named) {
       take_over(identify_muscle_force(one, options), data, k, options.shared_forces, all);
     } else {
@@ -166,9 +157,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     const TrialData& trial = data.trials[t];
     TrialFit& fit = all.trials[t];
-    if (trial.moment_arm_m.rows() != trial.time_s.size() ||
-        trial.torque_nm.size() != trial.time_s.size())
-      continue;
+    if (trial.moment_arm_m.rows() != trial.time_s.size() || trial.torque_nm.size() != trial.time_s.size()) continue;
     add_torques_of_forces(trial, fit);
     const std::vector<Eigen::Index> rows = included_rows(trial);
     const Eigen::VectorXd measured = trial.torque_nm(rows);

@@ -13,16 +13,13 @@ struct ForceOptions {
   std::vector<std::string> speed_may_be_free;  ///< As in identify_torque_or_exact.
 };
 
-/// Fits every muscle alone, shortening and lengthening together, to its own force (measured, or
-/// from force sharing). The estimator is that of method `torque` with one muscle and a moment arm
-/// of 1, including bounds, priors, EMG delay, weights and intervals. Throws InvalidInput if the
-/// data have no forces.
-[[nodiscard]] IdentificationResult identify_force(const StudyData& data,
-                                                  const ForceOptions& options = {});
+/// Fits every muscle alone, shortening and lengthening together, to its own force (measured, or from force sharing).
+/// The estimator is that of method `torque` with one muscle and a moment arm of 1, including bounds, priors, EMG delay,
+/// weights and intervals. Throws InvalidInput if the data have no forces.
+[[nodiscard]] IdentificationResult identify_force(const StudyData& data, const ForceOptions& options = {});
 
 /// Fits one muscle of the study that `force_study` makes.
-[[nodiscard]] IdentificationResult identify_muscle_force(const StudyData& one_muscle,
-                                                         const ForceOptions& options = {});
+[[nodiscard]] IdentificationResult identify_muscle_force(const StudyData& one_muscle, const ForceOptions& options = {});
 
 /// Returns the study of one muscle that `identify_force` fits.
 [[nodiscard]] StudyData force_study(const StudyData& data, std::size_t muscle);

@@ -39,17 +39,15 @@ TEST(IdentifyForce, FollowsTheEmgAsItIsTold) {
   test::StudyNoise noise(1);
   for (TrialData& trial : study.data.trials) {
     trial.force_n = predict(study.data, trial, study.truth, study.delay_s, EmgLag::shared).force_n;
-    for (auto column : trial.force_n.colwise())
-      column += 2.0 * noise.band(column.size(), 6.0, 100.0);
+    for (auto column : trial.force_n.colwise()) column += 2.0 * noise.band(column.size(), 6.0, 100.0);
   }
   for (const bool choose : {false, true}) {
     for (const EmgLag lag : {EmgLag::delay, EmgLag::shared}) {
-      const IdentificationResult r =
-          identify_force(study.data, {.estimator = {.lag = lag, .choose_lag = choose}});
+      const IdentificationResult r = identify_force(study.data, {.estimator = {.lag = lag, .choose_lag = choose}});
       ASSERT_EQ(r.trials.size(), 1U);
       const auto& measured = study.data.trials[0].force_n;
-      const double rmse_n = std::sqrt((r.trials[0].force_fit_n - measured).squaredNorm() /
-                                      static_cast<double>(measured.size()));
+      const double rmse_n =
+          std::sqrt((r.trials[0].force_fit_n - measured).squaredNorm() / static_cast<double>(measured.size()));
       EXPECT_EQ(r.lag, lag);
       EXPECT_EQ(rmse_n < 3.0, lag == EmgLag::shared) << rmse_n;
     }

@@ -32,8 +32,7 @@ Change change_of(const std::vector<MuscleSetup>& setups,
       const double new_value = after[m][k];
       double size = std::abs(new_value - old_value);
       if (old_value > 0.0 && new_value > 0.0) size = std::abs(std::log(new_value / old_value));
-      if (size > change.size)
-        change = {size, setups[m].name + "." + std::string(muscle::kHillFields[k].name)};
+      if (size > change.size) change = {size, setups[m].name + "." + std::string(muscle::kHillFields[k].name)};
     }
   }
   return change;
@@ -56,10 +55,9 @@ Shared share_all(StudyData& data,
   double reserve = 0.0;
   double samples = 0.0;
   for (TrialData& trial : data.trials) {
-    InformedForces found = informed_forces(
-        trial, muscle_activation(data, trial, trial.time_s, delay_s), muscles, options);
-    if (trial.force_n.rows() == found.force_n.rows())
-      changed += (found.force_n - trial.force_n).squaredNorm();
+    InformedForces found =
+        informed_forces(trial, muscle_activation(data, trial, trial.time_s, delay_s), muscles, options);
+    if (trial.force_n.rows() == found.force_n.rows()) changed += (found.force_n - trial.force_n).squaredNorm();
     forces += found.force_n.squaredNorm();
     reserve += found.reserve_nm.squaredNorm();
     samples += static_cast<double>(found.reserve_nm.size());
@@ -107,16 +105,13 @@ std::string bounds_reached(const IdentificationResult& fit) {
 }
 
 /// Throws InvalidInput unless the trial has torque, moment arms and activations for all muscles.
-void check_sizes(const TrialData& trial,
-                 const Eigen::MatrixXd& measured,
-                 const std::vector<MuscleValues>& muscles) {
+void check_sizes(const TrialData& trial, const Eigen::MatrixXd& measured, const std::vector<MuscleValues>& muscles) {
   const Eigen::Index n = trial.time_s.size();
   const auto m = static_cast<Eigen::Index>(muscles.size());
-  if (trial.torque_nm.size() != n || trial.moment_arm_m.rows() != n ||
-      trial.moment_arm_m.cols() != m || trial.length_m.cols() != m || measured.rows() != n ||
-      measured.cols() != m) {
-    throw InvalidInput(fmt::format(
-        "trial '{}' has no torque, moment arms or activations for {} muscles", trial.name, m));
+  if (trial.torque_nm.size() != n || trial.moment_arm_m.rows() != n || trial.moment_arm_m.cols() != m ||
+      trial.length_m.cols() != m || measured.rows() != n || measured.cols() != m) {
+    throw InvalidInput(
+        fmt::format("trial '{}' has no torque, moment arms or activations for {} muscles", trial.name, m));
   }
 }
 
@@ -169,8 +164,7 @@ InformedForces informed_forces(const TrialData& trial,
                         .reserve_nm = Eigen::MatrixXd(n, joints)};
   const Eigen::MatrixXd active_nm = torques_of_muscles(trial);
   const auto force_n = [&](Eigen::Index i, Eigen::Index k, double activation) {
-    return tension(activation, trial.length_m(i, k), trial.velocity_mps(i, k),
-                   muscles[static_cast<std::size_t>(k)])
+    return tension(activation, trial.length_m(i, k), trial.velocity_mps(i, k), muscles[static_cast<std::size_t>(k)])
         .force_n;
   };
   Eigen::RowVectorXd rest(m), full(m);
@@ -192,12 +186,10 @@ InformedForces informed_forces(const TrialData& trial,
          .upper = Eigen::VectorXd::Ones(m),
          .weight = {},
          .reserve = Eigen::VectorXd::Constant(joints, options.reserve_nm),
-         .emg = options.emg_weight > 0.0 ? Eigen::VectorXd(result.measured.row(i).transpose())
-                                         : Eigen::VectorXd(),
+         .emg = options.emg_weight > 0.0 ? Eigen::VectorXd(result.measured.row(i).transpose()) : Eigen::VectorXd(),
          .emg_weight = options.emg_weight,
          .exponent = 2.0});
-    if (solution.status != forces::SharingStatus::optimal &&
-        solution.status != forces::SharingStatus::reserve_used) {
+    if (solution.status != forces::SharingStatus::optimal && solution.status != forces::SharingStatus::reserve_used) {
       ++result.frames_not_solved;
     }
     result.activation.row(i) = solution.activation.transpose();
@@ -230,8 +222,7 @@ ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
   estimator.predictions = false;
   loop.fit = identify_torque(data, estimator);
   std::vector<MuscleValues> before;
-  for (const MuscleSetup& setup : data.muscles)
-    before.push_back(muscle_values(setup.start, setup.extras));
+  for (const MuscleSetup& setup : data.muscles) before.push_back(muscle_values(setup.start, setup.extras));
   const std::vector<MuscleValues>& found = loop.fit.values.muscles;
   const Change change = change_of(data.muscles, before, found);
   Shared shared = share_all(data, found, loop.fit.delay_s, options.sharing);
@@ -260,8 +251,7 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
   ForceLoop loop;
   double delay_s = options.delay_s;
   std::vector<MuscleValues> muscles;
-  for (const MuscleSetup& setup : data.muscles)
-    muscles.push_back(muscle_values(setup.start, setup.extras));
+  for (const MuscleSetup& setup : data.muscles) muscles.push_back(muscle_values(setup.start, setup.extras));
   Shared shared = share_all(data, muscles, delay_s, options.sharing);
   for (int round = 0; round < options.max_rounds; ++round) {
     options.force.estimator.progress.check();

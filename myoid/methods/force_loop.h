@@ -35,11 +35,10 @@ struct InformedForces {
 ///   minimize  W sum_i (a_i - e_i)^2 + sum_i a_i^2 + sum_j y_j^2   subject to
 ///   sum_i r_ij F_i(a_i) + y_j T = torque_j for each joint j,   0 <= a_i <= 1
 ///
-/// where e is the `measured` activation of each muscle's EMG channel (n x m) times its share, T is
-/// `reserve_nm`, and F_i is the tension of muscle_law.h, taken as linear in a_i between 0 and 1.
-/// This is exact for the paper's law. With gamma or an elastic tendon, the returned force follows
-/// the law at the activation found, and the reserve carries the difference. Antagonists act
-/// together as far as the EMG shows it. Throws InvalidInput if sizes disagree.
+/// where e is the `measured` activation of each muscle's EMG channel (n x m) times its share, T is `reserve_nm`, and
+/// F_i is the tension of muscle_law.h, taken as linear in a_i between 0 and 1. This is exact for the paper's law. With
+/// gamma or an elastic tendon, the returned force follows the law at the activation found, and the reserve carries the
+/// difference. Antagonists act together as far as the EMG shows it. Throws InvalidInput if sizes disagree.
 [[nodiscard]] InformedForces informed_forces(const TrialData& trial,
                                              const Eigen::MatrixXd& measured,
                                              const std::vector<MuscleValues>& muscles,
@@ -83,11 +82,10 @@ struct ForceLoop {
 /// leaves this loop open. The loop begins with the muscles' start. Its fixed point depends on the
 /// EMG for large W and on the optimizer's criterion for small W; method `torque` needs neither.
 ///
-/// The likelihood of the posterior (EstimatorOptions::estimator) includes the errors between
-/// muscles and torque. Shared forces have no such errors, and a fit to them would count the torque
-/// twice. So the muscles come from the posterior of the torque and share the forces. Both agree
-/// after one round, whose reserves measure the agreement. Throws as identify_force and
-/// identify_torque; Interrupted.
+/// The likelihood of the posterior (EstimatorOptions::estimator) includes the errors between muscles and torque. Shared
+/// forces have no such errors, and a fit to them would count the torque twice. So the muscles come from the posterior
+/// of the torque and share the forces. Both agree after one round, whose reserves measure the agreement. Throws as
+/// identify_force and identify_torque; Interrupted.
 [[nodiscard]] ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options = {});
 
 }  // namespace myoid::identification

@@ -29,8 +29,7 @@ Eigen::MatrixXd trial_activation(const ElbowStudy& study, const TrialData& trial
 }
 
 ElbowStudy short_study() {
-  return elbow_study(
-      {.trials = 2, .seconds = 8.0, .rate_hz = 50.0, .delay_s = 0.0, .with_priors = true});
+  return elbow_study({.trials = 2, .seconds = 8.0, .rate_hz = 50.0, .delay_s = 0.0, .with_priors = true});
 }
 
 TEST(InformedForces, WithTheTrueMusclesTheTrueForcesNeedNoReserve) {
@@ -38,8 +37,8 @@ TEST(InformedForces, WithTheTrueMusclesTheTrueForcesNeedNoReserve) {
   for (const TrialData& trial : study.data.trials) {
     // The muscles are right and so is the EMG: a = e balances the torque. A term sum a^2 beside
     // W sum (a - e)^2 would pull a towards zero by about 1 / W.
-    const InformedForces found = informed_forces(trial, trial_activation(study, trial),
-                                                 values_of(study.truth), {.emg_weight = 1e6});
+    const InformedForces found =
+        informed_forces(trial, trial_activation(study, trial), values_of(study.truth), {.emg_weight = 1e6});
     EXPECT_LT((found.activation - found.measured).cwiseAbs().maxCoeff(), 1e-5);
     EXPECT_LT((found.force_n - trial.force_n).cwiseAbs().maxCoeff(), 0.01);
     EXPECT_LT(found.reserve_nm.cwiseAbs().maxCoeff(), 1e-3);
@@ -51,11 +50,9 @@ TEST(InformedForces, TheTorqueIsAlwaysBalanced) {
   const ElbowStudy study = short_study();
   const TrialData& trial = study.data.trials[0];
   for (const double weight : {0.0, 1.0, 100.0}) {
-    const InformedForces found =
-        informed_forces(trial, trial_activation(study, trial), values_of(model::arm4_muscles()),
-                        {.emg_weight = weight});
-    const Eigen::VectorXd torque =
-        trial.moment_arm_m.cwiseProduct(found.force_n).rowwise().sum() + found.reserve_nm;
+    const InformedForces found = informed_forces(trial, trial_activation(study, trial),
+                                                 values_of(model::arm4_muscles()), {.emg_weight = weight});
+    const Eigen::VectorXd torque = trial.moment_arm_m.cwiseProduct(found.force_n).rowwise().sum() + found.reserve_nm;
     EXPECT_LT((torque - trial.torque_nm).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_GE(found.activation.minCoeff(), 0.0);
     EXPECT_LE(found.activation.maxCoeff(), 1.0);
@@ -68,10 +65,8 @@ TEST(InformedForces, WithoutTheEmgAntagonistsNeverActTogether) {
   const ElbowStudy study = short_study();
   const TrialData& trial = study.data.trials[0];
   const auto muscles = values_of(study.truth);
-  const InformedForces blind =
-      informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 0.0});
-  const InformedForces seeing =
-      informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 10.0});
+  const InformedForces blind = informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 0.0});
+  const InformedForces seeing = informed_forces(trial, trial_activation(study, trial), muscles, {.emg_weight = 10.0});
   for (Eigen::Index i = 0; i < trial.time_s.size(); ++i) {
     const double flexors = blind.activation.row(i).head(3).maxCoeff();
     EXPECT_LT(std::min(flexors, blind.activation(i, 3)), 1e-6);
@@ -89,10 +84,8 @@ TEST(IterateForces, StaysAtTheTruthWhereItBegins) {
   const ForceLoop loop = iterate_forces(study.data, options);
   EXPECT_EQ(loop.end, LoopEnd::converged) << loop.message;
   for (std::size_t m = 0; m < study.truth.size(); ++m) {
-    EXPECT_NEAR(loop.fit.muscles[m].optimal_fiber_length_m / study.truth[m].optimal_fiber_length_m,
-                1.0, 0.01);
-    EXPECT_NEAR(loop.fit.muscles[m].max_isometric_force_n / study.truth[m].max_isometric_force_n,
-                1.0, 0.01);
+    EXPECT_NEAR(loop.fit.muscles[m].optimal_fiber_length_m / study.truth[m].optimal_fiber_length_m, 1.0, 0.01);
+    EXPECT_NEAR(loop.fit.muscles[m].max_isometric_force_n / study.truth[m].max_isometric_force_n, 1.0, 0.01);
   }
 }
 

@@ -30,8 +30,7 @@ Eigen::VectorXd start_number(const Estimator& estimator, int s) {
   for (std::size_t j = 0; j < estimator.free().size(); ++j) {
     const Unknown& f = estimator.free()[j];
     if (f.field->scope == Scope::channel && f.field->field == kDelay)
-      x[static_cast<Eigen::Index>(j)] =
-          f.bounds.lower + (f.bounds.upper - f.bounds.lower) * 0.2 * (s % 4);
+      x[static_cast<Eigen::Index>(j)] = f.bounds.lower + (f.bounds.upper - f.bounds.lower) * 0.2 * (s % 4);
   }
   return x;
 }
@@ -42,8 +41,7 @@ std::optional<Estimator::Solution> first_without_residuals(const Estimator& esti
   as_they_are.sd_nm = Eigen::VectorXd::Ones(estimator.model().sample_count());
   as_they_are.noise.resize(static_cast<std::size_t>(estimator.model().joint_count()));
   for (int s = 0; s < kStarts; ++s) {
-    const NormalSearchResult look =
-        estimator.search(start_number(estimator, s), as_they_are, 1e-6, 1e-6);
+    const NormalSearchResult look = estimator.search(start_number(estimator, s), as_they_are, 1e-6, 1e-6);
     if (!leaves_at_most(kNear, estimator, look)) continue;
     Estimator::Solution attempt = estimator.solve(look.x);
     if (leaves_at_most(kMet, estimator, attempt.search)) return attempt;
@@ -79,8 +77,7 @@ StudyData few_samples(const StudyData& data, Eigen::Index count) {
   return few;
 }
 
-std::optional<Estimator::Solution> noise_free_solution(const StudyData& data,
-                                                       const Estimator& whole) {
+std::optional<Estimator::Solution> noise_free_solution(const StudyData& data, const Estimator& whole) {
   const auto unknowns = static_cast<Eigen::Index>(whole.free().size());
   const Eigen::Index count = std::max(kFewSamples, kSamplesAnUnknown * unknowns);
   if (whole.model().sample_count() <= count) return first_without_residuals(whole);

@@ -82,8 +82,7 @@ TEST(NoiseFree, ASpoiledSampleAmongTheManyIsSeen) {
 }
 
 TEST(NoiseFree, NoiseOfAThousandthIsNoise) {
-  const ElbowStudy study =
-      elbow_study({.trials = 1, .seconds = 30.0, .torque_sd_nm = 0.02, .with_priors = true});
+  const ElbowStudy study = elbow_study({.trials = 1, .seconds = 30.0, .torque_sd_nm = 0.02, .with_priors = true});
   EXPECT_FALSE(identify_torque_or_exact(study.data, {.starts = 1, .predictions = false}).exact);
 }
 

@@ -48,10 +48,8 @@ std::optional<Eigen::VectorXd> damped_minimum(const PaperCase& samples) {
     // A V_sh or P that grows without limit never converges; the cost stays the same.
     const std::vector<double>& costs = fit.cost_history;
     constexpr std::size_t kLast = 10;
-    const bool settled =
-        costs.size() > kLast && costs.back() > (1.0 - 1e-3) * costs[costs.size() - 1 - kLast];
-    if (fit.x.allFinite() && (fit.termination == math::Termination::converged || settled))
-      return fit.x;
+    const bool settled = costs.size() > kLast && costs.back() > (1.0 - 1e-3) * costs[costs.size() - 1 - kLast];
+    if (fit.x.allFinite() && (fit.termination == math::Termination::converged || settled)) return fit.x;
   } catch (const InvalidInput&) {  // not finite at the start
   }
   return std::nullopt;
@@ -71,14 +69,11 @@ struct CaseFit {
   double r2 = 1.0;
   bool exact = false;  ///< The data are free of noise and follow the model.
 
-  [[nodiscard]] Eigen::Index size() const {
-    return static_cast<Eigen::Index>(samples.unknowns.size());
-  }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(samples.unknowns.size()); }
   /// Returns the position of an unknown in x, or -1 if it is held.
   [[nodiscard]] Eigen::Index position(std::string_view name) const {
     const std::vector<const muscle::HillField*>& list = samples.unknowns;
-    const auto it = std::find_if(list.begin(), list.end(),
-                                 [&](const muscle::HillField* u) { return u->name == name; });
+    const auto it = std::find_if(list.begin(), list.end(), [&](const muscle::HillField* u) { return u->name == name; });
     return it == list.end() ? Eigen::Index{-1} : static_cast<Eigen::Index>(it - list.begin());
   }
   [[nodiscard]] double variance(Eigen::Index i, Eigen::Index j) const {
@@ -96,15 +91,14 @@ struct CaseFit {
 void add_statistics(CaseFit& fit) {
   const math::LeastSquaresResult& search = fit.search;
   const auto n = static_cast<Eigen::Index>(fit.samples.samples.size());
-  fit.computed = search.residual.size() == n && search.jacobian.allFinite() &&
-                 search.residual.allFinite() && n > fit.size();
+  fit.computed =
+      search.residual.size() == n && search.jacobian.allFinite() && search.residual.allFinite() && n > fit.size();
   if (!fit.computed) return;
   fit.covariance = math::covariance(search.jacobian, search.residual);
   fit.effective_samples = math::effective_sample_size(search.residual, fit.samples.pieces);
   fit.widen = static_cast<double>(n) / std::max(fit.effective_samples, 1.0);
   Eigen::VectorXd force(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    force[i] = fit.samples.samples[static_cast<std::size_t>(i)].force_n;
+  for (Eigen::Index i = 0; i < n; ++i) force[i] = fit.samples.samples[static_cast<std::size_t>(i)].force_n;
   fit.r2 = coefficient_of_determination(force, force + search.residual);
   fit.exact = search.residual.norm() <= kExact * force.norm();
 }
@@ -143,13 +137,11 @@ ParameterEstimate estimate_of(const CaseFit& fit,
   e.method = "paper";
   e.fit_case = fit.samples.shortening ? "shortening" : "lengthening";
   e.initial = start[j];
-  e.estimate =
-      std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
+  e.estimate = std::abs(x[j]) <= 1e3 * std::abs(start[j]) ? x[j] : std::numeric_limits<double>::quiet_NaN();
   VerdictContext context;
   for (Eigen::Index other = 0; other < fit.size(); ++other) {
     if (fit.unphysical(other, start))
-      context.bad_company =
-          std::string(fit.samples.unknowns[static_cast<std::size_t>(other)]->name);
+      context.bad_company = std::string(fit.samples.unknowns[static_cast<std::size_t>(other)]->name);
   }
   context.shared_forces = options.shared_forces;
   context.given_strength = !options.shared_forces && !fit.exact;
@@ -182,8 +174,7 @@ ParameterEstimate estimate_of(const CaseFit& fit,
 
 /// Returns l0 and l_sh of a case; empty if the fit does not determine all its unknowns.
 std::optional<CaseShape> shape_of(const CaseFit& fit) {
-  if (!fit.failure.empty() || !fit.computed || fit.covariance.rank < fit.size())
-    return std::nullopt;
+  if (!fit.failure.empty() || !fit.computed || fit.covariance.rank < fit.size()) return std::nullopt;
   CaseShape shape;
   shape.value = {fit.samples.start.optimal_fiber_length_m, fit.samples.start.force_length_width_m};
   for (Eigen::Index a = 0; a < 2; ++a) {
@@ -204,13 +195,9 @@ struct PaperFit {
   std::vector<ParameterEstimate> minima;
 };
 
-/// Fits a muscle in one branch into `all`. Returns the muscle's curve; empty if it is not
-/// determined.
-std::optional<CaseShape> fit_case(const StudyData& data,
-                                  std::size_t muscle,
-                                  bool shortening,
-                                  const PaperOptions& options,
-                                  PaperFit& all) {
+/// Fits a muscle in one branch into `all`. Returns the muscle's curve; empty if it is not determined.
+std::optional<CaseShape> fit_case(
+    const StudyData& data, std::size_t muscle, bool shortening, const PaperOptions& options, PaperFit& all) {
   const MuscleSetup& setup = data.muscles[muscle];
   PaperCase samples = paper_case(data, muscle, shortening);
   IdentificationResult& result = all.result;
@@ -221,8 +208,7 @@ std::optional<CaseShape> fit_case(const StudyData& data,
   const CaseFit fit = search_case(std::move(samples), options.diagnoses);
   result.iterations += fit.search.iterations;
   if (!fit.failure.empty())
-    result.message += fmt::format("{}, {}: {}. ", setup.name,
-                                  shortening ? "shortening" : "lengthening", fit.failure);
+    result.message += fmt::format("{}, {}: {}. ", setup.name, shortening ? "shortening" : "lengthening", fit.failure);
   result.effective_samples += fit.effective_samples;
   result.r2 = std::min(result.r2, fit.r2);
   for (Eigen::Index j = 0; j < fit.size(); ++j) {
@@ -261,19 +247,18 @@ void compare_branches(const std::string& muscle,
   result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
   if (!(p < kReject)) return;
   const std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
-  result.warnings.push_back(fmt::format(
-      "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): "
-      "one muscle has one of each, so the model or the data are wrong for it, and none of its "
-      "numbers is called identified",
-      muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
+  result.warnings.push_back(
+      fmt::format("{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): "
+                  "one muscle has one of each, so the model or the data are wrong for it, and none of its "
+                  "numbers is called identified",
+                  muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
   for (ParameterEstimate& e : result.estimates) {
     if (e.muscle != muscle || e.verdict != Verdict::identified) continue;
     const bool shared = std::find(kShared.begin(), kShared.end(), e.parameter) != kShared.end();
     e.verdict = Verdict::weak;
-    e.reason += fmt::format(", but {} ({}): one muscle has one of each, the model is refuted",
-                            shared ? "the other branch gives another value"
-                                   : "the two branches give different l0 or l_sh",
-                            how);
+    e.reason += fmt::format(
+        ", but {} ({}): one muscle has one of each, the model is refuted",
+        shared ? "the other branch gives another value" : "the two branches give different l0 or l_sh", how);
   }
 }
 
@@ -287,31 +272,27 @@ void add_basins(const StudyData& data,
   if (table.basins.empty()) return;
   const BasinRow& best = table.basins.front();
   if (!best.given && best.converged > 0)
-    result.warnings.push_back(fmt::format(
-        "{}: {} of {} starts end at a lower sum of squares than the given one; its numbers "
-        "come from the given start, as published",
-        table.fit, best.starts, table.starts));
+    result.warnings.push_back(
+        fmt::format("{}: {} of {} starts end at a lower sum of squares than the given one; its numbers "
+                    "come from the given start, as published",
+                    table.fit, best.starts, table.starts));
   result.basins.push_back(std::move(table));
 }
 
 /// Returns the numbers of a muscle in shortening and in lengthening.
-std::array<muscle::HillParameters<double>, 2> by_branch(
-    const IdentificationResult& result,
-    const std::string& muscle,
-    const muscle::HillParameters<double>& start) {
+std::array<muscle::HillParameters<double>, 2> by_branch(const IdentificationResult& result,
+                                                        const std::string& muscle,
+                                                        const muscle::HillParameters<double>& start) {
   std::array<muscle::HillParameters<double>, 2> branches{start, start};
   for (const ParameterEstimate& e : result.estimates) {
     if (e.muscle != muscle || !std::isfinite(e.estimate)) continue;
-    branches[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member =
-        e.estimate;
+    branches[e.fit_case == "shortening" ? 0 : 1].*muscle::hill_field(e.parameter).member = e.estimate;
   }
   return branches;
 }
 
 /// Predicts forces and torques of a trial by the starting and the identified numbers.
-TrialFit predicted(const StudyData& data,
-                   const TrialData& trial,
-                   const IdentificationResult& result) {
+TrialFit predicted(const StudyData& data, const TrialData& trial, const IdentificationResult& result) {
   TrialFit fit = unfitted_trial(trial);
   const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
   fit.literature_force_n.resize(trial.time_s.size(), trial.length_m.cols());
@@ -343,21 +324,19 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
-    if (!options.muscles.empty() && std::find(options.muscles.begin(), options.muscles.end(),
-                                              data.muscles[k].name) == options.muscles.end())
+    if (!options.muscles.empty() &&
+        std::find(options.muscles.begin(), options.muscles.end(), data.muscles[k].name) == options.muscles.end())
       continue;
     const auto shortening = fit_case(data, k, true, options, fit);
     const auto lengthening = fit_case(data, k, false, options, fit);
     if (options.multistart > 1) {
       for (const bool branch : {true, false}) add_basins(data, k, branch, options, result);
     }
-    if (shortening && lengthening)
-      compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
+    if (shortening && lengthening) compare_branches(data.muscles[k].name, *shortening, *lengthening, result);
   }
   if (!result.message.empty()) result.termination = math::Termination::no_descent;
   result.diagnoses = signatures(fit.minima);
-  for (const TrialData& trial : data.trials)
-    result.trials.push_back(predicted(data, trial, result));
+  for (const TrialData& trial : data.trials) result.trials.push_back(predicted(data, trial, result));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return std::move(result);
 }

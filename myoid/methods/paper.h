@@ -27,11 +27,9 @@ struct PaperOptions {
 /// <= -v_max are left out and counted. All calibration trials are fitted together. A muscle's setup
 /// or a rule can hold further numbers (paper_case.h); bounds, priors and ties have no effect.
 ///
-/// Beyond the paper this adds standard errors from the SVD of the Jacobian, widened for the
-/// correlation of the residuals in time (n over the effective number of samples), a Wald test of
-/// the l0 and l_sh of both cases (for p < 0.01 no number of the muscle is `identified`), and a
-/// verdict. Throws InvalidInput if the data have no forces.
-[[nodiscard]] IdentificationResult identify_paper(const StudyData& data,
-                                                  const PaperOptions& options = {});
+/// Beyond the paper this adds standard errors from the SVD of the Jacobian, widened for the correlation of the
+/// residuals in time (n over the effective number of samples), a Wald test of the l0 and l_sh of both cases (for p <
+/// 0.01 no number of the muscle is `identified`), and a verdict. Throws InvalidInput if the data have no forces.
+[[nodiscard]] IdentificationResult identify_paper(const StudyData& data, const PaperOptions& options = {});
 
 }  // namespace myoid::identification

@@ -42,8 +42,7 @@ TEST(IdentifyPaper, FindsTheTruthFromTrueForces) {
     for (std::size_t k = 0; k < 4; ++k) {
       if (study.data.muscles[k].name != e.muscle) continue;
       const double truth = study.truth[k].*muscle::hill_field(e.parameter).member;
-      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth)
-          << e.muscle << " " << e.parameter << " " << e.fit_case;
+      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << e.muscle << " " << e.parameter << " " << e.fit_case;
       EXPECT_GT(std::abs(e.initial - truth), 0.02 * truth);
       EXPECT_EQ(e.verdict, Verdict::identified) << e.reason;
     }
@@ -60,16 +59,14 @@ TEST(IdentifyPaper, ADelayThatIsIgnoredLeavesNoValueTrustedThatIsFarOff) {
     for (std::size_t k = 0; k < 4; ++k) {
       if (study.data.muscles[k].name != e.muscle) continue;
       const double truth = study.truth[k].*muscle::hill_field(e.parameter).member;
-      if (e.verdict == Verdict::identified && std::abs(e.estimate - truth) > 0.3 * truth)
-        ++wrong_and_trusted;
+      if (e.verdict == Verdict::identified && std::abs(e.estimate - truth) > 0.3 * truth) ++wrong_and_trusted;
     }
   }
   EXPECT_EQ(wrong_and_trusted, 0);
 }
 
 TEST(IdentifyPaper, AForceFourTimesTooHighShowsAsAPlateauThatNoMuscleHas) {
-  // The pattern of the source paper's table II: V_ml takes the part of a gain, and is called what
-  // it is.
+  // The pattern of the source paper's table II: V_ml takes the part of a gain, and is called what it is.
   ElbowStudy study = study_for_paper();
   for (TrialData& trial : study.data.trials) trial.force_n /= 4.0;
   // l0 and l_sh right from the start.
@@ -116,13 +113,11 @@ TEST(IdentifyPaper, TooFewSamplesAreNotFitted) {
 }
 
 TEST(IdentifyPaper, TheTwoBranchesAreTestedAgainstEachOther) {
-  // 1 N of noise: the branches agree. A muscle that is 10 mm longer while it lengthens: they do
-  // not.
+  // 1 N of noise: the branches agree. A muscle that is 10 mm longer while it lengthens: they do not.
   ElbowStudy study = study_for_paper();
   test::StudyNoise noise(5);
   for (TrialData& trial : study.data.trials) {
-    for (Eigen::Index k = 0; k < 4; ++k)
-      trial.force_n.col(k) += noise.band(trial.time_s.size(), 6.0, 100.0);
+    for (Eigen::Index k = 0; k < 4; ++k) trial.force_n.col(k) += noise.band(trial.time_s.size(), 6.0, 100.0);
   }
   const IdentificationResult same = identify_paper(study.data);
   ASSERT_EQ(same.branch_tests.size(), 4U);
@@ -137,15 +132,13 @@ TEST(IdentifyPaper, TheTwoBranchesAreTestedAgainstEachOther) {
   EXPECT_NEAR(other.branch_tests[0].length_difference_m, 0.010, 0.002);
   // The model is refuted for that muscle.
   ASSERT_FALSE(other.warnings.empty());
-  EXPECT_NE(other.warnings.front().find("BIC: shortening and lengthening give different l0"),
-            std::string::npos);
+  EXPECT_NE(other.warnings.front().find("BIC: shortening and lengthening give different l0"), std::string::npos);
 }
 
 TEST(IdentifyPaper, RoundingRefutesNoMuscle) {
   // Forces without noise, of six digits as files have them.
   ElbowStudy study = study_for_paper();
-  for (TrialData& trial : study.data.trials)
-    trial.force_n = (trial.force_n * 1e3).array().round() * 1e-3;
+  for (TrialData& trial : study.data.trials) trial.force_n = (trial.force_n * 1e3).array().round() * 1e-3;
   const IdentificationResult result = identify_paper(study.data);
   ASSERT_FALSE(result.branch_tests.empty());
   for (const BranchTest& test : result.branch_tests) EXPECT_GT(test.p_value, 0.5) << test.muscle;
@@ -162,8 +155,7 @@ TEST(IdentifyPaper, ABranchTestThatRejectsDemotesExactNumbersToo) {
   for (const std::string branch : {"shortening", "lengthening"}) {
     const ParameterEstimate& e = find(result, "BIC", "optimal_fiber_length", branch);
     EXPECT_EQ(e.verdict, Verdict::weak) << branch;
-    EXPECT_NE(e.reason.find("the other branch gives another value (p < 0.001)"), std::string::npos)
-        << e.reason;
+    EXPECT_NE(e.reason.find("the other branch gives another value (p < 0.001)"), std::string::npos) << e.reason;
   }
 }
 
@@ -187,8 +179,7 @@ TEST(IdentifyPaper, WhatIsHeldIsNotFitted) {
   }
   for (std::size_t t = 0; t < study.data.trials.size(); ++t) {
     const TrialData& trial = study.data.trials[t];
-    EXPECT_LT((result.trials[t].force_fit_n.col(0) - trial.force_n.col(0)).norm(),
-              1e-5 * trial.force_n.col(0).norm());
+    EXPECT_LT((result.trials[t].force_fit_n.col(0) - trial.force_n.col(0)).norm(), 1e-5 * trial.force_n.col(0).norm());
   }
   EXPECT_TRUE(result.branch_tests.empty());
 }

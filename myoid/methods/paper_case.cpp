@@ -19,17 +19,15 @@ void add_samples(const StudyData& data, std::size_t muscle, PaperCase& result) {
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
     if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(fmt::format(
-          "method paper: trial '{}' has no muscle forces; share the torque first (myoid so)",
-          trial.name));
+      throw InvalidInput(
+          fmt::format("method paper: trial '{}' has no muscle forces; share the torque first (myoid so)", trial.name));
     }
     const Eigen::MatrixXd activation = muscle_activation(data, trial, trial.time_s, 0.0);
     Eigen::Index run = 0;
     for (const Eigen::Index i : included_rows(trial)) {
       const double v = trial.velocity_mps(i, column);
       const bool here = (v <= 0.0) == result.shortening;
-      const bool informative =
-          activation(i, column) > 0.0 && v > -result.start.max_shortening_speed_mps;
+      const bool informative = activation(i, column) > 0.0 && v > -result.start.max_shortening_speed_mps;
       if (here && !informative) ++result.dropped;
       if (here && informative) {
         result.samples.push_back({trial.time_s[i], activation(i, column),
@@ -55,8 +53,8 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
   result.start = setup.start;
   std::vector<std::string> held = setup.fixed;
   for (const ParameterRule& rule : data.rules) {
-    const bool about_it = rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(),
-                                                           setup.name) != rule.owners.end();
+    const bool about_it =
+        rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(), setup.name) != rule.owners.end();
     if (!about_it) continue;
     for (const muscle::HillField& field : muscle::kHillFields) {
       if (field.name == rule.parameter && rule.value) result.start.*field.member = *rule.value;
@@ -65,8 +63,7 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
     if (rule.free == std::optional(false)) held.push_back(rule.parameter);
   }
   const auto add = [&](std::string_view name) {
-    if (std::find(held.begin(), held.end(), name) == held.end())
-      result.unknowns.push_back(&muscle::hill_field(name));
+    if (std::find(held.begin(), held.end(), name) == held.end()) result.unknowns.push_back(&muscle::hill_field(name));
   };
   add("optimal_fiber_length");
   add("force_length_width");
@@ -82,8 +79,7 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
 
 Eigen::VectorXd PaperCase::start_vector() const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
-  for (std::size_t j = 0; j < unknowns.size(); ++j)
-    x[static_cast<Eigen::Index>(j)] = start.*unknowns[j]->member;
+  for (std::size_t j = 0; j < unknowns.size(); ++j) x[static_cast<Eigen::Index>(j)] = start.*unknowns[j]->member;
   return x;
 }
 
@@ -95,8 +91,7 @@ double PaperCase::largest_force_n() const {
 
 std::string PaperCase::obstacle() const {
   if (samples.size() < 10 * unknowns.size())
-    return fmt::format("only {} samples in {}", samples.size(),
-                       shortening ? "shortening" : "lengthening");
+    return fmt::format("only {} samples in {}", samples.size(), shortening ? "shortening" : "lengthening");
   if (!(largest_force_n() > 0.0)) return "force sharing assigned no force to this muscle here";
   return {};
 }
@@ -104,11 +99,9 @@ std::string PaperCase::obstacle() const {
 math::LeastSquaresProblem PaperCase::problem() const {
   math::LeastSquaresProblem problem;
   problem.residual_count = static_cast<Eigen::Index>(samples.size());
-  problem.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r,
-                            Eigen::MatrixXd* jacobian) {
+  problem.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     muscle::HillParameters<double> parameters = start;
-    for (std::size_t j = 0; j < unknowns.size(); ++j)
-      parameters.*unknowns[j]->member = x[static_cast<Eigen::Index>(j)];
+    for (std::size_t j = 0; j < unknowns.size(); ++j) parameters.*unknowns[j]->member = x[static_cast<Eigen::Index>(j)];
     parameters.tendon_slack_length_m = 0.0;  // the samples hold fiber lengths
     const MuscleValues values = muscle_values(parameters);
     Tension t;
@@ -147,8 +140,7 @@ math::LeastSquaresResult search_as_published(const PaperCase& samples,
     return found;
   }
   for (Eigen::Index j = 0; j < start.size(); ++j) {
-    if (samples.unknowns[static_cast<std::size_t>(j)]->name == "force_length_width")
-      found.x[j] = std::abs(found.x[j]);
+    if (samples.unknowns[static_cast<std::size_t>(j)]->name == "force_length_width") found.x[j] = std::abs(found.x[j]);
     if (std::abs(found.x[j]) <= kAway * std::abs(start[j])) continue;
     found.termination = math::Termination::no_descent;
     found.message = "plain Gauss-Newton steps diverged";

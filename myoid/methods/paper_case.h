@@ -28,8 +28,7 @@ struct PaperCase {
   /// Returns the reason why the case is not fitted: fewer than ten samples per unknown, or no
   /// force. Empty if it is fitted.
   [[nodiscard]] std::string obstacle() const;
-  /// Returns r_i = F_m(x) - F_i without bounds. The problem refers to this case, which must outlive
-  /// it.
+  /// Returns r_i = F_m(x) - F_i without bounds. The problem refers to this case, which must outlive it.
   [[nodiscard]] math::LeastSquaresProblem problem() const;
 };
 
@@ -38,10 +37,9 @@ struct PaperCase {
 /// about it frees it; a rule's value is the start. Throws InvalidInput if a trial has no forces.
 [[nodiscard]] PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening);
 
-/// Searches by plain Gauss-Newton steps, as published. Steps that take an unknown beyond a thousand
-/// times its start end as `no_descent`, even if the cost is flat there. The width, which enters
-/// squared, loses its sign. A start with a force that is not finite is `not_finite`. Throws
-/// Interrupted.
+/// Searches by plain Gauss-Newton steps, as published. Steps that take an unknown beyond a thousand times its start end
+/// as `no_descent`, even if the cost is flat there. The width, which enters squared, loses its sign. A start with a
+/// force that is not finite is `not_finite`. Throws Interrupted.
 [[nodiscard]] math::LeastSquaresResult search_as_published(const PaperCase& samples,
                                                            const Eigen::VectorXd& start,
                                                            const Progress& progress = {});

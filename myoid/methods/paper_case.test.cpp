@@ -20,16 +20,14 @@ std::vector<std::string> names(const PaperCase& of) {
 TEST(PaperCase, HoldsWhatTheSetupHoldsUnlessALaterRuleFreesIt) {
   StudyData data = test::elbow_study({.trials = 1, .seconds = 4.0}).data;
   data.muscles[0].fixed = {"optimal_fiber_length"};
-  EXPECT_EQ(names(paper_case(data, 0, true)),
-            (std::vector<std::string>{"force_length_width", "concentric_curvature"}));
+  EXPECT_EQ(names(paper_case(data, 0, true)), (std::vector<std::string>{"force_length_width", "concentric_curvature"}));
   EXPECT_EQ(names(paper_case(data, 1, false)),
-            (std::vector<std::string>{"optimal_fiber_length", "force_length_width",
-                                      "eccentric_curvature_product", "eccentric_plateau"}));
+            (std::vector<std::string>{"optimal_fiber_length", "force_length_width", "eccentric_curvature_product",
+                                      "eccentric_plateau"}));
   data.rules = {{.parameter = "optimal_fiber_length", .owners = {"BIC"}, .free = true},
                 {.parameter = "force_length_width", .free = false, .value = 0.04}};
   const PaperCase ruled = paper_case(data, 0, true);
-  EXPECT_EQ(names(ruled),
-            (std::vector<std::string>{"optimal_fiber_length", "concentric_curvature"}));
+  EXPECT_EQ(names(ruled), (std::vector<std::string>{"optimal_fiber_length", "concentric_curvature"}));
   EXPECT_EQ(ruled.start.force_length_width_m, 0.04);
 }
 

@@ -29,8 +29,7 @@ Prediction predict(const StudyData& data,
     as_it_is[kDelay] = delay_s;
     as_it_is[kGain] = as_it_is[kExponent] = 1.0;
     for (std::size_t k = 0; k < data.muscles.size(); ++k) {
-      const Envelope envelope(trial.activation.time_s(),
-                              trial.activation.column(data.muscles[k].emg_channel));
+      const Envelope envelope(trial.activation.time_s(), trial.activation.column(data.muscles[k].emg_channel));
       const std::vector<Activation> a = activation(envelope, trial.time_s, as_it_is, lag);
       for (std::size_t i = 0; i < a.size(); ++i)
         p.activation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = a[i].value;
@@ -40,22 +39,17 @@ Prediction predict(const StudyData& data,
   for (Eigen::Index k = 0; k < p.force_n.cols(); ++k) {
     const auto& parameters = muscles[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < p.force_n.rows(); ++i) {
-      p.force_n(i, k) = muscle::hill_force(p.activation(i, k),
-                                           trial.length_m(i, k) - parameters.tendon_slack_length_m,
+      p.force_n(i, k) = muscle::hill_force(p.activation(i, k), trial.length_m(i, k) - parameters.tendon_slack_length_m,
                                            trial.velocity_mps(i, k), parameters);
     }
   }
   if (trial.moment_arm_m.rows() == trial.time_s.size()) {
-    p.torque_nm =
-        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
+    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
   }
   return p;
 }
 
-Prediction predict(const StudyData& data,
-                   const TrialData& trial,
-                   const ModelValues& values,
-                   EmgLag lag) {
+Prediction predict(const StudyData& data, const TrialData& trial, const ModelValues& values, EmgLag lag) {
   const Eigen::Index n = trial.time_s.size();
   Prediction p;
   p.force_n.resize(n, trial.length_m.cols());
@@ -70,16 +64,15 @@ Prediction predict(const StudyData& data,
     const auto c = static_cast<std::size_t>(it - channels.begin());
     if (it == channels.end()) {
       channels.push_back(name);
-      activations.push_back(
-          activation(Envelope(trial.activation.time_s(), trial.activation.column(name)),
-                     trial.time_s, values.channels[c], lag));
+      activations.push_back(activation(Envelope(trial.activation.time_s(), trial.activation.column(name)), trial.time_s,
+                                       values.channels[c], lag));
     }
     const auto column = static_cast<Eigen::Index>(k);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Activation& a = activations[c][static_cast<std::size_t>(i)];
       p.activation(i, column) = a.value;
-      p.force_n(i, column) = tension_n(a.value, trial.length_m(i, column),
-                                       trial.velocity_mps(i, column), values.muscles[k]);
+      p.force_n(i, column) =
+          tension_n(a.value, trial.length_m(i, column), trial.velocity_mps(i, column), values.muscles[k]);
       if (!with_torque || !(a.value > 0.0)) continue;
       // Force is nearly proportional to activation.
       p.channel_torque_nm(i, static_cast<Eigen::Index>(c)) +=
@@ -87,18 +80,14 @@ Prediction predict(const StudyData& data,
     }
   }
   if (with_torque) {
-    p.torque_nm =
-        trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
+    p.torque_nm = trial.moment_arm_m.cwiseProduct(p.force_n).rowwise().sum() + resting_torque_nm(trial);
     const std::vector<std::string> joints = joint_names(data);
-    const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) -
-                                             joints.begin());
+    const auto at = static_cast<std::size_t>(std::find(joints.begin(), joints.end(), trial.joint) - joints.begin());
     if (at < values.joints.size()) {
       const JointValues& joint = values.joints[at];
       p.torque_nm.array() += joint[kOffset];
-      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n &&
-          trial.acceleration_radps2.size() == n) {
-        p.torque_nm -= joint[kViscosity] * trial.velocity_radps +
-                       joint[kInertia] * trial.acceleration_radps2 +
+      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n && trial.acceleration_radps2.size() == n) {
+        p.torque_nm -= joint[kViscosity] * trial.velocity_radps + joint[kInertia] * trial.acceleration_radps2 +
                        joint[kStiffness] * trial.angle_rad;
       }
     }
@@ -153,12 +142,10 @@ Eigen::VectorXd by_joint_field(const TrialData& trial, int field) {
 
 /// The law at the fit's values and its derivatives by the unknowns.
 struct TrialPredictions::ByLaw {
-  ByLaw(const StudyData& of_data,
-        const EstimatorOptions& of_options,
-        const IdentificationResult& of)
+  ByLaw(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
       : data(of_data), options(with_lag(of_options, of.lag)), fit(of) {
-    if (fit.solution.size() == 0 || !fit.covariance.allFinite() ||
-        fit.covariance.rows() != fit.solution.size() || fit.exact)
+    if (fit.solution.size() == 0 || !fit.covariance.allFinite() || fit.covariance.rows() != fit.solution.size() ||
+        fit.exact)
       return;
     map = std::make_unique<ParameterMap>(data, options);
     if (map->size() != fit.solution.size()) map.reset();
@@ -173,28 +160,25 @@ struct TrialPredictions::ByLaw {
     const bool with_torque = predicted.torque_nm.size() == n;
     std::vector<std::vector<Activation>> activations;
     for (std::size_t c = 0; c < map->channels().size(); ++c)
-      activations.push_back(activation(
-          Envelope(trial.activation.time_s(), trial.activation.column(map->channels()[c])),
-          trial.time_s, values.channels[c], fit.lag));
+      activations.push_back(activation(Envelope(trial.activation.time_s(), trial.activation.column(map->channels()[c])),
+                                       trial.time_s, values.channels[c], fit.lag));
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(n, map->size());
     found.force_sd_n.resize(n, trial.length_m.cols());
     MuscleRows rows;
     for (Eigen::Index k = 0; k < trial.length_m.cols(); ++k) {
       const auto muscle = static_cast<std::size_t>(k);
       const auto c = static_cast<std::size_t>(map->channel_of_muscle(muscle));
-      evaluate_muscle(activations[c], trial.length_m.col(k), trial.velocity_mps.col(k),
-                      values.muscles[muscle], by_owner.of_muscle[muscle], by_owner.of_channel[c],
-                      rows);
+      evaluate_muscle(activations[c], trial.length_m.col(k), trial.velocity_mps.col(k), values.muscles[muscle],
+                      by_owner.of_muscle[muscle], by_owner.of_channel[c], rows);
       const Eigen::MatrixXd own = rows.by_variable.transpose();
-      found.force_sd_n.col(k) =
-          variance_by(own, fit.covariance(rows.variables, rows.variables)).cwiseSqrt();
+      found.force_sd_n.col(k) = variance_by(own, fit.covariance(rows.variables, rows.variables)).cwiseSqrt();
       for (std::size_t v = 0; v < rows.variables.size() && with_torque; ++v)
         jacobian.col(rows.variables[v]) +=
             own.col(static_cast<Eigen::Index>(v)).cwiseProduct(trial.moment_arm_m.col(k));
     }
     if (!with_torque) return;
-    const auto joint = static_cast<std::size_t>(
-        std::find(map->joints().begin(), map->joints().end(), trial.joint) - map->joints().begin());
+    const auto joint = static_cast<std::size_t>(std::find(map->joints().begin(), map->joints().end(), trial.joint) -
+                                                map->joints().begin());
     if (joint < by_owner.of_joint.size()) {
       for (const ParameterMap::Chain& chain : by_owner.of_joint[joint])
         jacobian.col(chain.variable) += chain.slope * by_joint_field(trial, chain.field);
@@ -214,9 +198,7 @@ struct TrialPredictions::ByLaw {
 
 /// The posterior at the fit's values, given the torque of the fitted trials.
 struct TrialPredictions::ByPosterior {
-  ByPosterior(const StudyData& of_data,
-              const EstimatorOptions& of_options,
-              const IdentificationResult& of)
+  ByPosterior(const StudyData& of_data, const EstimatorOptions& of_options, const IdentificationResult& of)
       : data(of_data), options(with_lag(of_options, of.lag)), fit(of), likelihood(data, options) {
     if (likelihood.parameters().size() != fit.solution.size())
       throw std::logic_error("a fit predicts by other unknowns than its own");
@@ -246,17 +228,14 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
   if (by_posterior_) {
     const ByPosterior& by = *by_posterior_;
     const TrialRun run = whole_run(trial, by.data, by.options, by.likelihood.parameters());
-    const Likelihood::RunForecast forecast =
-        by.likelihood.forecast(run, by.fit.solution, by.fit.noise, by.unseen);
+    const Likelihood::RunForecast forecast = by.likelihood.forecast(run, by.fit.solution, by.fit.noise, by.unseen);
     const Eigen::MatrixXd& covariance = by.fit.covariance;
     found.torque_fit_nm = forecast.mean_nm;
-    found.torque_sd_nm =
-        (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
+    found.torque_sd_nm = (forecast.variance_nm2 + variance_by(forecast.by_z, covariance)).cwiseSqrt();
     found.force_fit_n = forecast.force_n;
     found.force_sd_n.resizeLike(forecast.force_n);
     for (std::size_t k = 0; k < forecast.force_by_z.size(); ++k)
-      found.force_sd_n.col(static_cast<Eigen::Index>(k)) =
-          variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();
+      found.force_sd_n.col(static_cast<Eigen::Index>(k)) = variance_by(forecast.force_by_z[k], covariance).cwiseSqrt();
   } else {
     const ByLaw& by = *by_law_;
     Prediction predicted = predict(by.data, trial, by.fit.values, by.fit.lag);
@@ -277,8 +256,7 @@ TrialFit TrialPredictions::of(const TrialData& trial) const {
 double covered_share(const Eigen::VectorXd& measured_nm,
                      const Eigen::VectorXd& predicted_nm,
                      const Eigen::VectorXd& sd_nm) {
-  if (sd_nm.size() == 0 || sd_nm.size() != measured_nm.size())
-    return std::numeric_limits<double>::quiet_NaN();
+  if (sd_nm.size() == 0 || sd_nm.size() != measured_nm.size()) return std::numeric_limits<double>::quiet_NaN();
   const Eigen::ArrayXd off = (measured_nm - predicted_nm).array().abs();
   return static_cast<double>((off <= math::normal_quantile(0.975) * sd_nm.array()).count()) /
          static_cast<double>(sd_nm.size());

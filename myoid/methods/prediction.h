@@ -24,19 +24,14 @@ struct Prediction {
                                  double delay_s,
                                  EmgLag lag = EmgLag::delay);
 /// Predicts with all numbers of the model, for the trial's first joint (others: `of_joint`).
-[[nodiscard]] Prediction predict(const StudyData& data,
-                                 const TrialData& trial,
-                                 const ModelValues& values,
-                                 EmgLag lag);
-/// Predicts fitted and other trials by a fit. Every number of a validation comes from these
-/// predictions.
+[[nodiscard]] Prediction predict(const StudyData& data, const TrialData& trial, const ModelValues& values, EmgLag lag);
+/// Predicts fitted and other trials by a fit. Every number of a validation comes from these predictions.
 ///
 /// Least squares: the torque is the law with the identified parameters. Its variance is J C J' +
 /// s_T^2 + sum_c v_c D_c^2, with J = dT^/dz, C the covariance of the unknowns, and D_c the torque's
 /// change by a relative error of an envelope of variance v_c.
 ///
-/// The posterior: the torque is the expectation of a measured torque, given the torque of the
-/// fitted trials,
+/// The posterior: the torque is the expectation of a measured torque, given the torque of the fitted trials,
 ///
 ///   T* = T^(z) + S W x,   x the expectation of the unseen quantities (posterior/unseen.h),
 ///
@@ -45,12 +40,9 @@ struct Prediction {
 /// The standard deviation of a force includes that of the parameters only.
 class TrialPredictions {
  public:
-  /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
-  /// `envelope_variance` and `noise`. Without a finite covariance there are no standard deviations.
-  /// References must outlive it.
-  TrialPredictions(const StudyData& data,
-                   const EstimatorOptions& options,
-                   const IdentificationResult& fit);
+  /// The members of `fit` in use: `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`, `envelope_variance` and
+  /// `noise`. Without a finite covariance there are no standard deviations. References must outlive it.
+  TrialPredictions(const StudyData& data, const EstimatorOptions& options, const IdentificationResult& fit);
   ~TrialPredictions();
   TrialPredictions(TrialPredictions&&) noexcept;
 

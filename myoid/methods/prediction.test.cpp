@@ -18,15 +18,13 @@ using test::ElbowStudy;
 
 /// sqrt(sum_jk C_jk dx/dz_j dx/dz_k) by central differences of the prediction at other unknowns.
 template <typename Predicted>
-Eigen::VectorXd deviation_by_differences(const IdentificationResult& fit,
-                                         const Predicted& predicted) {
+Eigen::VectorXd deviation_by_differences(const IdentificationResult& fit, const Predicted& predicted) {
   const Eigen::Index p = fit.solution.size();
   Eigen::MatrixXd jacobian;
   for (Eigen::Index j = 0; j < p; ++j) {
     const double h = 1e-4 * std::sqrt(fit.covariance(j, j));
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(p, j);
-    const Eigen::VectorXd by =
-        (predicted(fit.solution + step) - predicted(fit.solution - step)) / (2.0 * h);
+    const Eigen::VectorXd by = (predicted(fit.solution + step) - predicted(fit.solution - step)) / (2.0 * h);
     if (j == 0) jacobian.resize(by.size(), p);
     jacobian.col(j) = by;
   }
@@ -34,32 +32,27 @@ Eigen::VectorXd deviation_by_differences(const IdentificationResult& fit,
 }
 
 TEST(TrialPredictions, DeviationsAreThoseOfTheCovarianceAndTheNoise) {
-  const ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 8.0, .emg_cv = 0.08, .torque_sd_nm = 0.6, .with_priors = true});
+  const ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 8.0, .emg_cv = 0.08, .torque_sd_nm = 0.6, .with_priors = true});
   EstimatorOptions options{.starts = 1};
   for (const char* channel : {"BIC", "BRA", "BRD", "TRI"}) options.gain_prior_sd[channel] = 0.1;
   const IdentificationResult fit = identify_torque(study.data, options);
   const TrialData& trial = study.data.trials[1];
   const TrialFit found = TrialPredictions(study.data, options, fit).of(trial);
   const ParameterMap map(study.data, options);
-  const auto at = [&](const Eigen::VectorXd& z) {
-    return predict(study.data, trial, map.values(z), fit.lag);
-  };
+  const auto at = [&](const Eigen::VectorXd& z) { return predict(study.data, trial, map.values(z), fit.lag); };
   const Prediction here = at(fit.solution);
   EXPECT_EQ(found.torque_fit_nm, here.torque_nm);
-  const Eigen::VectorXd of_parameters =
-      deviation_by_differences(fit, [&](const auto& z) { return at(z).torque_nm; });
+  const Eigen::VectorXd of_parameters = deviation_by_differences(fit, [&](const auto& z) { return at(z).torque_nm; });
   for (Eigen::Index i = 0; i < trial.time_s.size(); i += 37) {
-    const double expected =
-        std::sqrt(std::pow(of_parameters[i], 2) + std::pow(fit.torque_sd_nm, 2) +
-                  here.channel_torque_nm.row(i).cwiseAbs2().dot(fit.envelope_variance.transpose()));
+    const double expected = std::sqrt(std::pow(of_parameters[i], 2) + std::pow(fit.torque_sd_nm, 2) +
+                                      here.channel_torque_nm.row(i).cwiseAbs2().dot(fit.envelope_variance.transpose()));
     EXPECT_NEAR(found.torque_sd_nm[i], expected, 1e-4 * expected);
   }
   for (Eigen::Index k = 0; k < 4; ++k) {
-    const Eigen::VectorXd of_force = deviation_by_differences(
-        fit, [&](const auto& z) { return Eigen::VectorXd(at(z).force_n.col(k)); });
-    EXPECT_LT((found.force_sd_n.col(k) - of_force).cwiseAbs().maxCoeff(),
-              1e-4 * of_force.maxCoeff());
+    const Eigen::VectorXd of_force =
+        deviation_by_differences(fit, [&](const auto& z) { return Eigen::VectorXd(at(z).force_n.col(k)); });
+    EXPECT_LT((found.force_sd_n.col(k) - of_force).cwiseAbs().maxCoeff(), 1e-4 * of_force.maxCoeff());
   }
 }
 
@@ -85,8 +78,7 @@ TEST(TrialPredictions, BandsHoldTheTorqueOfTrialsThatTookNoPart) {
       covered += covered_share(trial.torque_nm, found.torque_fit_nm, found.torque_sd_nm);
       const Eigen::MatrixXd truth = predict(study.data, trial, study.truth, study.delay_s).force_n;
       for (Eigen::Index k = 0; k < 4; ++k)
-        forces +=
-            covered_share(truth.col(k), found.force_fit_n.col(k), found.force_sd_n.col(k)) / 4;
+        forces += covered_share(truth.col(k), found.force_fit_n.col(k), found.force_sd_n.col(k)) / 4;
       count += 1.0;
     }
     EXPECT_GT(covered / count, 0.85) << static_cast<int>(kind);
@@ -105,8 +97,7 @@ TEST(TrialPredictions, ThePosteriorPredictsAlsoWhatTheUnseenQuantitiesAdd) {
   ASSERT_EQ(fit.noise.size(), 6);  // four, and two fitted trials' shares
   const TrialData& trial = study.data.trials[2];
   const TrialFit found = TrialPredictions(study.data, options, fit).of(trial);
-  const Score by_law =
-      score(trial.torque_nm, predict(study.data, trial, fit.values, fit.lag).torque_nm);
+  const Score by_law = score(trial.torque_nm, predict(study.data, trial, fit.values, fit.lag).torque_nm);
   EXPECT_LE(found.score.rmse_nm(), by_law.rmse_nm());
   EXPECT_GT(found.score.r2(), 0.99);
 }
@@ -122,15 +113,13 @@ TEST(TrialPredictions, ThePosteriorPredictsEveryJointOfATrialThatTookNoPart) {
     EXPECT_EQ(found.joint, j == 0 ? "ankle" : "knee");
     EXPECT_GT(found.score.r2(), 0.98) << found.joint;
     // 95 %, of a torque whose errors are correlated: some 50 independent samples.
-    EXPECT_GT(covered_share(found.torque_nm, found.torque_fit_nm, found.torque_sd_nm), 0.85)
-        << found.joint;
+    EXPECT_GT(covered_share(found.torque_nm, found.torque_fit_nm, found.torque_sd_nm), 0.85) << found.joint;
   }
 }
 
 TEST(CoveredShare, CountsWhatLiesWithinTheBand) {
   const Eigen::VectorXd measured = Eigen::VectorXd::LinSpaced(5, 0.0, 4.0);
-  EXPECT_DOUBLE_EQ(covered_share(measured, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5)),
-                   0.4);
+  EXPECT_DOUBLE_EQ(covered_share(measured, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Ones(5)), 0.4);
   EXPECT_TRUE(std::isnan(covered_share(measured, measured, {})));
 }
 

@@ -43,11 +43,9 @@ double position(const RestingTorque& torque, double angle_rad) {
 
 /// Returns mean, sine and cosine coefficients of the angle that fit the torque best.
 Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm) {
-  if (angle_rad.maxCoeff() - angle_rad.minCoeff() < kWeightRange_rad)
-    return {torque_nm.mean(), 0.0, 0.0};
+  if (angle_rad.maxCoeff() - angle_rad.minCoeff() < kWeightRange_rad) return {torque_nm.mean(), 0.0, 0.0};
   const Eigen::Index n = angle_rad.size();
-  const double weight =
-      std::sqrt(kIndependent / static_cast<double>(n)) / beliefs::kRestingTissue.sd;
+  const double weight = std::sqrt(kIndependent / static_cast<double>(n)) / beliefs::kRestingTissue.sd;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + 2, 3);
   columns.col(0).head(n).setConstant(weight);
   columns.col(1).head(n) = weight * angle_rad.array().sin();
@@ -59,9 +57,7 @@ Eigen::Vector3d nearest_sine(const Eigen::VectorXd& angle_rad, const Eigen::Vect
 }
 
 /// Sets the weight if the torque has the shape of a weight's.
-void find_weight(const Eigen::VectorXd& angle_rad,
-                 const Eigen::VectorXd& torque_nm,
-                 RestingTorque& result) {
+void find_weight(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm, RestingTorque& result) {
   const Eigen::Vector3d sine = nearest_sine(angle_rad, torque_nm);
   const double spread = (torque_nm.array() - torque_nm.mean()).square().sum();
   const double left = beside_weight(angle_rad, torque_nm).squaredNorm();
@@ -74,13 +70,11 @@ void find_weight(const Eigen::VectorXd& angle_rad,
 
 Eigen::VectorXd beside_weight(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm) {
   const Eigen::Vector3d sine = nearest_sine(angle_rad, torque_nm);
-  return torque_nm.array() - sine[0] - sine[1] * angle_rad.array().sin() -
-         sine[2] * angle_rad.array().cos();
+  return torque_nm.array() - sine[0] - sine[1] * angle_rad.array().sin() - sine[2] * angle_rad.array().cos();
 }
 
 double RestingTorque::at(double angle_rad) const {
-  const double inside =
-      legendre(position(*this, angle_rad), coefficient_nm.size()).dot(coefficient_nm);
+  const double inside = legendre(position(*this, angle_rad), coefficient_nm.size()).dot(coefficient_nm);
   const double end_rad = std::clamp(angle_rad, lowest_rad, highest_rad);
   return inside + weight_sin_nm * (std::sin(angle_rad) - std::sin(end_rad)) +
          weight_cos_nm * (std::cos(angle_rad) - std::cos(end_rad));
@@ -95,26 +89,19 @@ std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad
                                                 const Eigen::VectorXd& torque_nm) {
   const Eigen::Index n = angle_rad.size();
   if (n < kFewest || velocity_radps.size() != n || torque_nm.size() != n) return std::nullopt;
-  if (!angle_rad.allFinite() || !velocity_radps.allFinite() || !torque_nm.allFinite())
-    return std::nullopt;
+  if (!angle_rad.allFinite() || !velocity_radps.allFinite() || !torque_nm.allFinite()) return std::nullopt;
   RestingTorque result{.lowest_rad = angle_rad.minCoeff(), .highest_rad = angle_rad.maxCoeff()};
   const double range = result.highest_rad - result.lowest_rad;
-  const Eigen::Index terms =
-      1 + std::min(kHighestDegree, static_cast<int>(range / kRangePerDegree_rad));
-  const bool both_ways =
-      velocity_radps.minCoeff() < -kMoving_radps && velocity_radps.maxCoeff() > kMoving_radps;
+  const Eigen::Index terms = 1 + std::min(kHighestDegree, static_cast<int>(range / kRangePerDegree_rad));
+  const bool both_ways = velocity_radps.minCoeff() < -kMoving_radps && velocity_radps.maxCoeff() > kMoving_radps;
   Eigen::MatrixXd columns(n, terms + (both_ways ? 1 : 0));
-  for (Eigen::Index i = 0; i < n; ++i)
-    columns.row(i).head(terms) = legendre(position(result, angle_rad[i]), terms);
+  for (Eigen::Index i = 0; i < n; ++i) columns.row(i).head(terms) = legendre(position(result, angle_rad[i]), terms);
   if (both_ways) columns.col(terms) = -velocity_radps;
   const Eigen::VectorXd found = math::nearest_solution(columns, torque_nm);
   result.coefficient_nm = found.head(terms);
   if (both_ways) result.viscosity_nms = found[terms];
-  find_weight(angle_rad,
-              torque_nm - columns.rightCols(both_ways ? 1 : 0) * found.tail(both_ways ? 1 : 0),
-              result);
-  result.residual_nm =
-      std::sqrt((columns * found - torque_nm).squaredNorm() / static_cast<double>(n));
+  find_weight(angle_rad, torque_nm - columns.rightCols(both_ways ? 1 : 0) * found.tail(both_ways ? 1 : 0), result);
+  result.residual_nm = std::sqrt((columns * found - torque_nm).squaredNorm() / static_cast<double>(n));
   return result;
 }
 

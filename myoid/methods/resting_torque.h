@@ -8,10 +8,9 @@
 
 namespace myoid::identification {
 
-/// The measured torque of a joint while its muscles are at rest. It comes from ligaments, skin and
-/// stretched fibers, from the weight of limb and instrument (a dynamometer's plate and lever) if
-/// the model does not include it, and from the load cell's offset. A fit without this torque would
-/// ascribe it to the muscles.
+/// The measured torque of a joint while its muscles are at rest. It comes from ligaments, skin and stretched fibers,
+/// from the weight of limb and instrument (a dynamometer's plate and lever) if the model does not include it, and from
+/// the load cell's offset. A fit without this torque would ascribe it to the muscles.
 ///
 ///   T(q, qdot) = sum_k c_k P_k(x) - b qdot,   x = 2 (q - q_lowest) / (q_highest - q_lowest) - 1
 ///
@@ -34,14 +33,12 @@ struct RestingTorque {
   [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& angle_rad) const;
 };
 
-/// Greatest weight torque of an instrument, or of the error in a model's limb [N m]: 5 kg at half a
-/// metre.
+/// Greatest weight torque of an instrument, or of the error in a model's limb [N m]: 5 kg at half a metre.
 inline constexpr double kLargestWeight_nm = 25.0;
 
 /// Returns the part of a resting torque that no weight explains, for samples of one trial: the
 /// torque minus the best-fitting sine of the angle, or minus its mean if the joint hardly moves.
-[[nodiscard]] Eigen::VectorXd beside_weight(const Eigen::VectorXd& angle_rad,
-                                            const Eigen::VectorXd& torque_nm);
+[[nodiscard]] Eigen::VectorXd beside_weight(const Eigen::VectorXd& angle_rad, const Eigen::VectorXd& torque_nm);
 
 /// A resting torque with the joint's name and its passive trials.
 struct RestingJoint {
@@ -50,10 +47,9 @@ struct RestingJoint {
   std::vector<std::string> trials;
 };
 
-/// Fits n samples of one joint moved at rest by least squares: angle [rad], speed [rad/s] and the
-/// muscles' torque by inverse dynamics, without the torque of the surroundings [N m]. The degree is
-/// one for every 15 degrees of range, at most five, so that the fit does not follow noise. Empty
-/// for fewer than 20 samples or values that are not finite.
+/// Fits n samples of one joint moved at rest by least squares: angle [rad], speed [rad/s] and the muscles' torque by
+/// inverse dynamics, without the torque of the surroundings [N m]. The degree is one for every 15 degrees of range, at
+/// most five, so that the fit does not follow noise. Empty for fewer than 20 samples or values that are not finite.
 [[nodiscard]] std::optional<RestingTorque> fit_resting_torque(const Eigen::VectorXd& angle_rad,
                                                               const Eigen::VectorXd& velocity_radps,
                                                               const Eigen::VectorXd& torque_nm);

@@ -34,8 +34,7 @@ struct Moved {
 TEST(RestingTorque, APolynomialOfTheFifthDegreeAndADashpotComeBack) {
   const Moved moved(0.2, 2.2, 401);
   const auto elastic = [](double q) {
-    return 4.0 - 3.0 * q + 0.8 * q * q - 1.1 * std::pow(q, 3) + 0.4 * std::pow(q, 4) -
-           0.07 * std::pow(q, 5);
+    return 4.0 - 3.0 * q + 0.8 * q * q - 1.1 * std::pow(q, 3) + 0.4 * std::pow(q, 4) - 0.07 * std::pow(q, 5);
   };
   const Eigen::VectorXd torque = moved.angle_rad.unaryExpr(elastic) - 0.25 * moved.velocity_radps;
   const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps, torque);
@@ -48,8 +47,7 @@ TEST(RestingTorque, APolynomialOfTheFifthDegreeAndADashpotComeBack) {
 TEST(RestingTorque, AnExponentialThatRisesTwentyfoldIsMetToAThousandth) {
   const Moved moved(0.0, 2.0, 401);
   const auto elastic = [](double q) { return -6.0 * std::exp(0.5 * std::log(20.0) * (q - 2.0)); };
-  const auto found =
-      fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(elastic));
+  const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(elastic));
   ASSERT_TRUE(found);
   for (double q = 0.0; q <= 2.0; q += 0.05) EXPECT_NEAR(found->at(q), elastic(q), 6e-3);
 }
@@ -58,15 +56,13 @@ TEST(RestingTorque, BeyondTheMeasuredAnglesTheWeightGoesOnAndTheRestStays) {
   const Moved moved(0.5, 1.5, 201);
   // 1 kg at 0.8 m and an offset: a weight's sine alone, known to the tenth that its prior pulls.
   const auto weight = [](double q) { return 7.8 * std::sin(q) + 3.0; };
-  const auto found =
-      fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(weight));
+  const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(weight));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->at(0.2), weight(0.2), 0.5);
   EXPECT_NEAR(found->at(1.8), weight(1.8), 0.5);
   // Stops of a joint, which no weight makes, are not continued.
   const auto stops = [](double q) { return -std::sinh(8.0 * (q - 1.0)); };
-  const auto stiff =
-      fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(stops));
+  const auto stiff = fit_resting_torque(moved.angle_rad, moved.velocity_radps, moved.angle_rad.unaryExpr(stops));
   ASSERT_TRUE(stiff);
   EXPECT_EQ(stiff->weight_sin_nm, 0.0);
   EXPECT_EQ(stiff->at(3.0), stiff->at(1.5));
@@ -92,19 +88,15 @@ PassiveTrial passive_trial(const std::filesystem::path& path) {
   std::vector<std::array<double, 3>> rows;
   std::array<double, 3> row{};
   while (std::getline(file, line)) {
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &row[0], &row[1], &row[2]) == 3)
-      rows.push_back(row);
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &row[0], &row[1], &row[2]) == 3) rows.push_back(row);
   }
   const auto n = static_cast<Eigen::Index>(rows.size());
   PassiveTrial trial{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
-  const auto at = [&](Eigen::Index i) {
-    return rows[static_cast<std::size_t>(std::clamp<Eigen::Index>(i, 0, n - 1))];
-  };
+  const auto at = [&](Eigen::Index i) { return rows[static_cast<std::size_t>(std::clamp<Eigen::Index>(i, 0, n - 1))]; };
   for (Eigen::Index i = 0; i < n; ++i) {
     trial.torque_nm[i] = at(i)[1];
     trial.angle_rad[i] = -at(i)[2] * kDegree;
-    trial.velocity_radps[i] =
-        -(at(i + 20)[2] - at(i - 20)[2]) * kDegree / (at(i + 20)[0] - at(i - 20)[0]);
+    trial.velocity_radps[i] = -(at(i + 20)[2] - at(i - 20)[2]) * kDegree / (at(i + 20)[0] - at(i - 20)[0]);
   }
   return trial;
 }
@@ -130,12 +122,10 @@ TEST(RestingTorque, PassiveTrialsOfADynamometerPredictEachOther) {
       add(others.velocity_radps, trials[k].velocity_radps);
       add(others.torque_nm, trials[k].torque_nm);
     }
-    const auto found =
-        fit_resting_torque(others.angle_rad, others.velocity_radps, others.torque_nm);
+    const auto found = fit_resting_torque(others.angle_rad, others.velocity_radps, others.torque_nm);
     ASSERT_TRUE(found);
     const PassiveTrial& held = trials[left_out];
-    const Eigen::VectorXd predicted =
-        found->at(held.angle_rad) - found->viscosity_nms * held.velocity_radps;
+    const Eigen::VectorXd predicted = found->at(held.angle_rad) - found->viscosity_nms * held.velocity_radps;
     sse += (held.torque_nm - predicted).squaredNorm();
     sum += held.torque_nm.sum();
     squares += held.torque_nm.squaredNorm();
@@ -146,8 +136,8 @@ TEST(RestingTorque, PassiveTrialsOfADynamometerPredictEachOther) {
 
 TEST(RestingTorque, OverASmallRangeNoShapeIsSought) {
   const Moved moved(1.0, 1.2, 200);  // 11 degrees
-  const auto found = fit_resting_torque(moved.angle_rad, moved.velocity_radps,
-                                        -2.0 * (moved.angle_rad.array() - 1.1).matrix());
+  const auto found =
+      fit_resting_torque(moved.angle_rad, moved.velocity_radps, -2.0 * (moved.angle_rad.array() - 1.1).matrix());
   ASSERT_TRUE(found);
   EXPECT_EQ(found->coefficient_nm.size(), 1);
   EXPECT_NEAR(found->at(1.2), 0.0, 1e-3);

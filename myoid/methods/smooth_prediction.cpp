@@ -19,8 +19,7 @@ double two_passes(double frequency_hz, double cutoff_hz) {
 /// Returns the noise's power density, relative to the white noise before the filters.
 double density(double frequency_hz, const EnvelopeNoise& noise) {
   double power = std::pow(two_passes(frequency_hz, noise.cutoff_hz), 2);
-  for (const double tau_s : noise.lag_s)
-    power /= 1.0 + std::pow(2.0 * kPi * frequency_hz * tau_s, 2);
+  for (const double tau_s : noise.lag_s) power /= 1.0 + std::pow(2.0 * kPi * frequency_hz * tau_s, 2);
   return power;
 }
 
@@ -29,8 +28,7 @@ template <typename Gain>
 double power(const EnvelopeNoise& noise, Gain gain) {
   double sum = 0.0;
   const double step = 0.01 * noise.cutoff_hz;
-  for (double f = 0.5 * step; f < 4.0 * noise.cutoff_hz; f += step)
-    sum += step * density(f, noise) * gain(f);
+  for (double f = 0.5 * step; f < 4.0 * noise.cutoff_hz; f += step) sum += step * density(f, noise) * gain(f);
   return sum;
 }
 
@@ -54,8 +52,8 @@ SmoothPrediction smooth_prediction(const Eigen::VectorXd& time_s,
   for (double cutoff_hz = kLowest_hz; cutoff_hz < noise.cutoff_hz; cutoff_hz *= kStep) {
     Eigen::VectorXd smooth = below(time_s, predicted_nm, cutoff_hz);
     const double kept = power(noise, [&](double f) { return two_passes(f, cutoff_hz); }) / whole;
-    const double risk = (smooth - predicted_nm).squaredNorm() / static_cast<double>(smooth.size()) +
-                        (2.0 * kept - 1.0) * noise_nm2;
+    const double risk =
+        (smooth - predicted_nm).squaredNorm() / static_cast<double>(smooth.size()) + (2.0 * kept - 1.0) * noise_nm2;
     if (smooth == predicted_nm || !(risk < least)) continue;
     least = risk;
     best = {std::move(smooth), cutoff_hz};

@@ -18,9 +18,7 @@ constexpr EnvelopeNoise kOne{.variance_nm2 = 1.0, .cutoff_hz = 6.0};
 
 Eigen::VectorXd clock() { return Eigen::VectorXd::LinSpaced(kCount, 0.0, 19.99); }
 
-Eigen::VectorXd wave(double hz) {
-  return (10.0 * (2.0 * kPi * hz * clock().array()).sin()).matrix();
-}
+Eigen::VectorXd wave(double hz) { return (10.0 * (2.0 * kPi * hz * clock().array()).sin()).matrix(); }
 
 /// White noise below 6 Hz, of this standard deviation.
 Eigen::VectorXd noise(double sd, unsigned seed) {
@@ -40,11 +38,9 @@ TEST(SmoothPrediction, ComesCloseToTheBestCutOffWithoutKnowingTheTruth) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const Eigen::VectorXd truth = wave(0.5) + 0.2 * wave(1.0);
     const Eigen::VectorXd noisy = truth + noise(2.0, seed);
-    const SmoothPrediction found =
-        smooth_prediction(clock(), noisy, {.variance_nm2 = 4.0, .cutoff_hz = 6.0});
+    const SmoothPrediction found = smooth_prediction(clock(), noisy, {.variance_nm2 = 4.0, .cutoff_hz = 6.0});
     double least = error(noisy, truth);
-    for (double hz = 0.7; hz < 6.0; hz *= 1.05)
-      least = std::min(least, error(below(clock(), noisy, hz), truth));
+    for (double hz = 0.7; hz < 6.0; hz *= 1.05) least = std::min(least, error(below(clock(), noisy, hz), truth));
     // 20 s of noise below 6 Hz are 240 independent values: the risk is known to 10 % of the noise.
     EXPECT_LT(error(found.torque_nm, truth), least + 0.1 * 4.0) << seed;
     EXPECT_LT(error(found.torque_nm, truth), 0.5 * 4.0) << seed;
@@ -53,8 +49,7 @@ TEST(SmoothPrediction, ComesCloseToTheBestCutOffWithoutKnowingTheTruth) {
 
 TEST(ShareBehindLags, IsThatOfWhiteNoiseBehindTheSameFilters) {
   constexpr double kTau_s = 0.04;
-  const double share =
-      share_behind_lags({.variance_nm2 = 1.0, .cutoff_hz = 6.0, .lag_s = {kTau_s, kTau_s}});
+  const double share = share_behind_lags({.variance_nm2 = 1.0, .cutoff_hz = 6.0, .lag_s = {kTau_s, kTau_s}});
   double before = 0.0, behind = 0.0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Eigen::VectorXd x = noise(1.0, seed);
@@ -90,11 +85,9 @@ TEST(SmoothPrediction, NoiseThatPassedLagsIsSmoothedAsItIsBehindThem) {
     const Eigen::VectorXd noisy = truth + behind;
     const SmoothPrediction found = smooth_prediction(clock(), noisy, kLagged);
     double least = error(noisy, truth);
-    for (double hz = 0.7; hz < 6.0; hz *= 1.05)
-      least = std::min(least, error(below(clock(), noisy, hz), truth));
+    for (double hz = 0.7; hz < 6.0; hz *= 1.05) least = std::min(least, error(below(clock(), noisy, hz), truth));
     EXPECT_LT(error(found.torque_nm, truth), least + 0.1 * 4.0) << seed;
-    const SmoothPrediction blind =
-        smooth_prediction(clock(), noisy, {.variance_nm2 = 4.0, .cutoff_hz = 6.0});
+    const SmoothPrediction blind = smooth_prediction(clock(), noisy, {.variance_nm2 = 4.0, .cutoff_hz = 6.0});
     EXPECT_GT(found.cutoff_hz, blind.cutoff_hz) << seed;
   }
 }

@@ -45,8 +45,7 @@ std::vector<Solver> solvers_of(const Contestants& who,
                                const ContestOptions& options,
                                const Progress& stop) {
   const auto simplex = [&](const Eigen::VectorXd& x) {
-    return end_of(math::nelder_mead(
-        who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
+    return end_of(math::nelder_mead(who.cost, x, {.max_evaluations = options.direct_evaluations, .progress = stop}));
   };
   const auto annealing = [&, seed = options.seed](const Eigen::VectorXd& x) mutable {
     // Costs in the starts' box span many powers of ten, and so does the temperature.
@@ -90,9 +89,9 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
     }
   }
   options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
-  result.basins = find_basins(
-      [&](const Eigen::VectorXd& x, Eigen::Index) { return searched(who.levenberg_marquardt, x); },
-      box, options.basin_starts, who.plain_samples, stop);
+  result.basins =
+      find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return searched(who.levenberg_marquardt, x); }, box,
+                  options.basin_starts, who.plain_samples, stop);
 
   Eigen::VectorXd best = box.given;
   result.best_cost = std::numeric_limits<double>::infinity();
@@ -103,8 +102,7 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
   };
   for (const BasinRow& basin : result.basins.basins) take(basin.cost, basin.x);
   for (std::size_t i = 0; i < ends.size(); ++i) take(result.runs[i].cost, ends[i]);
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    result.runs[i].distance = distance(ends[i], best, box);
+  for (std::size_t i = 0; i < ends.size(); ++i) result.runs[i].distance = distance(ends[i], best, box);
   return result;
 }
 
@@ -125,13 +123,9 @@ SolverContest compare_solvers(const StudyData& data,
   const Weighting weighting = estimator.solve(box.given).weighting;
   return contest(
       {.gauss_newton =
-           [&](const Eigen::VectorXd& x) {
-             return end_of(by_full_steps.search(x, weighting, 1e-9, 1e-12, 100));
-           },
+           [&](const Eigen::VectorXd& x) { return end_of(by_full_steps.search(x, weighting, 1e-9, 1e-12, 100)); },
        .levenberg_marquardt =
-           [&](const Eigen::VectorXd& x) {
-             return end_of(estimator.search(x, weighting, 1e-9, 1e-12, 200));
-           },
+           [&](const Eigen::VectorXd& x) { return end_of(estimator.search(x, weighting, 1e-9, 1e-12, 200)); },
        .cost = {[&](const Eigen::VectorXd& z) {
                   return estimator.normal_equations(z, weighting, Derivatives::none).cost;
                 },
@@ -151,12 +145,9 @@ SolverContest compare_paper_solvers(const StudyData& data,
   const math::LeastSquaresProblem problem = samples.problem();
   const Progress stop{{}, options.progress.stop};
   return contest(
-      {.gauss_newton =
-           [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
+      {.gauss_newton = [&](const Eigen::VectorXd& x) { return end_of(search_as_published(samples, x, stop)); },
        .levenberg_marquardt =
-           [&](const Eigen::VectorXd& x) {
-             return end_of(math::minimize(problem, x, {.progress = stop}));
-           },
+           [&](const Eigen::VectorXd& x) { return end_of(math::minimize(problem, x, {.progress = stop})); },
        .cost = math::direct_search_problem(problem),
        .plain_samples = problem.residual_count},
       box, options);

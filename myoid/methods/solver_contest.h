@@ -29,25 +29,23 @@ struct SolverContest {
 };
 
 struct ContestOptions {
-  int starts = 3;  ///< Number of starts: the given one and Sobol points of the box (start_box.h).
+  int starts = 3;                  ///< Number of starts: the given one and Sobol points of the box (start_box.h).
   int direct_evaluations = 20000;  ///< Limit per start for the simplex and annealing.
   int basin_starts = 31;           ///< Number of starts for the table of basins.
   std::uint64_t seed = 1;          ///< Seed of annealing.
   Progress progress;
 };
 
-/// Compares the four solvers that the source paper weighs, on the same cost, with the same weights
-/// (the usual fit's) and bounds, from the same starts. Gauss-Newton takes full steps; annealing
-/// begins with steps as wide as the box of the starts. The estimator's own progress is not used.
-/// Throws Interrupted.
+/// Compares the four solvers that the source paper weighs, on the same cost, with the same weights (the usual fit's)
+/// and bounds, from the same starts. Gauss-Newton takes full steps; annealing begins with steps as wide as the box of
+/// the starts. The estimator's own progress is not used. Throws Interrupted.
 [[nodiscard]] SolverContest compare_solvers(const StudyData& data,
                                             const EstimatorOptions& estimator,
                                             const ContestOptions& options = {});
 
-/// Compares the solvers on the source paper's problem: 1/2 sum (F_t - F_m(x))^2 of one muscle in
-/// one branch (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of
-/// `identify_paper`. Costs are in N^2. No runs if the branch has fewer samples than unknowns, or
-/// all numbers are held.
+/// Compares the solvers on the source paper's problem: 1/2 sum (F_t - F_m(x))^2 of one muscle in one branch
+/// (paper_case.h), without weights, priors or bounds. Gauss-Newton is that of `identify_paper`. Costs are in N^2. No
+/// runs if the branch has fewer samples than unknowns, or all numbers are held.
 [[nodiscard]] SolverContest compare_paper_solvers(const StudyData& data,
                                                   std::size_t muscle,
                                                   bool shortening,

@@ -17,17 +17,15 @@ using test::elbow_study;
 using test::ElbowStudy;
 
 ElbowStudy study_of_three_unknowns() {
-  ElbowStudy study =
-      elbow_study({.trials = 1, .seconds = 8.0, .torque_sd_nm = 0.3, .with_priors = true});
+  ElbowStudy study = elbow_study({.trials = 1, .seconds = 8.0, .torque_sd_nm = 0.3, .with_priors = true});
   for (MuscleSetup& setup : study.data.muscles)
     setup.fixed = {"concentric_curvature", "eccentric_curvature_product", "eccentric_plateau"};
   return study;
 }
 
 TEST(SolverContest, TheDescentsAgreeAndTheRivalsDoNotGoLower) {
-  const SolverContest c =
-      compare_solvers(study_of_three_unknowns().data, {.muscles = {"TRI"}},
-                      {.starts = 2, .direct_evaluations = 3000, .basin_starts = 7});
+  const SolverContest c = compare_solvers(study_of_three_unknowns().data, {.muscles = {"TRI"}},
+                                          {.starts = 2, .direct_evaluations = 3000, .basin_starts = 7});
   ASSERT_EQ(c.runs.size(), 8U);
   for (const SolverRun& run : c.runs) {
     EXPECT_GE(run.cost, c.best_cost * (1.0 - 1e-9)) << run.solver;
@@ -51,8 +49,7 @@ ElbowStudy noisy_forces() {
   for (std::size_t k = 0; k < 4; ++k)
     study.data.muscles[k].start.max_isometric_force_n = study.truth[k].max_isometric_force_n;
   for (TrialData& trial : study.data.trials) {
-    for (Eigen::Index k = 0; k < 4; ++k)
-      trial.force_n.col(k) += 2.0 * noise.band(trial.time_s.size(), 6.0, 100.0);
+    for (Eigen::Index k = 0; k < 4; ++k) trial.force_n.col(k) += 2.0 * noise.band(trial.time_s.size(), 6.0, 100.0);
   }
   return study;
 }
@@ -60,8 +57,7 @@ ElbowStudy noisy_forces() {
 TEST(SolverContest, GaussNewtonOfThePublishedMethodIsTheEstimatorItself) {
   const ElbowStudy study = noisy_forces();
   const IdentificationResult paper = identify_paper(study.data, {.muscles = {"BIC"}});
-  const SolverContest c =
-      compare_paper_solvers(study.data, 0, true, {.starts = 1, .direct_evaluations = 3000});
+  const SolverContest c = compare_paper_solvers(study.data, 0, true, {.starts = 1, .direct_evaluations = 3000});
   ASSERT_EQ(c.runs.size(), 4U);
   ASSERT_EQ(c.runs[0].solver, "gauss_newton");
   ASSERT_EQ(c.runs[0].termination, math::Termination::converged);
@@ -83,8 +79,7 @@ TEST(SolverContest, AllFourSearchTheSameSumOfSquaresOfThePublishedMethod) {
   const SolverContest c = compare_paper_solvers(study.data, 0, true, {.starts = 1});
   ASSERT_EQ(c.runs.size(), 4U);
   for (const SolverRun& run : c.runs) {
-    // Three unknowns and one basin: the simplex gets there too, annealing near it within its
-    // evaluations.
+    // Three unknowns and one basin: the simplex gets there too, annealing near it within its evaluations.
     const bool annealing = run.solver == "simulated_annealing";
     EXPECT_NEAR(run.cost, c.best_cost, (annealing ? 0.1 : 1e-6) * c.best_cost) << run.solver;
     EXPECT_LT(run.distance, annealing ? 0.2 : 1e-3) << run.solver;
@@ -95,8 +90,7 @@ TEST(SolverContest, AllFourSearchTheSameSumOfSquaresOfThePublishedMethod) {
 
 TEST(SolverContest, ABranchInWhichAllIsHeldHasNothingToCompare) {
   ElbowStudy study = noisy_forces();
-  study.data.muscles[0].fixed = {"optimal_fiber_length", "force_length_width",
-                                 "concentric_curvature"};
+  study.data.muscles[0].fixed = {"optimal_fiber_length", "force_length_width", "concentric_curvature"};
   EXPECT_TRUE(compare_paper_solvers(study.data, 0, true).runs.empty());
 }
 

@@ -33,9 +33,7 @@ std::vector<NamedContest> solver_contests(const StudyData& data,
                                           const ContestOptions& options) {
   std::vector<ContestedFit> fits;
   if (method == "torque") {
-    fits.push_back({"all muscles", [&](const ContestOptions& how) {
-                      return compare_solvers(data, estimator, how);
-                    }});
+    fits.push_back({"all muscles", [&](const ContestOptions& how) { return compare_solvers(data, estimator, how); }});
   }
   for (std::size_t k = 0; method != "torque" && k < data.muscles.size(); ++k) {
     const std::string& muscle = data.muscles[k].name;
@@ -46,10 +44,9 @@ std::vector<NamedContest> solver_contests(const StudyData& data,
       continue;
     }
     for (const bool shortening : {true, false}) {
-      fits.push_back({muscle + (shortening ? " shortening" : " lengthening"),
-                      [&, k, shortening](const ContestOptions& how) {
-                        return compare_paper_solvers(data, k, shortening, how);
-                      }});
+      fits.push_back(
+          {muscle + (shortening ? " shortening" : " lengthening"),
+           [&, k, shortening](const ContestOptions& how) { return compare_paper_solvers(data, k, shortening, how); }});
     }
   }
   std::vector<NamedContest> contests;

@@ -12,9 +12,7 @@ namespace {
 
 constexpr double kSpreads = 2.0;
 
-StartBox box_about(const Eigen::VectorXd& given) {
-  return {given, Eigen::VectorXd(given.size()), given, given};
-}
+StartBox box_about(const Eigen::VectorXd& given) { return {given, Eigen::VectorXd(given.size()), given, given}; }
 
 void bound(StartBox& box, Eigen::Index j, double lower, double upper) {
   const double reach = kSpreads * box.spread[j];
@@ -28,10 +26,9 @@ StartBox start_box(const Estimator& estimator) {
   StartBox box = box_about(estimator.model().parameters().start());
   for (Eigen::Index j = 0; j < box.given.size(); ++j) {
     const Unknown& f = estimator.free()[static_cast<std::size_t>(j)];
-    box.spread[j] = f.prior.sd > 0.0 ? f.prior.sd
-                    : f.field->logarithmic
-                        ? 0.3
-                        : 0.1 * std::max(std::abs(f.start), f.bounds.upper - f.bounds.lower);
+    box.spread[j] = f.prior.sd > 0.0       ? f.prior.sd
+                    : f.field->logarithmic ? 0.3
+                                           : 0.1 * std::max(std::abs(f.start), f.bounds.upper - f.bounds.lower);
     bound(box, j, f.bounds.lower, f.bounds.upper);
   }
   return box;
@@ -58,8 +55,7 @@ std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count) {
   // Points 0 and 1 of the sequence are a corner and the center. Parameters beyond its dimensions
   // use the sequence again, each further set with another scramble.
   for (Eigen::Index at = 0, set = 0; at < points.cols(); at += math::kSobolMaxDimensions, ++set) {
-    const Eigen::Index width =
-        std::min<Eigen::Index>(math::kSobolMaxDimensions, points.cols() - at);
+    const Eigen::Index width = std::min<Eigen::Index>(math::kSobolMaxDimensions, points.cols() - at);
     math::SobolOptions options{.first = 2, .scramble_seed = {}};
     if (set > 0) options.scramble_seed = static_cast<std::uint64_t>(set);
     points.middleCols(at, width) = math::sobol_points(count - 1, static_cast<int>(width), options);

@@ -19,16 +19,13 @@ struct StartBox {
   Eigen::VectorXd upper;
 };
 [[nodiscard]] StartBox start_box(const Estimator& estimator);
-/// Returns the box of the source paper's unknowns, each in its own unit and within its physical
-/// bounds.
+/// Returns the box of the source paper's unknowns, each in its own unit and within its physical bounds.
 [[nodiscard]] StartBox start_box(const PaperCase& samples, const MuscleSetup& setup);
 
 /// Returns the given start and Sobol points of the box.
 [[nodiscard]] std::vector<Eigen::VectorXd> starts_in(const StartBox& box, int count);
 
 /// Returns the root mean square of the unknowns' differences, in spreads.
-[[nodiscard]] double distance(const Eigen::VectorXd& a,
-                              const Eigen::VectorXd& b,
-                              const StartBox& box);
+[[nodiscard]] double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const StartBox& box);
 
 }  // namespace myoid::identification

@@ -7,15 +7,12 @@
 namespace myoid::identification {
 namespace {
 
-test::ElbowStudy small_study() {
-  return test::elbow_study({.trials = 1, .seconds = 4.0, .with_priors = true});
-}
+test::ElbowStudy small_study() { return test::elbow_study({.trials = 1, .seconds = 4.0, .with_priors = true}); }
 
 TEST(StartBox, IsTwoSpreadsOfThePriorWideOnEitherSideInsideTheBounds) {
   test::ElbowStudy study = small_study();
   const double l0 = study.data.muscles[3].start.optimal_fiber_length_m;
-  study.data.rules.push_back(
-      {.parameter = "optimal_fiber_length", .owners = {"TRI"}, .upper = 1.01 * l0});
+  study.data.rules.push_back({.parameter = "optimal_fiber_length", .owners = {"TRI"}, .upper = 1.01 * l0});
   const Estimator estimator(study.data, {.muscles = {"TRI"}});
   const StartBox box = start_box(estimator);
   bool clipped = false;

@@ -18,9 +18,7 @@
 namespace myoid::identification {
 namespace {
 
-void add_predictions(const StudyData& data,
-                     const TorqueOptions& options,
-                     IdentificationResult& result) {
+void add_predictions(const StudyData& data, const TorqueOptions& options, IdentificationResult& result) {
   ModelValues literature = result.values;
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
     literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
@@ -65,11 +63,9 @@ double preference_for_lags(const Estimator& by_delay,
   by_delay.model().evaluate(delayed.search.x, ResidualModel::Depth::value, with_delay);
   by_lags.model().evaluate(lagged.search.x, ResidualModel::Depth::value, with_lags);
   const EstimatorOptions& options = by_lags.options();
-  const ChannelValues channel =
-      by_lags.model().parameters().values(lagged.search.x).channels.front();
-  const double kept = share_behind_lags(
-      {.cutoff_hz = options.residual_cutoff_hz.value_or(options.envelope_cutoff_hz),
-       .lag_s = lag_times_s(channel, EmgLag::shared)});
+  const ChannelValues channel = by_lags.model().parameters().values(lagged.search.x).channels.front();
+  const double kept = share_behind_lags({.cutoff_hz = options.residual_cutoff_hz.value_or(options.envelope_cutoff_hz),
+                                         .lag_s = lag_times_s(channel, EmgLag::shared)});
   const Eigen::VectorXd& measured = by_delay.model().measured();
   double sum = 0.0;
   for (const Piece& piece : by_delay.model().pieces()) {
@@ -77,8 +73,7 @@ double preference_for_lags(const Estimator& by_delay,
     for (Eigen::Index i = piece.first; i < piece.first + piece.count; ++i) {
       const double variance = std::pow(delayed.weighting.sd_nm[i], 2);
       const double of_emg =
-          factor * factor *
-          with_delay.channel_torque.col(i).cwiseAbs2().dot(by_delay.channel_variance());
+          factor * factor * with_delay.channel_torque.col(i).cwiseAbs2().dot(by_delay.channel_variance());
       const double behind = variance - (1.0 - kept) * std::min(of_emg, variance);
       sum += std::pow(with_delay.predicted[i] - measured[i], 2) / variance -
              std::pow(with_lags.predicted[i] - measured[i], 2) / behind;
@@ -87,11 +82,8 @@ double preference_for_lags(const Estimator& by_delay,
   return delayed.weighting.share * sum;
 }
 
-/// Returns the best of the minima from many starts and the table of all minima, at the weights of
-/// the best.
-Estimator::Solution best_of_basins(const Estimator& estimator,
-                                   const Eigen::VectorXd& start,
-                                   BasinTable& table) {
+/// Returns the best of the minima from many starts and the table of all minima, at the weights of the best.
+Estimator::Solution best_of_basins(const Estimator& estimator, const Eigen::VectorXd& start, BasinTable& table) {
   constexpr double kLower = 1e-3;  // of the cost; the same minimum is reproduced more exactly
   Estimator::Solution best = estimator.solve(start);
   for (bool again = true; again;) {
@@ -109,8 +101,7 @@ Estimator::Solution best_of_basins(const Estimator& estimator,
   return best;
 }
 
-/// Returns the best minimum from all starts that the options ask for; with `multistart` also the
-/// table.
+/// Returns the best minimum from all starts that the options ask for; with `multistart` also the table.
 Estimator::Solution best_solution(const Estimator& estimator,
                                   const Eigen::VectorXd& start,
                                   std::vector<BasinTable>& tables) {
@@ -126,8 +117,7 @@ IdentificationResult by_least_squares(const StudyData& data, const TorqueOptions
   const Eigen::VectorXd start = estimator.model().parameters().start();
   std::vector<BasinTable> tables;
   const Estimator::Solution by_delay = best_solution(estimator, start, tables);
-  const double delay_s =
-      estimator.model().parameters().values(by_delay.search.x).channels.front()[kDelay];
+  const double delay_s = estimator.model().parameters().values(by_delay.search.x).channels.front()[kDelay];
   const bool choose = options.choose_lag && options.lag == EmgLag::delay && options.weights;
   if (!choose || delay_s < 1e-3) {
     IdentificationResult result = finish(estimator, by_delay, data, begin);
@@ -138,13 +128,12 @@ IdentificationResult by_least_squares(const StudyData& data, const TorqueOptions
   with_lags.lag = EmgLag::shared;
   const Estimator lagging(data, with_lags);
   std::vector<BasinTable> tables_of_lags;
-  const Estimator::Solution by_lags =
-      options.multistart < 2 ? lagging.solve(by_delay.search.x)
-                             : best_solution(lagging, by_delay.search.x, tables_of_lags);
+  const Estimator::Solution by_lags = options.multistart < 2
+                                          ? lagging.solve(by_delay.search.x)
+                                          : best_solution(lagging, by_delay.search.x, tables_of_lags);
   const double gain = preference_for_lags(estimator, by_delay, lagging, by_lags);
   const bool lags = gain > 0.0 && by_lags.search.termination == math::Termination::converged;
-  IdentificationResult result =
-      lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);
+  IdentificationResult result = lags ? finish(lagging, by_lags, data, begin) : finish(estimator, by_delay, data, begin);
   result.basins = std::move(lags ? tables_of_lags : tables);
   result.shared_lag_gain = gain;
   return result;
@@ -185,8 +174,7 @@ IdentificationResult identify_torque_or_exact(const StudyData& data,
     if (!found) continue;
     IdentificationResult result = finish(estimator, *found, *study, begin);
     result.exact = true;
-    if (options.multistart > 1)
-      result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
+    if (options.multistart > 1) result.basins.push_back(find_basins(estimator, found->weighting, options.multistart));
     return result;
   }
   return identify_torque(freed, options);

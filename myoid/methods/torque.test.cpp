@@ -24,8 +24,7 @@ double true_value(const ElbowStudy& study, const ParameterEstimate& e) {
   if (e.parameter == "emg_delay") return study.delay_s;
   if (e.parameter == "emg_gain") return 1.0;
   for (std::size_t k = 0; k < study.data.muscles.size(); ++k) {
-    if (study.data.muscles[k].name == e.muscle)
-      return study.truth[k].*muscle::hill_field(e.parameter).member;
+    if (study.data.muscles[k].name == e.muscle) return study.truth[k].*muscle::hill_field(e.parameter).member;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -41,8 +40,7 @@ const ParameterEstimate& find(const IdentificationResult& result,
 
 TEST(IdentifyTorque, FindsTheTruthWithoutNoise) {
   const ElbowStudy study = elbow_study();
-  const IdentificationResult result =
-      identify_torque(study.data, {.priors = false, .weights = false});
+  const IdentificationResult result = identify_torque(study.data, {.priors = false, .weights = false});
   EXPECT_EQ(result.termination, math::Termination::converged) << result.message;
   ASSERT_EQ(result.estimates.size(), 25U);
   for (const ParameterEstimate& e : result.estimates) {
@@ -89,39 +87,31 @@ TEST(IdentifyTorque, FindsTheTruthWithoutNoiseFromTwentyStarts) {
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::size_t f = 0; f < 6; ++f) {
         double& value = data.muscles[k].start.*muscle::kHillFields[f].member;
-        value = study.truth[k].*muscle::kHillFields[f].member *
-                std::exp(2.0 * spread[f] * (2.0 * random.uniform() - 1.0));
-        value = std::clamp(value, 1.01 * muscle::kHillFields[f].bounds.lower,
-                           0.99 * muscle::kHillFields[f].bounds.upper);
+        value =
+            study.truth[k].*muscle::kHillFields[f].member * std::exp(2.0 * spread[f] * (2.0 * random.uniform() - 1.0));
+        value =
+            std::clamp(value, 1.01 * muscle::kHillFields[f].bounds.lower, 0.99 * muscle::kHillFields[f].bounds.upper);
       }
     }
-    const IdentificationResult result = identify_torque(data, {.priors = false,
-                                                               .max_rate_hz = 20.0,
-                                                               .residual_cutoff_hz = {},
-                                                               .weights = false,
-                                                               .predictions = false});
+    const IdentificationResult result = identify_torque(
+        data, {.priors = false, .max_rate_hz = 20.0, .residual_cutoff_hz = {}, .weights = false, .predictions = false});
     ASSERT_EQ(result.estimates.size(), 25U);
     for (const ParameterEstimate& e : result.estimates) {
       const double truth = true_value(study, e);
-      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth)
-          << "start " << start << ": " << e.muscle << " " << e.parameter;
+      EXPECT_NEAR(e.estimate, truth, 1e-6 * truth) << "start " << start << ": " << e.muscle << " " << e.parameter;
     }
   }
 }
 
 TEST(IdentifyTorque, IntervalsHoldTheTruthAsOftenAsTheySay) {
-  // Truth drawn from the priors, torque noise of 1 N m, EMG noise of 10 % below 6 Hz: 10 studies of
-  // 25 parameters. Nominal 95 %; the 25 of a study err together, which leaves a standard deviation
-  // of some 3 %.
+  // Truth drawn from the priors, torque noise of 1 N m, EMG noise of 10 % below 6 Hz: 10 studies of 25 parameters.
+  // Nominal 95 %; the 25 of a study err together, which leaves a standard deviation of some 3 %.
   int inside = 0;
   int total = 0;
   double squares = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const ElbowStudy study = elbow_study({.emg_cv = 0.1,
-                                          .torque_sd_nm = 1.0,
-                                          .truth_from_prior = true,
-                                          .with_priors = true,
-                                          .seed = seed});
+    const ElbowStudy study =
+        elbow_study({.emg_cv = 0.1, .torque_sd_nm = 1.0, .truth_from_prior = true, .with_priors = true, .seed = seed});
     const IdentificationResult result = identify_torque(study.data, {.starts = 1});
     ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
     for (const ParameterEstimate& e : result.estimates) {
@@ -133,21 +123,19 @@ TEST(IdentifyTorque, IntervalsHoldTheTruthAsOftenAsTheySay) {
     }
   }
   EXPECT_GT(inside, 0.88 * total);
-  const double spread =
-      std::sqrt(squares / total);  // about 1 if the intervals are neither too narrow nor too wide
+  const double spread = std::sqrt(squares / total);  // about 1 if the intervals are neither too narrow nor too wide
   EXPECT_GT(spread, 0.7);
   EXPECT_LT(spread, 1.4);
 }
 
 TEST(IdentifyTorque, ForceAndDelayComeOutOfNoisyRecordings) {
-  const ElbowStudy study = elbow_study(
-      {.delay_s = 0.08, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true, .seed = 3});
+  const ElbowStudy study =
+      elbow_study({.delay_s = 0.08, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true, .seed = 3});
   const IdentificationResult result = identify_torque(study.data);
   EXPECT_NEAR(result.delay_s, 0.08, 0.012);
   for (std::size_t k = 0; k < 4; ++k) {
     const double truth = study.truth[k].max_isometric_force_n;
-    EXPECT_NEAR(result.muscles[k].max_isometric_force_n, truth, 0.2 * truth)
-        << study.data.muscles[k].name;
+    EXPECT_NEAR(result.muscles[k].max_isometric_force_n, truth, 0.2 * truth) << study.data.muscles[k].name;
     EXPECT_NEAR(result.muscles[k].optimal_fiber_length_m, study.truth[k].optimal_fiber_length_m,
                 0.1 * study.truth[k].optimal_fiber_length_m);
   }
@@ -156,9 +144,8 @@ TEST(IdentifyTorque, ForceAndDelayComeOutOfNoisyRecordings) {
 TEST(IdentifyTorque, NoMuscleIsIdentifiedWhereTheMotionAloneTellsTheTorque) {
   ElbowStudy study = elbow_study({.emg_cv = 0.05, .torque_sd_nm = 0.2, .with_priors = true});
   const auto identified = [&](const IdentificationResult& result) {
-    return std::count_if(result.estimates.begin(), result.estimates.end(), [](const auto& e) {
-      return e.parameter != "emg_delay" && e.verdict == Verdict::identified;
-    });
+    return std::count_if(result.estimates.begin(), result.estimates.end(),
+                         [](const auto& e) { return e.parameter != "emg_delay" && e.verdict == Verdict::identified; });
   };
   EXPECT_GT(identified(identify_torque(study.data, {})), 0);
   for (TrialData& trial : study.data.trials) {
@@ -172,8 +159,8 @@ TEST(IdentifyTorque, NoMuscleIsIdentifiedWhereTheMotionAloneTellsTheTorque) {
 }
 
 TEST(IdentifyTorque, TwiceTheSameInputIsTwiceTheSameResult) {
-  const ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true});
+  const ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 8.0, .emg_cv = 0.1, .torque_sd_nm = 1.0, .with_priors = true});
   const IdentificationResult first = identify_torque(study.data);
   const IdentificationResult second = identify_torque(study.data);
   for (std::size_t j = 0; j < first.estimates.size(); ++j)
@@ -184,8 +171,7 @@ TEST(IdentifyTorque, AWrongTendonLengthGoesIntoTheOptimalFiberLengthAlone) {
   // f_l depends on l_mt - l_ts - l0: with a rigid tendon l_ts and l0 are one parameter.
   ElbowStudy study = elbow_study({.trials = 2});
   study.data.muscles[0].start.tendon_slack_length_m += 0.004;
-  const IdentificationResult result =
-      identify_torque(study.data, {.priors = false, .weights = false});
+  const IdentificationResult result = identify_torque(study.data, {.priors = false, .weights = false});
   for (const ParameterEstimate& e : result.estimates) {
     const double shift = e.muscle == "BIC" && e.parameter == "optimal_fiber_length" ? -0.004 : 0.0;
     EXPECT_NEAR(e.estimate, true_value(study, e) + shift, 1e-6) << e.muscle << " " << e.parameter;
@@ -198,14 +184,12 @@ TEST(IdentifyTorque, TwoMusclesOnOneSignalAndOnePathAreNotToldApart) {
   twin.name = "TWIN";
   study.data.muscles.push_back(twin);
   for (TrialData& trial : study.data.trials) {
-    for (Eigen::MatrixXd* m :
-         {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
+    for (Eigen::MatrixXd* m : {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
       m->conservativeResize(m->rows(), 5);
       m->col(4) = m->col(0);
     }
   }
-  const IdentificationResult result =
-      identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
+  const IdentificationResult result = identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
   for (const char* muscle : {"BIC", "TWIN"}) {
     const ParameterEstimate& e = find(result, muscle, "max_isometric_force");
     EXPECT_EQ(e.verdict, Verdict::not_identifiable);
@@ -220,21 +204,18 @@ TEST(IdentifyTorque, ATrialOnlyInLengtheningSaysNothingAboutShortening) {
   study.data.muscles.resize(1);
   TrialData& trial = study.data.trials[0];
   const Eigen::Index n = trial.time_s.size();
-  for (Eigen::MatrixXd* m :
-       {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
+  for (Eigen::MatrixXd* m : {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n}) {
     m->conservativeResize(n, 1);
   }
   trial.velocity_mps = trial.velocity_mps.cwiseAbs();
   Eigen::MatrixXd activation = muscle_activation(study.data, trial, trial.time_s, study.delay_s);
   for (Eigen::Index i = 0; i < n; ++i) {
     trial.torque_nm[i] =
-        trial.moment_arm_m(i, 0) *
-        muscle::hill_force(activation(i, 0),
-                           trial.length_m(i, 0) - study.truth[0].tendon_slack_length_m,
-                           trial.velocity_mps(i, 0), study.truth[0]);
+        trial.moment_arm_m(i, 0) * muscle::hill_force(activation(i, 0),
+                                                      trial.length_m(i, 0) - study.truth[0].tendon_slack_length_m,
+                                                      trial.velocity_mps(i, 0), study.truth[0]);
   }
-  const IdentificationResult result =
-      identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
+  const IdentificationResult result = identify_torque(study.data, {.priors = false, .weights = false, .starts = 1});
   const ParameterEstimate& shortening = find(result, "BIC", "concentric_curvature");
   EXPECT_EQ(shortening.verdict, Verdict::not_identifiable);
   EXPECT_EQ(shortening.estimate, shortening.initial);
@@ -248,8 +229,7 @@ TEST(IdentifyTorque, ATrialOnlyInLengtheningSaysNothingAboutShortening) {
 TEST(IdentifyTorque, AGainOfTheEmgIsInheritedByTheForceAndWidensItsInterval) {
   const ElbowStudy study = elbow_study({.torque_sd_nm = 0.5, .with_priors = true});
   const IdentificationResult sure = identify_torque(study.data, {.starts = 1});
-  const IdentificationResult unsure =
-      identify_torque(study.data, {.gain_prior_sd = {{"BIC", 0.15}}, .starts = 1});
+  const IdentificationResult unsure = identify_torque(study.data, {.gain_prior_sd = {{"BIC", 0.15}}, .starts = 1});
   EXPECT_GT(*find(unsure, "BIC", "max_isometric_force").std_error,
             1.5 * *find(sure, "BIC", "max_isometric_force").std_error);
   EXPECT_NEAR(*find(unsure, "TRI", "max_isometric_force").std_error,
@@ -270,9 +250,8 @@ TEST(IdentifyTorque, OneUnknownOfSeveralMusclesHasOneVerdict) {
       for (Eigen::Index k = 0; k < 4; ++k) {
         const auto& truth = study.truth[static_cast<std::size_t>(k)];
         trial.torque_nm[i] +=
-            trial.moment_arm_m(i, k) *
-            muscle::hill_force(a(i, k), trial.length_m(i, k) - truth.tendon_slack_length_m,
-                               trial.velocity_mps(i, k), truth);
+            trial.moment_arm_m(i, k) * muscle::hill_force(a(i, k), trial.length_m(i, k) - truth.tendon_slack_length_m,
+                                                          trial.velocity_mps(i, k), truth);
       }
     }
     trial.torque_nm += 0.2 * noise.band(trial.torque_nm.size(), 6.0, 100.0);
@@ -281,8 +260,7 @@ TEST(IdentifyTorque, OneUnknownOfSeveralMusclesHasOneVerdict) {
   const IdentificationResult apart = identify_torque(study.data, options);
   EXPECT_EQ(find(apart, "BRA", "optimal_fiber_length").verdict, Verdict::weak);
   EXPECT_EQ(find(apart, "TRI", "optimal_fiber_length").verdict, Verdict::identified);
-  study.data.rules.push_back(
-      {.parameter = "optimal_fiber_length", .owners = {"BRA", "TRI"}, .tie = true});
+  study.data.rules.push_back({.parameter = "optimal_fiber_length", .owners = {"BRA", "TRI"}, .tie = true});
   const IdentificationResult tied = identify_torque(study.data, options);
   for (const char* muscle : {"BRA", "TRI"}) {
     const ParameterEstimate& e = find(tied, muscle, "optimal_fiber_length");
@@ -309,9 +287,8 @@ TEST(IdentifyTorque, HowFarAMuscleLeftTheLiteratureIsSaidOfItAlone) {
   EXPECT_NE(e.reason.find("standard deviations"), std::string::npos) << e.reason;
   EXPECT_GT(*e.prior_distance, 3.0);
   EXPECT_LE(*e.prior_distance, far.prior_distances[0].farthest_distance);
-  EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(), [](const std::string& w) {
-    return w.find("BIC has left what is known") == 0;
-  }));
+  EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(),
+                          [](const std::string& w) { return w.find("BIC has left what is known") == 0; }));
 }
 
 TEST(IdentifyTorque, AWidthThatNoMuscleHasIsSoughtOnlyWithoutPriors) {
@@ -330,8 +307,7 @@ TEST(IdentifyTorque, AWidthThatNoMuscleHasIsSoughtOnlyWithoutPriors) {
   const ParameterEstimate& length = find(usual, "BIC", "optimal_fiber_length");
   EXPECT_EQ(length.verdict, Verdict::weak);
   EXPECT_NE(length.reason.find("leans on the bound"), std::string::npos) << length.reason;
-  const IdentificationResult free =
-      identify_torque(study.data, {.priors = false, .weights = false});
+  const IdentificationResult free = identify_torque(study.data, {.priors = false, .weights = false});
   EXPECT_NEAR(find(free, "BIC", "force_length_width").estimate, width_m, 1e-6 * width_m);
   // Data without noise are asked without priors first: the values come back whatever they are.
   const IdentificationResult exact = identify_torque_or_exact(study.data, {}, {});
@@ -342,13 +318,11 @@ TEST(IdentifyTorque, HeldParametersStayAndOthersTakeTheirBounds) {
   ElbowStudy study = elbow_study({.trials = 2, .seconds = 10.0});
   study.data.muscles[1].fixed = {"concentric_curvature", "force_length_width"};
   study.data.muscles[2].bounds["optimal_fiber_length"] = {0.165, 0.175};
-  const IdentificationResult result = identify_torque(
-      study.data, {.muscles = {"BRA", "BRD"}, .priors = false, .delay_s = 0.05, .weights = false});
+  const IdentificationResult result =
+      identify_torque(study.data, {.muscles = {"BRA", "BRD"}, .priors = false, .delay_s = 0.05, .weights = false});
   EXPECT_EQ(result.estimates.size(), 4U + 6U);
-  EXPECT_EQ(result.muscles[0].max_isometric_force_n,
-            study.data.muscles[0].start.max_isometric_force_n);
-  EXPECT_EQ(result.muscles[1].concentric_curvature,
-            study.data.muscles[1].start.concentric_curvature);
+  EXPECT_EQ(result.muscles[0].max_isometric_force_n, study.data.muscles[0].start.max_isometric_force_n);
+  EXPECT_EQ(result.muscles[1].concentric_curvature, study.data.muscles[1].start.concentric_curvature);
   EXPECT_GE(result.muscles[2].optimal_fiber_length_m, 0.165);
   EXPECT_LE(result.muscles[2].optimal_fiber_length_m, 0.175);
   EXPECT_EQ(result.delay_s, 0.05);
@@ -389,8 +363,7 @@ TEST(IdentifyTorqueOrExact, FreesTheSpeedOnlyIfTheDataAreMetOnlyThen) {
   ASSERT_TRUE(freed_speed.exact);
   EXPECT_EQ(freed_speed.solution.size(), 29);
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(freed_speed.muscles[k].max_shortening_speed_mps,
-                study.truth[k].max_shortening_speed_mps,
+    EXPECT_NEAR(freed_speed.muscles[k].max_shortening_speed_mps, study.truth[k].max_shortening_speed_mps,
                 1e-6 * study.truth[k].max_shortening_speed_mps);
 }
 
@@ -402,8 +375,8 @@ ElbowStudy at_one_angle(ElbowStudy study) {
     trial.length_m = study.data.trials[0].length_m.row(0).replicate(n, 1).eval();
     trial.moment_arm_m = study.data.trials[0].moment_arm_m.row(0).replicate(n, 1).eval();
     trial.velocity_mps.setZero();
-    trial.torque_nm = predict(study.data, trial, study.truth, study.delay_s).torque_nm +
-                      0.5 * noise.band(n, 6.0, 100.0);
+    trial.torque_nm =
+        predict(study.data, trial, study.truth, study.delay_s).torque_nm + 0.5 * noise.band(n, 6.0, 100.0);
   }
   return study;
 }
@@ -411,18 +384,15 @@ ElbowStudy at_one_angle(ElbowStudy study) {
 TEST(IdentifyTorque, OneJointAngleTellsNothingOfTheForceLengthCurve) {
   int judged = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const ElbowStudy study = at_one_angle(
-        elbow_study({.seconds = 10.0, .emg_cv = 0.05, .with_priors = true, .seed = seed}));
+    const ElbowStudy study =
+        at_one_angle(elbow_study({.seconds = 10.0, .emg_cv = 0.05, .with_priors = true, .seed = seed}));
     for (const bool priors : {true, false}) {
-      const IdentificationResult result =
-          identify_torque(study.data, {.priors = priors, .starts = 1});
+      const IdentificationResult result = identify_torque(study.data, {.priors = priors, .starts = 1});
       for (const ParameterEstimate& e : result.estimates) {
         if (e.parameter != "optimal_fiber_length" && e.parameter != "force_length_width") continue;
         ++judged;
-        const bool silent = e.verdict == Verdict::not_identifiable ||
-                            (priors && e.verdict == Verdict::prior_dominated);
-        EXPECT_TRUE(silent) << e.muscle << " " << e.parameter << ": " << name(e.verdict) << ", "
-                            << e.reason;
+        const bool silent = e.verdict == Verdict::not_identifiable || (priors && e.verdict == Verdict::prior_dominated);
+        EXPECT_TRUE(silent) << e.muscle << " " << e.parameter << ": " << name(e.verdict) << ", " << e.reason;
       }
     }
   }

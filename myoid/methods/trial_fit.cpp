@@ -15,8 +15,7 @@ TrialFit unfitted_trial(const TrialData& trial) {
 void add_torques_of_forces(const TrialData& trial, TrialFit& fit) {
   if (trial.moment_arm_m.rows() != trial.time_s.size()) return;
   const Eigen::VectorXd resting = resting_torque_nm(trial);
-  fit.literature_torque_nm =
-      trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
+  fit.literature_torque_nm = trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
   fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
 }
 

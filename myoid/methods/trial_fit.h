@@ -5,8 +5,7 @@
 
 namespace myoid::identification {
 
-/// Returns a fit's entry for a trial that holds only the trial's own facts: name, joint, time and
-/// measured torque.
+/// Returns a fit's entry for a trial that holds only the trial's own facts: name, joint, time and measured torque.
 [[nodiscard]] TrialFit unfitted_trial(const TrialData& trial);
 
 /// Fills both torques of `fit` from its muscle forces: sum over muscles of r F plus the joint's

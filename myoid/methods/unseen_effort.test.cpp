@@ -18,8 +18,7 @@ TrialData efforts(bool calibration, double flexor, double extensor) {
     if (clock[i] >= 1.0 && clock[i] <= 3.0) a.row(i) << flexor, extensor;
   }
   a(10, 0) = 50.0;  // ahead of the trial
-  t.activation =
-      TimeSeries(clock, {{"F", Unit::dimensionless}, {"E", Unit::dimensionless}}, std::move(a));
+  t.activation = TimeSeries(clock, {{"F", Unit::dimensionless}, {"E", Unit::dimensionless}}, std::move(a));
   return t;
 }
 
@@ -33,15 +32,14 @@ StudyData study_of(std::vector<TrialData> trials) {
 }
 
 TEST(UnseenEffort, IsTheChannelThatWorksHardestBeyondWhatWasFitted) {
-  const UnseenEffort found = unseen_effort(
-      study_of({efforts(true, 0.2, 0.4), efforts(true, 0.1, 0.5), efforts(false, 0.3, 1.0)}));
+  const UnseenEffort found =
+      unseen_effort(study_of({efforts(true, 0.2, 0.4), efforts(true, 0.1, 0.5), efforts(false, 0.3, 1.0)}));
   EXPECT_EQ(found.channel, "E");
   EXPECT_NEAR(found.ratio, 2.0, 1e-12);
 }
 
 TEST(UnseenEffort, IsNoneWhereTheFitSawGreaterEfforts) {
-  const UnseenEffort found =
-      unseen_effort(study_of({efforts(true, 0.8, 0.9), efforts(false, 0.3, 0.4)}));
+  const UnseenEffort found = unseen_effort(study_of({efforts(true, 0.8, 0.9), efforts(false, 0.3, 0.4)}));
   EXPECT_EQ(found.channel, "");
   EXPECT_EQ(found.ratio, 1.0);
 }

@@ -31,8 +31,7 @@ struct Rod {
 
 /// Returns the derivatives by c of f(tau(e)), where e = 1 - c: the chain rule with de/dc = -1.
 Curve chained(const Curve& outer, const Curve& tau) {
-  return {outer.value, -outer.first * tau.first,
-          outer.second * tau.first * tau.first + outer.first * tau.second};
+  return {outer.value, -outer.first * tau.first, outer.second * tau.first * tau.first + outer.first * tau.second};
 }
 
 /// Converts derivatives by theta to derivatives by c = cos(theta).
@@ -44,8 +43,7 @@ Rod rod_at(double c, double s) {
   const double theta = std::atan2(s, c);
   if (theta < 0.1) {
     // arccos(1 - e)^2 = 2 sum (2e)^n / (n^2 C(2n, n))
-    constexpr std::array<double, 7> kTau{0.0,        2.0,           1.0 / 3.0,   4.0 / 45.0,
-                                         1.0 / 35.0, 16.0 / 1575.0, 8.0 / 2079.0};
+    constexpr std::array<double, 7> kTau{0.0, 2.0, 1.0 / 3.0, 4.0 / 45.0, 1.0 / 35.0, 16.0 / 1575.0, 8.0 / 2079.0};
     constexpr std::array<double, 6> kAlong{1.0,           -1.0 / 6.0,     1.0 / 120.0,
                                            -1.0 / 5040.0, 1.0 / 362880.0, -1.0 / 39916800.0};
     constexpr std::array<double, 6> kAcross{
@@ -75,8 +73,8 @@ Vec3 bent_rod_end(double length_m, const Vec3& u) {
 Vec3 bent_rod_velocity(double length_m, const Vec3& u, const Vec3& du) {
   const Rod rod = rod_along(u);
   const double dc = du.y();
-  return length_m * (rod.across.first * dc * across_y(u) + rod.across.value * across_y(du) +
-                     rod.along.first * dc * Vec3::UnitY());
+  return length_m *
+         (rod.across.first * dc * across_y(u) + rod.across.value * across_y(du) + rod.along.first * dc * Vec3::UnitY());
 }
 
 Vec3 bent_rod_acceleration(double length_m, const Vec3& u, const Vec3& du, const Vec3& ddu) {

@@ -14,8 +14,7 @@ using test::random_vector;
 // over 2e-5 s miss by the third derivative (some 1e3) times 1e-10, and by round-off of 1e-11.
 void expect_accelerations_are_rates_of_velocities(const BodyModel& m) {
   test::Uniform u(21);
-  const Eigen::VectorXd q = random_vector(12, u), qdot = 2.0 * random_vector(12, u),
-                        qddot = 5.0 * random_vector(12, u);
+  const Eigen::VectorXd q = random_vector(12, u), qdot = 2.0 * random_vector(12, u), qddot = 5.0 * random_vector(12, u);
   const Vec3 p_BP(0.1, -0.2, 0.3);
   BodyState state = make_state(m);
   compute_poses(m, q, state);
@@ -37,14 +36,11 @@ void expect_accelerations_are_rates_of_velocities(const BodyModel& m) {
     const Vec3 alpha = (after.w_GB[b] - before.w_GB[b]) / (2.0 * h);
     const Vec3 a = (speed(after, b) - speed(before, b)) / (2.0 * h);
     EXPECT_LT((acceleration.alpha_GB[b] - alpha).norm(), 1e-6) << b;
-    EXPECT_LT((acceleration.of_station(state, static_cast<BodyIndex>(b), p_BP) - a).norm(), 1e-6)
-        << b;
+    EXPECT_LT((acceleration.of_station(state, static_cast<BodyIndex>(b), p_BP) - a).norm(), 1e-6) << b;
   }
 }
 
-TEST(BodyAccelerations, AreTheRatesOfTheVelocities) {
-  expect_accelerations_are_rates_of_velocities(crooked_tree(1));
-}
+TEST(BodyAccelerations, AreTheRatesOfTheVelocities) { expect_accelerations_are_rates_of_velocities(crooked_tree(1)); }
 
 TEST(BodyAccelerations, AreSoWhereAxesShareCoordinates) {
   expect_accelerations_are_rates_of_velocities(crooked_tree(1, true));

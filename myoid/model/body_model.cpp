@@ -40,8 +40,7 @@ void check_index(int index, std::size_t size, std::string_view what) {
 
 void check_references(const BodyModel& model) {
   for (const Joint& joint : model.joints) {
-    check_index(joint.parent, model.bodies.size(),
-                fmt::format("joint '{}': its parent", joint.name));
+    check_index(joint.parent, model.bodies.size(), fmt::format("joint '{}': its parent", joint.name));
     check_index(joint.child, model.bodies.size(), fmt::format("joint '{}': its child", joint.name));
     for (const int c : joint.coordinates) {
       check_index(c, model.coordinates.size(), fmt::format("joint '{}': a coordinate", joint.name));
@@ -49,8 +48,7 @@ void check_references(const BodyModel& model) {
     for (const auto* axes : {&joint.rotation, &joint.translation}) {
       for (const TransformAxis& axis : *axes) {
         if (axis.coordinate >= 0) {
-          check_index(axis.coordinate, model.coordinates.size(),
-                      fmt::format("joint '{}': an axis", joint.name));
+          check_index(axis.coordinate, model.coordinates.size(), fmt::format("joint '{}': an axis", joint.name));
         }
       }
     }
@@ -65,28 +63,23 @@ void check_references(const BodyModel& model) {
       return;
     }
     if (path.points.size() < 2) {
-      throw ModelError(fmt::format("muscle '{}' has {} path points; at least two are needed", owner,
-                                   path.points.size()));
+      throw ModelError(
+          fmt::format("muscle '{}' has {} path points; at least two are needed", owner, path.points.size()));
     }
     for (const PathPoint& point : path.points) {
-      check_index(point.body, model.bodies.size(),
-                  fmt::format("muscle '{}', point '{}'", owner, point.name));
+      check_index(point.body, model.bodies.size(), fmt::format("muscle '{}', point '{}'", owner, point.name));
     }
     for (const PathWrap& wrap : path.wraps) {
-      check_index(wrap.wrap_object, model.wrap_objects.size(),
-                  fmt::format("muscle '{}': a wrap", owner));
+      check_index(wrap.wrap_object, model.wrap_objects.size(), fmt::format("muscle '{}': a wrap", owner));
     }
   };
   for (const Muscle& muscle : model.muscles) check_path(muscle.name, muscle.path);
-  for (const PathActuator& actuator : model.path_actuators)
-    check_path(actuator.name, actuator.path);
+  for (const PathActuator& actuator : model.path_actuators) check_path(actuator.name, actuator.path);
 }
 
 }  // namespace
 
-std::optional<int> BodyModel::find_body(std::string_view n) const {
-  return find_by_name(bodies, n);
-}
+std::optional<int> BodyModel::find_body(std::string_view n) const { return find_by_name(bodies, n); }
 std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
   if (const auto found = find_by_name(coordinates, n)) return found;
   const std::size_t slash = n.rfind('/');
@@ -94,8 +87,7 @@ std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
   // In a path, the joint stands before the coordinate.
   const std::string_view last = n.substr(slash + 1);
   std::string_view owner = n.substr(0, slash);
-  if (const std::size_t s = owner.rfind('/'); s != std::string_view::npos)
-    owner.remove_prefix(s + 1);
+  if (const std::size_t s = owner.rfind('/'); s != std::string_view::npos) owner.remove_prefix(s + 1);
   const std::string own_name = fmt::format("{}_{}", owner, last);
   for (const Joint& joint : joints) {
     if (joint.name != owner) continue;
@@ -106,18 +98,10 @@ std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
   }
   return find_by_name(coordinates, last);
 }
-std::optional<int> BodyModel::find_marker(std::string_view n) const {
-  return find_by_name(markers, n);
-}
-std::optional<int> BodyModel::find_muscle(std::string_view n) const {
-  return find_by_name(muscles, n);
-}
-int BodyModel::coordinate_index(std::string_view n) const {
-  return index_by_name(coordinates, n, "coordinate");
-}
-int BodyModel::muscle_index(std::string_view n) const {
-  return index_by_name(muscles, n, "muscle");
-}
+std::optional<int> BodyModel::find_marker(std::string_view n) const { return find_by_name(markers, n); }
+std::optional<int> BodyModel::find_muscle(std::string_view n) const { return find_by_name(muscles, n); }
+int BodyModel::coordinate_index(std::string_view n) const { return index_by_name(coordinates, n, "coordinate"); }
+int BodyModel::muscle_index(std::string_view n) const { return index_by_name(muscles, n, "muscle"); }
 
 bool BodyModel::is_constrained(int coordinate) const {
   const Coordinate& c = coordinates[static_cast<std::size_t>(coordinate)];
@@ -132,12 +116,10 @@ bool BodyModel::is_constrained(int coordinate) const {
 
 Eigen::VectorXd BodyModel::default_q() const {
   Eigen::VectorXd q(static_cast<Eigen::Index>(coordinates.size()));
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
-    q[static_cast<Eigen::Index>(i)] = coordinates[i].default_value;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) q[static_cast<Eigen::Index>(i)] = coordinates[i].default_value;
   // A coupler's independent coordinate may itself depend on another.
   for (std::size_t round = 0; round < couplers.size(); ++round) {
-    for (const CoordinateCoupler& c : couplers)
-      q[c.dependent] = evaluate(c.function, q[c.independent]).value;
+    for (const CoordinateCoupler& c : couplers) q[c.dependent] = evaluate(c.function, q[c.independent]).value;
   }
   return q;
 }
@@ -152,10 +134,8 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
   model.bodies.push_back(copy);
   const auto index = static_cast<BodyIndex>(model.bodies.size()) - 1;
   model.constraints.push_back(
-      {fmt::format("{}_loop_{}", model.bodies[static_cast<std::size_t>(b)].name, number),
-       "WeldConstraint",
-       FrameConstraint{
-           .body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
+      {fmt::format("{}_loop_{}", model.bodies[static_cast<std::size_t>(b)].name, number), "WeldConstraint",
+       FrameConstraint{.body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
   return index;
 }
 
@@ -170,9 +150,7 @@ std::vector<std::size_t> tree_order(const BodyModel& model) {
   std::vector<std::vector<std::size_t>> bodies_at{{0}};  // by their level
   std::vector<bool> used(model.joints.size(), false);
   std::vector<std::size_t> ordered;
-  const auto child_of = [&](std::size_t j) {
-    return static_cast<std::size_t>(model.joints[j].child);
-  };
+  const auto child_of = [&](std::size_t j) { return static_cast<std::size_t>(model.joints[j].child); };
   const auto place = [&](std::size_t j) {
     used[j] = true;
     const int below = level[static_cast<std::size_t>(model.joints[j].parent)] + 1;
@@ -204,16 +182,14 @@ std::vector<std::size_t> tree_order(const BodyModel& model) {
   return ordered;
 }
 
-/// Cuts loops: if another joint has placed the child of a joint, this joint gets a copy of the
-/// child.
+/// Cuts loops: if another joint has placed the child of a joint, this joint gets a copy of the child.
 void cut_loops(BodyModel& model) {
   const std::vector<std::size_t> placed = tree_order(model);
   std::vector<bool> in_tree(model.joints.size(), false);
   std::vector<int> copies(model.bodies.size(), 1);
   for (const std::size_t j : placed) in_tree[j] = true;
   std::vector<bool> has_joint(model.bodies.size(), false);
-  for (const std::size_t j : placed)
-    has_joint[static_cast<std::size_t>(model.joints[j].child)] = true;
+  for (const std::size_t j : placed) has_joint[static_cast<std::size_t>(model.joints[j].child)] = true;
   const std::size_t bodies = model.bodies.size();
   std::vector<std::size_t> cut;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -221,8 +197,7 @@ void cut_loops(BodyModel& model) {
     if (in_tree[j] || (child != 0 && !has_joint[child])) continue;
     if (child == 0) {
       throw ModelError(
-          fmt::format("joint '{}' has ground as its child; expected ground as the parent",
-                      model.joints[j].name));
+          fmt::format("joint '{}' has ground as its child; expected ground as the parent", model.joints[j].name));
     }
     ++copies[child];
     cut.push_back(j);
@@ -234,8 +209,8 @@ void cut_loops(BodyModel& model) {
   for (const std::size_t j : cut) {
     Joint& joint = model.joints[j];
     joint.child = add_copy(model, joint.child, static_cast<int>(model.bodies.size()));
-    model.notes.push_back(fmt::format(
-        "joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
+    model.notes.push_back(
+        fmt::format("joint '{}' closes a loop: it is cut there and held by a weld constraint", joint.name));
   }
 }
 
@@ -245,11 +220,11 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
     for (const Joint& joint : ordered) has_joint[static_cast<std::size_t>(joint.child)] = true;
     for (const Joint& joint : model.joints) {
       if (!has_joint[static_cast<std::size_t>(joint.child)]) {
-        throw ModelError(fmt::format(
-            "body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs "
-            "on it or on nothing",
-            model.bodies[static_cast<std::size_t>(joint.child)].name, joint.name,
-            model.bodies[static_cast<std::size_t>(joint.parent)].name));
+        throw ModelError(
+            fmt::format("body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs "
+                        "on it or on nothing",
+                        model.bodies[static_cast<std::size_t>(joint.child)].name, joint.name,
+                        model.bodies[static_cast<std::size_t>(joint.parent)].name));
       }
     }
   }
@@ -258,8 +233,7 @@ void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
   for (const Joint& joint : ordered) placed[static_cast<std::size_t>(joint.child)] = true;
   for (std::size_t b = 0; b < placed.size(); ++b) {
     if (!placed[b]) {
-      throw ModelError(
-          fmt::format("body '{}' is not connected to ground by joints", model.bodies[b].name));
+      throw ModelError(fmt::format("body '{}' is not connected to ground by joints", model.bodies[b].name));
     }
   }
 }

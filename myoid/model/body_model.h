@@ -79,8 +79,7 @@ struct Marker {
   Vec3 p_BM = Vec3::Zero();  ///< [m]
 };
 
-/// q_dependent = function(q_independent) (CoordinateCouplerConstraint; its scale is in the
-/// function).
+/// q_dependent = function(q_independent) (CoordinateCouplerConstraint; its scale is in the function).
 struct CoordinateCoupler {
   std::string name;
   int dependent = -1;
@@ -108,8 +107,7 @@ struct LineConstraint {
   Vec3 direction = Vec3::UnitX(), p_B1 = Vec3::Zero(), p_B2 = Vec3::Zero();
 };
 
-/// q_dependent = function(independent coordinates): a CoordinateCouplerConstraint with several
-/// independent coordinates.
+/// q_dependent = function(independent coordinates): a CoordinateCouplerConstraint with several independent coordinates.
 struct FunctionConstraint {
   int dependent = -1;
   std::vector<int> independent{};

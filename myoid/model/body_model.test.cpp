@@ -91,8 +91,7 @@ TEST(Finalize, TakesALongChainInAnyOrderAsFastAsAShortOneABody) {
     m.joints.push_back(joint);
   }
   const BodyModel chain = finalize(std::move(m));
-  for (int j = 0; j < count; ++j)
-    ASSERT_EQ(chain.joints[static_cast<std::size_t>(j)].child, j + 1) << "level by level";
+  for (int j = 0; j < count; ++j) ASSERT_EQ(chain.joints[static_cast<std::size_t>(j)].child, j + 1) << "level by level";
 }
 
 }  // namespace

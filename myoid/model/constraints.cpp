@@ -14,8 +14,7 @@ namespace myoid::model {
 namespace {
 
 Eigen::Index rows_of(const LoopConstraint& constraint) {
-  if (const auto* frame = std::get_if<FrameConstraint>(&constraint.law))
-    return frame->rotation_too ? 6 : 3;
+  if (const auto* frame = std::get_if<FrameConstraint>(&constraint.law)) return frame->rotation_too ? 6 : 3;
   return std::holds_alternative<LineConstraint>(constraint.law) ? 2 : 1;
 }
 
@@ -27,8 +26,7 @@ Eigen::Index loop_rows(const BodyModel& model) {
 
 /// Returns the angular velocity of a body per rate of each coordinate: 3 x nq.
 Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body) {
-  Eigen::Matrix3Xd J =
-      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
   for (BodyIndex b = body; b != 0;) {
     const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
     for (const int c : joint.coordinates) J.col(c) = state.H_w_G[at(c)];
@@ -39,8 +37,7 @@ Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state
 
 MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::VectorXd& q) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(f.independent.size()));
-  for (std::size_t k = 0; k < f.independent.size(); ++k)
-    x[static_cast<Eigen::Index>(k)] = q[f.independent[k]];
+  for (std::size_t k = 0; k < f.independent.size(); ++k) x[static_cast<Eigen::Index>(k)] = q[f.independent[k]];
   return evaluate(f.function, x);
 }
 
@@ -54,8 +51,7 @@ void evaluate_loops(const BodyModel& model,
   if (jacobian != nullptr) jacobian->resize(errors.size(), count);
   Eigen::Index row = 0;
   const auto relative = [&](BodyIndex b1, const Vec3& p1, BodyIndex b2, const Vec3& p2) {
-    return Eigen::Matrix3Xd(station_jacobian(model, state, b2, p2) -
-                            station_jacobian(model, state, b1, p1));
+    return Eigen::Matrix3Xd(station_jacobian(model, state, b2, p2) - station_jacobian(model, state, b1, p1));
   };
   for (const LoopConstraint& constraint : model.constraints) {
     if (const auto* f = std::get_if<FrameConstraint>(&constraint.law)) {
@@ -79,8 +75,7 @@ void evaluate_loops(const BodyModel& model,
       const Vec3 between = state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
       errors[row] = between.norm() - d->distance_m;
       if (jacobian != nullptr) {
-        jacobian->row(row) =
-            between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
+        jacobian->row(row) = between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
       }
     } else if (const auto* coupled = std::get_if<FunctionConstraint>(&constraint.law)) {
       const MultiPolynomialValue v = function_value(*coupled, state.q);
@@ -102,8 +97,7 @@ void evaluate_loops(const BodyModel& model,
         const Vec3 u_G = X_GB1.R * directions[static_cast<std::size_t>(k)];
         errors[row + k] = directions[static_cast<std::size_t>(k)].dot(p_B1 - line.p_B1);
         if (jacobian != nullptr) {
-          jacobian->row(row + k) =
-              u_G.transpose() * relative(line.body1, p_B1, line.body2, line.p_B2);
+          jacobian->row(row + k) = u_G.transpose() * relative(line.body1, p_B1, line.body2, line.p_B2);
         }
       }
     }
@@ -161,8 +155,7 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
   }
   const auto n = static_cast<Eigen::Index>(involved.size());
   Eigen::MatrixXd reduced(A.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < n; ++k) reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::MatrixXd rows = reduced;
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -178,8 +171,7 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
     const Eigen::Index c = involved[static_cast<std::size_t>(k)];
     C.col(c).setZero();
     if (!(std::abs(rates[k]) > 1e-12)) continue;
-    for (Eigen::Index j = 0; j < n; ++j)
-      C(involved[static_cast<std::size_t>(j)], c) = rates[j] / rates[k];
+    for (Eigen::Index j = 0; j < n; ++j) C(involved[static_cast<std::size_t>(j)], c) = rates[j] / rates[k];
   }
   return C;
 }
@@ -197,9 +189,7 @@ Movable movable(const BodyModel& model) {
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const Coordinate& k = model.coordinates[c];
     if (k.locked || k.prescribed) continue;
-    const auto depends = [&](const CoordinateCoupler& o) {
-      return o.dependent == static_cast<int>(c);
-    };
+    const auto depends = [&](const CoordinateCoupler& o) { return o.dependent == static_cast<int>(c); };
     if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
     free.coordinate.push_back(static_cast<Eigen::Index>(c));
     free.loose.conservativeResize(free.loose.size() + 1);
@@ -209,9 +199,7 @@ Movable movable(const BodyModel& model) {
 }
 
 /// Returns the step from q to the desired posture, in scaled coordinates.
-Eigen::VectorXd way_to(const Movable& free,
-                       const Eigen::VectorXd& wished,
-                       const Eigen::VectorXd& q) {
+Eigen::VectorXd way_to(const Movable& free, const Eigen::VectorXd& wished, const Eigen::VectorXd& q) {
   Eigen::VectorXd way(free.loose.size());
   for (Eigen::Index k = 0; k < way.size(); ++k) {
     const Eigen::Index c = free.coordinate[static_cast<std::size_t>(k)];
@@ -238,12 +226,10 @@ AssemblyResult approach(const BodyModel& model,
     if (n == 0) break;
     // Dependent coordinates follow: dq = T dq_free.
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(result.q.size(), n);
-    for (Eigen::Index k = 0; k < n; ++k)
-      T(free.coordinate[static_cast<std::size_t>(k)], k) = free.loose[k];
+    for (Eigen::Index k = 0; k < n; ++k) T(free.coordinate[static_cast<std::size_t>(k)], k) = free.loose[k];
     for (std::size_t round = 0; round < model.couplers.size(); ++round) {
       for (const CoordinateCoupler& c : model.couplers)
-        T.row(c.dependent) =
-            evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
+        T.row(c.dependent) = evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
     }
     const Eigen::MatrixXd A = J * T;
     const Eigen::VectorXd back = way_to(free, wished, result.q);
@@ -262,9 +248,7 @@ AssemblyResult approach(const BodyModel& model,
 
 }  // namespace
 
-AssemblyResult assemble(const BodyModel& model,
-                        const Eigen::Ref<const Eigen::VectorXd>& q,
-                        double accuracy) {
+AssemblyResult assemble(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, double accuracy) {
   AssemblyResult result{q, 0.0, true};
   apply_couplers(model, result.q);
   if (model.constraints.empty()) return result;

@@ -19,12 +19,11 @@ void apply_couplers(const BodyModel& model, Eigen::VectorXd& q);
 /// qdot obey the constraints if A qdot = 0. `compute_poses` must have been called.
 [[nodiscard]] Eigen::MatrixXd constraint_jacobian(const BodyModel& model, const BodyState& state);
 
-/// Returns C, whose column c holds the rates of all coordinates when coordinate c moves at rate 1,
-/// the constraints hold and the other coordinates move as little as possible. Other locked
-/// coordinates stay; c counts as unlocked. A coordinate that the constraints fix has a column of
-/// zeros. Without constraints C is the unit matrix. The moment arms that OpenSim reports are C^T r,
-/// with the arms r by every coordinate alone (muscle_path.h). `compute_poses` must have been
-/// called.
+/// Returns C, whose column c holds the rates of all coordinates when coordinate c moves at rate 1, the constraints hold
+/// and the other coordinates move as little as possible. Other locked coordinates stay; c counts as unlocked. A
+/// coordinate that the constraints fix has a column of zeros. Without constraints C is the unit matrix. The moment arms
+/// that OpenSim reports are C^T r, with the arms r by every coordinate alone (muscle_path.h). `compute_poses` must have
+/// been called.
 [[nodiscard]] Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state);
 
 struct AssemblyResult {
@@ -33,9 +32,8 @@ struct AssemblyResult {
   bool converged = false;
 };
 
-/// Returns the posture nearest to q (over the independent coordinates) that meets every constraint
-/// within `accuracy`; locked and prescribed coordinates keep their values in q. Couplers alone are
-/// met exactly.
+/// Returns the posture nearest to q (over the independent coordinates) that meets every constraint within `accuracy`;
+/// locked and prescribed coordinates keep their values in q. Couplers alone are met exactly.
 [[nodiscard]] AssemblyResult assemble(const BodyModel& model,
                                       const Eigen::Ref<const Eigen::VectorXd>& q,
                                       double accuracy = 1e-9);

@@ -23,21 +23,16 @@ struct Named {
 };
 
 constexpr Named kFunctions[] = {
-    {"sqrt", Operation::sqrt_, 1},     {"exp", Operation::exp_, 1},
-    {"log", Operation::log_, 1},       {"sin", Operation::sin_, 1},
-    {"cos", Operation::cos_, 1},       {"sec", Operation::sec_, 1},
-    {"csc", Operation::csc_, 1},       {"tan", Operation::tan_, 1},
-    {"cot", Operation::cot_, 1},       {"asin", Operation::asin_, 1},
-    {"acos", Operation::acos_, 1},     {"atan", Operation::atan_, 1},
-    {"sinh", Operation::sinh_, 1},     {"cosh", Operation::cosh_, 1},
-    {"tanh", Operation::tanh_, 1},     {"erf", Operation::erf_, 1},
-    {"erfc", Operation::erfc_, 1},     {"step", Operation::step_, 1},
-    {"delta", Operation::delta_, 1},   {"square", Operation::square_, 1},
-    {"cube", Operation::cube_, 1},     {"recip", Operation::recip_, 1},
-    {"abs", Operation::abs_, 1},       {"floor", Operation::floor_, 1},
-    {"ceil", Operation::ceil_, 1},     {"min", Operation::min_, 2},
-    {"max", Operation::max_, 2},       {"atan2", Operation::atan2_, 2},
-    {"select", Operation::select_, 3},
+    {"sqrt", Operation::sqrt_, 1},   {"exp", Operation::exp_, 1},       {"log", Operation::log_, 1},
+    {"sin", Operation::sin_, 1},     {"cos", Operation::cos_, 1},       {"sec", Operation::sec_, 1},
+    {"csc", Operation::csc_, 1},     {"tan", Operation::tan_, 1},       {"cot", Operation::cot_, 1},
+    {"asin", Operation::asin_, 1},   {"acos", Operation::acos_, 1},     {"atan", Operation::atan_, 1},
+    {"sinh", Operation::sinh_, 1},   {"cosh", Operation::cosh_, 1},     {"tanh", Operation::tanh_, 1},
+    {"erf", Operation::erf_, 1},     {"erfc", Operation::erfc_, 1},     {"step", Operation::step_, 1},
+    {"delta", Operation::delta_, 1}, {"square", Operation::square_, 1}, {"cube", Operation::cube_, 1},
+    {"recip", Operation::recip_, 1}, {"abs", Operation::abs_, 1},       {"floor", Operation::floor_, 1},
+    {"ceil", Operation::ceil_, 1},   {"min", Operation::min_, 2},       {"max", Operation::max_, 2},
+    {"atan2", Operation::atan2_, 2}, {"select", Operation::select_, 3},
 };
 
 /// Returns the number of values that the operation takes from the stack.
@@ -161,8 +156,7 @@ class ExpressionParser {
       if (begin == 0) {
         formula_ = {0, end};
       } else if (std::any_of(text.begin() + static_cast<std::ptrdiff_t>(begin),
-                             text.begin() + static_cast<std::ptrdiff_t>(end),
-                             [](char c) { return !is_blank(c); })) {
+                             text.begin() + static_cast<std::ptrdiff_t>(end), [](char c) { return !is_blank(c); })) {
         const std::size_t equal = text.find('=', begin);
         std::size_t name = begin;
         while (name < end && is_blank(text[name])) ++name;
@@ -276,31 +270,26 @@ class ExpressionParser {
       --depth_;
     } else if (is_digit(c) || c == '.') {
       double value = 0.0;
-      const auto [end, error] =
-          std::from_chars(text_.data() + part_.at, text_.data() + part_.end, value);
+      const auto [end, error] = std::from_chars(text_.data() + part_.at, text_.data() + part_.end, value);
       if (error != std::errc()) fail(begin, "expected a number");
       part_.at = static_cast<std::size_t>(end - text_.data());
       put(Operation::number, value);
     } else if (is_letter(c)) {
-      while (part_.at < part_.end && (is_letter(text_[part_.at]) || is_digit(text_[part_.at])))
-        ++part_.at;
+      while (part_.at < part_.end && (is_letter(text_[part_.at]) || is_digit(text_[part_.at]))) ++part_.at;
       name(text_.substr(begin, part_.at - begin), begin);
     } else {
-      fail(begin, c == '\0' ? "it ends where a value is expected"
-                            : fmt::format("'{}' is not expected", c));
+      fail(begin, c == '\0' ? "it ends where a value is expected" : fmt::format("'{}' is not expected", c));
     }
   }
 
   void name(std::string_view word, std::size_t begin) {
     if (take('(')) {
-      const auto* function = std::find_if(std::begin(kFunctions), std::end(kFunctions),
-                                          [&](const Named& f) { return f.name == word; });
-      if (function == std::end(kFunctions))
-        fail(begin, fmt::format("there is no function '{}'", word));
+      const auto* function =
+          std::find_if(std::begin(kFunctions), std::end(kFunctions), [&](const Named& f) { return f.name == word; });
+      if (function == std::end(kFunctions)) fail(begin, fmt::format("there is no function '{}'", word));
       for (int i = 0; i < function->arguments; ++i) {
         if (i > 0 && !take(',')) {
-          fail(part_.at,
-               fmt::format("'{}' takes {} values, expected a comma", word, function->arguments));
+          fail(part_.at, fmt::format("'{}' takes {} values, expected a comma", word, function->arguments));
         }
         if (++depth_ > kDeepest) fail(begin, "nested too deep");
         sum();
@@ -313,8 +302,7 @@ class ExpressionParser {
     if (const auto it = definitions_.find(word); it != definitions_.end()) return read(it->second);
     const auto variable = std::find(variables_.begin(), variables_.end(), word);
     if (variable == variables_.end()) {
-      fail(begin,
-           fmt::format("'{}' is neither defined nor one of {}", word, fmt::join(variables_, ", ")));
+      fail(begin, fmt::format("'{}' is neither defined nor one of {}", word, fmt::join(variables_, ", ")));
     }
     put(Operation::variable, 0.0, static_cast<std::size_t>(variable - variables_.begin()));
   }

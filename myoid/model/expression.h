@@ -8,11 +8,10 @@
 namespace myoid::model {
 
 /// A formula in named variables, as in OpenSim's expression-based forces: numbers, + - * / ^
-/// (^ first, from the right; then the sign, so that -x^2 is -(x^2)), parentheses, and the functions
-/// sqrt exp log sin cos sec csc tan cot asin acos atan sinh cosh tanh erf erfc step (0 below 0,
-/// else 1) delta (1 at 0, else 0) square cube recip abs floor ceil, min max atan2 of two and select
-/// of three (select(x, a, b): b where x is 0, else a). Definitions may follow: "k*y; y=d-0.2;
-/// k=50".
+/// (^ first, from the right; then the sign, so that -x^2 is -(x^2)), parentheses, and the functions sqrt exp log sin
+/// cos sec csc tan cot asin acos atan sinh cosh tanh erf erfc step (0 below 0, else 1) delta (1 at 0, else 0) square
+/// cube recip abs floor ceil, min max atan2 of two and select of three (select(x, a, b): b where x is 0, else a).
+/// Definitions may follow: "k*y; y=d-0.2; k=50".
 class Expression {
  public:
   /// Builds the formula 0.

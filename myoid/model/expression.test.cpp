@@ -33,9 +33,8 @@ TEST(Expression, VariablesAndFunctionsHaveTheirValues) {
   const double q = 0.3, u = -1.2;
   EXPECT_DOUBLE_EQ(value("-2*exp(4*(q-0.1))+0.5*exp(-3*(q+1.9))-0.1*qdot", {q, u}),
                    -2.0 * std::exp(4.0 * (q - 0.1)) + 0.5 * std::exp(-3.0 * (q + 1.9)) - 0.1 * u);
-  EXPECT_DOUBLE_EQ(
-      value("sqrt(q)+log(q)+sin(q)+cos(q)+tan(q)+abs(-q)+tanh(q)", {q, 0.0}),
-      std::sqrt(q) + std::log(q) + std::sin(q) + std::cos(q) + std::tan(q) + q + std::tanh(q));
+  EXPECT_DOUBLE_EQ(value("sqrt(q)+log(q)+sin(q)+cos(q)+tan(q)+abs(-q)+tanh(q)", {q, 0.0}),
+                   std::sqrt(q) + std::log(q) + std::sin(q) + std::cos(q) + std::tan(q) + q + std::tanh(q));
   EXPECT_EQ(value("min(q, 2) + 10*max(q, 2)", {3.0}), 32.0);
   EXPECT_EQ(value("step(q)", {0.0}), 1.0);
   EXPECT_EQ(value("step(q)", {-1e-9}), 0.0);
@@ -59,8 +58,7 @@ TEST(Expression, WhatIsNotUnderstoodIsNamed) {
     }
     return "no error";
   };
-  EXPECT_NE(message("2*knee").find("'knee' is neither defined nor one of q, qdot"),
-            std::string::npos);
+  EXPECT_NE(message("2*knee").find("'knee' is neither defined nor one of q, qdot"), std::string::npos);
   EXPECT_NE(message("foo(q)").find("no function 'foo'"), std::string::npos);
   EXPECT_NE(message("(1+2").find("expected )"), std::string::npos);
   EXPECT_NE(message("1+").find("it ends"), std::string::npos);
@@ -76,8 +74,7 @@ TEST(Expression, NeitherDepthNorLengthBringsItDown) {
   EXPECT_THROW((void)value(std::string(100000, '-') + "1"), InvalidInput);
   std::string doubling = "a0";
   for (int i = 0; i < 40; ++i)
-    doubling +=
-        ";a" + std::to_string(i) + "=a" + std::to_string(i + 1) + "+a" + std::to_string(i + 1);
+    doubling += ";a" + std::to_string(i) + "=a" + std::to_string(i + 1) + "+a" + std::to_string(i + 1);
   EXPECT_THROW((void)value(doubling + ";a40=1"), InvalidInput);
   std::string sum = "1";
   for (int i = 0; i < 5000; ++i) sum += "+1";

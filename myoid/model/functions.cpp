@@ -14,9 +14,7 @@ namespace {
 
 FunctionValue form_value(const Constant& f, double) { return {f.value, 0.0, 0.0}; }
 
-FunctionValue form_value(const Linear& f, double x) {
-  return {f.slope * x + f.intercept, f.slope, 0.0};
-}
+FunctionValue form_value(const Linear& f, double x) { return {f.slope * x + f.intercept, f.slope, 0.0}; }
 
 FunctionValue form_value(const Polynomial& f, double x) {
   FunctionValue v;
@@ -31,8 +29,7 @@ FunctionValue form_value(const Polynomial& f, double x) {
 /// Returns the interval that holds x, 0 .. n-2; the outer intervals extend to infinity.
 std::size_t interval(const std::vector<double>& knots, double x) {
   const auto upper = std::upper_bound(knots.begin(), knots.end(), x);
-  const auto index =
-      static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, upper - knots.begin() - 1));
+  const auto index = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, upper - knots.begin() - 1));
   return std::min(index, knots.size() - 2);
 }
 
@@ -48,8 +45,8 @@ FunctionValue form_value(const SimmSpline& f, double x) {
   if (x > f.x.back()) return {f.y[last] + f.b[last] * (x - f.x[last]), f.b[last], 0.0};
   const std::size_t i = interval(f.x, x);
   const double u = x - f.x[i];
-  return {f.y[i] + u * (f.b[i] + u * (f.c[i] + u * f.d[i])),
-          f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]), 2.0 * f.c[i] + 6.0 * u * f.d[i]};
+  return {f.y[i] + u * (f.b[i] + u * (f.c[i] + u * f.d[i])), f.b[i] + u * (2.0 * f.c[i] + 3.0 * u * f.d[i]),
+          2.0 * f.c[i] + 6.0 * u * f.d[i]};
 }
 
 FunctionValue form_value(const PiecewiseConstant& f, double x) {
@@ -93,13 +90,11 @@ FunctionValue form_value(const PiecewisePolynomial& f, double x) {
 void check_knots(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   if (n != y.size() || n < 2) {
-    throw InvalidInput(
-        fmt::format("spline function: {} x for {} y; at least two pairs are needed", n, y.size()));
+    throw InvalidInput(fmt::format("spline function: {} x for {} y; at least two pairs are needed", n, y.size()));
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0 && !(x[i] > x[i - 1])) {
-      throw InvalidInput(
-          fmt::format("spline function: x does not increase ({} after {})", x[i], x[i - 1]));
+      throw InvalidInput(fmt::format("spline function: x does not increase ({} after {})", x[i], x[i - 1]));
     }
     if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
       throw InvalidInput(fmt::format("spline function: ({}, {}) is not finite", x[i], y[i]));
@@ -143,10 +138,8 @@ SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y) {
       right[i] -= factor * right[i - 1];
     }
   }
-  for (std::size_t i = n - 1; i-- > 1;)
-    m[i] = (right[i] - (x[i + 1] - x[i]) * m[i + 1]) / diagonal[i];
-  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n),
-               std::vector<double>(n)};
+  for (std::size_t i = n - 1; i-- > 1;) m[i] = (right[i] - (x[i + 1] - x[i]) * m[i + 1]) / diagonal[i];
+  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double h = s.x[i + 1] - s.x[i];
     s.b[i] = (s.y[i + 1] - s.y[i]) / h - h * (2.0 * m[i] + m[i + 1]) / 6.0;
@@ -161,8 +154,7 @@ SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y) {
 SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
   check_knots(x, y);
   const std::size_t n = x.size();
-  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n),
-               std::vector<double>(n)};
+  SimmSpline s{std::move(x), std::move(y), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   auto& [xs, ys, b, c, d] = s;
   if (n == 2) {
     b[0] = b[1] = (ys[1] - ys[0]) / (xs[1] - xs[0]);
@@ -185,8 +177,7 @@ SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y) {
   c[last] = 0.0;
   if (n > 3) {
     const double at_start = c[2] / (xs[3] - xs[1]) - c[1] / (xs[2] - xs[0]);
-    const double at_end =
-        c[last - 1] / (xs[last] - xs[last - 2]) - c[last - 2] / (xs[last - 1] - xs[last - 3]);
+    const double at_end = c[last - 1] / (xs[last] - xs[last - 2]) - c[last - 2] / (xs[last - 1] - xs[last - 3]);
     c[0] = at_start * d[0] * d[0] / (xs[3] - xs[0]);
     c[last] = -at_end * d[last - 1] * d[last - 1] / (xs[last] - xs[last - 3]);
   }
@@ -268,8 +259,7 @@ PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::
 }
 
 FunctionValue evaluate(const Function& function, double x) {
-  FunctionValue v =
-      std::visit([x](const auto& form) { return form_value(form, x); }, function.form);
+  FunctionValue v = std::visit([x](const auto& form) { return form_value(form, x); }, function.form);
   v.value *= function.scale;
   v.first *= function.scale;
   v.second *= function.scale;

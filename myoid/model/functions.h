@@ -22,9 +22,8 @@ struct Polynomial {
 struct PiecewiseLinear {
   std::vector<double> x, y;
 };
-/// OpenSim's SimmSpline (also NaturalCubicSpline): cubic, third derivative at the ends from the
-/// four outer points, linear beyond. b, c, d are the cubic coefficients per knot, filled by
-/// `make_simm_spline`.
+/// OpenSim's SimmSpline (also NaturalCubicSpline): cubic, third derivative at the ends from the four outer points,
+/// linear beyond. b, c, d are the cubic coefficients per knot, filled by `make_simm_spline`.
 struct SimmSpline {
   std::vector<double> x, y, b, c, d;
 };
@@ -36,9 +35,8 @@ struct PiecewiseConstant {
 struct Sine {
   double amplitude = 1.0, omega = 1.0, phase = 0.0, offset = 0.0;
 };
-/// Polynomials between knots. Each column holds the coefficients of one interval by rising power of
-/// x - left knot; the first column is for x below the first knot (powers of x - first knot), the
-/// last for x above the last knot.
+/// Polynomials between knots. Each column holds the coefficients of one interval by rising power of x - left knot; the
+/// first column is for x below the first knot (powers of x - first knot), the last for x above the last knot.
 struct PiecewisePolynomial {
   std::vector<double> x;
   Eigen::MatrixXd coefficients;
@@ -63,27 +61,22 @@ struct Function {
   double scale = 1.0;
   Function() = default;
   template <typename Form>
-  Function(Form f, double s = 1.0)
-      : form(std::move(f)), scale(s) {}  // NOLINT(google-explicit-constructor)
+  Function(Form f, double s = 1.0) : form(std::move(f)), scale(s) {}  // NOLINT(google-explicit-constructor)
 };
 
 /// Throws InvalidInput if sizes differ, fewer than two knots, or x does not increase.
 [[nodiscard]] SimmSpline make_simm_spline(std::vector<double> x, std::vector<double> y);
 [[nodiscard]] PiecewiseLinear make_piecewise_linear(std::vector<double> x, std::vector<double> y);
-[[nodiscard]] PiecewiseConstant make_piecewise_constant(std::vector<double> x,
-                                                        std::vector<double> y);
-/// Returns the natural spline of degree 5 (OpenSim's GCVSpline of half order 3), a parabola beyond
-/// its ends.
-[[nodiscard]] math::Spline make_quintic_spline(const std::vector<double>& x,
-                                               const std::vector<double>& y);
+[[nodiscard]] PiecewiseConstant make_piecewise_constant(std::vector<double> x, std::vector<double> y);
+/// Returns the natural spline of degree 5 (OpenSim's GCVSpline of half order 3), a parabola beyond its ends.
+[[nodiscard]] math::Spline make_quintic_spline(const std::vector<double>& x, const std::vector<double>& y);
 /// Returns the natural cubic spline (second derivative 0 at the ends), linear beyond them:
 /// OpenSim's GCVSpline of half order 2. Throws as make_simm_spline.
 [[nodiscard]] SimmSpline make_natural_spline(std::vector<double> x, std::vector<double> y);
 
 /// Returns the natural spline of degree 7 (fourth to sixth derivative 0 at the ends, a cubic beyond
 /// them): OpenSim's GCVSpline of half order 4. Four knots or more; throws as make_simm_spline.
-[[nodiscard]] PiecewisePolynomial make_septic_spline(const std::vector<double>& x,
-                                                     const std::vector<double>& y);
+[[nodiscard]] PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::vector<double>& y);
 
 struct FunctionValue {
   double value = 0.0;

@@ -49,9 +49,8 @@ TEST(Polynomial, HasTheHighestPowerFirst) {
   EXPECT_EQ(v.second, 40.0);
 }
 
-// The natural spline is the smoothest: of all curves through the points it has the least integral
-// of its squared fourth derivative, so that it is orthogonal, in that sense, to every curve through
-// zeros at the knots.
+// The natural spline is the smoothest: of all curves through the points it has the least integral of its squared fourth
+// derivative, so that it is orthogonal, in that sense, to every curve through zeros at the knots.
 TEST(SepticSpline, PassesItsPointsAndIsTheSmoothest) {
   const std::vector<double> x{-1.0, -0.4, 0.1, 0.9, 1.3, 2.0}, y{0.3, -0.2, 0.5, 0.4, -0.6, 0.1};
   const PiecewisePolynomial s = make_septic_spline(x, y);
@@ -68,19 +67,17 @@ TEST(SepticSpline, PassesItsPointsAndIsTheSmoothest) {
   constexpr int kSteps = 30000;
   for (int i = 0; i < kSteps; ++i) {
     const double step = 3.0 / kSteps, v = -1.0 + (i + 0.5) * step;
-    const auto column =
-        static_cast<Eigen::Index>(std::upper_bound(x.begin(), x.end(), v) - x.begin());
+    const auto column = static_cast<Eigen::Index>(std::upper_bound(x.begin(), x.end(), v) - x.begin());
     const double u = v - x[static_cast<std::size_t>(column - 1)];
     double fourth = 0.0;
     for (Eigen::Index k = 7; k >= 4; --k)
-      fourth = fourth * u +
-               static_cast<double>(k * (k - 1) * (k - 2) * (k - 3)) * s.coefficients(k, column);
+      fourth = fourth * u + static_cast<double>(k * (k - 1) * (k - 2) * (k - 3)) * s.coefficients(k, column);
     const double d = 0.1;
-    const double bend = (zeros(v - 2.0 * d) - 4.0 * zeros(v - d) + 6.0 * zeros(v) -
-                         4.0 * zeros(v + d) + zeros(v + 2.0 * d)) /
-                            std::pow(d, 4.0) -
-                        // Fourth differences see the sixth derivative, 720, by d^2/6.
-                        720.0 * d * d / 6.0;
+    const double bend =
+        (zeros(v - 2.0 * d) - 4.0 * zeros(v - d) + 6.0 * zeros(v) - 4.0 * zeros(v + d) + zeros(v + 2.0 * d)) /
+            std::pow(d, 4.0) -
+        // Fourth differences see the sixth derivative, 720, by d^2/6.
+        720.0 * d * d / 6.0;
     inner += fourth * bend * step;
     size += std::abs(fourth * bend) * step;
   }
@@ -92,9 +89,7 @@ TEST(SepticSpline, PassesItsPointsAndIsTheSmoothest) {
     EXPECT_NEAR(left.first, right.first, 1e-6);
     EXPECT_NEAR(left.second, right.second, 1e-5);
   }
-  const auto third = [&](double v) {
-    return (evaluate(f, v + 0.1).second - evaluate(f, v).second);
-  };
+  const auto third = [&](double v) { return (evaluate(f, v + 0.1).second - evaluate(f, v).second); };
   EXPECT_NEAR(third(2.2), third(2.7), 1e-9);
 }
 

@@ -49,13 +49,12 @@ void turn_round(BodyModel& model, std::size_t number) {
     throw ModelError(fmt::format(
         "joint '{}' ({}) has its parent '{}' hang on its child '{}'; expected it the other way "
         "round: such a joint cannot be turned",
-        joint.name, joint.class_name, model.bodies[at(joint.parent)].name,
-        model.bodies[at(joint.child)].name));
+        joint.name, joint.class_name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name));
   }
-  model.notes.push_back(fmt::format(
-      "joint '{}' leads from '{}' to '{}', which is nearer to ground: it is turned "
-      "round, its coordinates keep their sense",
-      joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name));
+  model.notes.push_back(
+      fmt::format("joint '{}' leads from '{}' to '{}', which is nearer to ground: it is turned "
+                  "round, its coordinates keep their sense",
+                  joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name));
   Joint back = joint;
   back.parent = joint.child;
   back.X_PF = joint.X_BM;
@@ -74,11 +73,11 @@ void turn_round(BodyModel& model, std::size_t number) {
   shift.coordinates.clear();
   for (const int c : joint.coordinates) {
     if (uses(joint.rotation, c) && uses(joint.translation, c)) {
-      throw ModelError(fmt::format(
-          "joint '{}' has its parent '{}' hang on its child '{}', and coordinate '{}' both turns "
-          "and shifts: it cannot be turned round; exchange its parent and child",
-          joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name,
-          model.coordinates[at(c)].name));
+      throw ModelError(
+          fmt::format("joint '{}' has its parent '{}' hang on its child '{}', and coordinate '{}' both turns "
+                      "and shifts: it cannot be turned round; exchange its parent and child",
+                      joint.name, model.bodies[at(joint.parent)].name, model.bodies[at(joint.child)].name,
+                      model.coordinates[at(c)].name));
     }
     (uses(joint.translation, c) ? shift : turn).coordinates.push_back(c);
   }
@@ -92,8 +91,7 @@ void turn_round(BodyModel& model, std::size_t number) {
   shift.X_PF = {};
   shift.rotation = at_rest(shift.rotation);
   model.joints[number] = std::move(turn);
-  model.joints.insert(model.joints.begin() + static_cast<std::ptrdiff_t>(number) + 1,
-                      std::move(shift));
+  model.joints.insert(model.joints.begin() + static_cast<std::ptrdiff_t>(number) + 1, std::move(shift));
 }
 
 }  // namespace
@@ -116,9 +114,8 @@ void orient_joints(BodyModel& model) {
         grown.push_back(child);
       }
     }
-    const auto backward = std::find_if(
-        model.joints.begin(), model.joints.end(),
-        [&](const Joint& j) { return reached[at(j.child)] && !reached[at(j.parent)]; });
+    const auto backward = std::find_if(model.joints.begin(), model.joints.end(),
+                                       [&](const Joint& j) { return reached[at(j.child)] && !reached[at(j.parent)]; });
     if (backward == model.joints.end()) return;
     turn_round(model, static_cast<std::size_t>(backward - model.joints.begin()));
     reached.resize(model.bodies.size(), false);

@@ -4,11 +4,10 @@
 
 namespace myoid::model {
 
-/// Reverses joints whose parent hangs on their child (a chain that the file describes from its end
-/// to ground), so that the joint of every body leads to ground; the coordinates keep their meaning.
-/// If both rotation and translation move, a massless body between them is added. Throws ModelError
-/// for a joint that cannot be reversed: an ellipsoid joint, a rod, or a joint with a coordinate
-/// that both turns and shifts.
+/// Reverses joints whose parent hangs on their child (a chain that the file describes from its end to ground), so that
+/// the joint of every body leads to ground; the coordinates keep their meaning. If both rotation and translation move,
+/// a massless body between them is added. Throws ModelError for a joint that cannot be reversed: an ellipsoid joint, a
+/// rod, or a joint with a coordinate that both turns and shifts.
 void orient_joints(BodyModel& model);
 
 }  // namespace myoid::model

@@ -10,9 +10,7 @@ namespace myoid::model {
 namespace {
 
 /// One body on a joint of six coordinates, drawn from `parent` to `child`.
-std::string one_body(const std::string& joint,
-                     const std::string& parent,
-                     const std::string& child) {
+std::string one_body(const std::string& joint, const std::string& parent, const std::string& child) {
   return R"(<OpenSimDocument Version="40000"><Model name="m"><BodySet><objects><Body name="b">
 <mass>2</mass><mass_center>0.1 0 0</mass_center><inertia>0.1 0.2 0.3 0 0 0</inertia></Body></objects>
 </BodySet><JointSet><objects>)" +
@@ -35,14 +33,12 @@ std::string coordinates(int count) {
 
 std::string custom() {
   const auto axis = [](const char* slot, const char* q, const char* direction) {
-    return std::string("<TransformAxis name=\"") + slot + "\"><coordinates>" + q +
-           "</coordinates><axis>" + direction +
+    return std::string("<TransformAxis name=\"") + slot + "\"><coordinates>" + q + "</coordinates><axis>" + direction +
            "</axis><function><LinearFunction><coefficients>1 0.1</coefficients></LinearFunction>"
            "</function></TransformAxis>";
   };
-  return "<CustomJoint name=\"j\">|" + coordinates(4) + "<SpatialTransform>" +
-         axis("rotation1", "q0", "0 0.6 0.8") + axis("rotation2", "q1", "1 0 0") +
-         axis("rotation3", "q2", "0 0 1") + axis("translation2", "q3", "0 1 0") +
+  return "<CustomJoint name=\"j\">|" + coordinates(4) + "<SpatialTransform>" + axis("rotation1", "q0", "0 0.6 0.8") +
+         axis("rotation2", "q1", "1 0 0") + axis("rotation3", "q2", "0 0 1") + axis("translation2", "q3", "0 1 0") +
          "</SpatialTransform></CustomJoint>";
 }
 
@@ -85,8 +81,7 @@ TEST(OrientJoints, AJointDrawnTowardsGroundMakesTheInversePose) {
 
 TEST(OrientJoints, SaysWhatWasTurnedAndWhatCannotBe) {
   const BodyModel m = parse_osim(
-      one_body("<PinJoint name=\"j\">|" + coordinates(1) + "</PinJoint>", "/bodyset/b", "/ground"),
-      "m.osim");
+      one_body("<PinJoint name=\"j\">|" + coordinates(1) + "</PinJoint>", "/bodyset/b", "/ground"), "m.osim");
   ASSERT_FALSE(m.notes.empty());
   EXPECT_NE(m.notes.back().find("turned round"), std::string::npos);
   EXPECT_THROW((void)parse_osim(one_body("<EllipsoidJoint name=\"j\"><radii_x_y_z>1 1 1"
@@ -99,18 +94,17 @@ TEST(OrientJoints, SaysWhatWasTurnedAndWhatCannotBe) {
 
 TEST(OrientJoints, AReversedJointOfOldDocumentsIsTheInverse) {
   const auto pose = [](const char* reverse) {
-    const BodyModel m = parse_osim(
-        std::string(R"(<OpenSimDocument Version="20302"><Model name="m"><BodySet><objects>
+    const BodyModel m = parse_osim(std::string(R"(<OpenSimDocument Version="20302"><Model name="m"><BodySet><objects>
 <Body name="ground"><mass>0</mass></Body><Body name="b"><mass>1</mass><Joint><CustomJoint name="j">
 <parent_body>ground</parent_body><location_in_parent>0.1 0.2 0.3</location_in_parent>
 <location>0 0.5 0</location><reverse>)") +
-            reverse + R"(</reverse><CoordinateSet><objects><Coordinate name="q">
+                                       reverse + R"(</reverse><CoordinateSet><objects><Coordinate name="q">
 <default_value>0.4</default_value></Coordinate></objects></CoordinateSet><SpatialTransform>
 <TransformAxis name="rotation1"><coordinates>q</coordinates><axis>0 0 1</axis></TransformAxis>
 <TransformAxis name="rotation2"><axis>0 1 0</axis></TransformAxis>
 <TransformAxis name="rotation3"><axis>1 0 0</axis></TransformAxis></SpatialTransform></CustomJoint>
 </Joint></Body></objects></BodySet></Model></OpenSimDocument>)",
-        "m.osim");
+                                   "m.osim");
     BodyState s = make_state(m);
     compute_poses(m, m.default_q(), s);
     return s.X_GB[1];

@@ -20,8 +20,7 @@ Vec3 carrying_rate(const Joint& joint,
   for (std::size_t k = 0; k < 3; ++k) {
     const int c = joint.rotation[k].coordinate;
     if (c < 0) continue;
-    const bool counts = i == 1 ? c == joint.coordinates[0]
-                               : joint.coordinates.size() < 3 || c != joint.coordinates[2];
+    const bool counts = i == 1 ? c == joint.coordinates[0] : joint.coordinates.size() < 3 || c != joint.coordinates[2];
     if (counts) w += p.angle[k].first * qdot[c] * p.axis_F[k];
   }
   return w;
@@ -59,18 +58,15 @@ RelativeMotion relative_motion(const Joint& joint,
     if (c < 0) continue;
     const double rate = p.angle[i].first * qdot[c];
     // The axis moves with the rotations before it, whose angular velocity is m.w.
-    m.alpha +=
-        (p.angle[i].second * qdot[c] * qdot[c] + p.angle[i].first * qddot[c]) * p.axis_F[i] +
-        rate *
-            (by_coordinates && i > 0 ? carrying_rate(joint, p, qdot, i) : m.w).cross(p.axis_F[i]);
+    m.alpha += (p.angle[i].second * qdot[c] * qdot[c] + p.angle[i].first * qddot[c]) * p.axis_F[i] +
+               rate * (by_coordinates && i > 0 ? carrying_rate(joint, p, qdot, i) : m.w).cross(p.axis_F[i]);
     m.w += rate * p.axis_F[i];
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const int c = joint.translation[i].coordinate;
     if (c < 0) continue;
     m.v += p.shift[i].first * qdot[c] * joint.translation[i].axis;
-    m.a += (p.shift[i].second * qdot[c] * qdot[c] + p.shift[i].first * qddot[c]) *
-           joint.translation[i].axis;
+    m.a += (p.shift[i].second * qdot[c] * qdot[c] + p.shift[i].first * qddot[c]) * joint.translation[i].axis;
   }
   if (joint.ellipsoid_radii_m) {
     const Vec3 up = p.X_FM.R.col(2);

@@ -17,8 +17,7 @@ struct JointPosture {
   std::array<FunctionValue, 3> shift;  ///< [m] and its derivatives by the axis's coordinate.
 };
 
-[[nodiscard]] JointPosture joint_posture(const Joint& joint,
-                                         const Eigen::Ref<const Eigen::VectorXd>& q);
+[[nodiscard]] JointPosture joint_posture(const Joint& joint, const Eigen::Ref<const Eigen::VectorXd>& q);
 
 /// Motion of M in F, expressed in F, with the accelerations by `qddot` and the rates.
 struct RelativeMotion {

@@ -13,8 +13,7 @@ namespace {
 
 void check_size(const BodyModel& model, Eigen::Index size, std::string_view what) {
   if (size != static_cast<Eigen::Index>(model.coordinates.size())) {
-    throw InvalidInput(
-        fmt::format("{}: {} values for {} coordinates", what, size, model.coordinates.size()));
+    throw InvalidInput(fmt::format("{}: {} values for {} coordinates", what, size, model.coordinates.size()));
   }
 }
 
@@ -33,9 +32,7 @@ BodyState make_state(const BodyModel& model) {
   return state;
 }
 
-void compute_poses(const BodyModel& model,
-                   const Eigen::Ref<const Eigen::VectorXd>& q,
-                   BodyState& state) {
+void compute_poses(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state) {
   check_size(model, q.size(), "posture");
   state.q = q;
   for (const Joint& joint : model.joints) {
@@ -51,8 +48,7 @@ void compute_poses(const BodyModel& model,
         const Vec3 w_F = p.angle[i].first * p.axis_F[i];
         state.H_w_G[at(c)] += X_GF.R * w_F;
         if (joint.ellipsoid_radii_m)
-          state.H_v_G[at(c)] +=
-              X_GF.R * joint.ellipsoid_radii_m->cwiseProduct(w_F.cross(p.X_FM.R.col(2)));
+          state.H_v_G[at(c)] += X_GF.R * joint.ellipsoid_radii_m->cwiseProduct(w_F.cross(p.X_FM.R.col(2)));
         if (joint.rod_length_m) {
           const Vec3 u = p.X_FM.R.col(1);
           state.H_v_G[at(c)] += X_GF.R * bent_rod_velocity(*joint.rod_length_m, u, w_F.cross(u));
@@ -66,9 +62,7 @@ void compute_poses(const BodyModel& model,
   }
 }
 
-void compute_velocities(const BodyModel& model,
-                        const Eigen::Ref<const Eigen::VectorXd>& qdot,
-                        BodyState& state) {
+void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& qdot, BodyState& state) {
   check_size(model, qdot.size(), "velocity");
   state.qdot = qdot;
   state.w_GB[0].setZero();
@@ -77,8 +71,7 @@ void compute_velocities(const BodyModel& model,
     const std::size_t b = at(joint.child);
     const std::size_t parent = at(joint.parent);
     state.w_GB[b] = state.w_GB[parent];
-    state.v_GB[b] =
-        state.v_GB[parent] + state.w_GB[parent].cross(state.X_GB[b].p - state.X_GB[parent].p);
+    state.v_GB[b] = state.v_GB[parent] + state.w_GB[parent].cross(state.X_GB[b].p - state.X_GB[parent].p);
     for (const int c : joint.coordinates) {
       state.w_GB[b] += qdot[c] * state.H_w_G[at(c)];
       state.v_GB[b] += qdot[c] * state.H_v_G[at(c)];
@@ -86,12 +79,8 @@ void compute_velocities(const BodyModel& model,
   }
 }
 
-Eigen::Matrix3Xd station_jacobian(const BodyModel& model,
-                                  const BodyState& state,
-                                  BodyIndex body,
-                                  const Vec3& p_BP) {
-  Eigen::Matrix3Xd jacobian =
-      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
+Eigen::Matrix3Xd station_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body, const Vec3& p_BP) {
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
   const Vec3 p_GP = state.X_GB[at(body)] * p_BP;
   for (BodyIndex b = body; b != 0;) {
     const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
@@ -151,9 +140,7 @@ Eigen::VectorXd inverse_dynamics(const BodyModel& model,
   return tau;
 }
 
-Eigen::MatrixXd mass_matrix(const BodyModel& model,
-                            const Eigen::Ref<const Eigen::VectorXd>& q,
-                            BodyState& state) {
+Eigen::MatrixXd mass_matrix(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state) {
   const Eigen::Index n = static_cast<Eigen::Index>(model.coordinates.size());
   BodyModel weightless = model;
   weightless.gravity_G.setZero();

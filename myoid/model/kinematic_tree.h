@@ -16,9 +16,8 @@ struct BodyState {
   std::vector<Pose> X_GB;  ///< Pose of each body in ground.
   std::vector<Vec3> w_GB;  ///< Angular velocity of each body, expressed in ground [rad/s].
   std::vector<Vec3> v_GB;  ///< Velocity of each body's origin, expressed in ground [m/s].
-  /// Columns of the geometric Jacobian: per coordinate the angular velocity H_w and the velocity of
-  /// the child frame's origin that unit speed gives the child body of its joint, expressed in
-  /// ground.
+  /// Columns of the geometric Jacobian: per coordinate the angular velocity H_w and the velocity of the child frame's
+  /// origin that unit speed gives the child body of its joint, expressed in ground.
   std::vector<Vec3> H_w_G;
   std::vector<Vec3> H_v_G;  ///< Velocity of the *child body's origin*.
 };
@@ -26,17 +25,12 @@ struct BodyState {
 [[nodiscard]] BodyState make_state(const BodyModel& model);
 
 /// Fills X_GB and the Jacobian columns from q. Throws InvalidInput if q has the wrong size.
-void compute_poses(const BodyModel& model,
-                   const Eigen::Ref<const Eigen::VectorXd>& q,
-                   BodyState& state);
+void compute_poses(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q, BodyState& state);
 
 /// Fills w_GB, v_GB from qdot; compute_poses must have been called for the same q.
-void compute_velocities(const BodyModel& model,
-                        const Eigen::Ref<const Eigen::VectorXd>& qdot,
-                        BodyState& state);
+void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& qdot, BodyState& state);
 
-/// Returns the Jacobian of the ground position of point p_BP fixed in `body` by all coordinates: 3
-/// x nq.
+/// Returns the Jacobian of the ground position of point p_BP fixed in `body` by all coordinates: 3 x nq.
 [[nodiscard]] Eigen::Matrix3Xd station_jacobian(const BodyModel& model,
                                                 const BodyState& state,
                                                 BodyIndex body,

@@ -33,13 +33,9 @@ void expect_jacobian_is_derivative(const BodyModel& m) {
   }
 }
 
-TEST(KinematicTree, StationJacobianIsTheDerivativeOfThePosition) {
-  expect_jacobian_is_derivative(crooked_tree(1));
-}
+TEST(KinematicTree, StationJacobianIsTheDerivativeOfThePosition) { expect_jacobian_is_derivative(crooked_tree(1)); }
 
-TEST(KinematicTree, SoItIsAtBentRodsAndOnEllipsoids) {
-  expect_jacobian_is_derivative(crooked_tree(1, false, true));
-}
+TEST(KinematicTree, SoItIsAtBentRodsAndOnEllipsoids) { expect_jacobian_is_derivative(crooked_tree(1, false, true)); }
 
 TEST(KinematicTree, VelocitiesAreTheJacobianTimesTheRates) {
   const BodyModel m = crooked_tree(3);
@@ -52,8 +48,7 @@ TEST(KinematicTree, VelocitiesAreTheJacobianTimesTheRates) {
   const Vec3 p_BP(0.1, -0.2, 0.3);
   for (int b = 1; b <= 4; ++b) {
     const Vec3 v = state.v_GB[static_cast<std::size_t>(b)] +
-                   state.w_GB[static_cast<std::size_t>(b)].cross(
-                       state.X_GB[static_cast<std::size_t>(b)].R * p_BP);
+                   state.w_GB[static_cast<std::size_t>(b)].cross(state.X_GB[static_cast<std::size_t>(b)].R * p_BP);
     EXPECT_LT((station_jacobian(m, state, b, p_BP) * qdot - v).norm(), 1e-13);
   }
 }
@@ -84,16 +79,13 @@ TEST(InverseDynamics, TheForcesWorkIsTheChangeOfEnergy) {
   BodyState state = make_state(m);
   const Eigen::VectorXd tau = inverse_dynamics(m, q, qdot, qddot, {}, state);
   const double h = 1e-5;
-  const auto at = [&](double t) {
-    return energy(m, q + t * qdot + 0.5 * t * t * qddot, qdot + t * qddot);
-  };
+  const auto at = [&](double t) { return energy(m, q + t * qdot + 0.5 * t * t * qddot, qdot + t * qddot); };
   const double power = (at(h) - at(-h)) / (2.0 * h);
   EXPECT_NEAR(tau.dot(qdot), power, 1e-7 * std::max(1.0, std::abs(power)));
 }
 
 void expect_lagranges_equations(const BodyModel& m) {
-  // tau_k = d/dt dL/dqdot_k - dL/dq_k, all by differences of the energy function: independent of
-  // Newton-Euler.
+  // tau_k = d/dt dL/dqdot_k - dL/dq_k, all by differences of the energy function: independent of Newton-Euler.
   Uniform u(8);
   const Eigen::VectorXd q = 0.5 * random_vector(12, u);
   const Eigen::VectorXd qdot = random_vector(12, u);
@@ -102,9 +94,7 @@ void expect_lagranges_equations(const BodyModel& m) {
   const Eigen::VectorXd tau = inverse_dynamics(m, q, qdot, qddot, {}, state);
   BodyModel weightless = m;
   weightless.gravity_G.setZero();
-  const auto kinetic = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& v) {
-    return energy(weightless, x, v);
-  };
+  const auto kinetic = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& v) { return energy(weightless, x, v); };
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(12);
   const auto potential = [&](const Eigen::VectorXd& x) { return energy(m, x, zero); };
   const double h = 1e-3;
@@ -121,16 +111,13 @@ void expect_lagranges_equations(const BodyModel& m) {
       const double narrow = (f(0.5 * h) - f(-0.5 * h)) / h;
       return (4.0 * narrow - wide) / 3.0;  // error h^4
     };
-    const double expected = richardson(momentum) - richardson([&](double t) {
-                              return kinetic(q + t * e, qdot) - potential(q + t * e);
-                            });
+    const double expected =
+        richardson(momentum) - richardson([&](double t) { return kinetic(q + t * e, qdot) - potential(q + t * e); });
     EXPECT_NEAR(tau[k], expected, 1e-7 * std::max(1.0, std::abs(expected))) << k;
   }
 }
 
-TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) {
-  expect_lagranges_equations(crooked_tree(7));
-}
+TEST(InverseDynamics, LagrangesEquationsGiveTheSameForces) { expect_lagranges_equations(crooked_tree(7)); }
 
 TEST(InverseDynamics, LagrangesEquationsHoldWhereRotationsShareACoordinate) {
   expect_lagranges_equations(crooked_tree(7, true));
@@ -162,8 +149,7 @@ TEST(InverseDynamics, AnExternalWrenchActsThroughItsJacobian) {
   const Vec3 f(3.0, -2.0, 5.0);
   const Eigen::VectorXd with = inverse_dynamics(m, q, rest, rest, {{.body = 3, .f_G = f}}, state);
   const Eigen::VectorXd without = inverse_dynamics(m, q, rest, rest, {}, state);
-  EXPECT_LT((without - with - station_jacobian(m, state, 3, Vec3::Zero()).transpose() * f).norm(),
-            1e-12);
+  EXPECT_LT((without - with - station_jacobian(m, state, 3, Vec3::Zero()).transpose() * f).norm(), 1e-12);
 }
 
 TEST(Finalize, RefusesABodyThatHangsOnNothing) {

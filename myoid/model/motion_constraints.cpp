@@ -10,8 +10,7 @@
 namespace myoid::model {
 namespace {
 
-/// A point of a body: position, velocity and acceleration in ground; the acceleration is that for
-/// qddot = 0.
+/// A point of a body: position, velocity and acceleration in ground; the acceleration is that for qddot = 0.
 struct MovingPoint {
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
 };
@@ -47,8 +46,7 @@ class LoopRows {
     const Vec3 a = two.a - here.a - 2.0 * state_.w_GB[at(line.body1)].cross(Vec3(two.v - here.v));
     Eigen::VectorXd rows(2);
     const auto directions = directions_across(line.direction);
-    for (std::size_t k = 0; k < 2; ++k)
-      rows[static_cast<Eigen::Index>(k)] = (X_GB1.R * directions[k]).dot(a);
+    for (std::size_t k = 0; k < 2; ++k) rows[static_cast<Eigen::Index>(k)] = (X_GB1.R * directions[k]).dot(a);
     return rows;
   }
   [[nodiscard]] Eigen::VectorXd bias(const FunctionConstraint& f) const {
@@ -60,8 +58,8 @@ class LoopRows {
     }
     // The second derivative along the rates, by differences of the exact gradient.
     const double step = 1e-5 / std::max(1.0, rate.cwiseAbs().maxCoeff());
-    const Eigen::VectorXd change = evaluate(f.function, x + step * rate).gradient -
-                                   evaluate(f.function, x - step * rate).gradient;
+    const Eigen::VectorXd change =
+        evaluate(f.function, x + step * rate).gradient - evaluate(f.function, x - step * rate).gradient;
     return Eigen::VectorXd::Constant(1, -change.dot(rate) / (2.0 * step));
   }
 
@@ -95,9 +93,7 @@ std::array<Vec3, 2> directions_across(const Vec3& u) {
   return {v, u.cross(v)};
 }
 
-AccelerationConstraints acceleration_constraints(const BodyModel& model,
-                                                 const BodyState& state,
-                                                 double time_s) {
+AccelerationConstraints acceleration_constraints(const BodyModel& model, const BodyState& state, double time_s) {
   const Eigen::MatrixXd rows = constraint_jacobian(model, state);
   const Eigen::Index n = state.q.size();
   std::vector<Eigen::Index> held;
@@ -118,8 +114,7 @@ AccelerationConstraints acceleration_constraints(const BodyModel& model,
   if (!model.constraints.empty()) {
     const LoopRows loops(model, state);
     for (const LoopConstraint& constraint : model.constraints) {
-      const Eigen::VectorXd bias =
-          std::visit([&](const auto& law) { return loops.bias(law); }, constraint.law);
+      const Eigen::VectorXd bias = std::visit([&](const auto& law) { return loops.bias(law); }, constraint.law);
       result.b.segment(row, bias.size()) = -bias;
       row += bias.size();
     }
@@ -154,8 +149,8 @@ void append_constraint_wrenches(const BodyModel& model,
     } else if (const auto* line = std::get_if<LineConstraint>(&constraint.law)) {
       const Vec3 place = state.X_GB[at(line->body2)] * line->p_B2;
       const auto directions = directions_across(line->direction);
-      const Vec3 force = state.X_GB[at(line->body1)].R *
-                         (multipliers[row] * directions[0] + multipliers[row + 1] * directions[1]);
+      const Vec3 force =
+          state.X_GB[at(line->body1)].R * (multipliers[row] * directions[0] + multipliers[row + 1] * directions[1]);
       push(wrenches, state, line->body1, place, -force);
       push(wrenches, state, line->body2, place, force);
       row += 2;

@@ -9,13 +9,11 @@
 
 namespace myoid::model {
 
-/// Returns two unit vectors at right angles to u and to each other: a LineConstraint stops motion
-/// along them.
+/// Returns two unit vectors at right angles to u and to each other: a LineConstraint stops motion along them.
 [[nodiscard]] std::array<Vec3, 2> directions_across(const Vec3& u);
 
-/// Conditions on the accelerations at one state: A qddot = b. The rows are those of
-/// `constraint_jacobian` (couplers, then the other constraints), then one for each locked or
-/// prescribed coordinate.
+/// Conditions on the accelerations at one state: A qddot = b. The rows are those of `constraint_jacobian` (couplers,
+/// then the other constraints), then one for each locked or prescribed coordinate.
 struct AccelerationConstraints {
   Eigen::MatrixXd A;
   Eigen::VectorXd b;

@@ -18,28 +18,22 @@ BodyModel bound_tree() {
   BodyModel m = crooked_tree(4);
   test::Uniform u(5);
   const auto frame = [&] { return Pose{rotation_body_xyz(u.vec()), 0.3 * u.vec()}; };
-  m.couplers.push_back({.name = "coupler",
-                        .dependent = 2,
-                        .independent = 1,
-                        .function = Polynomial{{0.3, -0.5, 0.2, 0.1}}});
+  m.couplers.push_back(
+      {.name = "coupler", .dependent = 2, .independent = 1, .function = Polynomial{{0.3, -0.5, 0.2, 0.1}}});
   m.constraints.push_back({"ball", "PointConstraint", FrameConstraint{2, 4, frame(), frame()}});
+  m.constraints.push_back({"weld", "WeldConstraint", FrameConstraint{0, 3, frame(), frame(), true}});
+  m.constraints.push_back({"rod", "ConstantDistanceConstraint", DistanceConstraint{1, 3, u.vec(), u.vec(), 0.5}});
   m.constraints.push_back(
-      {"weld", "WeldConstraint", FrameConstraint{0, 3, frame(), frame(), true}});
-  m.constraints.push_back(
-      {"rod", "ConstantDistanceConstraint", DistanceConstraint{1, 3, u.vec(), u.vec(), 0.5}});
-  m.constraints.push_back({"line", "PointOnLineConstraint",
-                           LineConstraint{4, 3, u.vec().normalized(), u.vec(), u.vec()}});
+      {"line", "PointOnLineConstraint", LineConstraint{4, 3, u.vec().normalized(), u.vec(), u.vec()}});
   m.coordinates[7].locked = true;
   return finalize(m);
 }
 
-// Along any motion the rate of A qdot is A qddot - b. Differences over 2e-5 s: as in
-// body_accelerations.test.cpp.
+// Along any motion the rate of A qdot is A qddot - b. Differences over 2e-5 s: as in body_accelerations.test.cpp.
 TEST(MotionConstraints, AreTheRatesOfTheConstraintsOnSpeeds) {
   const BodyModel m = bound_tree();
   test::Uniform u(6);
-  const Eigen::VectorXd q = random_vector(12, u), qdot = random_vector(12, u),
-                        qddot = random_vector(12, u);
+  const Eigen::VectorXd q = random_vector(12, u), qdot = random_vector(12, u), qddot = random_vector(12, u);
   const auto speeds = [&](double t) {
     BodyState state = make_state(m);
     compute_poses(m, q + t * qdot + 0.5 * t * t * qddot, state);

@@ -8,8 +8,7 @@ double term_count(int dimension, int degree) {
   return count;
 }
 
-MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
-                              const Eigen::Ref<const Eigen::VectorXd>& x) {
+MultiPolynomialValue evaluate(const MultiPolynomial& polynomial, const Eigen::Ref<const Eigen::VectorXd>& x) {
   const Eigen::Index n = polynomial.dimension;
   MultiPolynomialValue result{0.0, Eigen::VectorXd::Zero(n)};
   Eigen::MatrixXd power(n, polynomial.degree + 1);

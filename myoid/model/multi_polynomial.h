@@ -25,8 +25,7 @@ struct MultiPolynomialValue {
   Eigen::VectorXd gradient;
 };
 
-/// Returns value and gradient at x, one number for each variable. `coefficients` must have one for
-/// each term.
+/// Returns value and gradient at x, one number for each variable. `coefficients` must have one for each term.
 [[nodiscard]] MultiPolynomialValue evaluate(const MultiPolynomial& polynomial,
                                             const Eigen::Ref<const Eigen::VectorXd>& x);
 

@@ -18,8 +18,8 @@ TEST(MultiPolynomial, TheLastVariableChangesFastest) {
   const double x = 0.3, y = -1.2, z = 2.5;
   const MultiPolynomialValue v = evaluate(f, Eigen::Vector3d(x, y, z));
   EXPECT_NEAR(v.value,
-              2.0 * (1.0 + 2.0 * z + 3.0 * z * z + 4.0 * y + 5.0 * y * z + 6.0 * y * y + 7.0 * x +
-                     8.0 * x * z + 9.0 * x * y + 10.0 * x * x),
+              2.0 * (1.0 + 2.0 * z + 3.0 * z * z + 4.0 * y + 5.0 * y * z + 6.0 * y * y + 7.0 * x + 8.0 * x * z +
+                     9.0 * x * y + 10.0 * x * x),
               1e-13);
   EXPECT_NEAR(v.gradient[0], 2.0 * (7.0 + 8.0 * z + 9.0 * y + 20.0 * x), 1e-13);
   EXPECT_NEAR(v.gradient[1], 2.0 * (4.0 + 5.0 * z + 12.0 * y + 9.0 * x), 1e-13);

@@ -4,16 +4,14 @@
 
 namespace myoid::model {
 
-/// Computes the length of a path from its first point to its last through the points that are
-/// active at this posture and around its wrap objects, with the derivatives by every coordinate
-/// alone.
+/// Computes the length of a path from its first point to its last through the points that are active at this posture
+/// and around its wrap objects, with the derivatives by every coordinate alone.
 ///
-/// `exact` (BodyModel::compat without switches): r = -dl/dq of this length. Over cylinders and
-/// spheres the path is the shortest, and r is the moment of the unit tension along the straight
-/// pieces. Over an ellipsoid or a torus the path follows OpenSim's construction, which is not the
-/// shortest, and r also counts the motion of the tangent points on the object. A moving point's
-/// location is taken within the range of its coordinate; its derivative is zero beyond. `speed_mps`
-/// is -r . qdot.
+/// `exact` (BodyModel::compat without switches): r = -dl/dq of this length. Over cylinders and spheres the path is the
+/// shortest, and r is the moment of the unit tension along the straight pieces. Over an ellipsoid or a torus the path
+/// follows OpenSim's construction, which is not the shortest, and r also counts the motion of the tangent points on the
+/// object. A moving point's location is taken within the range of its coordinate; its derivative is zero beyond.
+/// `speed_mps` is -r . qdot.
 ///
 /// Compat::opensim_paths: as in OpenSim 4.5.2 (compat.h), r is the moment of the unit tension, and
 /// the speed follows from the velocities of the points.

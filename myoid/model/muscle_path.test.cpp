@@ -25,8 +25,7 @@ BodyModel pulley(double radius, Quadrant quadrant) {
   joint.child = 1;
   joint.coordinates = {0};
   for (std::size_t k = 0; k < 3; ++k)
-    joint.rotation[k].axis = joint.translation[k].axis =
-        Vec3::Unit(static_cast<Eigen::Index>((k + 2) % 3));
+    joint.rotation[k].axis = joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>((k + 2) % 3));
   joint.rotation[0].coordinate = 0;
   joint.rotation[0].function = Linear{};
   m.joints = {joint};
@@ -62,8 +61,8 @@ TEST(MusclePath, TheMomentArmIsMinusTheDerivativeOfTheLength) {
   const BodyModel m = pulley(0.02, -1);
   const double h = 1e-6;
   for (const double q : {0.4, 0.9, 1.7}) {
-    EXPECT_NEAR(path_at(m, q).moment_arm_m[0],
-                -(path_at(m, q + h).length_m - path_at(m, q - h).length_m) / (2.0 * h), 1e-9);
+    EXPECT_NEAR(path_at(m, q).moment_arm_m[0], -(path_at(m, q + h).length_m - path_at(m, q - h).length_m) / (2.0 * h),
+                1e-9);
   }
 }
 
@@ -88,13 +87,10 @@ TEST(MusclePath, TheSpeedIsMinusMomentArmTimesRate) {
 }
 
 TEST(WrapCylinder, AQuarterTurnIsMeasuredInClosedForm) {
-  // From (1,1) to (-1,1) about the unit circle's... radius 1 at the origin, over the top: tangents
-  // vanish in length.
-  const auto contact = wrap_cylinder<double>({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0},
-                                             {-1.0, 0.2, 0.0});
+  // From (1,1) to (-1,1) about the unit circle's... radius 1 at the origin, over the top: tangents vanish in length.
+  const auto contact = wrap_cylinder<double>({.radius_m = 0.5, .length_m = 2.0}, 0, {1.0, 0.2, 0.0}, {-1.0, 0.2, 0.0});
   ASSERT_TRUE(contact);
-  // Symmetric: each tangent sqrt(1.04 - 0.25); angle between = pi - 2 atan(0.2) - 2
-  // acos(0.5/sqrt(1.04)).
+  // Symmetric: each tangent sqrt(1.04 - 0.25); angle between = pi - 2 atan(0.2) - 2 acos(0.5/sqrt(1.04)).
   const double angle = M_PI - 2.0 * std::atan(0.2) - 2.0 * std::acos(0.5 / std::sqrt(1.04));
   EXPECT_NEAR(contact->arc_length_m, 0.5 * angle, 1e-14);
   EXPECT_NEAR(contact->first_W.x(), -contact->second_W.x(), 1e-14);
@@ -111,8 +107,7 @@ TEST(Arm4, TheModelFileHasTheClosedFormsLengthsAndMomentArms) {
     q[coordinate] = degrees * kDegree;
     compute_poses(m, q, state);
     for (int i = 0; i < 4; ++i) {
-      const PathResult p =
-          compute_path(m, m.muscle_index(elbow.muscles[static_cast<std::size_t>(i)].name), state);
+      const PathResult p = compute_path(m, m.muscle_index(elbow.muscles[static_cast<std::size_t>(i)].name), state);
       const MuscleTravel t = travel(elbow.muscles[static_cast<std::size_t>(i)], degrees * kDegree);
       EXPECT_NEAR(p.length_m, t.length_m, 1e-12) << i << " at " << degrees;
       EXPECT_NEAR(p.moment_arm_m[coordinate], t.moment_arm_m, 1e-12) << i << " at " << degrees;
@@ -139,8 +134,7 @@ TEST(MusclePath, LengthsOfArm26AreOpenSimsWhereNoEllipsoidIsTouched) {
   const auto root = test::data_folder() / "opensim/arm26";
   MYOID_REQUIRE_DATA(root);
   const BodyModel m = read_osim(root / "model.osim");
-  const recording::Storage q_file =
-      recording::read_storage(root / "opensim/smooth_Kinematics_q.sto");
+  const recording::Storage q_file = recording::read_storage(root / "opensim/smooth_Kinematics_q.sto");
   const recording::Storage outputs = recording::read_storage(root / "opensim/smooth_Outputs.sto");
   BodyState state = make_state(m);
   for (const char* name : {"TRIlat", "TRImed", "BRA"}) {
@@ -148,8 +142,7 @@ TEST(MusclePath, LengthsOfArm26AreOpenSimsWhereNoEllipsoidIsTouched) {
     double worst = 0.0;
     for (Eigen::Index row = 0; row < q_file.data.sample_count(); ++row) {
       compute_poses(m, q_file.data.values().row(row).transpose() * kDegree, state);
-      worst = std::max(
-          worst, std::abs(compute_path(m, m.muscle_index(name), state).length_m - reference[row]));
+      worst = std::max(worst, std::abs(compute_path(m, m.muscle_index(name), state).length_m - reference[row]));
     }
     // OpenSim's path over a cylinder is not the shortest one; 0.3 mm is what its tangents are off.
     EXPECT_LT(worst, 3e-4) << name;

@@ -42,8 +42,7 @@ struct DeGrooteCurves {
   bool ignore_activation_dynamics = false, tendon_dynamics_implicit = false;
 };
 
-/// The numbers of a muscle in the model file, in SI. Fields that a muscle class lacks keep Thelen's
-/// defaults.
+/// The numbers of a muscle in the model file, in SI. Fields that a muscle class lacks keep Thelen's defaults.
 struct MuscleProperties {
   double max_isometric_force_n = 1000.0;
   double optimal_fiber_length_m = 0.1;

@@ -24,12 +24,10 @@ std::optional<ContactOf<T>> contact_with(const WrapObject& object,
     return wrap_sphere<T>(*sphere, object.quadrant, p_W, q_W);
   if (const auto* torus = std::get_if<TorusShape>(&object.shape))
     return wrap_torus<T>(*torus, object.quadrant, p_W, q_W);
-  return wrap_ellipsoid<T>(std::get<EllipsoidShape>(object.shape), object.quadrant, method, p_W,
-                           q_W);
+  return wrap_ellipsoid<T>(std::get<EllipsoidShape>(object.shape), object.quadrant, method, p_W, q_W);
 }
 
-/// One contact, and the derivatives of its tangent points and arc by the ends of its straight
-/// pieces.
+/// One contact, and the derivatives of its tangent points and arc by the ends of its straight pieces.
 struct Sensitivity {
   std::size_t station = 0;  ///< Station of the first tangent point.
   Pose X_GW;
@@ -37,13 +35,12 @@ struct Sensitivity {
   Mat6 points;   ///< Their derivatives by (end before, end after), all in the wrap's frame.
   Vec6 arc;      ///< Derivatives of the arc's length by the ends.
   Vec6 tension;  ///< Derivatives of the straight pieces' length by the tangent points.
-  Vec6 total;  ///< Derivatives of the length by the tangent points, effects on neighboring contacts
-               ///< included.
-  Vec6 effect;  ///< Derivatives of the length by the ends, through this contact.
+  Vec6 total;    ///< Derivatives of the length by the tangent points, effects on neighboring contacts
+                 ///< included.
+  Vec6 effect;   ///< Derivatives of the length by the ends, through this contact.
 };
 
-/// Returns every contact of the path, in order; a contact that is lost at the very edge of touching
-/// is left out.
+/// Returns every contact of the path, in order; a contact that is lost at the very edge of touching is left out.
 std::vector<Sensitivity> contacts_of(const BodyModel& model,
                                      const MusclePath& path,
                                      const BodyState& state,
@@ -81,8 +78,7 @@ std::vector<Sensitivity> contacts_of(const BodyModel& model,
   return contacts;
 }
 
-/// Returns true if contact k + 1 follows k without a point between them, so that each is the
-/// other's end.
+/// Returns true if contact k + 1 follows k without a point between them, so that each is the other's end.
 bool are_neighbors(const std::vector<Sensitivity>& contacts, Eigen::Index k) {
   return contacts[at(k)].station + 2 == contacts[at(k + 1)].station;
 }
@@ -95,17 +91,11 @@ Vec3 straight_direction(const PathStation& a, const PathStation& b) {
   return length > 0.0 ? Vec3(along / length) : Vec3::Zero();
 }
 
-std::optional<WrapContact> contact_over(const WrapObject& object,
-                                        WrapMethod method,
-                                        const Vec3& p_W,
-                                        const Vec3& q_W) {
+std::optional<WrapContact> contact_over(const WrapObject& object, WrapMethod method, const Vec3& p_W, const Vec3& q_W) {
   return contact_with<double>(object, method, p_W, q_W);
 }
 
-void refine_contacts(const BodyModel& model,
-                     const MusclePath& path,
-                     const BodyState& state,
-                     PathWorkspace& workspace) {
+void refine_contacts(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
   auto& stations = workspace.stations;
   const std::vector<Sensitivity> contacts = contacts_of(model, path, state, stations);
   const auto n = static_cast<Eigen::Index>(contacts.size());
@@ -155,8 +145,7 @@ void add_contact_motion(const BodyModel& model,
       const Sensitivity& a = contacts[at(of)];
       const Sensitivity& b = contacts[at(by)];
       const Mat3 turn = a.X_GW.R.transpose() * b.X_GW.R;
-      left.block<3, 6>(6 * of + end_of, 6 * by) =
-          -turn * b.points.transpose().middleRows<3>(end_by);
+      left.block<3, 6>(6 * of + end_of, 6 * by) = -turn * b.points.transpose().middleRows<3>(end_by);
       right.segment<3>(6 * of + end_of) += turn * b.arc.segment<3>(end_by);
     };
     for (Eigen::Index k = 0; k + 1 < n; ++k) {

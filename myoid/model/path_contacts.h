@@ -16,14 +16,10 @@ namespace myoid::model {
 
 /// Takes one Newton step towards tangent points that each fit their neighbors. `workspace.stations`
 /// hold the path; they stay unchanged if a contact is lost or the step is not finite.
-void refine_contacts(const BodyModel& model,
-                     const MusclePath& path,
-                     const BodyState& state,
-                     PathWorkspace& workspace);
+void refine_contacts(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace);
 
-/// Adds to `arm` the share of -dl/dq that comes from the tangent points' motion on their objects.
-/// The path must be at rest. The share is zero if every contact is the shortest way over its
-/// object.
+/// Adds to `arm` the share of -dl/dq that comes from the tangent points' motion on their objects. The path must be at
+/// rest. The share is zero if every contact is the shortest way over its object.
 void add_contact_motion(const BodyModel& model,
                         const MusclePath& path,
                         const BodyState& state,

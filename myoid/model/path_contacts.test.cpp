@@ -10,21 +10,17 @@
 namespace myoid::model {
 namespace {
 
-/// A path in ground over a sphere and an oblique cylinder that follow each other without a point in
-/// between.
+/// A path in ground over a sphere and an oblique cylinder that follow each other without a point in between.
 BodyModel two_objects() {
   BodyModel m;
   m.bodies = {{.name = "ground"}};
-  m.wrap_objects = {{.name = "sphere",
-                     .X_BW = {Mat3::Identity(), Vec3(-0.04, 0.0, 0.005)},
-                     .shape = SphereShape{0.02}},
+  m.wrap_objects = {{.name = "sphere", .X_BW = {Mat3::Identity(), Vec3(-0.04, 0.0, 0.005)}, .shape = SphereShape{0.02}},
                     {.name = "cylinder",
                      .X_BW = {rotation_body_xyz({0.3, 0.2, 0.0}), Vec3(0.05, 0.004, 0.0)},
                      .shape = CylinderShape{.radius_m = 0.02, .length_m = 1.0}}};
   Muscle muscle;
   muscle.name = "m";
-  muscle.path.points = {{.name = "a", .p_BP = Vec3(-0.12, 0.005, 0.0)},
-                        {.name = "b", .p_BP = Vec3(0.13, 0.007, 0.01)}};
+  muscle.path.points = {{.name = "a", .p_BP = Vec3(-0.12, 0.005, 0.0)}, {.name = "b", .p_BP = Vec3(0.13, 0.007, 0.01)}};
   muscle.path.wraps = {{.wrap_object = 0}, {.wrap_object = 1}};
   m.muscles = {muscle};
   return finalize(m);

@@ -14,21 +14,16 @@ namespace {
 /// Returns true if the path over the object is the shortest: motion of the tangent points then does
 /// not change the length to first order.
 bool is_shortest(const WrapObject& object) {
-  return std::holds_alternative<CylinderShape>(object.shape) ||
-         std::holds_alternative<SphereShape>(object.shape);
+  return std::holds_alternative<CylinderShape>(object.shape) || std::holds_alternative<SphereShape>(object.shape);
 }
 
-/// State of an object in the passes: without contact, in contact, or left out of all further
-/// passes.
+/// State of an object in the passes: without contact, in contact, or left out of all further passes.
 enum ContactState : char { kFree = 0, kTouching = 1, kLeftOut = 2 };
 
 /// The search for the segment over which an object lengthens a path least.
 class SegmentSearch {
  public:
-  SegmentSearch(const WrapObject& object,
-                WrapMethod method,
-                const Pose& X_GW,
-                const std::vector<PathStation>& stations)
+  SegmentSearch(const WrapObject& object, WrapMethod method, const Pose& X_GW, const std::vector<PathStation>& stations)
       : object_(object), method_(method), X_WG_(X_GW.inverse()), stations_(stations) {}
 
   /// Compares segment i with the best one; false: the segment has no contact.
@@ -38,8 +33,8 @@ class SegmentSearch {
     const Vec3 q_W = X_WG_ * stations_[at(i + 1)].p_G;
     const auto contact = contact_over(object_, method_, p_W, q_W);
     if (!contact) return false;
-    const double change = (contact->first_W - p_W).norm() + contact->arc_length_m +
-                          (q_W - contact->second_W).norm() - (q_W - p_W).norm();
+    const double change =
+        (contact->first_W - p_W).norm() + contact->arc_length_m + (q_W - contact->second_W).norm() - (q_W - p_W).norm();
     if (change < best_change_) {
       best_change_ = change;
       segment = i;
@@ -59,10 +54,9 @@ class SegmentSearch {
   double best_change_ = std::numeric_limits<double>::infinity();
 };
 
-/// Puts the contact of one wrap on its segment of the previous pass or, without contact there, on
-/// the segment that lengthens the path least. Returns the distance that its tangent points have
-/// moved. `final_loss`: an object that loses its contact in this pass is left out of all further
-/// passes.
+/// Puts the contact of one wrap on its segment of the previous pass or, without contact there, on the segment that
+/// lengthens the path least. Returns the distance that its tangent points have moved. `final_loss`: an object that
+/// loses its contact in this pass is left out of all further passes.
 double insert_wrap(const BodyModel& model,
                    const MusclePath& path,
                    int number,
@@ -74,9 +68,7 @@ double insert_wrap(const BodyModel& model,
   auto& stations = workspace.stations;
   // Objects that look for a new place in every pass could exchange places without end.
   const auto is_ours = [number](const PathStation& s) { return s.wrap == number; };
-  const int former =
-      static_cast<int>(std::find_if(stations.begin(), stations.end(), is_ours) - stations.begin()) -
-      1;
+  const int former = static_cast<int>(std::find_if(stations.begin(), stations.end(), is_ours) - stations.begin()) - 1;
   std::erase_if(stations, is_ours);
   auto& before = workspace.first_seen_G[at(number)];
   char& known = workspace.is_seen[at(number)];
@@ -94,13 +86,12 @@ double insert_wrap(const BodyModel& model,
   }
   known = search.segment >= 0 ? kTouching : was_there && final_loss ? kLeftOut : kFree;
   if (search.segment < 0) return was_there ? std::numeric_limits<double>::infinity() : 0.0;
-  const auto contact = contact_stations(object, number, X_GW, search.best.first_W,
-                                        search.best.second_W, search.best.arc_length_m);
+  const auto contact =
+      contact_stations(object, number, X_GW, search.best.first_W, search.best.second_W, search.best.arc_length_m);
   const auto& [first, second] = contact;
   // A change of segment counts as motion, even to the same place: two objects may change places.
-  const double moved =
-      stays ? std::max((first.p_G - before[0]).norm(), (second.p_G - before[1]).norm())
-            : std::numeric_limits<double>::infinity();
+  const double moved = stays ? std::max((first.p_G - before[0]).norm(), (second.p_G - before[1]).norm())
+                             : std::numeric_limits<double>::infinity();
   before = {first.p_G, second.p_G};
   insert_behind(stations, search.segment, contact);
   return moved;
@@ -109,10 +100,7 @@ double insert_wrap(const BodyModel& model,
 /// Fits each object in turn to its current neighbors until the tangent points rest. Two objects may
 /// push the path off each other, each in contact only without the other: the object that first
 /// loses its contact after some passes is then left out. False: the tangent points do not rest.
-bool wrap_all(const BodyModel& model,
-              const MusclePath& path,
-              const BodyState& state,
-              PathWorkspace& workspace) {
+bool wrap_all(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
   constexpr int kMostPasses = 200;
   constexpr double kResting_m = 1e-13;
   workspace.first_seen_G.resize(path.wraps.size());
@@ -124,8 +112,7 @@ bool wrap_all(const BodyModel& model,
     if (pass >= kPatientPasses && pass % 3 == 0) refine_contacts(model, path, state, workspace);
     double moved = 0.0;
     for (std::size_t w = 0; w < path.wraps.size(); ++w)
-      moved = std::max(moved, insert_wrap(model, path, static_cast<int>(w), state,
-                                          pass >= kPatientPasses, workspace));
+      moved = std::max(moved, insert_wrap(model, path, static_cast<int>(w), state, pass >= kPatientPasses, workspace));
     if (moved < kResting_m) return true;
   }
   return passes == 1;

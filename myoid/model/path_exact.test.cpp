@@ -36,8 +36,7 @@ Found against_differences(const BodyModel& m, int postures) {
           compute_poses(m, q + step * Eigen::VectorXd::Unit(q.size(), c), state);
           compute_exact_path(m, muscle.path, state, workspace, result);
         };
-        here.moment_arm_m = ahead.moment_arm_m = behind.moment_arm_m =
-            Eigen::VectorXd::Zero(q.size());
+        here.moment_arm_m = ahead.moment_arm_m = behind.moment_arm_m = Eigen::VectorXd::Zero(q.size());
         path_at(2.0 * h, ahead);
         path_at(-2.0 * h, behind);
         const double wide = (ahead.length_m - behind.length_m) / (4.0 * h);
@@ -65,8 +64,8 @@ Found against_differences(const BodyModel& m, int postures) {
         }
         if (!(error <= found.worst_m)) {
           found.worst_m = error;
-          found.where = muscle.name + " by " + m.coordinates[static_cast<std::size_t>(c)].name +
-                        " in posture " + std::to_string(k);
+          found.where = muscle.name + " by " + m.coordinates[static_cast<std::size_t>(c)].name + " in posture " +
+                        std::to_string(k);
         }
       }
     }

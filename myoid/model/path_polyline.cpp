@@ -28,17 +28,14 @@ Turn turn_of(const Eigen::Vector2d& before,
              const Eigen::Vector2d& first,
              const Eigen::Vector2d& second,
              const Eigen::Vector2d& after) {
-  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  };
+  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
   const Eigen::Vector2d in = first - before;
   const Eigen::Vector2d out = after - second;
   const double sense = in.norm() > out.norm() ? cross(first, in) : cross(second, out);
   Turn turn;
   turn.first = std::atan2(first.y(), first.x());
   const double last = std::atan2(second.y(), second.x());
-  turn.turned =
-      sense >= 0.0 ? within_one_turn(last - turn.first) : -within_one_turn(turn.first - last);
+  turn.turned = sense >= 0.0 ? within_one_turn(last - turn.first) : -within_one_turn(turn.first - last);
   return turn;
 }
 
@@ -80,9 +77,7 @@ std::vector<Vec3> on_ellipsoid(const Vec3& radii, const Arc& arc, double most_tu
   if (!(radius > 0.0)) return {};
   const Vec3 u = (F - center) / radius;
   const Vec3 v = normal.cross(u);
-  const auto flat = [&](const Vec3& x) -> Eigen::Vector2d {
-    return {(x - center).dot(u), (x - center).dot(v)};
-  };
+  const auto flat = [&](const Vec3& x) -> Eigen::Vector2d { return {(x - center).dot(u), (x - center).dot(v)}; };
   const Turn turn = turn_of(flat(P), flat(F), flat(S), flat(Q));
   const int pieces = pieces_of(turn.turned, most_turn_rad);
   std::vector<Vec3> points;
@@ -105,8 +100,7 @@ std::vector<Vec3> on_object(const WrapObject& object, const Arc& arc, double mos
   const auto tube = torus_tube(torus, object.quadrant, arc.before, arc.after);
   if (!tube) return {};
   const Pose X_CW = tube->inverse();
-  const Arc in_tube{X_CW * arc.before, X_CW * arc.first, X_CW * arc.second, X_CW * arc.after,
-                    arc.length_m};
+  const Arc in_tube{X_CW * arc.before, X_CW * arc.first, X_CW * arc.second, X_CW * arc.after, arc.length_m};
   std::vector<Vec3> points = on_cylinder(torus.inner_radius_m, in_tube, most_turn_rad);
   for (Vec3& p : points) p = *tube * p;
   return points;

@@ -10,10 +10,9 @@
 
 namespace myoid::model {
 
-/// Returns the path of a muscle as a line to draw: its stations in ground [m] and points of its
-/// arcs over the wrap objects. The line turns by at most `most_turn_rad` from one piece to the next
-/// (measured on a circle or sphere of radius one). Its length approaches the length of the path
-/// from below, with the square of `most_turn_rad`.
+/// Returns the path of a muscle as a line to draw: its stations in ground [m] and points of its arcs over the wrap
+/// objects. The line turns by at most `most_turn_rad` from one piece to the next (measured on a circle or sphere of
+/// radius one). Its length approaches the length of the path from below, with the square of `most_turn_rad`.
 ///
 /// `stations` come from the workspace of `compute_path` at this posture. Over a cylinder the curve
 /// is the helix, over a sphere the great circle, over an ellipsoid the cut by the plane of the

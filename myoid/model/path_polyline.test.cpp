@@ -48,12 +48,10 @@ Drawn draw(const BodyModel& m, int muscle, const BodyState& state) {
   compute_path(m, path, state, workspace, result);
   Drawn drawn;
   drawn.length_m = result.length_m;
-  for (const PathStation& s : workspace.stations)
-    drawn.arc_m += s.on_wrap_after ? s.arc_after_m : 0;
+  for (const PathStation& s : workspace.stations) drawn.arc_m += s.on_wrap_after ? s.arc_after_m : 0;
   drawn.line = path_polyline(m, path, state, workspace.stations);
   drawn.coarse_m = result.length_m - length_of_line(drawn.line);
-  drawn.fine_m = result.length_m -
-                 length_of_line(path_polyline(m, path, state, workspace.stations, 2.5 * kDegree));
+  drawn.fine_m = result.length_m - length_of_line(path_polyline(m, path, state, workspace.stations, 2.5 * kDegree));
   return drawn;
 }
 
@@ -71,8 +69,7 @@ std::vector<BodyModel> every_shape() {
           over({.name = "far", .quadrant = -2, .shape = CylinderShape{0.03, 1.0}}, kFrom, kTo),
           over({.name = "s", .shape = SphereShape{0.04}}, kFrom, kTo),
           over({.name = "e", .shape = EllipsoidShape{{0.03, 0.05, 0.07}}}, kFrom, kTo),
-          over({.name = "t", .shape = TorusShape{0.01, 0.04}}, Vec3(0.06, 0.0, 0.08),
-               Vec3(0.065, 0.01, -0.08))};
+          over({.name = "t", .shape = TorusShape{0.01, 0.04}}, Vec3(0.06, 0.0, 0.08), Vec3(0.065, 0.01, -0.08))};
 }
 
 TEST(PathPolyline, ApproachesThePathsLengthFromBelowWithTheSquareOfTheTurn) {

@@ -16,10 +16,7 @@ bool is_active(const PathPoint& point, const BodyState& state) {
 
 }  // namespace
 
-void place_points(const BodyModel& model,
-                  const MusclePath& path,
-                  const BodyState& state,
-                  PathWorkspace& workspace) {
+void place_points(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
   workspace.stations.clear();
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& point = path.points[i];
@@ -36,8 +33,7 @@ void place_points(const BodyModel& model,
         q = std::clamp(state.q[moving.coordinate], c.lower, c.upper);
       }
       Vec3 p_F;
-      for (std::size_t k = 0; k < 3; ++k)
-        p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
+      for (std::size_t k = 0; k < 3; ++k) p_F[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).value;
       s.p_B = moving.X_BF * p_F;
     }
     s.p_G = state.X_GB[at(s.body)] * s.p_B;
@@ -45,9 +41,7 @@ void place_points(const BodyModel& model,
   }
 }
 
-StationRange station_range(const MusclePath& path,
-                           const PathWrap& wrap,
-                           const std::vector<PathStation>& stations) {
+StationRange station_range(const MusclePath& path, const PathWrap& wrap, const std::vector<PathStation>& stations) {
   const int count = static_cast<int>(path.points.size());
   const int from = wrap.range_start < 1 ? 0 : std::min(wrap.range_start, count) - 1;
   const int to = wrap.range_end < 1 ? count - 1 : std::min(wrap.range_end, count) - 1;
@@ -64,8 +58,7 @@ StationRange station_range(const MusclePath& path,
 double length_of(const std::vector<PathStation>& stations) {
   double length = 0.0;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    length += stations[i].on_wrap_after ? stations[i].arc_after_m
-                                        : (stations[i + 1].p_G - stations[i].p_G).norm();
+    length += stations[i].on_wrap_after ? stations[i].arc_after_m : (stations[i + 1].p_G - stations[i].p_G).norm();
   }
   return length;
 }
@@ -101,18 +94,14 @@ void add_pair_moment(const BodyModel& model,
   }
 }
 
-Vec3 moving_rate(const BodyModel& model,
-                 const PathPoint& point,
-                 const BodyState& state,
-                 bool beyond_range) {
+Vec3 moving_rate(const BodyModel& model, const PathPoint& point, const BodyState& state, bool beyond_range) {
   const PathPoint::Moving& moving = *point.moving;
   if (moving.coordinate < 0) return Vec3::Zero();
   const Coordinate& coordinate = model.coordinates[at(moving.coordinate)];
   const double q = state.q[moving.coordinate];
   if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) return Vec3::Zero();
   Vec3 rate;
-  for (std::size_t k = 0; k < 3; ++k)
-    rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
+  for (std::size_t k = 0; k < 3; ++k) rate[static_cast<Eigen::Index>(k)] = evaluate(moving.location[k], q).first;
   return state.X_GB[at(point.body)].R * (moving.X_BF.R * rate);
 }
 
@@ -135,9 +124,7 @@ std::array<PathStation, 2> contact_stations(const WrapObject& object,
   return {first, second};
 }
 
-void insert_behind(std::vector<PathStation>& stations,
-                   int station,
-                   const std::array<PathStation, 2>& contact) {
+void insert_behind(std::vector<PathStation>& stations, int station, const std::array<PathStation, 2>& contact) {
   const auto where = stations.begin() + station + 1;
   stations.insert(stations.insert(where, contact[1]), contact[0]);
 }

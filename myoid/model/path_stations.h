@@ -42,10 +42,7 @@ struct PathResult {
 };
 
 /// Fills the stations of a path without wrap objects, the first step of all computations of a path.
-void place_points(const BodyModel& model,
-                  const MusclePath& path,
-                  const BodyState& state,
-                  PathWorkspace& workspace);
+void place_points(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace);
 
 /// First and last station between which a wrap may act: the wrap's range counts all points from 1
 /// and shrinks to the active points. {0, -1} if the range holds none.
@@ -60,9 +57,8 @@ struct StationRange {
 /// Returns the sum of the straight pieces and of the arcs.
 [[nodiscard]] double length_of(const std::vector<PathStation>& stations);
 
-/// Adds to `arm` minus the derivative of u . (p_b - p_a) by each coordinate. The points are fixed
-/// in the bodies a and b, and u is the direction from a to b. Coordinates that do not move the
-/// bodies against each other get exactly zero.
+/// Adds to `arm` minus the derivative of u . (p_b - p_a) by each coordinate. The points are fixed in the bodies a and
+/// b, and u is the direction from a to b. Coordinates that do not move the bodies against each other get exactly zero.
 void add_pair_moment(const BodyModel& model,
                      const BodyState& state,
                      BodyIndex a,
@@ -82,9 +78,7 @@ void add_pair_moment(const BodyModel& model,
                                                           double arc_length_m);
 
 /// Inserts two stations behind a station.
-void insert_behind(std::vector<PathStation>& stations,
-                   int station,
-                   const std::array<PathStation, 2>& contact);
+void insert_behind(std::vector<PathStation>& stations, int station, const std::array<PathStation, 2>& contact);
 
 /// Returns the derivative of a moving point's location by its coordinate, in ground.
 /// `beyond_range`: nonzero also outside the coordinate's range, as in OpenSim.

@@ -16,8 +16,7 @@ namespace {
 bool moves(const BodyModel& model, int coordinate) {
   const auto depends = [&](const CoordinateCoupler& k) { return k.dependent == coordinate; };
   const Coordinate& c = model.coordinates[static_cast<std::size_t>(coordinate)];
-  return !c.locked && !c.prescribed &&
-         std::none_of(model.couplers.begin(), model.couplers.end(), depends);
+  return !c.locked && !c.prescribed && std::none_of(model.couplers.begin(), model.couplers.end(), depends);
 }
 
 /// Length and arm of one muscle along one coordinate.
@@ -36,8 +35,7 @@ class Sweep {
   Point at(double value) {
     move_to(value);
     // Along the line dependent coordinates move too.
-    return {value, result_.length_m,
-            model_.couplers.empty() ? result_.moment_arm_m[coordinate_] : bound_arm_m()};
+    return {value, result_.length_m, model_.couplers.empty() ? result_.moment_arm_m[coordinate_] : bound_arm_m()};
   }
 
   /// Returns the arm with all that the constraints bind to the coordinate, closed loops included.
@@ -76,8 +74,7 @@ double excess(const Sweep::Point& a, const Sweep::Point& b) {
 
 CoordinateRange usual_range(const Coordinate& c) {
   const double most = c.motion == MotionType::rotational ? 3.0 : 1.0;
-  CoordinateRange r{std::max(c.lower, c.default_value - most),
-                    std::min(c.upper, c.default_value + most)};
+  CoordinateRange r{std::max(c.lower, c.default_value - most), std::min(c.upper, c.default_value + most)};
   // A default outside of the range: the range itself counts.
   if (!(r.lower <= r.upper)) r = {c.lower, c.upper};
   return r;
@@ -115,9 +112,7 @@ std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
       const MusclePath& path = model.muscles[m].path;
       compute_path(exact, path, state, workspace, ours);
       compute_path(opensim, path, state, workspace, theirs);
-      const auto finite = [](double x) {
-        return std::isnan(x) ? std::numeric_limits<double>::infinity() : x;
-      };
+      const auto finite = [](double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : x; };
       const double length = finite(std::abs(ours.length_m - theirs.length_m));
       const double arm = theirs.moment_arm_m.allFinite()
                              ? (ours.moment_arm_m - theirs.moment_arm_m).cwiseAbs().maxCoeff()
@@ -131,20 +126,14 @@ std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
       d.postures_above_1mm += length > 1e-3 ? 1 : 0;
     }
   }
-  std::erase_if(all, [&](const PathDifference& d) {
-    return !(d.length_m > least_m || d.moment_arm_m > least_m);
-  });
+  std::erase_if(all, [&](const PathDifference& d) { return !(d.length_m > least_m || d.moment_arm_m > least_m); });
   for (PathDifference& d : all) d.typical_length_m = std::sqrt(d.typical_length_m);
-  std::stable_sort(all.begin(), all.end(), [](const PathDifference& a, const PathDifference& b) {
-    return a.length_m > b.length_m;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PathDifference& a, const PathDifference& b) { return a.length_m > b.length_m; });
   return all;
 }
 
-std::vector<PathJump> find_jumps(const BodyModel& model,
-                                 int steps,
-                                 double length_tolerance_m,
-                                 double arm_tolerance_m) {
+std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double length_tolerance_m, double arm_tolerance_m) {
   std::vector<PathJump> jumps;
   for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
     for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
@@ -156,8 +145,8 @@ std::vector<PathJump> find_jumps(const BodyModel& model,
       Sweep::Point before = sweep.at(range.lower);
       for (int i = 1; i <= steps; ++i) {
         const Sweep::Point here = sweep.at(range.lower + step * i);
-        const bool suspicious = excess(before, here) > length_tolerance_m ||
-                                std::abs(here.arm_m - before.arm_m) > arm_tolerance_m;
+        const bool suspicious =
+            excess(before, here) > length_tolerance_m || std::abs(here.arm_m - before.arm_m) > arm_tolerance_m;
         if (suspicious) {
           // Halve towards the half that departs more, until nothing smooth is left.
           Sweep::Point a = before;
@@ -183,8 +172,7 @@ std::vector<PathJump> find_jumps(const BodyModel& model,
 }
 
 Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
-  const CoordinateRange range =
-      usual_range(model.coordinates[static_cast<std::size_t>(coordinate)]);
+  const CoordinateRange range = usual_range(model.coordinates[static_cast<std::size_t>(coordinate)]);
   Sweep sweep(model, muscle, coordinate);
   Eigen::VectorXd arms(steps + 1);
   for (int step = 0; step <= steps; ++step)
@@ -195,13 +183,11 @@ Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordi
 std::string describe(const BodyModel& model, const PathJump& jump) {
   const Coordinate& c = model.coordinates[static_cast<std::size_t>(jump.coordinate)];
   const bool is_angle = c.motion == MotionType::rotational;
-  std::string text = fmt::format(
-      "{} at {} = {:.5g} {}:", model.muscles[static_cast<std::size_t>(jump.muscle)].name, c.name,
-      is_angle ? jump.at / kDegree : jump.at, is_angle ? "deg" : "m");
+  std::string text = fmt::format("{} at {} = {:.5g} {}:", model.muscles[static_cast<std::size_t>(jump.muscle)].name,
+                                 c.name, is_angle ? jump.at / kDegree : jump.at, is_angle ? "deg" : "m");
   if (jump.length_m > 0.0) text += fmt::format(" length jumps by {:.3g} mm", 1e3 * jump.length_m);
   if (jump.moment_arm_m > 0.0) {
-    text += fmt::format("{} moment arm jumps by {:.3g} mm", jump.length_m > 0.0 ? "," : "",
-                        1e3 * jump.moment_arm_m);
+    text += fmt::format("{} moment arm jumps by {:.3g} mm", jump.length_m > 0.0 ? "," : "", 1e3 * jump.moment_arm_m);
   }
   return text;
 }

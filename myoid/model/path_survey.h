@@ -19,9 +19,7 @@ struct CoordinateRange {
 /// Returns a posture with every free coordinate drawn uniformly from its range (at most +-3 rad or
 /// +-1 m about the default value). Locked coordinates have their default; couplers give the
 /// dependent ones. Equal seed and number give an equal posture.
-[[nodiscard]] Eigen::VectorXd random_posture(const BodyModel& model,
-                                             std::uint64_t seed,
-                                             std::uint64_t number);
+[[nodiscard]] Eigen::VectorXd random_posture(const BodyModel& model, std::uint64_t seed, std::uint64_t number);
 
 /// Differences of one muscle between exact paths and those of OpenSim 4.5.2, over random postures.
 struct PathDifference {
@@ -33,9 +31,8 @@ struct PathDifference {
   Eigen::VectorXd worst_posture;  ///< Posture of the greatest length difference.
 };
 
-/// Returns the muscles that differ by more than `least_m` in length or moment arm at some posture,
-/// the greatest length difference first. A moment arm of a coordinate in meters counts as well; a
-/// NaN of OpenSim counts as infinite.
+/// Returns the muscles that differ by more than `least_m` in length or moment arm at some posture, the greatest length
+/// difference first. A moment arm of a coordinate in meters counts as well; a NaN of OpenSim counts as infinite.
 [[nodiscard]] std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
                                                                int postures,
                                                                std::uint64_t seed = 1,
@@ -61,10 +58,7 @@ struct PathJump {
 /// Returns the muscle's moment arms by the coordinate at steps + 1 places from end to end of its
 /// range. Other coordinates have their default values; those that couplers or constraints bind to
 /// it move along, as in OpenSim (coupling_matrix in constraints.h).
-[[nodiscard]] Eigen::VectorXd arms_over_range_m(const BodyModel& model,
-                                                int muscle,
-                                                int coordinate,
-                                                int steps);
+[[nodiscard]] Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps);
 
 /// Describes the jump in a sentence: muscle, coordinate, place and size.
 [[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);

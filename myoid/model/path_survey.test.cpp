@@ -26,8 +26,7 @@ BodyModel hinge(std::vector<PathPoint> points) {
   joint.rotation[0] = {.axis = Vec3::UnitZ(), .coordinate = 0, .function = Linear{1.0, 0.0}};
   joint.rotation[1].axis = Vec3::UnitX();
   joint.rotation[2].axis = Vec3::UnitY();
-  for (std::size_t k = 0; k < 3; ++k)
-    joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < 3; ++k) joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
   m.joints = {joint};
   Muscle muscle;
   muscle.name = "m";
@@ -57,14 +56,13 @@ TEST(FindJumps, NarrowsDownWhereAViaPointSwitchesOn) {
   // The size: with and without the point.
   const double q = 1.0 - 1e-5;
   const Vec3 end(0.1 * std::cos(q), 0.1 * std::sin(q), 0.0);
-  const double step = (Vec3(0.0, 0.3, 0.0) - via.p_BP).norm() + (via.p_BP - end).norm() -
-                      (Vec3(0.0, 0.3, 0.0) - end).norm();
+  const double step =
+      (Vec3(0.0, 0.3, 0.0) - via.p_BP).norm() + (via.p_BP - end).norm() - (Vec3(0.0, 0.3, 0.0) - end).norm();
   EXPECT_NEAR(jumps[0].length_m, step, 1e-9);
 }
 
 TEST(FindJumps, FindsNoneInAStraightMuscleOrWhereContactBeginsSmoothly) {
-  EXPECT_TRUE(
-      find_jumps(hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))})).empty());
+  EXPECT_TRUE(find_jumps(hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))})).empty());
   // From one side of the cylinder to beyond it, never across its axis.
   BodyModel pulley = hinge({fixed(0, Vec3(0.03, 0.25, 0.01)), fixed(1, Vec3(-0.05, -0.1, 0.0))});
   pulley.coordinates[0].lower = 0.4;
@@ -101,8 +99,7 @@ TEST(FindJumps, TheLengthIsAnotherOneOnEitherSide) {
       if (jump.length_m == 0.0) continue;
       ++of_length;
       // 2e-9 rad at arms of less than 2 m: BIClong's grows without bound before the jump.
-      EXPECT_NEAR(std::abs(length_at(jump.at + 1e-9) - length_at(jump.at - 1e-9)), jump.length_m,
-                  4e-9);
+      EXPECT_NEAR(std::abs(length_at(jump.at + 1e-9) - length_at(jump.at - 1e-9)), jump.length_m, 4e-9);
     }
     EXPECT_GE(of_length, 2);
   }
@@ -110,10 +107,8 @@ TEST(FindJumps, TheLengthIsAnotherOneOnEitherSide) {
 
 TEST(Describe, NamesMuscleCoordinateAndSize) {
   const BodyModel m = hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))});
-  EXPECT_EQ(describe(m, {0, 0, 0.5 * kPi, 0.00125, 0.0}),
-            "m at q = 90 deg: length jumps by 1.25 mm");
-  EXPECT_EQ(describe(m, {0, 0, 0.0, 0.001, 0.02}),
-            "m at q = 0 deg: length jumps by 1 mm, moment arm jumps by 20 mm");
+  EXPECT_EQ(describe(m, {0, 0, 0.5 * kPi, 0.00125, 0.0}), "m at q = 90 deg: length jumps by 1.25 mm");
+  EXPECT_EQ(describe(m, {0, 0, 0.0, 0.001, 0.02}), "m at q = 0 deg: length jumps by 1 mm, moment arm jumps by 20 mm");
 }
 
 TEST(RandomPosture, LiesInTheRangesAndDependsOnSeedAndNumberOnly) {
@@ -153,9 +148,7 @@ TEST(CompareWithOpenSim, NamesTheMusclesOfArm26WhoseWrapsDiffer) {
 }
 
 TEST(CompareWithOpenSim, FindsNothingWithoutWraps) {
-  EXPECT_TRUE(
-      compare_with_opensim(hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))}), 50)
-          .empty());
+  EXPECT_TRUE(compare_with_opensim(hinge({fixed(0, Vec3(0.02, 0.3, 0.0)), fixed(1, Vec3(0.1, 0, 0))}), 50).empty());
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ std::optional<int> sense_of(double radius, Quadrant quadrant, const Vec3& p, con
 
   // Point of the chord that is nearest to the axis.
   const Eigen::Vector2d chord = (q - p).head<2>();
-  const double along =
-      chord.squaredNorm() > 0.0 ? -p.head<2>().dot(chord) / chord.squaredNorm() : 0.0;
+  const double along = chord.squaredNorm() > 0.0 ? -p.head<2>().dot(chord) / chord.squaredNorm() : 0.0;
   const Eigen::Vector2d nearest = p.head<2>() + along * chord;
   const bool cuts = along > 0.0 && along < 1.0 && nearest.norm() < radius;
 
@@ -59,12 +58,10 @@ std::optional<int> sense_of(double radius, Quadrant quadrant, const Vec3& p, con
   const bool first_active = side * p[axis] > 0.0;
   const bool second_active = side * q[axis] > 0.0;
   if (first_active || second_active) {
-    const bool wrong_side =
-        first_active != second_active && along > 0.0 && along < 1.0 && side * nearest[axis] < 0.0;
+    const bool wrong_side = first_active != second_active && along > 0.0 && along < 1.0 && side * nearest[axis] < 0.0;
     if (!cuts && !wrong_side) return std::nullopt;
   }
-  // A turn of nearly a whole circle belongs to a path whose straight line does not touch the
-  // cylinder.
+  // A turn of nearly a whole circle belongs to a path whose straight line does not touch the cylinder.
   const auto activity = [&](int s) {
     const WayRound<double> way = way_round(radius, p, q, s);
     const double angle = way.middle_angle(s);
@@ -92,22 +89,16 @@ std::optional<ContactOf<T>> wrap_cylinder(const CylinderShape& cylinder,
   const T rise = (q_W.z() - p_W.z()) / way.length(radius);
   const T last_angle = way.first_angle + T(*sense) * way.turned;
   ContactOf<T> contact;
-  contact.first_W = {T(radius) * cos(way.first_angle), T(radius) * sin(way.first_angle),
-                     p_W.z() + rise * way.tangent1};
-  contact.second_W = {T(radius) * cos(last_angle), T(radius) * sin(last_angle),
-                      q_W.z() - rise * way.tangent2};
+  contact.first_W = {T(radius) * cos(way.first_angle), T(radius) * sin(way.first_angle), p_W.z() + rise * way.tangent1};
+  contact.second_W = {T(radius) * cos(last_angle), T(radius) * sin(last_angle), q_W.z() - rise * way.tangent2};
   const double half = 0.5 * cylinder.length_m;
-  if (std::abs(value_of(contact.first_W.z())) > half &&
-      std::abs(value_of(contact.second_W.z())) > half)
+  if (std::abs(value_of(contact.first_W.z())) > half && std::abs(value_of(contact.second_W.z())) > half)
     return std::nullopt;
   contact.arc_length_m = T(radius) * way.turned * sqrt(T(1.0) + rise * rise);
   return contact;
 }
 
-template std::optional<WrapContact> wrap_cylinder(const CylinderShape&,
-                                                  Quadrant,
-                                                  const Vec3&,
-                                                  const Vec3&);
+template std::optional<WrapContact> wrap_cylinder(const CylinderShape&, Quadrant, const Vec3&, const Vec3&);
 template std::optional<ContactOf<Jet6>> wrap_cylinder(const CylinderShape&,
                                                       Quadrant,
                                                       const Vector3<Jet6>&,

@@ -21,8 +21,7 @@ struct Nearest {
 };
 
 Nearest nearest_on(const Vec3& radii, const Vec3& p, int plane) {
-  // g falls and is convex right of its poles: Newton from a point left of the root converges from
-  // the left.
+  // g falls and is convex right of its poles: Newton from a point left of the root converges from the left.
   constexpr double kOnPlane = 1e-13;
   Nearest n;
   double shortest = std::numeric_limits<double>::infinity();
@@ -72,8 +71,7 @@ Vector3<T> closest_point(const Vec3& radii, const Vector3<T>& p, int plane = -1)
   }
   const T t = T(n.t) - g / T(n.slope);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    if (n.used[static_cast<std::size_t>(i)])
-      x[i] = T(radii[i] * radii[i]) * p[i] / (t + T(radii[i] * radii[i]));
+    if (n.used[static_cast<std::size_t>(i)]) x[i] = T(radii[i] * radii[i]) * p[i] / (t + T(radii[i] * radii[i]));
   }
   return x;
 }
@@ -101,10 +99,8 @@ std::optional<Chord<T>> chord_inside(const Vec3& radii, const Vector3<T>& p, con
   const Vector3<T> P = divided(p, radii);
   const Vector3<T> d = divided(Vector3<T>(q - p), radii);
   constexpr double kInside = -1e-4;  // OpenSim's limit: ends may touch the surface
-  if (P.squaredNorm() - T(1.0) < T(kInside) || (P + d).squaredNorm() - T(1.0) < T(kInside))
-    return std::nullopt;
-  if (std::abs(value_of(p).normalized().dot(value_of(q).normalized()) - 1.0) < 1e-4)
-    return std::nullopt;
+  if (P.squaredNorm() - T(1.0) < T(kInside) || (P + d).squaredNorm() - T(1.0) < T(kInside)) return std::nullopt;
+  if (std::abs(value_of(p).normalized().dot(value_of(q).normalized()) - 1.0) < 1e-4) return std::nullopt;
   const T a = d.squaredNorm();
   const T b = P.dot(d);
   const T discriminant = b * b - a * (P.squaredNorm() - T(1.0));
@@ -131,11 +127,8 @@ Vector3<T> fan_point(const Vec3& radii, const Chord<T>& chord) {
 
 /// Returns the point c of the surface through which the wrapping plane goes.
 template <typename T>
-Vector3<T> plane_point(const Vec3& radii,
-                       Quadrant quadrant,
-                       WrapMethod method,
-                       const Vector3<T>& along,
-                       const Chord<T>& chord) {
+Vector3<T> plane_point(
+    const Vec3& radii, Quadrant quadrant, WrapMethod method, const Vector3<T>& along, const Chord<T>& chord) {
   T fan_weight(0.0);
   Vector3<T> c(T(0.0), T(0.0), T(0.0));
   if (method == WrapMethod::midpoint) {
@@ -201,23 +194,20 @@ std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
   if (!chord) return std::nullopt;
   const Vector3<T> c = plane_point(radii, quadrant, method, Vector3<T>(q_W - p_W), *chord);
 
-  // A scaling makes the ellipsoid the unit sphere. Planes stay planes, tangents stay tangents, and
-  // the cut is a circle.
+  // A scaling makes the ellipsoid the unit sphere. Planes stay planes, tangents stay tangents, and the cut is a circle.
   const Vector3<T> P = divided(p_W, radii);
   const Vector3<T> Q = divided(q_W, radii);
   const Vector3<T> C = divided(c, radii);
   const Vector3<T> u = Vector3<T>(Q - P).normalized();
   Vector3<T> v = (C - P) - (C - P).dot(u) * u;
   if (!(v.norm() > T(1e-12))) return std::nullopt;  // c is on the line, which defines no plane
-  v.normalize();  // towards c: the path bulges to +v and turns from v to u
+  v.normalize();                                    // towards c: the path bulges to +v and turns from v to u
   const Vector3<T> normal = u.cross(v);
   const Vector3<T> center = P.dot(normal) * normal;
   const T square = T(1.0) - center.squaredNorm();
   if (!(square > T(0.0))) return std::nullopt;
   const T radius = sqrt(square);
-  const auto polar = [&](const Vector3<T>& X) {
-    return T(atan2((X - center).dot(v), (X - center).dot(u)));
-  };
+  const auto polar = [&](const Vector3<T>& X) { return T(atan2((X - center).dot(v), (X - center).dot(u))); };
   const auto to_tangent = [&](const Vector3<T>& X) {
     const T cosine = radius / (X - center).norm();
     return cosine < T(1.0) ? T(acos(cosine)) : T(0.0);
@@ -232,11 +222,9 @@ std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
   ContactOf<T> contact;
   contact.first_W = on_cut(first);
   contact.second_W = on_cut(last);
-  // Length of the ellipse's arc: Gauss-Legendre of order 6 on pieces of at most pi/16; the
-  // integrand is smooth.
+  // Length of the ellipse's arc: Gauss-Legendre of order 6 on pieces of at most pi/16; the integrand is smooth.
   constexpr std::array<double, 3> kNode{0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
-  constexpr std::array<double, 3> kWeight{0.4679139345726910, 0.3607615730481386,
-                                          0.1713244923791704};
+  constexpr std::array<double, 3> kWeight{0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
   const int pieces = 1 + static_cast<int>(value_of(turned) * 16.0 / kPi);
   const T half = turned * T(0.5 / pieces);
   // |d/d angle| of the cut: (A cos^2 + B sin^2 + 2 D sin cos) of the scaled axes.
@@ -254,8 +242,7 @@ std::optional<ContactOf<T>> wrap_ellipsoid(const EllipsoidShape& ellipsoid,
     const T middle = first - half * T(2.0 * i + 1.0);
     for (std::size_t k = 0; k < 3; ++k) {
       contact.arc_length_m +=
-          half * T(kWeight[k]) *
-          (speed(middle - half * T(kNode[k])) + speed(middle + half * T(kNode[k])));
+          half * T(kWeight[k]) * (speed(middle - half * T(kNode[k])) + speed(middle + half * T(kNode[k])));
     }
   }
   return contact;

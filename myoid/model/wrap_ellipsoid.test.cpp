@@ -18,8 +18,8 @@ namespace {
 
 TEST(ClosestPointOnEllipsoid, LiesOnTheSurfaceWithItsNormalTowardsThePoint) {
   const Vec3 radii(0.035, 0.02, 0.015);
-  for (const Vec3& p : {Vec3(0.05, 0.01, -0.02), Vec3(0.01, -0.004, 0.003),
-                        Vec3(-0.001, 0.002, 0.0005), Vec3(0.0, 0.03, 0.01)}) {
+  for (const Vec3& p :
+       {Vec3(0.05, 0.01, -0.02), Vec3(0.01, -0.004, 0.003), Vec3(-0.001, 0.002, 0.0005), Vec3(0.0, 0.03, 0.01)}) {
     const Vec3 x = closest_point_on_ellipsoid(radii, p);
     EXPECT_NEAR(x.cwiseQuotient(radii).squaredNorm(), 1.0, 1e-13);
     const Vec3 normal = x.cwiseQuotient(radii).cwiseQuotient(radii).normalized();
@@ -38,15 +38,14 @@ TEST(ClosestPointOnEllipsoid, LiesOnTheSurfaceWithItsNormalTowardsThePoint) {
 }
 
 TEST(WrapEllipsoid, OnASphereTheWayIsTheGreatCirclesTangents) {
-  // Ends at equal distance d on both sides, offset h from the center: l = 2 sqrt(D^2 - R^2) + R
-  // (angle - 2 acos(R/D)).
+  // Ends at equal distance d on both sides, offset h from the center: l = 2 sqrt(D^2 - R^2) + R (angle - 2 acos(R/D)).
   const double R = 0.02;
   const Vec3 p(-0.06, 0.005, 0.003);
   const Vec3 q(0.05, 0.008, -0.004);
   const auto contact = wrap_ellipsoid<double>({Vec3::Constant(R)}, 0, WrapMethod::hybrid, p, q);
   ASSERT_TRUE(contact);
-  const double angle = std::acos(p.normalized().dot(q.normalized())) - std::acos(R / p.norm()) -
-                       std::acos(R / q.norm());
+  const double angle =
+      std::acos(p.normalized().dot(q.normalized())) - std::acos(R / p.norm()) - std::acos(R / q.norm());
   // The fan's mean of 298 directions is not quite symmetric about the chord's middle, the plane
   // therefore nearly a great circle's.
   EXPECT_NEAR(contact->arc_length_m, R * angle, 1e-6);
@@ -61,8 +60,7 @@ TEST(WrapEllipsoid, TheStraightPiecesTouchTheSurface) {
     for (const WrapMethod method : {WrapMethod::hybrid, WrapMethod::midpoint, WrapMethod::axial}) {
       const auto contact = wrap_ellipsoid<double>({radii}, quadrant, method, p, q);
       ASSERT_TRUE(contact);
-      for (const auto& [end, touch] :
-           {std::pair{p, contact->first_W}, std::pair{q, contact->second_W}}) {
+      for (const auto& [end, touch] : {std::pair{p, contact->first_W}, std::pair{q, contact->second_W}}) {
         EXPECT_NEAR(touch.cwiseQuotient(radii).squaredNorm(), 1.0, 1e-12);
         const Vec3 normal = touch.cwiseQuotient(radii).cwiseQuotient(radii).normalized();
         EXPECT_LT(std::abs(normal.dot((end - touch).normalized())), 1e-10) << quadrant;
@@ -73,17 +71,15 @@ TEST(WrapEllipsoid, TheStraightPiecesTouchTheSurface) {
 }
 
 TEST(WrapEllipsoid, ALineThatPassesBesideIsLeftAlone) {
-  EXPECT_FALSE(wrap_ellipsoid<double>({Vec3(0.03, 0.02, 0.02)}, 0, WrapMethod::hybrid,
-                                      Vec3(-0.05, 0.021, 0.0), Vec3(0.05, 0.021, 0.0)));
-  EXPECT_FALSE(wrap_ellipsoid<double>({Vec3(0.03, 0.02, 0.02)}, 0, WrapMethod::hybrid,
-                                      Vec3(-0.05, 0.01, 0.0), Vec3(-0.04, 0.01, 0.0)));
+  EXPECT_FALSE(wrap_ellipsoid<double>({Vec3(0.03, 0.02, 0.02)}, 0, WrapMethod::hybrid, Vec3(-0.05, 0.021, 0.0),
+                                      Vec3(0.05, 0.021, 0.0)));
+  EXPECT_FALSE(wrap_ellipsoid<double>({Vec3(0.03, 0.02, 0.02)}, 0, WrapMethod::hybrid, Vec3(-0.05, 0.01, 0.0),
+                                      Vec3(-0.04, 0.01, 0.0)));
 }
 
 /// Differences of a muscle's length and moment arms from OpenSim's, a row each posture: length,
 /// then one column a coordinate [m].
-Eigen::MatrixXd differences(const BodyModel& m,
-                            const std::string& muscle,
-                            const std::string& motion) {
+Eigen::MatrixXd differences(const BodyModel& m, const std::string& muscle, const std::string& motion) {
   const auto folder = test::data_folder() / "opensim/arm26/opensim";
   const TimeSeries q = recording::read_storage(folder / (motion + "_Kinematics_q.sto")).data;
   const TimeSeries lengths = recording::read_storage(folder / (motion + "_Outputs.sto")).data;
@@ -130,9 +126,8 @@ TEST(MusclePath, EveryMuscleOfArm26RunsWhereOpenSimRunsIt) {
 }
 
 TEST(MusclePath, OverTwoObjectsAtOnceArm26RunsSmoothlyWhereOpenSimJumps) {
-  // TRIlong. Where two objects are touched OpenSim keeps stale places of the tangent points: 8.5 mm
-  // too long in a single frame of a smooth motion, 3.3 mm at large shoulder flexion. Everywhere
-  // else it agrees.
+  // TRIlong. Where two objects are touched OpenSim keeps stale places of the tangent points: 8.5 mm too long in a
+  // single frame of a smooth motion, 3.3 mm at large shoulder flexion. Everywhere else it agrees.
   MYOID_REQUIRE_DATA(test::data_folder() / "opensim/arm26");
   const BodyModel m = read_osim(test::data_folder() / "opensim/arm26/model.osim");
   const Eigen::MatrixXd smooth = differences(m, "TRIlong", "smooth");

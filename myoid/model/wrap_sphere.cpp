@@ -51,24 +51,18 @@ std::optional<ContactOf<T>> wrap_sphere(const SphereShape& sphere,
     const Eigen::Index axis = std::abs(quadrant) - 1;
     const double side = quadrant > 0 ? 1.0 : -1.0;
     if (side * p[axis] < 0.0 || side * q[axis] < 0.0) {
-      const auto tension = [&](const WrapContact& c) -> Vec3 {
-        return (c.first_W - p) + (c.second_W - q);
-      };
+      const auto tension = [&](const WrapContact& c) -> Vec3 { return (c.first_W - p) + (c.second_W - q); };
       const WrapContact near_way = way_over<double>(radius, p, q, false);
       const WrapContact far_way = way_over<double>(radius, p, q, true);
       const Vec3 inward = -(p + q);
-      far_side = (far_way.first_W + far_way.second_W).dot(inward) >
-                 (near_way.first_W + near_way.second_W).dot(inward);
+      far_side = (far_way.first_W + far_way.second_W).dot(inward) > (near_way.first_W + near_way.second_W).dot(inward);
       if (side * tension(far_side ? far_way : near_way)[axis] < 0.0) far_side = !far_side;
     }
   }
   return way_over<T>(radius, p_W, q_W, far_side);
 }
 
-template std::optional<WrapContact> wrap_sphere(const SphereShape&,
-                                                Quadrant,
-                                                const Vec3&,
-                                                const Vec3&);
+template std::optional<WrapContact> wrap_sphere(const SphereShape&, Quadrant, const Vec3&, const Vec3&);
 template std::optional<ContactOf<Jet6>> wrap_sphere(const SphereShape&,
                                                     Quadrant,
                                                     const Vector3<Jet6>&,

@@ -11,9 +11,7 @@ constexpr double kRadius_m = 0.03;
 const Vec3 kSphereFrom(-0.08, 0.006, 0.011);
 const Vec3 kSphereTo(0.07, 0.009, -0.004);
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 void expect_tangent(const Vec3& end, const Vec3& touch) {
   EXPECT_NEAR(touch.norm(), kRadius_m, 1e-16);
@@ -30,8 +28,7 @@ TEST(WrapSphere, TheWayIsTwoTangentsAndTheArcOfAGreatCircle) {
   EXPECT_NEAR(c->first_W.dot(normal), 0.0, 1e-17);
   EXPECT_NEAR(c->second_W.dot(normal), 0.0, 1e-17);
   // No way over another point of the surface is shorter.
-  const double length =
-      (c->first_W - kSphereFrom).norm() + c->arc_length_m + (kSphereTo - c->second_W).norm();
+  const double length = (c->first_W - kSphereFrom).norm() + c->arc_length_m + (kSphereTo - c->second_W).norm();
   EXPECT_GT(length, (kSphereTo - kSphereFrom).norm());
 }
 
@@ -49,8 +46,7 @@ TEST(WrapSphere, TheFarWayGoesRoundTheOtherSideAndIsAsLongAsItIs) {
   // OpenSim counts the far arc as negative; as long as it is, it is positive and the longer one.
   const double alpha = std::acos(kRadius_m / kSphereFrom.norm());
   const double beta = std::acos(kRadius_m / kSphereTo.norm());
-  EXPECT_NEAR(far_way->arc_length_m,
-              kRadius_m * (2.0 * kPi - angle_between(kSphereFrom, kSphereTo) - alpha - beta),
+  EXPECT_NEAR(far_way->arc_length_m, kRadius_m * (2.0 * kPi - angle_between(kSphereFrom, kSphereTo) - alpha - beta),
               1e-16);
   EXPECT_GT(far_way->arc_length_m, near_way->arc_length_m);
 }
@@ -66,8 +62,8 @@ TEST(WrapSphere, ContactBeginsWithoutAJump) {
     // The excess grows with the power 3/2 of the depth.
     EXPECT_NEAR(length, 0.15, 20.0 * std::pow(below, 1.5));
   }
-  EXPECT_FALSE(wrap_sphere<double>({kRadius_m}, 0, Vec3(-0.08, kRadius_m + 1e-9, 0.0),
-                                   Vec3(0.07, kRadius_m + 1e-9, 0.0)));
+  EXPECT_FALSE(
+      wrap_sphere<double>({kRadius_m}, 0, Vec3(-0.08, kRadius_m + 1e-9, 0.0), Vec3(0.07, kRadius_m + 1e-9, 0.0)));
 }
 
 TEST(WrapSphere, WithoutACutThereIsNoContact) {

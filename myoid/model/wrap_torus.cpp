@@ -47,15 +47,13 @@ std::optional<double> nearest_share(const Vec3& p, const Vec3& q, double R, Quad
     const double step = 1.0 / kSamples;
     double s = step * i;
     const double here = distance(s);
-    if ((i > 0 && distance(s - step) < here) || (i < kSamples && distance(s + step) <= here))
-      continue;
+    if ((i > 0 && distance(s - step) < here) || (i < kSamples && distance(s + step) <= here)) continue;
     const double low = std::max(0.0, s - step);
     const double high = std::min(1.0, s + step);
     for (int k = 0; k < 50; ++k) {
       const Distance<double> slope = slope_at<double>(p, d, R, s);
-      const double next = slope.second > 0.0
-                              ? std::clamp(s - slope.first / slope.second, low, high)
-                              : (slope.first > 0.0 ? 0.5 * (s + low) : 0.5 * (s + high));
+      const double next = slope.second > 0.0 ? std::clamp(s - slope.first / slope.second, low, high)
+                                             : (slope.first > 0.0 ? 0.5 * (s + low) : 0.5 * (s + high));
       const bool settled = std::abs(next - s) < 1e-15;
       s = next;
       if (settled) break;
@@ -78,16 +76,11 @@ struct Tube {
     const Vector3<T> r = v - center;
     return {r.dot(ex), r.dot(ey), r.dot(ez)};
   }
-  [[nodiscard]] Vector3<T> back(const Vector3<T>& v) const {
-    return center + v[0] * ex + v[1] * ey + v[2] * ez;
-  }
+  [[nodiscard]] Vector3<T> back(const Vector3<T>& v) const { return center + v[0] * ex + v[1] * ey + v[2] * ez; }
 };
 
 template <typename T>
-std::optional<Tube<T>> tube_at(double R,
-                               Quadrant quadrant,
-                               const Vector3<T>& p_W,
-                               const Vector3<T>& q_W) {
+std::optional<Tube<T>> tube_at(double R, Quadrant quadrant, const Vector3<T>& p_W, const Vector3<T>& q_W) {
   using std::sqrt;
   const std::optional<double> share = nearest_share(value_of(p_W), value_of(q_W), R, quadrant);
   if (!share) return std::nullopt;
@@ -112,10 +105,7 @@ std::optional<Tube<T>> tube_at(double R,
 
 }  // namespace
 
-std::optional<Pose> torus_tube(const TorusShape& torus,
-                               Quadrant quadrant,
-                               const Vec3& p_W,
-                               const Vec3& q_W) {
+std::optional<Pose> torus_tube(const TorusShape& torus, Quadrant quadrant, const Vec3& p_W, const Vec3& q_W) {
   const auto tube = tube_at<double>(torus.outer_radius_m, quadrant, p_W, q_W);
   if (!tube) return std::nullopt;
   Pose X_WC;
@@ -139,10 +129,7 @@ std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
   return contact;
 }
 
-template std::optional<WrapContact> wrap_torus(const TorusShape&,
-                                               Quadrant,
-                                               const Vec3&,
-                                               const Vec3&);
+template std::optional<WrapContact> wrap_torus(const TorusShape&, Quadrant, const Vec3&, const Vec3&);
 template std::optional<ContactOf<Jet6>> wrap_torus(const TorusShape&,
                                                    Quadrant,
                                                    const Vector3<Jet6>&,

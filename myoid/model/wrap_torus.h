@@ -7,12 +7,11 @@
 
 namespace myoid::model {
 
-/// Returns the path from p to q through the ring of a torus: around a cylinder of the tube's radius
-/// that touches the ring's circle where the straight piece comes nearest to it, on the side of the
-/// ring's middle. (OpenSim's construction, with the correct nearest point.) With a quadrant only
-/// points of the circle nearest to that side count. The cylinder moves with p and q, so -dl/dq
-/// differs from the moment of the unit tension. `T` = Jet6 gives the derivatives by both ends.
-/// Empty: no contact.
+/// Returns the path from p to q through the ring of a torus: around a cylinder of the tube's radius that touches the
+/// ring's circle where the straight piece comes nearest to it, on the side of the ring's middle. (OpenSim's
+/// construction, with the correct nearest point.) With a quadrant only points of the circle nearest to that side count.
+/// The cylinder moves with p and q, so -dl/dq differs from the moment of the unit tension. `T` = Jet6 gives the
+/// derivatives by both ends. Empty: no contact.
 template <typename T>
 [[nodiscard]] std::optional<ContactOf<T>> wrap_torus(const TorusShape& torus,
                                                      Quadrant quadrant,
@@ -26,10 +25,7 @@ template <typename T>
                                              const Vec3& p_W,
                                              const Vec3& q_W);
 
-extern template std::optional<WrapContact> wrap_torus(const TorusShape&,
-                                                      Quadrant,
-                                                      const Vec3&,
-                                                      const Vec3&);
+extern template std::optional<WrapContact> wrap_torus(const TorusShape&, Quadrant, const Vec3&, const Vec3&);
 extern template std::optional<ContactOf<Jet6>> wrap_torus(const TorusShape&,
                                                           Quadrant,
                                                           const Vector3<Jet6>&,

@@ -34,8 +34,7 @@ TEST(WrapTorus, KeepsThePathOnTheMiddlesSideOfTheTube) {
     const auto c = wrap_torus<double>(kRing, 0, Vec3(x, 0.0, -0.1), Vec3(x, 0.0, 0.1));
     ASSERT_TRUE(c);
     EXPECT_LT(c->first_W.x(), kRing.outer_radius_m);
-    EXPECT_NEAR(std::hypot(c->first_W.x() - kRing.outer_radius_m, c->first_W.z()),
-                kRing.inner_radius_m, 1e-16);
+    EXPECT_NEAR(std::hypot(c->first_W.x() - kRing.outer_radius_m, c->first_W.z()), kRing.inner_radius_m, 1e-16);
   }
 }
 

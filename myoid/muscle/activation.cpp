@@ -19,9 +19,7 @@ void validate(const ActivationDynamics<double>& d) {
   require(d.steepness, "steepness");
 }
 
-double activation_event(const ActivationDynamics<double>& d,
-                        double excitation,
-                        const ActivationPoint<double>& state) {
+double activation_event(const ActivationDynamics<double>& d, double excitation, const ActivationPoint<double>& state) {
   if (d.law == ActivationLaw::two_lags) return state.filtered_excitation - state.activation;
   if (d.law == ActivationLaw::thelen) return excitation - state.activation;
   return 1.0;

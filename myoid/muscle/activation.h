@@ -73,17 +73,14 @@ template <typename T>
       return {T(0.0), T(0.0)};
     case ActivationLaw::two_lags: {
       const bool rises = value_of(e) >= value_of(a);
-      return {(u - e) / d.excitation_time_s,
-              (e - a) / (rises ? d.activation_time_s : d.deactivation_time_s)};
+      return {(u - e) / d.excitation_time_s, (e - a) / (rises ? d.activation_time_s : d.deactivation_time_s)};
     }
     case ActivationLaw::thelen:
       if (value_of(u) > value_of(a)) return {T(0.0), (u - a) / (d.activation_time_s * z)};
       return {T(0.0), (u - a) * z / d.deactivation_time_s};
     case ActivationLaw::de_groote: {
       const T f = T(0.5) * tanh(T(d.steepness) * (u - a));
-      return {T(0.0), ((f + T(0.5)) / (d.activation_time_s * z) +
-                       (T(0.5) - f) * z / d.deactivation_time_s) *
-                          (u - a)};
+      return {T(0.0), ((f + T(0.5)) / (d.activation_time_s * z) + (T(0.5) - f) * z / d.deactivation_time_s) * (u - a)};
     }
     case ActivationLaw::recursive:
       return {(u - e) / d.excitation_time_s, (e - a) / d.activation_time_s};

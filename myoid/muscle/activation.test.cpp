@@ -18,9 +18,8 @@ using test::step_activation;
 using Dynamics = ActivationDynamics<double>;
 using Point = ActivationPoint<double>;
 
-constexpr ActivationLaw kLaws[] = {ActivationLaw::envelope, ActivationLaw::two_lags,
-                                   ActivationLaw::thelen, ActivationLaw::de_groote,
-                                   ActivationLaw::recursive};
+constexpr ActivationLaw kLaws[] = {ActivationLaw::envelope, ActivationLaw::two_lags, ActivationLaw::thelen,
+                                   ActivationLaw::de_groote, ActivationLaw::recursive};
 
 /// Euler steps, Richardson-extrapolated from n, 2n and 4n of them: another algorithm.
 Point by_small_steps(const Dynamics& d, double u, const Point& from, double interval_s, int n) {
@@ -89,15 +88,13 @@ TEST(Activation, RisesAsTheTwoLagsOfTheClosedForm) {
   // Step of u from 0 to 1: a(t) = 1 - (tau_ne exp(-t/tau_ne) - tau_ac exp(-t/tau_ac)) / (tau_ne -
   // tau_ac), in one step or in many.
   for (const double t : {0.001, 0.05, 0.3}) {
-    const double expected =
-        1.0 - (0.040 * std::exp(-t / 0.040) - 0.015 * std::exp(-t / 0.015)) / 0.025;
+    const double expected = 1.0 - (0.040 * std::exp(-t / 0.040) - 0.015 * std::exp(-t / 0.015)) / 0.025;
     EXPECT_NEAR(step_activation(Dynamics{}, 1.0, {}, t).activation, expected, 1e-15);
   }
 }
 
 TEST(Activation, EqualTimesAreTheLimitOfUnequalOnes) {
-  const Dynamics equal{
-      .law = ActivationLaw::recursive, .excitation_time_s = 0.03, .activation_time_s = 0.03};
+  const Dynamics equal{.law = ActivationLaw::recursive, .excitation_time_s = 0.03, .activation_time_s = 0.03};
   // 1 - (1 + t / tau) exp(-t / tau)
   EXPECT_NEAR(step_activation(equal, 1.0, {}, 0.06).activation, 1.0 - 3.0 * std::exp(-2.0), 1e-15);
   Dynamics close = equal;
@@ -106,8 +103,7 @@ TEST(Activation, EqualTimesAreTheLimitOfUnequalOnes) {
 }
 
 TEST(Activation, TimeConstantChangesWhereTheExcitationPassesTheActivation) {
-  // e = 1 falls to u = 0 while a = 0.5 still rises: they meet, and a falls with tau_deac from
-  // there.
+  // e = 1 falls to u = 0 while a = 0.5 still rises: they meet, and a falls with tau_deac from there.
   const Dynamics d;
   const Point from{1.0, 0.5};
   double meeting = 0.0;
@@ -155,10 +151,7 @@ TEST(Activation, AConstantExcitationIsTheActivation) {
 TEST(Activation, RatesOfTheOtherLawsHaveTheirPublishedTimeConstants) {
   // At a = 1/3 the factor 0.5 + 1.5 a is 1: the nominal constants.
   const auto rate = [](ActivationLaw law, double u, double steepness) {
-    const Dynamics d{.law = law,
-                     .activation_time_s = 0.015,
-                     .deactivation_time_s = 0.060,
-                     .steepness = steepness};
+    const Dynamics d{.law = law, .activation_time_s = 0.015, .deactivation_time_s = 0.060, .steepness = steepness};
     return activation_rate<double>(d, u, {0.0, 1.0 / 3.0}).activation;
   };
   EXPECT_NEAR(rate(ActivationLaw::thelen, 1.0, 1.0), (2.0 / 3.0) / 0.015, 1e-12);
@@ -180,9 +173,7 @@ TEST(Activation, DerivativesByTheTimeConstantsAreExact) {
       for (int k = 0; k < 3; ++k) {
         const auto moved = [&](double by) {
           Dynamics n{.law = law};
-          (k == 0   ? n.excitation_time_s
-           : k == 1 ? n.activation_time_s
-                    : n.deactivation_time_s) *= 1.0 + by;
+          (k == 0 ? n.excitation_time_s : k == 1 ? n.activation_time_s : n.deactivation_time_s) *= 1.0 + by;
           return activation_rate<double>(n, u, {0.5, 0.4}).activation;
         };
         const double tau = k == 0 ? 0.04 : k == 1 ? 0.015 : 0.05;

@@ -12,9 +12,7 @@ namespace {
 
 using Quintic = std::array<double, 6>;
 
-double value(const Quintic& c, double u) {
-  return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
-}
+double value(const Quintic& c, double u) { return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])))); }
 double derivative(const Quintic& c, double u) {
   return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * (4.0 * c[4] + u * 5.0 * c[5])));
 }
@@ -53,14 +51,12 @@ double solve_parameter(const Quintic& x, const Quintic& y, double a, double b, d
   return u;
 }
 
-/// Returns the integral of y dx from 0 to u by Gauss-Legendre with five points, which is exact for
-/// degree nine.
+/// Returns the integral of y dx from 0 to u by Gauss-Legendre with five points, which is exact for degree nine.
 double area(const Quintic& x, const Quintic& y, double u) {
-  constexpr std::array<double, 5> node{-0.9061798459386639928, -0.5384693101056830910, 0.0,
-                                       0.5384693101056830910, 0.9061798459386639928};
-  constexpr std::array<double, 5> weight{0.2369268850561890875, 0.4786286704993664680,
-                                         0.5688888888888888889, 0.4786286704993664680,
-                                         0.2369268850561890875};
+  constexpr std::array<double, 5> node{-0.9061798459386639928, -0.5384693101056830910, 0.0, 0.5384693101056830910,
+                                       0.9061798459386639928};
+  constexpr std::array<double, 5> weight{0.2369268850561890875, 0.4786286704993664680, 0.5688888888888888889,
+                                         0.4786286704993664680, 0.2369268850561890875};
   double sum = 0.0;
   for (std::size_t k = 0; k < 5; ++k) {
     const double s = 0.5 * u * (1.0 + node[k]);
@@ -85,16 +81,15 @@ BezierCurve::BezierCurve(std::span<const CurveKnot> knots, std::span<const doubl
     const CurveKnot& q = knots[i + 1];
     const double c = curviness[i];
     const bool parallel = std::abs(p.slope - q.slope) < 1.5e-8;
-    const double meet_x = parallel
-                              ? 0.5 * (p.x + q.x)
-                              : (q.y - p.y - q.x * q.slope + p.x * p.slope) / (p.slope - q.slope);
+    const double meet_x =
+        parallel ? 0.5 * (p.x + q.x) : (q.y - p.y - q.x * q.slope + p.x * p.slope) / (p.slope - q.slope);
     const double meet_y = (meet_x - q.x) * q.slope + q.y;
     if (!(c > 0.0 && c <= 1.0) || !(meet_x > p.x && meet_x < q.x)) {
-      throw InvalidInput(fmt::format(
-          "the corner of a curve from ({:g}, {:g}) with slope {:g} to ({:g}, {:g}) with slope "
-          "{:g}, "
-          "curviness {:g}: its tangents must meet between the two and the curviness lie in (0, 1]",
-          p.x, p.y, p.slope, q.x, q.y, q.slope, c));
+      throw InvalidInput(
+          fmt::format("the corner of a curve from ({:g}, {:g}) with slope {:g} to ({:g}, {:g}) with slope "
+                      "{:g}, "
+                      "curviness {:g}: its tangents must meet between the two and the curviness lie in (0, 1]",
+                      p.x, p.y, p.slope, q.x, q.y, q.slope, c));
     }
     Segment& s = segments_[i];
     s.from = p;
@@ -118,9 +113,8 @@ const BezierCurve::Segment& BezierCurve::segment_at(double x) const {
   return segments_[static_cast<std::size_t>(k)];
 }
 
-/// Returns u where x(u) = x. A cubic through the ends of the neighboring cells is off by a few 1e-3
-/// at most, in sharp corners, and three Newton steps each square the error. If they fail, the
-/// bracket decides.
+/// Returns u where x(u) = x. A cubic through the ends of the neighboring cells is off by a few 1e-3 at most, in sharp
+/// corners, and three Newton steps each square the error. If they fail, the bracket decides.
 double BezierCurve::parameter_at(const Segment& s, double x) {
   const double position = (x - s.from.x) * s.cells_per_x;
   const int cell = std::min(static_cast<int>(position), kCells - 1);

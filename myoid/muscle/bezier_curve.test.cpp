@@ -20,18 +20,15 @@ BezierCurve sigmoid() {
   return BezierCurve(knots, curviness);
 }
 
-/// A corner by de Casteljau's construction, with the parameter found by bisection: another
-/// algorithm.
+/// A corner by de Casteljau's construction, with the parameter found by bisection: another algorithm.
 double by_casteljau(const CurveKnot& p, const CurveKnot& q, double c, double at) {
   const double cx = (q.y - p.y - q.x * q.slope + p.x * p.slope) / (p.slope - q.slope);
   const double cy = q.y + (cx - q.x) * q.slope;
   const auto point = [&](double u) {
     std::array<double, 6> px{
-        p.x, p.x + c * (cx - p.x), p.x + c * (cx - p.x), q.x + c * (cx - q.x), q.x + c * (cx - q.x),
-        q.x};
+        p.x, p.x + c * (cx - p.x), p.x + c * (cx - p.x), q.x + c * (cx - q.x), q.x + c * (cx - q.x), q.x};
     std::array<double, 6> py{
-        p.y, p.y + c * (cy - p.y), p.y + c * (cy - p.y), q.y + c * (cy - q.y), q.y + c * (cy - q.y),
-        q.y};
+        p.y, p.y + c * (cy - p.y), p.y + c * (cy - p.y), q.y + c * (cy - q.y), q.y + c * (cy - q.y), q.y};
     for (std::size_t n = 5; n > 0; --n) {
       for (std::size_t i = 0; i < n; ++i) {
         px[i] += u * (px[i + 1] - px[i]);
@@ -89,8 +86,7 @@ TEST(BezierCurve, SlopeAndIntegralBelongToTheValue) {
   const double h = 1e-5;  // truncation h^2 f''' / 6, f''' below 1e3: 2e-8
   for (double x = -1.3; x < 1.4; x += 0.0713) {
     EXPECT_NEAR(curve(x).slope, (curve(x + h).value - curve(x - h).value) / (2 * h), 3e-8) << x;
-    EXPECT_NEAR(curve(x).value, (curve.integral(x + h) - curve.integral(x - h)) / (2 * h), 1e-8)
-        << x;
+    EXPECT_NEAR(curve(x).value, (curve.integral(x + h) - curve.integral(x - h)) / (2 * h), 1e-8) << x;
   }
   EXPECT_EQ(curve.integral(-1.0), 0.0);
   // Across the knots: midpoint sums, wrong by h^2 / 24 times the rise of the slope, 3: 5e-8.

@@ -8,10 +8,9 @@
 
 namespace myoid::muscle {
 
-/// The curves of De Groote, Kinney, Rao & Fregly (2016), Ann Biomed Eng 44:2922-2936, infinitely
-/// smooth, with the constants of OpenSim's muscle of this name (full precision, so that the curves
-/// pass through (1, 1), (-1, 0), (0, 1)). Lengths in optimal fiber lengths or tendon slack lengths,
-/// velocities in v_max, forces in F_max.
+/// The curves of De Groote, Kinney, Rao & Fregly (2016), Ann Biomed Eng 44:2922-2936, infinitely smooth, with the
+/// constants of OpenSim's muscle of this name (full precision, so that the curves pass through (1, 1), (-1, 0), (0,
+/// 1)). Lengths in optimal fiber lengths or tendon slack lengths, velocities in v_max, forces in F_max.
 
 /// Returns the active force-length multiplier: three bells b1 exp(-(l - b2)^2 / (2 (b3 + b4 l)^2)).
 template <typename T>
@@ -33,8 +32,7 @@ template <typename T>
   return point;
 }
 
-inline constexpr std::array<double, 4> kDeGrooteVelocity{-0.3211346127989808, -8.149, -0.374,
-                                                         0.8825327733249912};
+inline constexpr std::array<double, 4> kDeGrooteVelocity{-0.3211346127989808, -8.149, -0.374, 0.8825327733249912};
 
 /// Returns the force-velocity multiplier d1 asinh(d2 v + d3) + d4; 0 at v = -1 and *negative
 /// below*, 1 at rest, 1.794 at v = 1. It has no plateau.
@@ -53,9 +51,7 @@ template <typename T>
 /// Returns the velocity at which strength f + damping v = force, all over F_max; strength > 0,
 /// damping >= 0. In x = asinh(d2 v + d3) this is -a x - b sinh(x) = rest, odd and monotone: Newton
 /// from beyond the root never leaves its side.
-[[nodiscard]] inline double solve_de_groote_velocity(double strength,
-                                                     double damping,
-                                                     double force) {
+[[nodiscard]] inline double solve_de_groote_velocity(double strength, double damping, double force) {
   const auto& [d1, d2, d3, d4] = kDeGrooteVelocity;
   const double a = -strength * d1;
   const double b = -damping / d2;
@@ -101,9 +97,8 @@ class DeGrootePassive {
   T rate_, offset_, scale_;
 };
 
-/// Returns the tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0
-/// (published: 0.049). The published curve continues below slack, to a push of F_max / 5; here it
-/// is 0 there.
+/// Returns the tendon multiplier (exp(k e) - 1) / 5 with k = ln(6) / e0, over the strain e; 1 at e0 (published: 0.049).
+/// The published curve continues below slack, to a push of F_max / 5; here it is 0 there.
 template <typename T>
 [[nodiscard]] CurvePoint<T> de_groote_tendon(const T& strain, const T& strain_at_max_force) {
   using std::exp;

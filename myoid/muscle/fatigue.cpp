@@ -17,10 +17,8 @@ void validate(const FatigueRates<double>& rates) {
   constexpr std::string_view kNotNegative = "zero or a positive number";
   require(rates.fatigue_per_s >= 0.0, "fatigue", rates.fatigue_per_s, kNotNegative);
   require(rates.recovery_per_s >= 0.0, "recovery", rates.recovery_per_s, kNotNegative);
-  require(rates.rest_recovery_factor >= 0.0, "rest_recovery", rates.rest_recovery_factor,
-          kNotNegative);
-  require(rates.development_per_s > 0.0, "development", rates.development_per_s,
-          "a positive number");
+  require(rates.rest_recovery_factor >= 0.0, "rest_recovery", rates.rest_recovery_factor, kNotNegative);
+  require(rates.development_per_s > 0.0, "development", rates.development_per_s, "a positive number");
   require(rates.relaxation_per_s > 0.0, "relaxation", rates.relaxation_per_s, "a positive number");
 }
 
@@ -28,14 +26,12 @@ FatigueState<double> step_fatigue(const FatigueRates<double>& rates,
                                   double target_load,
                                   const FatigueState<double>& state,
                                   double interval_s) {
-  const double fastest =
-      std::max({rates.development_per_s, rates.relaxation_per_s, rates.fatigue_per_s,
-                rates.recovery_per_s * std::max(1.0, rates.rest_recovery_factor)});
+  const double fastest = std::max({rates.development_per_s, rates.relaxation_per_s, rates.fatigue_per_s,
+                                   rates.recovery_per_s * std::max(1.0, rates.rest_recovery_factor)});
   const double steps = std::max(1.0, std::ceil(interval_s * fastest * 20.0));
   const double h = interval_s / steps;
   const auto moved = [](const FatigueState<double>& s, const FatigueState<double>& r, double by) {
-    return FatigueState<double>{s.active + by * r.active, s.resting + by * r.resting,
-                                s.fatigued + by * r.fatigued};
+    return FatigueState<double>{s.active + by * r.active, s.resting + by * r.resting, s.fatigued + by * r.fatigued};
   };
   FatigueState<double> s = state;
   for (double k = 0.0; k < steps; ++k) {
@@ -50,8 +46,7 @@ FatigueState<double> step_fatigue(const FatigueRates<double>& rates,
 
 double sustainable_load(const FatigueRates<double>& rates) {
   if (rates.fatigue_per_s == 0.0) return 1.0;
-  return 1.0 / (1.0 + rates.fatigue_per_s / rates.recovery_per_s +
-                rates.fatigue_per_s / rates.development_per_s);
+  return 1.0 / (1.0 + rates.fatigue_per_s / rates.recovery_per_s + rates.fatigue_per_s / rates.development_per_s);
 }
 
 FatigueRates<double> published_fatigue_rates(std::string_view name) {
@@ -65,10 +60,10 @@ FatigueRates<double> published_fatigue_rates(std::string_view name) {
   if (name == "elbow_extensor") {
     return {.fatigue_per_s = 0.01559, .recovery_per_s = 0.00125, .rest_recovery_factor = 25.52};
   }
-  throw InvalidInput(fmt::format(
-      "no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, "
-      "elbow_extensor",
-      name));
+  throw InvalidInput(
+      fmt::format("no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, "
+                  "elbow_extensor",
+                  name));
 }
 
 }  // namespace myoid::muscle

@@ -33,13 +33,10 @@ void validate(const FatigueRates<double>& rates);
 /// fresh muscle's strength:
 ///   C = LD min(target - M_A, M_R) below the target, LR (target - M_A) above.
 template <typename T>
-[[nodiscard]] T fatigue_drive(const FatigueRates<T>& rates,
-                              const T& target_load,
-                              const FatigueState<T>& state) {
+[[nodiscard]] T fatigue_drive(const FatigueRates<T>& rates, const T& target_load, const FatigueState<T>& state) {
   const T lacking = target_load - state.active;
   if (value_of(lacking) <= 0.0) return rates.relaxation_per_s * lacking;
-  return rates.development_per_s *
-         (value_of(state.resting) > value_of(lacking) ? lacking : state.resting);
+  return rates.development_per_s * (value_of(state.resting) > value_of(lacking) ? lacking : state.resting);
 }
 
 /// Returns the right-hand side [1/s]; its three parts add up to zero:
@@ -50,9 +47,8 @@ template <typename T>
                                            const T& target_load,
                                            const FatigueState<T>& state) {
   const T drive = fatigue_drive(rates, target_load, state);
-  const T recovery = value_of(target_load) > 0.0
-                         ? rates.recovery_per_s
-                         : rates.recovery_per_s * rates.rest_recovery_factor;
+  const T recovery =
+      value_of(target_load) > 0.0 ? rates.recovery_per_s : rates.recovery_per_s * rates.rest_recovery_factor;
   const T tiring = rates.fatigue_per_s * state.active;
   const T recovering = recovery * state.fatigued;
   return {drive - tiring, recovering - drive, tiring - recovering};

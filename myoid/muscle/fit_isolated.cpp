@@ -21,8 +21,7 @@ double& field_of(MusculotendonParameters<double>& parameters, const std::string&
     names += (names.empty() ? "" : ", ") + std::string(name);
     if (name == wanted) found = &field;
   });
-  if (found == nullptr)
-    throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
+  if (found == nullptr) throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
   return *found;
 }
 
@@ -54,12 +53,11 @@ Eigen::VectorXd isolated_force(const IsolatedModel& model,
                                double relative_tolerance,
                                const Progress& progress) {
   const Musculotendon<double> unit(model.parameters, model.laws, model.millard);
-  const IsolatedMuscleResult result =
-      simulate_isolated_muscle(unit, recording.input,
-                               {.output_time_s = recording.time_s,
-                                .relative_tolerance = relative_tolerance,
-                                .absolute_tolerance = 1e-3 * relative_tolerance,
-                                .progress = progress});
+  const IsolatedMuscleResult result = simulate_isolated_muscle(unit, recording.input,
+                                                               {.output_time_s = recording.time_s,
+                                                                .relative_tolerance = relative_tolerance,
+                                                                .absolute_tolerance = 1e-3 * relative_tolerance,
+                                                                .progress = progress});
   Eigen::VectorXd force_n =
       Eigen::VectorXd::Constant(recording.time_s.size(), std::numeric_limits<double>::quiet_NaN());
   if (result.series.sample_count() > 0)
@@ -77,15 +75,13 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   Eigen::Index n = 0;
   for (const IsolatedRecording& recording : recordings) {
     if (recording.time_s.size() != recording.force_n.size() || !recording.force_n.allFinite()) {
-      throw InvalidInput(fmt::format("{}: {} times for {} forces, all of which must be numbers",
-                                     recording.name, recording.time_s.size(),
-                                     recording.force_n.size()));
+      throw InvalidInput(fmt::format("{}: {} times for {} forces, all of which must be numbers", recording.name,
+                                     recording.time_s.size(), recording.force_n.size()));
     }
     lengths.push_back(recording.force_n.size());
     n += recording.force_n.size();
   }
-  if (n <= p)
-    throw InvalidInput(fmt::format("{} samples are too few for {} parameters", n, names.size()));
+  if (n <= p) throw InvalidInput(fmt::format("{} samples are too few for {} parameters", n, names.size()));
   IsolatedFit fit{.model = start};
   Eigen::VectorXd logs(p);
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -94,8 +90,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InvalidInput(fmt::format("'{}' is to be identified twice", name));
     if (!(value > 0.0)) {
-      throw InvalidInput(
-          fmt::format("{} = {}: a parameter to identify must start above 0", name, value));
+      throw InvalidInput(fmt::format("{} = {}: a parameter to identify must start above 0", name, value));
     }
     logs[j] = std::log(value);
   }
@@ -105,8 +100,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
     for (const IsolatedRecording& recording : recordings) {
       const Eigen::Index count = recording.force_n.size();
       r.segment(at, count) =
-          isolated_force(model, recording, options.relative_tolerance, options.progress) -
-          recording.force_n;
+          isolated_force(model, recording, options.relative_tolerance, options.progress) - recording.force_n;
       at += count;
       ++fit.evaluations;
     }
@@ -118,8 +112,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     residual(x, r);
     if (jacobian == nullptr) return;
-    // Relative to the derivative: truncation h^2 = 1e-6, the integrator's noise tolerance / h =
-    // 1e-4.
+    // Relative to the derivative: truncation h^2 = 1e-6, the integrator's noise tolerance / h = 1e-4.
     constexpr double kStep = 1e-3;
     Eigen::VectorXd up(n), down(n);
     for (Eigen::Index j = 0; j < p; ++j) {
@@ -158,8 +151,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   return fit;
 }
 
-std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
-                                             const std::vector<IsolatedFit>& without) {
+std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all, const std::vector<IsolatedFit>& without) {
   constexpr double kFar = 2.0;
   std::vector<DecidedByOne> found;
   if (without.size() < 2) return found;
@@ -167,8 +159,7 @@ std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
   for (std::size_t p = 0; p < all.estimates.size(); ++p) {
     IsolatedEstimate& e = all.estimates[p];
     Eigen::VectorXd x(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      x[i] = without[static_cast<std::size_t>(i)].estimates[p].value;
+    for (Eigen::Index i = 0; i < n; ++i) x[i] = without[static_cast<std::size_t>(i)].estimates[p].value;
     Eigen::Index which = 0;
     const double farthest = (x.array() - e.value).abs().maxCoeff(&which);
     if (farthest > kFar * e.std_error)
@@ -176,8 +167,8 @@ std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
                        .recording = static_cast<std::size_t>(which),
                        .without = x[which],
                        .std_errors = farthest / std::max(e.std_error, 1e-300)});
-    const double jackknife = std::sqrt(static_cast<double>(n - 1) / static_cast<double>(n) *
-                                       (x.array() - x.mean()).square().sum());
+    const double jackknife =
+        std::sqrt(static_cast<double>(n - 1) / static_cast<double>(n) * (x.array() - x.mean()).square().sum());
     e.std_error = std::max(e.std_error, jackknife);
   }
   return found;

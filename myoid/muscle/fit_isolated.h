@@ -50,18 +50,16 @@ struct IsolatedFit {
   int evaluations = 0;  ///< Number for all recordings.
 };
 
-/// Returns the model's force [N] at the times of the recording's; NaN at times that the integration
-/// did not reach.
+/// Returns the model's force [N] at the times of the recording's; NaN at times that the integration did not reach.
 [[nodiscard]] Eigen::VectorXd isolated_force(const IsolatedModel& model,
                                              const IsolatedRecording& recording,
                                              double relative_tolerance = 1e-9,
                                              const Progress& progress = {});
 
-/// Fits the parameters so that the simulated experiments (elastic tendon, mass and all) come
-/// nearest to the measured forces: least squares over all samples; logarithms as unknowns,
-/// derivatives by central differences. Under the law `millard` eccentric_plateau is the curve's
-/// greatest multiplier. Throws InvalidInput for names that are no parameters of the unit, values
-/// that are not positive, and sizes that differ.
+/// Fits the parameters so that the simulated experiments (elastic tendon, mass and all) come nearest to the measured
+/// forces: least squares over all samples; logarithms as unknowns, derivatives by central differences. Under the law
+/// `millard` eccentric_plateau is the curve's greatest multiplier. Throws InvalidInput for names that are no parameters
+/// of the unit, values that are not positive, and sizes that differ.
 [[nodiscard]] IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
                                               const std::vector<IsolatedRecording>& recordings,
                                               const IsolatedFitOptions& options);
@@ -79,7 +77,6 @@ struct DecidedByOne {
 /// error that is larger stays. Returns the estimates that some x_i lies more than two standard
 /// errors of the residuals away from. `without` holds the fits without recording 0, 1, ...; fewer
 /// than two of them change nothing. (Quenouille 1956; Efron & Tibshirani 1993, ch. 11.)
-[[nodiscard]] std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all,
-                                                           const std::vector<IsolatedFit>& without);
+[[nodiscard]] std::vector<DecidedByOne> widen_to_jackknife(IsolatedFit& all, const std::vector<IsolatedFit>& without);
 
 }  // namespace myoid::muscle

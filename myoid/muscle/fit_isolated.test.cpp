@@ -46,9 +46,9 @@ TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {
   truth.parameters.hill.max_isometric_force_n = 2.4;
   truth.parameters.hill.max_shortening_speed_mps = 0.09;
   truth.parameters.tendon_strain = 0.06;
-  const IsolatedFit fit = fit_isolated_muscle(
-      small_muscle(), recordings_of(truth),
-      {.parameters = {"max_isometric_force", "max_shortening_speed", "tendon_strain"}});
+  const IsolatedFit fit =
+      fit_isolated_muscle(small_muscle(), recordings_of(truth),
+                          {.parameters = {"max_isometric_force", "max_shortening_speed", "tendon_strain"}});
   ASSERT_EQ(fit.termination, math::Termination::converged) << fit.message;
   // The integrations' tolerance of 1e-7 of the force, of which slopes are of order one.
   EXPECT_NEAR(fit.estimates[0].value / 2.4, 1.0, 1e-4);
@@ -61,8 +61,8 @@ TEST(FitIsolatedMuscle, FindsTheMuscleThatMadeTheForcesBehindItsElasticTendon) {
 TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
   IsolatedModel truth = small_muscle();
   truth.millard.max_eccentric_multiplier = 1.6;
-  const IsolatedFit fit = fit_isolated_muscle(small_muscle(), recordings_of(truth),
-                                              {.parameters = {"eccentric_plateau"}});
+  const IsolatedFit fit =
+      fit_isolated_muscle(small_muscle(), recordings_of(truth), {.parameters = {"eccentric_plateau"}});
   EXPECT_NEAR(fit.estimates[0].value, 1.6, 1e-3);
   EXPECT_EQ(fit.model.millard.max_eccentric_multiplier, fit.estimates[0].value);
 }
@@ -70,16 +70,15 @@ TEST(FitIsolatedMuscle, MovesThePlateauOfMillardsCurveWithTheParameter) {
 /// A fit that found these values, each with this standard error from its residuals.
 IsolatedFit fit_of(const std::vector<double>& values, double std_error) {
   IsolatedFit fit;
-  for (const double value : values)
-    fit.estimates.push_back({.parameter = "x", .value = value, .std_error = std_error});
+  for (const double value : values) fit.estimates.push_back({.parameter = "x", .value = value, .std_error = std_error});
   return fit;
 }
 
 TEST(FitIsolatedMuscle, WidensAStandardErrorToTheJackknifes) {
   IsolatedFit all = fit_of({10.0, 1.0}, 0.4);
   // Without one of the four: 11, 9, 10.4, 9.6. Their mean is 10, the sum of squares 2.32.
-  const std::vector<IsolatedFit> without{fit_of({11.0, 1.1}, 0.5), fit_of({9.0, 0.9}, 0.5),
-                                         fit_of({10.4, 1.0}, 0.5), fit_of({9.6, 1.0}, 0.5)};
+  const std::vector<IsolatedFit> without{fit_of({11.0, 1.1}, 0.5), fit_of({9.0, 0.9}, 0.5), fit_of({10.4, 1.0}, 0.5),
+                                         fit_of({9.6, 1.0}, 0.5)};
   const std::vector<DecidedByOne> decided = widen_to_jackknife(all, without);
   EXPECT_NEAR(all.estimates[0].std_error, std::sqrt(0.75 * 2.32), 1e-12);
   EXPECT_EQ(all.estimates[1].std_error, 0.4);  // sqrt(0.75 * 0.02) is less
@@ -97,14 +96,10 @@ TEST(FitIsolatedMuscle, WidensAStandardErrorToTheJackknifes) {
 TEST(FitIsolatedMuscle, RefusesWhatIsNoParameterOrCannotBeScaled) {
   const auto recordings = recordings_of(small_muscle());
   const IsolatedModel start = small_muscle();
-  EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"strength"}}),
-               InvalidInput);
-  EXPECT_THROW(
-      (void)fit_isolated_muscle(start, recordings, {.parameters = {"pennation_at_optimal"}}),
-      InvalidInput);
+  EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"strength"}}), InvalidInput);
+  EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"pennation_at_optimal"}}), InvalidInput);
   EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {}}), InvalidInput);
-  EXPECT_THROW((void)fit_isolated_muscle(start, recordings,
-                                         {.parameters = {"tendon_strain", "tendon_strain"}}),
+  EXPECT_THROW((void)fit_isolated_muscle(start, recordings, {.parameters = {"tendon_strain", "tendon_strain"}}),
                InvalidInput);
 }
 

@@ -4,8 +4,7 @@
 
 namespace myoid::muscle {
 
-/// Returns the force-length multiplier f_l [-]: isometric force at this fiber length over that at
-/// the optimal length.
+/// Returns the force-length multiplier f_l [-]: isometric force at this fiber length over that at the optimal length.
 ///
 ///   f_l(l) = exp(-((l - l0) / l_sh)^2)
 ///
@@ -14,9 +13,7 @@ namespace myoid::muscle {
 /// - l0| = 6 l_sh the value and its derivatives are below 1e-15, so a fit must start within about 2
 /// l_sh. Equation (3) of the source paper.
 template <typename T, typename L>
-[[nodiscard]] T force_length(const L& fiber_length_m,
-                             const T& optimal_fiber_length_m,
-                             const T& force_length_width_m) {
+[[nodiscard]] T force_length(const L& fiber_length_m, const T& optimal_fiber_length_m, const T& force_length_width_m) {
   using std::exp;
   const T z = (fiber_length_m - optimal_fiber_length_m) / force_length_width_m;
   return exp(-z * z);

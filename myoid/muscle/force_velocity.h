@@ -13,26 +13,23 @@ struct VelocityHyperbola {
   T concentric_curvature{};         ///< V_sh [-]: the smaller, the more bent the hyperbola.
   T eccentric_curvature_product{};  ///< P = V_sh V_shl [-]: only the product acts.
   T eccentric_plateau{};            ///< V_ml [-]: f_v in fast lengthening; above 1 in life.
-  /// Share of the way from 1 to the plateau at which the lengthening branch continues as its
-  /// tangent.
+  /// Share of the way from 1 to the plateau at which the lengthening branch continues as its tangent.
   /// 1: the published branch goes on to infinity.
   T tangent_from{1.0};
   /// Below -v_max the law is zero (false), or its tangent there (true): negative, and invertible.
   bool tangent_below = false;
 };
 
-/// Returns the force-velocity multiplier f_v [-], the force over the isometric force at equal
-/// length and activation, and its slope d f_v / dv. `v` is dl_m/dt over v_max, positive in
-/// lengthening.
+/// Returns the force-velocity multiplier f_v [-], the force over the isometric force at equal length and activation,
+/// and its slope d f_v / dv. `v` is dl_m/dt over v_max, positive in lengthening.
 ///
 ///   f_v(v) = 0                            v <= -1
 ///   f_v(v) = V_sh (1 + v) / (V_sh - v)    -1 < v <= 0
 ///   f_v(v) = (P + V_ml v) / (P + v)       0 < v
 ///
-/// Hence f_v(-1) = 0, f_v(0) = 1, f_v(inf) = V_ml. The law is continuous and, if V_ml >= 1, never
-/// falls. The slopes at rest are 1 + 1/V_sh and (V_ml - 1) / P; at v = 0 derivatives are those of
-/// shortening. Without `tangent_below` a sample below -1 says nothing about the shape: every
-/// derivative is zero there, so a fit leaves it out.
+/// Hence f_v(-1) = 0, f_v(0) = 1, f_v(inf) = V_ml. The law is continuous and, if V_ml >= 1, never falls. The slopes at
+/// rest are 1 + 1/V_sh and (V_ml - 1) / P; at v = 0 derivatives are those of shortening. Without `tangent_below` a
+/// sample below -1 says nothing about the shape: every derivative is zero there, so a fit leaves it out.
 template <typename T>
 [[nodiscard]] CurvePoint<T> force_velocity(const VelocityHyperbola<T>& h, const T& v) {
   const double number = value_of(v);
@@ -59,10 +56,9 @@ template <typename T>
   return {(p + m * v) / pole, value_of(p * (m - T(1.0)) / (pole * pole))};
 }
 
-/// Returns the velocity [v_max] at which strength f_v(v) + damping v = force, all over F_max, in
-/// closed form: each branch is a quadratic whose cancelling root is avoided. strength and damping
-/// are not negative, and not both zero. Zero damping needs an invertible law: tangents on both
-/// sides and V_ml > 1.
+/// Returns the velocity [v_max] at which strength f_v(v) + damping v = force, all over F_max, in closed form: each
+/// branch is a quadratic whose cancelling root is avoided. strength and damping are not negative, and not both zero.
+/// Zero damping needs an invertible law: tangents on both sides and V_ml > 1.
 [[nodiscard]] inline double solve_velocity(const VelocityHyperbola<double>& h,
                                            double strength,
                                            double damping,
@@ -104,8 +100,7 @@ template <typename T>
 [[nodiscard]] T curvature_product_from_slope_ratio(const T& slope_ratio,
                                                    const T& concentric_curvature,
                                                    const T& eccentric_plateau) {
-  return (eccentric_plateau - T(1.0)) * concentric_curvature /
-         (slope_ratio * (T(1.0) + concentric_curvature));
+  return (eccentric_plateau - T(1.0)) * concentric_curvature / (slope_ratio * (T(1.0) + concentric_curvature));
 }
 
 /// Returns S of a law, the inverse of curvature_product_from_slope_ratio.

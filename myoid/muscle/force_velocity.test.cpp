@@ -75,8 +75,7 @@ TEST(ForceVelocity, SolvingFindsTheVelocityOnEveryBranch) {
           const double force = strength * force_velocity(h, v).value + damping * v;
           const double found = solve_velocity(h, strength, damping, force);
           const double back = strength * force_velocity(h, found).value + damping * found;
-          EXPECT_NEAR(back, force, 4e-15 * (1.0 + std::abs(force)))
-              << strength << ' ' << damping << ' ' << v;
+          EXPECT_NEAR(back, force, 4e-15 * (1.0 + std::abs(force))) << strength << ' ' << damping << ' ' << v;
         }
       }
     }

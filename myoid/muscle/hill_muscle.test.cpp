@@ -25,27 +25,24 @@ TEST(ForceLength, IsOneAtTheOptimumAndHalfAtHalfTheFullWidth) {
 }
 
 TEST(ForceLength, DoesNotDependOnTheUnitOfLength) {
-  EXPECT_EQ(force_length(0.13 * 1024.0, 0.12 * 1024.0, 0.05 * 1024.0),
-            force_length(0.13, 0.12, 0.05));
+  EXPECT_EQ(force_length(0.13 * 1024.0, 0.12 * 1024.0, 0.05 * 1024.0), force_length(0.13, 0.12, 0.05));
 }
 
 TEST(HillMuscle, IsThePapersEquationWorkedOutByHand) {
   // At l0 + l_sh: exp(-1); at -0.1 v_max: 0.3 * 0.9 / 0.4; at 0.1 v_max: 0.25 / 0.22.
   const double l = 0.1217 + 0.055;
   EXPECT_NEAR(hill_force(0.4, l, -0.08, kTriceps), 0.4 * std::exp(-1.0) * 0.675 * 2047.1, 1e-10);
-  EXPECT_NEAR(hill_force(0.4, l, 0.08, kTriceps), 0.4 * std::exp(-1.0) * (0.25 / 0.22) * 2047.1,
-              1e-10);
+  EXPECT_NEAR(hill_force(0.4, l, 0.08, kTriceps), 0.4 * std::exp(-1.0) * (0.25 / 0.22) * 2047.1, 1e-10);
   EXPECT_EQ(hill_force(0.4, l, -0.8, kTriceps), 0.0);
 }
 
 TEST(HillMuscle, DoesNotDependOnTheUnitOfLength) {
   auto stretched = kTriceps;
-  for (double* length : {&stretched.optimal_fiber_length_m, &stretched.force_length_width_m,
-                         &stretched.max_shortening_speed_mps})
+  for (double* length :
+       {&stretched.optimal_fiber_length_m, &stretched.force_length_width_m, &stretched.max_shortening_speed_mps})
     *length *= 1024.0;
   for (const double v : {-0.7, -0.1, 0.1, 2.0}) {
-    EXPECT_EQ(hill_force(0.4, 1024.0 * 0.13, 1024.0 * v, stretched),
-              hill_force(0.4, 0.13, v, kTriceps));
+    EXPECT_EQ(hill_force(0.4, 1024.0 * 0.13, 1024.0 * v, stretched), hill_force(0.4, 0.13, v, kTriceps));
   }
 }
 

@@ -23,8 +23,7 @@ void validate(const HillParameters<double>& parameters) {
     const double value = parameters.*field.member;
     const bool may_be_zero = field.name == "tendon_slack_length";
     if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero)) {
-      throw InvalidInput(fmt::format("{} = {} {}: expected a {} number", field.name, value,
-                                     symbol(field.unit),
+      throw InvalidInput(fmt::format("{} = {} {}: expected a {} number", field.name, value, symbol(field.unit),
                                      may_be_zero ? "finite, not negative" : "finite, positive"));
     }
   }

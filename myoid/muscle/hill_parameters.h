@@ -19,8 +19,8 @@ struct HillParameters {
   T eccentric_curvature_product{};  ///< P = V_sh V_shl [-]
   T eccentric_plateau{};            ///< V_ml [-]
   T max_shortening_speed_mps{};     ///< v_max [m/s]
-  T tendon_slack_length_m{};  ///< l_t0 [m]: fiber length = musculotendon length - l_t0 when the
-                              ///< tendon is rigid.
+  T tendon_slack_length_m{};        ///< l_t0 [m]: fiber length = musculotendon length - l_t0 when the
+                                    ///< tendon is rigid.
 
   [[nodiscard]] VelocityHyperbola<T> velocity_law() const {
     return {.concentric_curvature = concentric_curvature,
@@ -44,21 +44,11 @@ struct HillField {
 };
 
 inline constexpr std::array kHillFields = {
-    HillField{"max_isometric_force",
-              "F_max",
-              Unit::newton,
-              &HillParameters<double>::max_isometric_force_n,
-              {5.0, 20000.0}},
-    HillField{"optimal_fiber_length",
-              "l_m0",
-              Unit::meter,
-              &HillParameters<double>::optimal_fiber_length_m,
-              {0.01, 0.60}},
-    HillField{"force_length_width",
-              "l_msh",
-              Unit::meter,
-              &HillParameters<double>::force_length_width_m,
-              {0.005, 0.60}},
+    HillField{
+        "max_isometric_force", "F_max", Unit::newton, &HillParameters<double>::max_isometric_force_n, {5.0, 20000.0}},
+    HillField{
+        "optimal_fiber_length", "l_m0", Unit::meter, &HillParameters<double>::optimal_fiber_length_m, {0.01, 0.60}},
+    HillField{"force_length_width", "l_msh", Unit::meter, &HillParameters<double>::force_length_width_m, {0.005, 0.60}},
     HillField{"concentric_curvature",
               "V_sh",
               Unit::dimensionless,
@@ -69,29 +59,20 @@ inline constexpr std::array kHillFields = {
               Unit::dimensionless,
               &HillParameters<double>::eccentric_curvature_product,
               {0.005, 1.0}},
-    HillField{"eccentric_plateau",
-              "V_ml",
-              Unit::dimensionless,
-              &HillParameters<double>::eccentric_plateau,
-              {1.0, 2.0}},
+    HillField{"eccentric_plateau", "V_ml", Unit::dimensionless, &HillParameters<double>::eccentric_plateau, {1.0, 2.0}},
     HillField{"max_shortening_speed",
               "v_max",
               Unit::meter_per_second,
               &HillParameters<double>::max_shortening_speed_mps,
               {0.05, 10.0}},
-    HillField{"tendon_slack_length",
-              "l_t0",
-              Unit::meter,
-              &HillParameters<double>::tendon_slack_length_m,
-              {0.0, 1.0}},
+    HillField{"tendon_slack_length", "l_t0", Unit::meter, &HillParameters<double>::tendon_slack_length_m, {0.0, 1.0}},
 };
 
 /// Returns the row of this name; throws InvalidInput with the list of names.
 [[nodiscard]] const HillField& hill_field(std::string_view name);
 
-/// Throws InvalidInput with the field's name and value, unless all are positive and finite
-/// (tendon_slack_length may be 0). Values outside the physical bounds are allowed: a verdict, not
-/// an error, reports them.
+/// Throws InvalidInput with the field's name and value, unless all are positive and finite (tendon_slack_length may be
+/// 0). Values outside the physical bounds are allowed: a verdict, not an error, reports them.
 void validate(const HillParameters<double>& parameters);
 
 }  // namespace myoid::muscle

@@ -16,12 +16,8 @@ bool covers(const IsolatedRecording& length, const IsolatedRecording& force) {
 
 }  // namespace
 
-double mean_force_error(const IsolatedModel& model,
-                        const IsolatedRecording& recording,
-                        double relative_tolerance) {
-  return (isolated_force(model, recording, relative_tolerance) - recording.force_n)
-      .cwiseAbs()
-      .mean();
+double mean_force_error(const IsolatedModel& model, const IsolatedRecording& recording, double relative_tolerance) {
+  return (isolated_force(model, recording, relative_tolerance) - recording.force_n).cwiseAbs().mean();
 }
 
 std::vector<std::string> check_force_size(const std::vector<IsolatedRecording>& recordings,
@@ -30,9 +26,8 @@ std::vector<std::string> check_force_size(const std::vector<IsolatedRecording>& 
   std::vector<std::string> suspicious;
   for (const IsolatedRecording& r : recordings) {
     const double largest_n = r.force_n.cwiseAbs().maxCoeff();
-    const std::string found =
-        fmt::format("{}: forces up to {:.4g} N, {:.3g} times the muscle's F_max of {:.4g} N",
-                    r.name, largest_n, largest_n / max_isometric_force_n, max_isometric_force_n);
+    const std::string found = fmt::format("{}: forces up to {:.4g} N, {:.3g} times the muscle's F_max of {:.4g} N",
+                                          r.name, largest_n, largest_n / max_isometric_force_n, max_isometric_force_n);
     if (largest_n > kNone * max_isometric_force_n)
       throw InvalidInput(found +
                          "; expected at most some 2 times: write them in N (are they in mN?), and "
@@ -58,10 +53,10 @@ std::vector<std::string> check_recording_order(const IsolatedModel& start,
     for (std::size_t j = i + 1; j < recordings.size(); ++j) {
       if (!covers(recordings[i], recordings[j]) || !covers(recordings[j], recordings[i])) continue;
       if (error_n(i, j) + error_n(j, i) >= kBetter * (error_n(i, i) + error_n(j, j))) continue;
-      suspicious.push_back(fmt::format(
-          "{} and {} fit each other's length much better than their own, with the muscle as it "
-          "starts: give --length, --scale and --measured in the same order",
-          recordings[i].name, recordings[j].name));
+      suspicious.push_back(
+          fmt::format("{} and {} fit each other's length much better than their own, with the muscle as it "
+                      "starts: give --length, --scale and --measured in the same order",
+                      recordings[i].name, recordings[j].name));
     }
   }
   return suspicious;

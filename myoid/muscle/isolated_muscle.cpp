@@ -20,8 +20,7 @@ using math::OdeStatus;
 /// The drive: linear between samples, constant outside.
 class Drive {
  public:
-  Drive(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values)
-      : time_(time_s), value_(values) {
+  Drive(const Eigen::VectorXd& time_s, const Eigen::VectorXd& values) : time_(time_s), value_(values) {
     const Eigen::Index n = value_.size();
     if (n == 0 || (time_.size() != n && !(time_.size() == 0 && n == 1))) {
       throw InvalidInput(
@@ -31,8 +30,7 @@ class Drive {
     }
     for (Eigen::Index k = 0; k < n; ++k) {
       if (!(value_(k) >= 0.0 && value_(k) <= 1.0)) {
-        throw InvalidInput(fmt::format("the drive of a muscle is {} at sample {}, expected 0 to 1",
-                                       value_(k), k + 1));
+        throw InvalidInput(fmt::format("the drive of a muscle is {} at sample {}, expected 0 to 1", value_(k), k + 1));
       }
       if (k > 0 && !(time_(k) > time_(k - 1))) {
         throw InvalidInput(
@@ -71,9 +69,7 @@ class Experiment {
     unit_states_ = state_size(unit_.laws().mode);
   }
 
-  [[nodiscard]] std::size_t state_count() const {
-    return static_cast<std::size_t>(activation_states_ + unit_states_);
-  }
+  [[nodiscard]] std::size_t state_count() const { return static_cast<std::size_t>(activation_states_ + unit_states_); }
   [[nodiscard]] const Drive& drive() const { return drive_; }
 
   [[nodiscard]] ActivationPoint<double> activation(double t, const double* y) const {
@@ -177,10 +173,8 @@ IsolatedMuscleResult simulate_isolated_muscle(const Musculotendon<double>& unit,
   const Eigen::VectorXd times = checked_outputs(options.output_time_s, input.time_s);
   const double begin = input.time_s(0);
   const double end = times(times.size() - 1);
-  if (input.initial_activation &&
-      !(*input.initial_activation >= 0.0 && *input.initial_activation <= 1.0)) {
-    throw InvalidInput(
-        fmt::format("the initial activation is {}, expected 0 to 1", *input.initial_activation));
+  if (input.initial_activation && !(*input.initial_activation >= 0.0 && *input.initial_activation <= 1.0)) {
+    throw InvalidInput(fmt::format("the initial activation is {}, expected 0 to 1", *input.initial_activation));
   }
 
   IsolatedMuscleResult result;
@@ -232,9 +226,7 @@ IsolatedMuscleResult simulate_isolated_muscle(const Musculotendon<double>& unit,
       result.status = stepper.start(begin, y0);
       run(stepper);
     } else {
-      const auto rate = [&](double t, const double* state, double* ydot) {
-        experiment.rate(t, state, ydot);
-      };
+      const auto rate = [&](double t, const double* state, double* ydot) { experiment.rate(t, state, ydot); };
       math::RungeKutta<double> stepper(y0.size(), ode);
       result.status = stepper.start(begin, y0, rate);
       run(stepper, rate);

@@ -22,8 +22,7 @@ struct IsolatedMuscleInput {
   /// Samples of the drive, in 0..1; straight between them, constant outside. Times may be empty if
   /// there is one value: constant.
   Eigen::VectorXd drive_time_s, drive;
-  /// True: the drive is an excitation, and the activation follows by `dynamics`. False: the drive
-  /// is the activation.
+  /// True: the drive is an excitation, and the activation follows by `dynamics`. False: the drive is the activation.
   bool drive_is_excitation = false;
   ActivationDynamics<double> dynamics{
       .law = ActivationLaw::thelen, .activation_time_s = 0.010, .deactivation_time_s = 0.040};
@@ -53,9 +52,8 @@ struct IsolatedMuscleResult {
 /// there) along the imposed length, ending a step at every sample of length and drive. Throws
 /// InvalidInput if sizes differ, times do not strictly increase, a value is not finite, a drive
 /// lies outside 0..1 or an output time outside the samples; Interrupted on request.
-[[nodiscard]] IsolatedMuscleResult simulate_isolated_muscle(
-    const Musculotendon<double>& unit,
-    const IsolatedMuscleInput& input,
-    const IsolatedMuscleOptions& options = {});
+[[nodiscard]] IsolatedMuscleResult simulate_isolated_muscle(const Musculotendon<double>& unit,
+                                                            const IsolatedMuscleInput& input,
+                                                            const IsolatedMuscleOptions& options = {});
 
 }  // namespace myoid::muscle

@@ -88,8 +88,7 @@ TEST(IsolatedMuscle, ActivationFollowsTheExcitation) {
   const IsolatedMuscleResult r = simulate_isolated_muscle(unit, input);
   const Eigen::VectorXd a = r.series.column("activation");
   for (Eigen::Index k = 0; k < a.size(); ++k) {
-    const double exact =
-        step_activation(input.dynamics, 1.0, {0.0, 0.01}, r.series.time_s()(k)).activation;
+    const double exact = step_activation(input.dynamics, 1.0, {0.0, 0.01}, r.series.time_s()(k)).activation;
     EXPECT_NEAR(a(k), exact, 1e-7);
   }
   const Eigen::VectorXd force = r.series.column("tendon_force");
@@ -105,8 +104,7 @@ TEST(IsolatedMuscle, OutputTimesMayLieAnywhereWithinTheSamples) {
   const auto all = simulate_isolated_muscle(unit, swing(0.001));
   EXPECT_NEAR(few.series.column("tendon_force")(1), all.series.column("tendon_force")(10), 1e-8);
   options.output_time_s = Eigen::Vector2d(0.5, 1.5);
-  EXPECT_THROW(static_cast<void>(simulate_isolated_muscle(unit, swing(0.001), options)),
-               InvalidInput);
+  EXPECT_THROW(static_cast<void>(simulate_isolated_muscle(unit, swing(0.001), options)), InvalidInput);
 }
 
 TEST(IsolatedMuscle, RefusesDrivesBeyondOneAndTimesThatDoNotIncrease) {
@@ -166,8 +164,7 @@ TEST(IsolatedMuscle, ReproducesTheForcesOfARatSoleusWithinThePublishedErrors) {
       options.output_time_s = as_vector(measured_t);
       const auto r = simulate_isolated_muscle(unit, input, options);
       ASSERT_EQ(r.status, math::OdeStatus::done) << r.message;
-      const double error =
-          (r.series.column("tendon_force") - as_vector(measured)).cwiseAbs().mean() / 1.17;
+      const double error = (r.series.column("tendon_force") - as_vector(measured)).cwiseAbs().mean() / 1.17;
       EXPECT_LT(error, 0.089) << amplitude_mm << " mm";
       RecordProperty((from_rest ? "excited " : "activated ") + std::to_string(amplitude_mm) + " mm",
                      std::to_string(error));

@@ -12,8 +12,7 @@ namespace myoid::muscle {
 void validate(const JointPassive<double>& joint) {
   const auto require = [](bool good, std::string_view name, double value, std::string_view what) {
     if (!good || !std::isfinite(value)) {
-      throw InvalidInput(
-          fmt::format("{} of a passive joint is {:g}, expected {}", name, value, what));
+      throw InvalidInput(fmt::format("{} of a passive joint is {:g}, expected {}", name, value, what));
     }
   };
   const auto not_negative = [&](double value, std::string_view name) {
@@ -23,10 +22,8 @@ void validate(const JointPassive<double>& joint) {
   not_negative(joint.viscosity_nms_per_rad, "viscosity");
   not_negative(joint.lower_stop_torque_nm, "lower_stop_torque");
   not_negative(joint.upper_stop_torque_nm, "upper_stop_torque");
-  require(joint.lower_stop_width_rad > 0.0, "lower_stop_width", joint.lower_stop_width_rad,
-          "a positive angle");
-  require(joint.upper_stop_width_rad > 0.0, "upper_stop_width", joint.upper_stop_width_rad,
-          "a positive angle");
+  require(joint.lower_stop_width_rad > 0.0, "lower_stop_width", joint.lower_stop_width_rad, "a positive angle");
+  require(joint.upper_stop_width_rad > 0.0, "upper_stop_width", joint.upper_stop_width_rad, "a positive angle");
   require(true, "neutral angle", joint.neutral_rad, "a finite angle");
   require(true, "lower_stop", joint.lower_stop_rad, "a finite angle");
   require(true, "upper_stop", joint.upper_stop_rad, "a finite angle");

@@ -6,8 +6,7 @@
 
 namespace myoid::muscle {
 
-/// A relaxed joint: a spring, a dashpot, and ligaments as exponential stops at both ends of the
-/// range.
+/// A relaxed joint: a spring, a dashpot, and ligaments as exponential stops at both ends of the range.
 ///
 ///   T(q, qdot) = -k (q - q0) - b qdot + t_low exp(-(q - q_low) / w_low)
 ///                - t_high exp((q - q_high) / w_high)
@@ -52,19 +51,17 @@ template <typename T>
                                                   const T& velocity_radps) {
   using std::exp;
   const T off = angle_rad - j.neutral_rad;
-  const T low =
-      j.lower_stop_torque_nm * exp((j.lower_stop_rad - angle_rad) / j.lower_stop_width_rad);
-  const T high =
-      j.upper_stop_torque_nm * exp((angle_rad - j.upper_stop_rad) / j.upper_stop_width_rad);
+  const T low = j.lower_stop_torque_nm * exp((j.lower_stop_rad - angle_rad) / j.lower_stop_width_rad);
+  const T high = j.upper_stop_torque_nm * exp((angle_rad - j.upper_stop_rad) / j.upper_stop_width_rad);
   JointPassiveOutput<T> o;
   o.elastic_torque_nm = low - high - j.stiffness_nm_per_rad * off;
   o.viscous_torque_nm = -j.viscosity_nms_per_rad * velocity_radps;
   o.torque_nm = o.elastic_torque_nm + o.viscous_torque_nm;
-  o.stored_energy_j = T(0.5) * j.stiffness_nm_per_rad * off * off + low * j.lower_stop_width_rad +
-                      high * j.upper_stop_width_rad;
+  o.stored_energy_j =
+      T(0.5) * j.stiffness_nm_per_rad * off * off + low * j.lower_stop_width_rad + high * j.upper_stop_width_rad;
   o.viscous_power_w = o.viscous_torque_nm * velocity_radps;
-  o.stiffness_nm_per_rad = value_of(j.stiffness_nm_per_rad + low / j.lower_stop_width_rad +
-                                    high / j.upper_stop_width_rad);
+  o.stiffness_nm_per_rad =
+      value_of(j.stiffness_nm_per_rad + low / j.lower_stop_width_rad + high / j.upper_stop_width_rad);
   return o;
 }
 

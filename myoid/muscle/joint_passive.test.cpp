@@ -23,20 +23,18 @@ TEST(JointPassive, IsTheDoubleExponentialOfTheLiterature) {
                                    .upper_stop_rad = 2.4,
                                    .upper_stop_width_rad = 1.0 / 25.0};
   for (const double q : {0.1, 0.3, 1.2, 2.3, 2.5}) {
-    const double expected = 2.0 * std::exp(-18.0 * (q - 0.2)) - 3.0 * std::exp(-25.0 * (2.4 - q)) -
-                            0.8 * (q - 1.3) - 0.25 * 1.7;
-    EXPECT_NEAR(joint_passive(joint, q, 1.7).torque_nm, expected,
-                1e-13 * (1.0 + std::abs(expected)));
+    const double expected =
+        2.0 * std::exp(-18.0 * (q - 0.2)) - 3.0 * std::exp(-25.0 * (2.4 - q)) - 0.8 * (q - 1.3) - 0.25 * 1.7;
+    EXPECT_NEAR(joint_passive(joint, q, 1.7).torque_nm, expected, 1e-13 * (1.0 + std::abs(expected)));
   }
 }
 
 TEST(JointPassive, ElasticTorqueIsMinusTheSlopeOfTheEnergyAndStiffnessMinusThatOfTheTorque) {
   using Jet = ceres::Jet<double, 1>;
   const JointPassive<double> elbow = elbow_passive();
-  JointPassive<Jet> lifted{
-      Jet(elbow.stiffness_nm_per_rad), Jet(elbow.neutral_rad),    Jet(elbow.viscosity_nms_per_rad),
-      Jet(elbow.lower_stop_torque_nm), Jet(elbow.lower_stop_rad), Jet(elbow.lower_stop_width_rad),
-      Jet(elbow.upper_stop_torque_nm), Jet(elbow.upper_stop_rad), Jet(elbow.upper_stop_width_rad)};
+  JointPassive<Jet> lifted{Jet(elbow.stiffness_nm_per_rad), Jet(elbow.neutral_rad),    Jet(elbow.viscosity_nms_per_rad),
+                           Jet(elbow.lower_stop_torque_nm), Jet(elbow.lower_stop_rad), Jet(elbow.lower_stop_width_rad),
+                           Jet(elbow.upper_stop_torque_nm), Jet(elbow.upper_stop_rad), Jet(elbow.upper_stop_width_rad)};
   for (const double q : {-0.05, 0.2, 1.0, 2.3, 2.6}) {
     const auto o = joint_passive(lifted, Jet(q, 0), Jet(-2.0));
     const double scale = 1.0 + std::abs(o.elastic_torque_nm.a);

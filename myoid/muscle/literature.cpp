@@ -13,8 +13,8 @@ HillParameters<double> literature_parameters(const LiteratureMuscle& muscle) {
   p.optimal_fiber_length_m = l0_m;
   p.force_length_width_m = kLiteratureWidth * l0_m;
   p.concentric_curvature = kLiteratureCurvature;
-  p.eccentric_curvature_product = curvature_product_from_slope_ratio(
-      kLiteratureSlopeRatio, kLiteratureCurvature, kLiteraturePlateau);
+  p.eccentric_curvature_product =
+      curvature_product_from_slope_ratio(kLiteratureSlopeRatio, kLiteratureCurvature, kLiteraturePlateau);
   p.eccentric_plateau = kLiteraturePlateau;
   p.max_shortening_speed_mps = kLiteratureSpeed * l0_m;
   p.tendon_slack_length_m = muscle.tendon_slack_length_m;

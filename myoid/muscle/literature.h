@@ -18,19 +18,17 @@ struct LiteratureMuscle {
 
 /// BIC (long and short head), BRA, BRD, TRI (three heads): Holzbaur, Murray & Delp (2005), Ann
 /// Biomed Eng 33:829-840, as OpenSim's models carry it. F_max are sums, lengths weighted by F_max.
-inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {
-    {{"BIC", 1059.86, 0.1224, 0.2394, 0.0},
-     {"BRA", 987.26, 0.0858, 0.0535, 0.0},
-     {"BRD", 261.33, 0.1726, 0.1330, 0.0},
-     {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
+inline constexpr std::array<LiteratureMuscle, 4> kElbowMuscles = {{{"BIC", 1059.86, 0.1224, 0.2394, 0.0},
+                                                                   {"BRA", 987.26, 0.0858, 0.0535, 0.0},
+                                                                   {"BRD", 261.33, 0.1726, 0.1330, 0.0},
+                                                                   {"TRI", 2047.12, 0.1217, 0.1134, 0.1775}}};
 
 /// The values for a muscle without better data.
 inline constexpr double kLiteratureWidth = 0.45;      ///< l_sh / l0
 inline constexpr double kLiteratureCurvature = 0.28;  ///< V_sh
 inline constexpr double kLiteraturePlateau = 1.4;     ///< V_ml
-inline constexpr double kLiteratureSlopeRatio =
-    1.5;  ///< S: slopes of f_v at rest, eccentric over concentric
-inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
+inline constexpr double kLiteratureSlopeRatio = 1.5;  ///< S: slopes of f_v at rest, eccentric over concentric
+inline constexpr double kLiteratureSpeed = 10.0;      ///< v_max / l0 [1/s]
 
 /// The range of l_sh / l0 in muscles. A sarcomere makes half of its greatest force between about
 /// 0.65 and 1.3 of its optimal length (Gordon, Huxley and Julian 1966), a Gaussian of 0.35 to
@@ -38,8 +36,7 @@ inline constexpr double kLiteratureSpeed = 10.0;  ///< v_max / l0 [1/s]
 /// in use go up to 0.71 (Thelen's gamma of 0.5).
 inline constexpr Range kRelativeWidths{0.2, 1.0};
 
-/// Returns the numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5,
-/// v_max = 10 l0/s.
+/// Returns the numbers above for one muscle: l_sh = 0.45 l0, V_sh = 0.28, V_ml = 1.4, S = 1.5, v_max = 10 l0/s.
 [[nodiscard]] HillParameters<double> literature_parameters(const LiteratureMuscle& muscle);
 
 /// Returns the muscle of this name (BIC, BRA, BRD, TRI); throws InvalidInput with these names.

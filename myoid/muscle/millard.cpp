@@ -25,29 +25,25 @@ BezierCurve force_length_curve(const MillardShape& s) {
   const double x3 = s.longest_active_length;
   const double at_shoulder = 1.0 - shoulder;
   const double y1 = 1.0 - s.shallow_slope * (at_shoulder - x1);
-  const std::array<CurveKnot, 6> knots{
-      {{x0, s.active_minimum, 0.0},
-       {0.5 * (x0 + x1), 0.5 * y1, 1.25 * y1 / (x1 - x0)},
-       {0.5 * (x1 + at_shoulder), 0.5 * (1.0 + y1), s.shallow_slope},
-       {1.0, 1.0, 0.0},
-       {0.5 * (1.0 + shoulder + x3), 0.5, -1.0 / (x3 - shoulder - (1.0 + shoulder))},
-       {x3, s.active_minimum, 0.0}}};
+  const std::array<CurveKnot, 6> knots{{{x0, s.active_minimum, 0.0},
+                                        {0.5 * (x0 + x1), 0.5 * y1, 1.25 * y1 / (x1 - x0)},
+                                        {0.5 * (x1 + at_shoulder), 0.5 * (1.0 + y1), s.shallow_slope},
+                                        {1.0, 1.0, 0.0},
+                                        {0.5 * (1.0 + shoulder + x3), 0.5, -1.0 / (x3 - shoulder - (1.0 + shoulder))},
+                                        {x3, s.active_minimum, 0.0}}};
   const std::array<double, 5> curviness{0.9, 0.9, 0.9, 0.9, 0.9};
   return BezierCurve(knots, curviness);
 }
 
 BezierCurve force_velocity_curve(const MillardShape& s) {
-  const double near_shortening =
-      0.05 * (s.slope_near_shortening_limit + s.slope_at_shortening_limit);
+  const double near_shortening = 0.05 * (s.slope_near_shortening_limit + s.slope_at_shortening_limit);
   const double near_lengthening =
-      s.max_eccentric_multiplier -
-      0.05 * (s.slope_near_lengthening_limit + s.slope_at_lengthening_limit);
-  const std::array<CurveKnot, 5> knots{
-      {{-1.0, 0.0, s.slope_at_shortening_limit},
-       {-0.9, near_shortening, s.slope_near_shortening_limit},
-       {0.0, 1.0, s.slope_at_rest},
-       {0.9, near_lengthening, s.slope_near_lengthening_limit},
-       {1.0, s.max_eccentric_multiplier, s.slope_at_lengthening_limit}}};
+      s.max_eccentric_multiplier - 0.05 * (s.slope_near_lengthening_limit + s.slope_at_lengthening_limit);
+  const std::array<CurveKnot, 5> knots{{{-1.0, 0.0, s.slope_at_shortening_limit},
+                                        {-0.9, near_shortening, s.slope_near_shortening_limit},
+                                        {0.0, 1.0, s.slope_at_rest},
+                                        {0.9, near_lengthening, s.slope_near_lengthening_limit},
+                                        {1.0, s.max_eccentric_multiplier, s.slope_at_lengthening_limit}}};
   const double concentric = scaled(s.concentric_curviness);
   const double eccentric = scaled(s.eccentric_curviness);
   const std::array<double, 4> curviness{concentric, concentric, eccentric, eccentric};
@@ -58,10 +54,9 @@ BezierCurve passive_curve(const MillardShape& s) {
   const double x0 = 1.0 + s.passive_strain_at_zero;
   const double x1 = 1.0 + s.passive_strain_at_one;
   const double foot = 0.1 * std::min(1.0 / s.passive_stiffness_at_one, x1 - x0);
-  const std::array<CurveKnot, 3> knots{
-      {{x0, 0.0, 0.0},
-       {x0 + foot, 0.5 * s.passive_stiffness_low * foot, s.passive_stiffness_low},
-       {x1, 1.0, s.passive_stiffness_at_one}}};
+  const std::array<CurveKnot, 3> knots{{{x0, 0.0, 0.0},
+                                        {x0 + foot, 0.5 * s.passive_stiffness_low * foot, s.passive_stiffness_low},
+                                        {x1, 1.0, s.passive_stiffness_at_one}}};
   const double c = scaled(s.passive_curviness);
   const std::array<double, 2> curviness{c, c};
   return BezierCurve(knots, curviness);
@@ -74,9 +69,8 @@ BezierCurve tendon_curve(const MillardShape& s) {
   const double foot = 0.1 * toe_x;
   const double slope = 0.5 * s.tendon_toe_force / (middle_x - foot);
   const double control_x = 0.5 * (foot + middle_x);
-  const std::array<CurveKnot, 3> knots{{{0.0, 0.0, 0.0},
-                                        {control_x, slope * (control_x - foot), slope},
-                                        {toe_x, s.tendon_toe_force, k}}};
+  const std::array<CurveKnot, 3> knots{
+      {{0.0, 0.0, 0.0}, {control_x, slope * (control_x - foot), slope}, {toe_x, s.tendon_toe_force, k}}};
   const double c = scaled(s.tendon_curviness);
   const std::array<double, 2> curviness{c, c};
   return BezierCurve(knots, curviness);

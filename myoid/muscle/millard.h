@@ -40,11 +40,9 @@ class MillardCurves {
   /// Returns the active force-length curve: a steep and a shallow ascending limb, plateau at 1,
   /// descending limb; `active_minimum` outside.
   [[nodiscard]] const BezierCurve& force_length() const { return force_length_; }
-  /// Returns the force-velocity curve: 0 at -1, 1 at rest, the eccentric maximum at 1, straight
-  /// beyond.
+  /// Returns the force-velocity curve: 0 at -1, 1 at rest, the eccentric maximum at 1, straight beyond.
   [[nodiscard]] const BezierCurve& force_velocity() const { return force_velocity_; }
-  /// Returns the passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`,
-  /// straight beyond.
+  /// Returns the passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`, straight beyond.
   [[nodiscard]] const BezierCurve& passive() const { return passive_; }
   /// Returns the tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default):
   /// 0 when slack, toe to 2/3, straight through (1, 1).

@@ -46,28 +46,21 @@ Law choose(TomlTable& table,
 }
 
 constexpr std::array<std::pair<std::string_view, TendonMode>, 3> kModes{
-    {{"rigid", TendonMode::rigid},
-     {"equilibrium", TendonMode::equilibrium},
-     {"mass", TendonMode::mass}}};
+    {{"rigid", TendonMode::rigid}, {"equilibrium", TendonMode::equilibrium}, {"mass", TendonMode::mass}}};
 constexpr std::array<std::pair<std::string_view, LengthLaw>, 3> kLengthLaws{
-    {{"gaussian", LengthLaw::gaussian},
-     {"de_groote", LengthLaw::de_groote},
-     {"millard", LengthLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, VelocityLaw>, 4> kVelocityLaws{
-    {{"hill", VelocityLaw::hill},
-     {"thelen", VelocityLaw::thelen},
-     {"de_groote", VelocityLaw::de_groote},
-     {"millard", VelocityLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, PassiveLaw>, 4> kPassiveLaws{
-    {{"none", PassiveLaw::none},
-     {"thelen", PassiveLaw::thelen},
-     {"de_groote", PassiveLaw::de_groote},
-     {"millard", PassiveLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, TendonLaw>, 4> kTendonLaws{
-    {{"linear", TendonLaw::linear},
-     {"thelen", TendonLaw::thelen},
-     {"de_groote", TendonLaw::de_groote},
-     {"millard", TendonLaw::millard}}};
+    {{"gaussian", LengthLaw::gaussian}, {"de_groote", LengthLaw::de_groote}, {"millard", LengthLaw::millard}}};
+constexpr std::array<std::pair<std::string_view, VelocityLaw>, 4> kVelocityLaws{{{"hill", VelocityLaw::hill},
+                                                                                 {"thelen", VelocityLaw::thelen},
+                                                                                 {"de_groote", VelocityLaw::de_groote},
+                                                                                 {"millard", VelocityLaw::millard}}};
+constexpr std::array<std::pair<std::string_view, PassiveLaw>, 4> kPassiveLaws{{{"none", PassiveLaw::none},
+                                                                               {"thelen", PassiveLaw::thelen},
+                                                                               {"de_groote", PassiveLaw::de_groote},
+                                                                               {"millard", PassiveLaw::millard}}};
+constexpr std::array<std::pair<std::string_view, TendonLaw>, 4> kTendonLaws{{{"linear", TendonLaw::linear},
+                                                                             {"thelen", TendonLaw::thelen},
+                                                                             {"de_groote", TendonLaw::de_groote},
+                                                                             {"millard", TendonLaw::millard}}};
 constexpr std::array<std::pair<std::string_view, ActivationLaw>, 5> kActivationLaws{
     {{"envelope", ActivationLaw::envelope},
      {"two_lags", ActivationLaw::two_lags},
@@ -76,8 +69,7 @@ constexpr std::array<std::pair<std::string_view, ActivationLaw>, 5> kActivationL
      {"recursive", ActivationLaw::recursive}}};
 
 MusculotendonLaws read_laws(TomlTable& table) {
-  const std::string set =
-      table.choice("laws", "millard", {"paper", "thelen", "de_groote", "millard"});
+  const std::string set = table.choice("laws", "millard", {"paper", "thelen", "de_groote", "millard"});
   MusculotendonLaws laws = set == "paper"       ? muscle::paper_laws(TendonMode::equilibrium)
                            : set == "thelen"    ? muscle::thelen_laws()
                            : set == "de_groote" ? muscle::de_groote_laws()
@@ -112,15 +104,13 @@ muscle::HillParameters<double> read_hill(TomlTable& table) {
       table.has("max_shortening_speed")
           ? required(table, "max_shortening_speed", "a speed in m/s")
           : l0 * table.number("max_contraction_velocity").value_or(muscle::kLiteratureSpeed);
-  hill.force_length_width_m =
-      table.number("force_length_width").value_or(muscle::kLiteratureWidth * l0);
-  hill.concentric_curvature =
-      table.number("concentric_curvature").value_or(muscle::kLiteratureCurvature);
+  hill.force_length_width_m = table.number("force_length_width").value_or(muscle::kLiteratureWidth * l0);
+  hill.concentric_curvature = table.number("concentric_curvature").value_or(muscle::kLiteratureCurvature);
   hill.eccentric_plateau = table.number("eccentric_plateau").value_or(muscle::kLiteraturePlateau);
   hill.eccentric_curvature_product =
       table.number("eccentric_curvature_product")
-          .value_or(muscle::curvature_product_from_slope_ratio(
-              muscle::kLiteratureSlopeRatio, hill.concentric_curvature, hill.eccentric_plateau));
+          .value_or(muscle::curvature_product_from_slope_ratio(muscle::kLiteratureSlopeRatio, hill.concentric_curvature,
+                                                               hill.eccentric_plateau));
   return hill;
 }
 
@@ -131,8 +121,7 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   TomlTable root(document, path, "the muscle");
   MuscleFile file;
   std::optional<TomlTable> muscle = root.table("muscle");
-  if (!muscle)
-    throw ReadError(path, 0, "has no table [muscle]: write the muscle's numbers under it");
+  if (!muscle) throw ReadError(path, 0, "has no table [muscle]: write the muscle's numbers under it");
   file.name = muscle->text("name").value_or("muscle");
   file.laws = read_laws(*muscle);
   file.parameters = muscle::published_defaults(read_hill(*muscle), file.laws);
@@ -144,8 +133,7 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   number("muscle_mass", file.parameters.muscle_mass_kg);
   number("pennation_deg", file.parameters.pennation_at_optimal_rad, kDegree);
   number("passive_strain", file.parameters.passive_strain);
-  if (muscle->has("passive_strain"))
-    file.millard.passive_strain_at_one = file.parameters.passive_strain;
+  if (muscle->has("passive_strain")) file.millard.passive_strain_at_one = file.parameters.passive_strain;
   file.millard.passive_stiffness_at_one = 2.0 / file.millard.passive_strain_at_one;
   number("passive_shape", file.parameters.passive_shape);
   number("optimal_length_shift", file.parameters.optimal_length_shift);

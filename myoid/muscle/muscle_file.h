@@ -22,7 +22,6 @@ struct MuscleFile {
 /// Reads a muscle strictly. Throws ReadError with the line for unknown keys, wrong types and
 /// impossible numbers, and InvalidInput for contradictory numbers.
 [[nodiscard]] MuscleFile read_muscle_file(const std::filesystem::path& path);
-[[nodiscard]] MuscleFile parse_muscle_file(std::string_view text,
-                                           const std::filesystem::path& path);
+[[nodiscard]] MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace myoid::muscle

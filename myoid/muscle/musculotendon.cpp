@@ -25,15 +25,13 @@ MusculotendonLaws thelen_laws(TendonMode mode) {
   return {mode, LengthLaw::gaussian, VelocityLaw::thelen, PassiveLaw::thelen, TendonLaw::thelen};
 }
 MusculotendonLaws de_groote_laws(TendonMode mode) {
-  return {mode, LengthLaw::de_groote, VelocityLaw::de_groote, PassiveLaw::de_groote,
-          TendonLaw::de_groote};
+  return {mode, LengthLaw::de_groote, VelocityLaw::de_groote, PassiveLaw::de_groote, TendonLaw::de_groote};
 }
 MusculotendonLaws millard_laws(TendonMode mode) {
   return {mode, LengthLaw::millard, VelocityLaw::millard, PassiveLaw::millard, TendonLaw::millard};
 }
 
-MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill,
-                                                   const MusculotendonLaws& laws) {
+MusculotendonParameters<double> published_defaults(const HillParameters<double>& hill, const MusculotendonLaws& laws) {
   MusculotendonParameters<double> p;
   p.hill = hill;
   switch (laws.tendon) {
@@ -61,8 +59,8 @@ void validate(const MusculotendonParameters<double>& p, const MusculotendonLaws&
   require(p.damping >= 0.0, "damping", p.damping, "zero or a positive number");
   require(p.muscle_mass_kg > 0.0 || laws.mode != TendonMode::mass, "muscle_mass", p.muscle_mass_kg,
           "a positive number of kilograms, or another mode than `mass`");
-  require(p.pennation_at_optimal_rad >= 0.0 && p.pennation_at_optimal_rad < 1.4,
-          "pennation_at_optimal", p.pennation_at_optimal_rad, "0 to 1.4 rad");
+  require(p.pennation_at_optimal_rad >= 0.0 && p.pennation_at_optimal_rad < 1.4, "pennation_at_optimal",
+          p.pennation_at_optimal_rad, "0 to 1.4 rad");
   require(p.passive_strain > 0.0, "passive_strain", p.passive_strain, "a positive number");
   require(p.passive_shape > 0.0, "passive_shape", p.passive_shape, "a positive number");
   require(p.optimal_length_shift >= 0.0 && p.optimal_length_shift < 10.0, "optimal_length_shift",
@@ -92,21 +90,18 @@ void validate(const MusculotendonParameters<double>& p, const MusculotendonLaws&
   }
 }
 
-std::array<double, kMusculotendonEventCount> musculotendon_events(
-    const Musculotendon<double>& unit,
-    const MusculotendonInput<double>& input,
-    const MusculotendonState<double>& state) {
+std::array<double, kMusculotendonEventCount> musculotendon_events(const Musculotendon<double>& unit,
+                                                                  const MusculotendonInput<double>& input,
+                                                                  const MusculotendonState<double>& state) {
   namespace detail = musculotendon_detail;
   const detail::Instant<double> now = detail::instant(unit, input, state, detail::Depth::all);
   const MusculotendonParameters<double>& p = unit.parameters();
-  const double law_speed = unit.laws().velocity == VelocityLaw::thelen
-                               ? now.speed / thelen_speed(input.activation)
-                               : now.speed;
+  const double law_speed =
+      unit.laws().velocity == VelocityLaw::thelen ? now.speed / thelen_speed(input.activation) : now.speed;
   const VelocityHyperbola<double>& h = unit.curves().hyperbola();
-  const bool tangent = h.tangent_from < 1.0 && (unit.laws().velocity == VelocityLaw::hill ||
-                                                unit.laws().velocity == VelocityLaw::thelen);
-  const double last =
-      tangent ? h.eccentric_curvature_product * h.tangent_from / (1.0 - h.tangent_from) : 0.0;
+  const bool tangent = h.tangent_from < 1.0 &&
+                       (unit.laws().velocity == VelocityLaw::hill || unit.laws().velocity == VelocityLaw::thelen);
+  const double last = tangent ? h.eccentric_curvature_product * h.tangent_from / (1.0 - h.tangent_from) : 0.0;
   return {unit.laws().mode == TendonMode::rigid ? now.tendon.value : now.strain,
           now.speed,
           1.0 + law_speed,

@@ -13,10 +13,9 @@ inline constexpr double kLeastPennationCosine = 0.1;
 /// Least value of a f_l in the undamped equilibrium.
 inline constexpr double kLeastStrength = 0.01;
 
-/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and
-/// derived quantities, immutable. `T` is double, or ceres::Jet for exact derivatives by states,
-/// inputs and parameters: lift the parameters with `lifted`, seed them, and build a
-/// Musculotendon<Jet>.
+/// A fiber in series with a tendon, between two points of the skeleton: parameters, laws and derived quantities,
+/// immutable. `T` is double, or ceres::Jet for exact derivatives by states, inputs and parameters: lift the parameters
+/// with `lifted`, seed them, and build a Musculotendon<Jet>.
 ///
 ///   along(l_m) = sqrt(l_m^2 - h^2),  h = l0 sin(alpha0),  cos(alpha) = along / l_m
 ///   l_t = l_mt - along(l_m),         F_t = F_max f_t((l_t - l_t0) / l_t0),  never negative
@@ -115,14 +114,12 @@ template <typename T>
                                                           const MusculotendonInput<T>& input,
                                                           const MusculotendonState<T>& state);
 
-/// Returns a state in which the unit is steady under a constant input: the tendon's length does not
-/// change, so v = dl_mt/dt cos(alpha), and F_t = F_m cos(alpha) to round-off. If there are several,
-/// the state is a stable one, in which the tendon's pull falls faster with l_m than the fiber's.
-/// With a slack tendon the fiber has the length that leaves the tendon just slack. T = Jet: with
-/// the derivatives of the solution.
+/// Returns a state in which the unit is steady under a constant input: the tendon's length does not change, so v =
+/// dl_mt/dt cos(alpha), and F_t = F_m cos(alpha) to round-off. If there are several, the state is a stable one, in
+/// which the tendon's pull falls faster with l_m than the fiber's. With a slack tendon the fiber has the length that
+/// leaves the tendon just slack. T = Jet: with the derivatives of the solution.
 template <typename T>
-[[nodiscard]] MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
-                                                      const MusculotendonInput<T>& input);
+[[nodiscard]] MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit, const MusculotendonInput<T>& input);
 
 /// Quantities at whose zeros the right-hand side has a kink or a jump in its derivatives, for the
 /// event location of an integrator: [0] tendon strain (slack below 0), [1] v / v_max, [2] 1 + v /

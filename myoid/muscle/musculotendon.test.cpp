@@ -85,8 +85,7 @@ TEST(Musculotendon, TendonAndFiberPullAlikeInTheSteadyState) {
 
 TEST(Musculotendon, AFiberThatPushesLiesBeyondTheSlackLength) {
   // De Groote's passive force is negative below 0.2 l0: the fiber rests there, the tendon hangs.
-  const Musculotendon<double> unit(published_defaults(kBicepsLong, de_groote_laws()),
-                                   de_groote_laws());
+  const Musculotendon<double> unit(published_defaults(kBicepsLong, de_groote_laws()), de_groote_laws());
   const Input input{0.0, 0.2723 + 0.15 * 0.1157, 0.0};
   const UnitState state = equilibrium_state(unit, input);
   EXPECT_NEAR(state.fiber_length_m, 0.2 * 0.1157, 1e-12);
@@ -100,13 +99,11 @@ TEST(Musculotendon, PowersOfAllElementsAddUpToThatOfThePath) {
       for (const double velocity : {-1.3, -0.4, 0.0, 0.3, 2.0}) {
         for (const double fiber : {0.06, 0.11, 0.14, 0.19}) {
           const Input input{a, 0.40, velocity};
-          const MusculotendonOutput<double> o =
-              musculotendon_output(unit, input, {fiber, 0.7 * velocity});
-          const double sum = o.active_power_w + o.passive_power_w + o.viscous_power_w +
-                             o.tendon_power_w + o.kinetic_power_w;
-          const double scale = std::abs(o.active_power_w) + std::abs(o.passive_power_w) +
-                               std::abs(o.viscous_power_w) + std::abs(o.tendon_power_w) +
-                               std::abs(o.kinetic_power_w) + 1.0;
+          const MusculotendonOutput<double> o = musculotendon_output(unit, input, {fiber, 0.7 * velocity});
+          const double sum =
+              o.active_power_w + o.passive_power_w + o.viscous_power_w + o.tendon_power_w + o.kinetic_power_w;
+          const double scale = std::abs(o.active_power_w) + std::abs(o.passive_power_w) + std::abs(o.viscous_power_w) +
+                               std::abs(o.tendon_power_w) + std::abs(o.kinetic_power_w) + 1.0;
           EXPECT_NEAR(sum, o.musculotendon_power_w, 1e-12 * scale) << c.name << " a " << a;
         }
       }
@@ -144,8 +141,7 @@ TEST(Musculotendon, DerivativesByStatesInputsAndParametersAreExact) {
         const auto value = [&](const MusculotendonParameters<double>& q, const double* x) {
           const Musculotendon<double> unit(q, c.laws);
           const auto r = musculotendon_rate<double>(unit, {x[0], x[1], x[2]}, {x[3], x[4]});
-          return std::array<double, 3>{r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2,
-                                       r.tendon_force_n};
+          return std::array<double, 3>{r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2, r.tendon_force_n};
         };
         MusculotendonParameters<Jet> lifted_p = lifted<Jet>(p);
         int k = kInputs;
@@ -154,8 +150,7 @@ TEST(Musculotendon, DerivativesByStatesInputsAndParametersAreExact) {
         Jet x[kInputs];
         for (int i = 0; i < kInputs; ++i) x[i] = Jet(inputs[i], i);
         const auto r = musculotendon_rate<Jet>(unit, {x[0], x[1], x[2]}, {x[3], x[4]});
-        const Jet exact[3] = {r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2,
-                              r.tendon_force_n};
+        const Jet exact[3] = {r.fiber_length_rate_mps, r.fiber_velocity_rate_mps2, r.tendon_force_n};
         for (int i = 0; i < kInputs + kMusculotendonParameterCount; ++i) {
           MusculotendonParameters<double> up = p, down = p;
           double x_up[kInputs], x_down[kInputs];
@@ -180,12 +175,10 @@ TEST(Musculotendon, DerivativesByStatesInputsAndParametersAreExact) {
           const auto hi = value(up, x_up);
           const auto lo = value(down, x_down);
           for (std::size_t out = 0; out < 3; ++out) {
-            // Relative change by a relative step 1e-6: truncation 1e-12 times third derivatives
-            // (the tendon's, about (l_t / 0.01 m)^3 = 3e4), rounding 1e-16 / 1e-6 times the
-            // stiffness amplification of the same 30.
+            // Relative change by a relative step 1e-6: truncation 1e-12 times third derivatives (the tendon's, about
+            // (l_t / 0.01 m)^3 = 3e4), rounding 1e-16 / 1e-6 times the stiffness amplification of the same 30.
             const double difference = (hi[out] - lo[out]) / 2e-6;
-            const double scale =
-                std::abs(exact[out].v[i] * size) + std::abs(value(p, inputs)[out]) + 1e-3;
+            const double scale = std::abs(exact[out].v[i] * size) + std::abs(value(p, inputs)[out]) + 1e-3;
             EXPECT_NEAR(exact[out].v[i] * size / scale, difference / scale, 2e-6)
                 << c.name << " output " << out << " by " << i << " a " << a << " v " << velocity;
           }
@@ -216,9 +209,7 @@ UnitState integrate(const Musculotendon<double>& unit,
                     int steps,
                     const Observe& observe) {
   const double h = duration_s / steps;
-  const auto rate = [&](double t, const UnitState& s) {
-    return musculotendon_rate(unit, drive.at(t), s);
-  };
+  const auto rate = [&](double t, const UnitState& s) { return musculotendon_rate(unit, drive.at(t), s); };
   const auto moved = [](const UnitState& s, const MusculotendonRate<double>& r, double dt) {
     return UnitState{s.fiber_length_m + dt * r.fiber_length_rate_mps,
                      s.fiber_velocity_mps + dt * r.fiber_velocity_rate_mps2};
@@ -251,8 +242,7 @@ TEST(Musculotendon, MassOnItsTendonRingsAtTheRootOfStiffnessOverMass) {
   const Drive drive{.middle_m = 0.3900, .activation = 0.0};
   const double start = 0.3900 - 0.2723 - 0.003;
   const double quarter = 0.5 * kPi / omega;
-  const UnitState end =
-      integrate(unit, drive, {start, 0.0}, quarter, 2000, [](double, const UnitState&) {});
+  const UnitState end = integrate(unit, drive, {start, 0.0}, quarter, 2000, [](double, const UnitState&) {});
   EXPECT_NEAR(end.fiber_length_m, 0.3900 - 0.2723, 1e-9);  // RK4: (pi/4000)^4 of 3 mm
   EXPECT_NEAR(end.fiber_velocity_mps, 0.003 * omega, 1e-7);
 }
@@ -269,21 +259,20 @@ TEST(Musculotendon, WorkOfAllElementsClosesWithTheStoredEnergies) {
     const int steps = c.laws.mode == TendonMode::mass ? 30000 : 6000;
     const double duration = 1.5;
     const double h = duration / steps;
-    integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), duration, steps,
-              [&](double t, const UnitState& s) {
-                const auto o = musculotendon_output(unit, drive.at(t), s);
-                stored = o.passive_energy_j + o.tendon_energy_j + o.kinetic_energy_j;
-                if (t == 0.0) {
-                  stored_at_start = stored;
-                } else {
-                  path += 0.5 * h * (last.musculotendon_power_w + o.musculotendon_power_w);
-                  active += 0.5 * h * (last.active_power_w + o.active_power_w);
-                  viscous += 0.5 * h * (last.viscous_power_w + o.viscous_power_w);
-                  size += h * std::abs(o.active_power_w);
-                }
-                last = o;
-                before = t;
-              });
+    integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), duration, steps, [&](double t, const UnitState& s) {
+      const auto o = musculotendon_output(unit, drive.at(t), s);
+      stored = o.passive_energy_j + o.tendon_energy_j + o.kinetic_energy_j;
+      if (t == 0.0) {
+        stored_at_start = stored;
+      } else {
+        path += 0.5 * h * (last.musculotendon_power_w + o.musculotendon_power_w);
+        active += 0.5 * h * (last.active_power_w + o.active_power_w);
+        viscous += 0.5 * h * (last.viscous_power_w + o.viscous_power_w);
+        size += h * std::abs(o.active_power_w);
+      }
+      last = o;
+      before = t;
+    });
     EXPECT_NEAR(before, duration, 1e-9);
     // Trapezoids: h^2/12 w^2 relative 2e-7 where smooth, and a little at the kinks of v = 0.
     EXPECT_NEAR(active + viscous - (stored - stored_at_start), path, 1e-5 * size) << c.name;
@@ -300,8 +289,8 @@ TEST(Musculotendon, ThreeTendonModesAgreeInSlowMovement) {
     MusculotendonParameters<double> p = published_defaults(hill, paper_laws(mode));
     p.tendon_strain = 0.01;
     const Musculotendon<double> unit(p, paper_laws(mode));
-    const UnitState end = integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), 1.0, 20000,
-                                    [](double, const UnitState&) {});
+    const UnitState end =
+        integrate(unit, drive, equilibrium_state(unit, drive.at(0.0)), 1.0, 20000, [](double, const UnitState&) {});
     force[static_cast<int>(mode)] = musculotendon_output(unit, drive.at(1.0), end).tendon_force_n;
   }
   EXPECT_NEAR(force[1] / force[0], 1.0, 0.01);
@@ -319,15 +308,11 @@ TEST(Musculotendon, OptimalLengthGrowsAsTheActivationFalls) {
     const Musculotendon<double> shifted(p, laws);
     for (const double l : {0.8, 1.0, 1.2}) {
       const double fiber = l * 0.1157;
-      EXPECT_NEAR(musculotendon_output(shifted, Input{0.2, 0.4, 0.0}, UnitState{1.12 * fiber, 0.0})
-                      .length_multiplier,
-                  musculotendon_output(plain, Input{0.2, 0.4, 0.0}, UnitState{fiber, 0.0})
-                      .length_multiplier,
-                  1e-14);
+      EXPECT_NEAR(musculotendon_output(shifted, Input{0.2, 0.4, 0.0}, UnitState{1.12 * fiber, 0.0}).length_multiplier,
+                  musculotendon_output(plain, Input{0.2, 0.4, 0.0}, UnitState{fiber, 0.0}).length_multiplier, 1e-14);
     }
-    EXPECT_EQ(
-        musculotendon_output(shifted, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier,
-        musculotendon_output(plain, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier);
+    EXPECT_EQ(musculotendon_output(shifted, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier,
+              musculotendon_output(plain, Input{1.0, 0.4, 0.0}, UnitState{0.1, 0.0}).length_multiplier);
   }
 }
 
@@ -337,23 +322,19 @@ TEST(Musculotendon, ARigidTendonDoesNotPushAndLosesNoEnergyWhenItGoesSlack) {
   const MusculotendonLaws laws = thelen_laws(TendonMode::rigid);
   const Musculotendon<double> unit(published_defaults(kBicepsLong, laws), laws);
   const double length = 0.2723 + 1.1 * 0.1157, velocity = -1.1, h = 1e-7;
-  const auto at = [&](double path) {
-    return musculotendon_output(unit, Input{0.01, path, velocity}, UnitState{});
-  };
+  const auto at = [&](double path) { return musculotendon_output(unit, Input{0.01, path, velocity}, UnitState{}); };
   const auto o = at(length);
   EXPECT_TRUE(o.slack);
   EXPECT_EQ(o.tendon_force_n, 0.0);
   EXPECT_GT(o.passive_force_n, 0.0);
   EXPECT_EQ(o.fiber_force_n, 0.0);
   EXPECT_LT(o.viscous_power_w, 0.0);
-  const double slope =
-      (at(length + h).passive_energy_j - at(length - h).passive_energy_j) / (2 * h);
+  const double slope = (at(length + h).passive_energy_j - at(length - h).passive_energy_j) / (2 * h);
   EXPECT_NEAR(o.passive_power_w, -slope * velocity, 1e-6);  // truncation and 1e-16 / h
 }
 
 TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
-  // dl_t/dl_m = -1 / cos(alpha), so that no power is lost; at 0.3 rad the shortest fiber is 0.0344
-  // m.
+  // dl_t/dl_m = -1 / cos(alpha), so that no power is lost; at 0.3 rad the shortest fiber is 0.0344 m.
   MusculotendonParameters<double> p = published_defaults(kBicepsLong, paper_laws());
   p.pennation_at_optimal_rad = 0.3;
   const Musculotendon<double> unit(p, paper_laws());
@@ -369,8 +350,7 @@ TEST(Musculotendon, TendonTakesWhatTheFiberGivesAlsoBelowTheShortestLength) {
     EXPECT_EQ(tendon(l).at_shortest, l < 0.0344);
   }
   // Pressed below, it pushes back.
-  EXPECT_LT(musculotendon_output(unit, Input{0.0, 0.4, 0.0}, UnitState{0.030, 0.0}).passive_force_n,
-            0.0);
+  EXPECT_LT(musculotendon_output(unit, Input{0.0, 0.4, 0.0}, UnitState{0.030, 0.0}).passive_force_n, 0.0);
 }
 
 TEST(Musculotendon, EventsChangeSignAtTheKinks) {

@@ -72,13 +72,11 @@ template <typename T>
 T passive_energy_j(const Musculotendon<T>& unit, const T& l) {
   const HillParameters<T>& hill = unit.parameters().hill;
   const T push = squeeze(unit, l);
-  return (unit.curves().passive_energy(l / hill.optimal_fiber_length_m) +
-          T(0.5 * kLimitStiffness) * push * push) *
+  return (unit.curves().passive_energy(l / hill.optimal_fiber_length_m) + T(0.5 * kLimitStiffness) * push * push) *
          hill.max_isometric_force_n * hill.optimal_fiber_length_m;
 }
 
-/// Geometry and forces of one instant, as every mode needs them; forces over F_max, velocities over
-/// v_max.
+/// Geometry and forces of one instant, as every mode needs them; forces over F_max, velocities over v_max.
 template <typename T>
 struct Instant {
   T length_m{};
@@ -87,7 +85,7 @@ struct Instant {
   CurvePoint<T> length{}, velocity{}, passive{}, tendon{};  ///< The first by l_m / l0.
   T strength{};                                             ///< a f_l
   T speed{};                                                ///< v / v_max
-  T viscous{};  ///< Mode `rigid`: the damper's force over F_max.
+  T viscous{};                                              ///< Mode `rigid`: the damper's force over F_max.
   bool floored = false;
 };
 
@@ -117,22 +115,17 @@ enum class Depth { rate, all };
 /// Returns the equilibrium's velocity with its derivatives: one Newton step in T from the solution
 /// in numbers, whose residual in T carries the derivatives (implicit function theorem).
 template <typename T>
-void solve_speed(const Musculotendon<T>& unit,
-                 const T& activation,
-                 const T& force,
-                 Depth depth,
-                 Instant<T>& now) {
+void solve_speed(const Musculotendon<T>& unit, const T& activation, const T& force, Depth depth, Instant<T>& now) {
   const T& damping = unit.parameters().damping;
-  const double speed = unit.curves().solve_velocity(value_of(activation), value_of(now.strength),
-                                                    value_of(damping), value_of(force));
+  const double speed =
+      unit.curves().solve_velocity(value_of(activation), value_of(now.strength), value_of(damping), value_of(force));
   now.speed = T(speed);
   if constexpr (std::is_same_v<T, double>) {
     if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
   } else {
     now.velocity = unit.curves().velocity(activation, now.speed);
     const T miss = force - now.strength * now.velocity.value - damping * now.speed;
-    now.speed =
-        now.speed + miss / T(value_of(now.strength) * now.velocity.slope + value_of(damping));
+    now.speed = now.speed + miss / T(value_of(now.strength) * now.velocity.slope + value_of(damping));
     if (depth == Depth::all) now.velocity = unit.curves().velocity(activation, now.speed);
   }
 }
@@ -174,9 +167,7 @@ Instant<T> rigid_instant(const Musculotendon<T>& unit, const MusculotendonInput<
 
 /// Returns tendon and fiber at a fiber length, without the velocity.
 template <typename T>
-Instant<T> stretched(const Musculotendon<T>& unit,
-                     const MusculotendonInput<T>& input,
-                     const T& fiber_length_m) {
+Instant<T> stretched(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const T& fiber_length_m) {
   Instant<T> now;
   now.length_m = fiber_length_m;
   now.reach = reach(unit, now.length_m);
@@ -206,12 +197,9 @@ Instant<T> instant(const Musculotendon<T>& unit,
 
 /// Returns a fiber of length l that moves with the path, while the tendon keeps its length.
 template <typename T>
-Instant<T> steady_instant(const Musculotendon<T>& unit,
-                          const MusculotendonInput<T>& input,
-                          const T& l) {
+Instant<T> steady_instant(const Musculotendon<T>& unit, const MusculotendonInput<T>& input, const T& l) {
   Instant<T> now = stretched(unit, input, l);
-  now.speed =
-      input.velocity_mps * now.reach.cosine / unit.parameters().hill.max_shortening_speed_mps;
+  now.speed = input.velocity_mps * now.reach.cosine / unit.parameters().hill.max_shortening_speed_mps;
   now.velocity = unit.curves().velocity(input.activation, now.speed);
   return now;
 }
@@ -219,8 +207,8 @@ Instant<T> steady_instant(const Musculotendon<T>& unit,
 /// Returns (F_t / cos(alpha) - F_m) / F_max.
 template <typename T>
 T imbalance(const Musculotendon<T>& unit, const Instant<T>& now) {
-  return now.tendon.value / now.reach.cosine - now.strength * now.velocity.value -
-         now.passive.value - unit.parameters().damping * now.speed;
+  return now.tendon.value / now.reach.cosine - now.strength * now.velocity.value - now.passive.value -
+         unit.parameters().damping * now.speed;
 }
 
 }  // namespace musculotendon_detail
@@ -230,8 +218,7 @@ Musculotendon<T>::Musculotendon(const MusculotendonParameters<T>& parameters,
                                 const MusculotendonLaws& laws,
                                 const MillardShape& millard)
     : p_(parameters),
-      undamped_equilibrium_(laws.mode == TendonMode::equilibrium &&
-                            value_of(parameters.damping) == 0.0),
+      undamped_equilibrium_(laws.mode == TendonMode::equilibrium && value_of(parameters.damping) == 0.0),
       curves_(musculotendon_detail::unit_curves(p_, laws, millard, undamped_equilibrium_)) {
   using std::sin;
   validate(musculotendon_detail::plain_parameters(p_), laws);
@@ -258,8 +245,7 @@ MusculotendonRate<T> musculotendon_rate(const Musculotendon<T>& unit,
                             now.tendon.value * p.hill.max_isometric_force_n};
   if (unit.laws().mode == TendonMode::mass) {
     rate.fiber_length_rate_mps = state.fiber_velocity_mps;
-    rate.fiber_velocity_rate_mps2 =
-        detail::imbalance(unit, now) * p.hill.max_isometric_force_n / p.muscle_mass_kg;
+    rate.fiber_velocity_rate_mps2 = detail::imbalance(unit, now) * p.hill.max_isometric_force_n / p.muscle_mass_kg;
   }
   return rate;
 }
@@ -275,8 +261,8 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
   const TendonMode mode = unit.laws().mode;
   MusculotendonOutput<T> o;
   o.fiber_length_m = now.length_m;
-  o.fiber_velocity_mps = mode == TendonMode::mass ? state.fiber_velocity_mps
-                                                  : now.speed * p.hill.max_shortening_speed_mps;
+  o.fiber_velocity_mps =
+      mode == TendonMode::mass ? state.fiber_velocity_mps : now.speed * p.hill.max_shortening_speed_mps;
   o.cos_pennation = now.reach.cosine;
   o.tendon_length_m = input.length_m - now.reach.along_m;
   o.tendon_velocity_mps = input.velocity_mps - o.fiber_velocity_mps / now.reach.cosine;
@@ -284,8 +270,7 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
   o.velocity_multiplier = now.velocity.value;
   o.active_force_n = now.strength * now.velocity.value * f_max;
   o.passive_force_n = now.passive.value * f_max;
-  o.viscous_force_n =
-      mode == TendonMode::rigid ? now.viscous * f_max : unit.damping_nspm() * o.fiber_velocity_mps;
+  o.viscous_force_n = mode == TendonMode::rigid ? now.viscous * f_max : unit.damping_nspm() * o.fiber_velocity_mps;
   o.fiber_force_n = o.active_force_n + o.passive_force_n + o.viscous_force_n;
   o.tendon_force_n = now.tendon.value * f_max;
   o.active_power_w = -o.active_force_n * o.fiber_velocity_mps;
@@ -301,10 +286,8 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
     o.tendon_power_w = T(0.0);
     o.tendon_energy_j = T(0.0);
   } else {
-    o.tendon_energy_j =
-        unit.curves().tendon_energy(now.strain) * f_max * p.hill.tendon_slack_length_m;
-    o.tendon_stiffness_npm =
-        value_of(f_max) * now.tendon.slope / value_of(p.hill.tendon_slack_length_m);
+    o.tendon_energy_j = unit.curves().tendon_energy(now.strain) * f_max * p.hill.tendon_slack_length_m;
+    o.tendon_stiffness_npm = value_of(f_max) * now.tendon.slope / value_of(p.hill.tendon_slack_length_m);
   }
   if (mode == TendonMode::mass) {
     o.fiber_acceleration_mps2 = detail::imbalance(unit, now) * f_max / p.muscle_mass_kg;
@@ -321,8 +304,7 @@ MusculotendonOutput<T> musculotendon_output(const Musculotendon<T>& unit,
 }
 
 template <typename T>
-MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
-                                        const MusculotendonInput<T>& input) {
+MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit, const MusculotendonInput<T>& input) {
   namespace detail = musculotendon_detail;
   const T& v_max = unit.parameters().hill.max_shortening_speed_mps;
   if (unit.laws().mode == TendonMode::rigid) {
@@ -331,18 +313,14 @@ MusculotendonState<T> equilibrium_state(const Musculotendon<T>& unit,
   }
   const auto steady = [&](const T& l) { return detail::steady_instant(unit, input, l); };
   const auto miss = [&](double l) { return value_of(detail::imbalance(unit, steady(T(l)))); };
-  const auto state_at = [&](const T& l) {
-    return MusculotendonState<T>{l, steady(l).speed * v_max};
-  };
+  const auto state_at = [&](const T& l) { return MusculotendonState<T>{l, steady(l).speed * v_max}; };
 
   // From the length at which the tendon is just slack, down to where it pulls more than the fiber.
-  const T slack_length =
-      detail::fiber_length(unit, T(input.length_m - unit.parameters().hill.tendon_slack_length_m));
+  const T slack_length = detail::fiber_length(unit, T(input.length_m - unit.parameters().hill.tendon_slack_length_m));
   double high = value_of(slack_length);
   double low = high;
   if (miss(high) >= 0.0) {
-    // Slack. Only a fiber whose springs push (De Groote's passive curve below 0.2 l0, the shortest
-    // length) lies beyond.
+    // Slack. Only a fiber whose springs push (De Groote's passive curve below 0.2 l0, the shortest length) lies beyond.
     const auto pushes = [&](double l) { return value_of(steady(T(l)).passive.value) < 0.0; };
     if (miss(high) == 0.0 || !pushes(high)) return state_at(slack_length);
     while (pushes(high)) high *= 1.1;

@@ -17,8 +17,7 @@ enum class TendonMode {
 
 /// Active force over length: the paper's Gaussian (Thelen's too), or a published curve.
 enum class LengthLaw { gaussian, de_groote, millard };
-/// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with
-/// activation), ...
+/// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with activation), ...
 enum class VelocityLaw { hill, thelen, de_groote, millard };
 /// Passive force of the fiber; the paper has none.
 enum class PassiveLaw { none, thelen, de_groote, millard };
@@ -40,9 +39,9 @@ struct MusculotendonLaws {
 template <typename T = double>
 struct MusculotendonParameters {
   HillParameters<T> hill;
-  T tendon_strain{0.033};  ///< e0 [-]: (l_t - l_t0) / l_t0 at F_max; k_t = F_max / (e0 l_t0).
-  T damping{0.1};          ///< beta [-]: B_m = beta F_max / v_max.
-  T muscle_mass_kg{0.1};   ///< M_m [kg], at the node between fiber and tendon. Mode `mass`.
+  T tendon_strain{0.033};         ///< e0 [-]: (l_t - l_t0) / l_t0 at F_max; k_t = F_max / (e0 l_t0).
+  T damping{0.1};                 ///< beta [-]: B_m = beta F_max / v_max.
+  T muscle_mass_kg{0.1};          ///< M_m [kg], at the node between fiber and tendon. Mode `mass`.
   T pennation_at_optimal_rad{0};  ///< alpha0 [rad], at l0.
   T passive_strain{0.6};          ///< (l_m - l0) / l0 at which the passive force is F_max.
   T passive_shape{4.0};           ///< k_pe [-] of the exponential passive laws.
@@ -57,11 +56,9 @@ void visit_parameters(Parameters& p, F&& f) {
   f(std::string_view("optimal_fiber_length"), Unit::meter, p.hill.optimal_fiber_length_m);
   f(std::string_view("force_length_width"), Unit::meter, p.hill.force_length_width_m);
   f(std::string_view("concentric_curvature"), Unit::dimensionless, p.hill.concentric_curvature);
-  f(std::string_view("eccentric_curvature_product"), Unit::dimensionless,
-    p.hill.eccentric_curvature_product);
+  f(std::string_view("eccentric_curvature_product"), Unit::dimensionless, p.hill.eccentric_curvature_product);
   f(std::string_view("eccentric_plateau"), Unit::dimensionless, p.hill.eccentric_plateau);
-  f(std::string_view("max_shortening_speed"), Unit::meter_per_second,
-    p.hill.max_shortening_speed_mps);
+  f(std::string_view("max_shortening_speed"), Unit::meter_per_second, p.hill.max_shortening_speed_mps);
   f(std::string_view("tendon_slack_length"), Unit::meter, p.hill.tendon_slack_length_m);
   f(std::string_view("tendon_strain"), Unit::dimensionless, p.tendon_strain);
   f(std::string_view("damping"), Unit::dimensionless, p.damping);
@@ -81,16 +78,13 @@ template <typename T>
   int k = 0;
   visit_parameters(result, [&](std::string_view, Unit, T& field) { fields[k++] = &field; });
   k = 0;
-  visit_parameters(p,
-                   [&](std::string_view, Unit, const double& value) { *fields[k++] = T(value); });
+  visit_parameters(p, [&](std::string_view, Unit, const double& value) { *fields[k++] = T(value); });
   return result;
 }
 
-/// Mass of a muscle of this strength and length [kg]: density 1060 kg/m^3, cross-section F_max /
-/// (0.5 MPa), length l0. The whole mass moves with the node; of a uniform bar held at its origin
-/// the node would have a third.
-[[nodiscard]] inline double muscle_mass_kg(double max_isometric_force_n,
-                                           double optimal_fiber_length_m) {
+/// Mass of a muscle of this strength and length [kg]: density 1060 kg/m^3, cross-section F_max / (0.5 MPa), length l0.
+/// The whole mass moves with the node; of a uniform bar held at its origin the node would have a third.
+[[nodiscard]] inline double muscle_mass_kg(double max_isometric_force_n, double optimal_fiber_length_m) {
   return 1060.0 * max_isometric_force_n / 0.5e6 * optimal_fiber_length_m;
 }
 

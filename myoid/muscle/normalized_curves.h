@@ -19,8 +19,7 @@ struct CurveShape {
   MillardShape millard;
 };
 
-/// Returns the shape that the parameters give under these laws. Thelen's hyperbolas follow from A_f
-/// and F_len.
+/// Returns the shape that the parameters give under these laws. Thelen's hyperbolas follow from A_f and F_len.
 template <typename T>
 [[nodiscard]] CurveShape<T> curve_shape(const MusculotendonParameters<T>& p,
                                         const MusculotendonLaws& laws,
@@ -36,9 +35,8 @@ template <typename T>
           .millard = millard};
 }
 
-/// The curves of a musculotendon unit, each under the law chosen for it: forces over F_max, fiber
-/// lengths over l0, velocities over v_max, tendon strains over l_t0. Values carry derivatives in T;
-/// slopes are plain numbers. Immutable.
+/// The curves of a musculotendon unit, each under the law chosen for it: forces over F_max, fiber lengths over l0,
+/// velocities over v_max, tendon strains over l_t0. Values carry derivatives in T; slopes are plain numbers. Immutable.
 template <typename T = double>
 class NormalizedCurves {
  public:
@@ -91,10 +89,7 @@ class NormalizedCurves {
   }
 
   /// Returns the velocity at which strength f_v + damping v = force.
-  [[nodiscard]] double solve_velocity(double activation,
-                                      double strength,
-                                      double damping,
-                                      double force) const {
+  [[nodiscard]] double solve_velocity(double activation, double strength, double damping, double force) const {
     if (strength == 0.0) return force / damping;
     switch (laws_.velocity) {
       case VelocityLaw::hill:
@@ -176,10 +171,8 @@ class NormalizedCurves {
 
  private:
   [[nodiscard]] VelocityHyperbola<double> plain_hyperbola() const {
-    return {value_of(hyperbola_.concentric_curvature),
-            value_of(hyperbola_.eccentric_curvature_product),
-            value_of(hyperbola_.eccentric_plateau), value_of(hyperbola_.tangent_from),
-            hyperbola_.tangent_below};
+    return {value_of(hyperbola_.concentric_curvature), value_of(hyperbola_.eccentric_curvature_product),
+            value_of(hyperbola_.eccentric_plateau), value_of(hyperbola_.tangent_from), hyperbola_.tangent_below};
   }
 
   MusculotendonLaws laws_;

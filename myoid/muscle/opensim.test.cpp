@@ -107,15 +107,14 @@ OpenSimMuscle muscle_of(const std::string& block, bool thelen) {
     s.passive_strain_at_zero = number(passive, "strain_at_zero_force", 0.0);
     s.passive_strain_at_one = number(passive, "strain_at_one_norm_force", 0.7);
     s.passive_stiffness_low = number(passive, "stiffness_at_low_force", 0.2);
-    s.passive_stiffness_at_one = number(passive, "stiffness_at_one_norm_force",
-                                        2.0 / (s.passive_strain_at_one - s.passive_strain_at_zero));
+    s.passive_stiffness_at_one =
+        number(passive, "stiffness_at_one_norm_force", 2.0 / (s.passive_strain_at_one - s.passive_strain_at_zero));
     s.passive_curviness = number(passive, "curviness", 0.75);
     const std::string tendon = block.substr(block.find("<TendonForceLengthCurve"));
     m.parameters.tendon_strain = number(tendon, "strain_at_one_norm_force", 0.049);
   }
   m.rigid = block.find("<ignore_tendon_compliance>true") != std::string::npos;
-  m.activation = std::max(number(block, "default_activation", 0.05),
-                          number(block, "minimum_activation", 0.01));
+  m.activation = std::max(number(block, "default_activation", 0.05), number(block, "minimum_activation", 0.01));
   return m;
 }
 
@@ -166,8 +165,7 @@ Differences compare(const fs::path& folder, const std::string& type, bool thelen
       const std::string where = name + " row " + std::to_string(k);
       const double l = at(length), v = at(velocity), angle = at(pennation);
       const double fiber = (at(active) + at(passive)) * std::cos(angle);
-      if (angle > 1.47 || l < 0.1 * l0 || std::abs(v) > v_max ||
-          std::abs(fiber - at(tendon)) > 1e-6 * f_max) {
+      if (angle > 1.47 || l < 0.1 * l0 || std::abs(v) > v_max || std::abs(fiber - at(tendon)) > 1e-6 * f_max) {
         ++d.left_out;
         continue;
       }

@@ -11,9 +11,8 @@ template <typename T>
 requires requires(const T& x) { x.a; }
 double value_of(const T& x) { return value_of(x.a); }
 
-/// Returns y(x) to first order about the plain number in x: the value y with the derivatives of x
-/// times the slope dy/dx. Exact for first derivatives. A law that is known only as numbers enters a
-/// derivative by this function.
+/// Returns y(x) to first order about the plain number in x: the value y with the derivatives of x times the slope
+/// dy/dx. Exact for first derivatives. A law that is known only as numbers enters a derivative by this function.
 template <typename T>
 [[nodiscard]] T linearized(const T& x, double y, double slope) {
   if constexpr (std::is_same_v<T, double>) {

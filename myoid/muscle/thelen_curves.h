@@ -7,9 +7,8 @@
 
 namespace myoid::muscle {
 
-/// The curves of Thelen (2003), J Biomech Eng 125:70-77. Lengths in optimal fiber lengths,
-/// velocities in v_max, forces in F_max. The active force-length curve is `force_length` with l_sh
-/// = l0 sqrt(gamma).
+/// The curves of Thelen (2003), J Biomech Eng 125:70-77. Lengths in optimal fiber lengths, velocities in v_max, forces
+/// in F_max. The active force-length curve is `force_length` with l_sh = l0 sqrt(gamma).
 
 /// Returns the force-velocity hyperbolas of A_f (`concentric_shape`) and F_len (`plateau`): P =
 /// (F_len - 1) / (2 + 2 / A_f), tangent beyond the share `extrapolation` of F_len. Their velocity
@@ -18,8 +17,7 @@ template <typename T>
 [[nodiscard]] VelocityHyperbola<T> thelen_hyperbola(const T& concentric_shape,
                                                     const T& plateau,
                                                     double extrapolation = 0.95) {
-  return {concentric_shape,
-          (plateau - T(1.0)) * concentric_shape / (T(2.0) * (concentric_shape + T(1.0))), plateau,
+  return {concentric_shape, (plateau - T(1.0)) * concentric_shape / (T(2.0) * (concentric_shape + T(1.0))), plateau,
           (T(extrapolation) * plateau - T(1.0)) / (plateau - T(1.0)), false};
 }
 
@@ -72,8 +70,7 @@ template <typename T>
   if (value_of(x) <= 1.0) {
     const double scale = 0.33 / std::expm1(3.0);
     const T e = exp(T(3.0) * x);
-    return {T(scale) * (e - T(1.0)),
-            3.0 * scale * value_of(e) / (value_of(strain_at_max_force) * kThelenToeShare)};
+    return {T(scale) * (e - T(1.0)), 3.0 * scale * value_of(e) / (value_of(strain_at_max_force) * kThelenToeShare)};
   }
   const double slope = 0.67 / (1.0 - kThelenToeShare);
   return {T(0.33) + T(slope) * (strain / strain_at_max_force - T(kThelenToeShare)),

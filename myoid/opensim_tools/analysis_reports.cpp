@@ -27,13 +27,9 @@ struct KnownAnalysis {
   void (*run)(AnalysisRun&, pugi::xml_node);
 };
 
-/// Indices of the objects that a list names; an empty list and "all" name every one. Unknown names
-/// are noted.
-std::vector<int> chosen(const AnalysisRun& run,
-                        pugi::xml_node node,
-                        const char* property,
-                        std::size_t count,
-                        const auto& find) {
+/// Indices of the objects that a list names; an empty list and "all" name every one. Unknown names are noted.
+std::vector<int> chosen(
+    const AnalysisRun& run, pugi::xml_node node, const char* property, std::size_t count, const auto& find) {
   std::vector<std::string> names = run.setup.xml().words(node, property);
   std::vector<int> indices;
   if (names.empty() || recording::equal_ignoring_case(names.front(), "all")) {
@@ -44,8 +40,7 @@ std::vector<int> chosen(const AnalysisRun& run,
     if (const std::optional<int> index = find(name)) {
       indices.push_back(*index);
     } else {
-      run.result.notes.push_back(
-          fmt::format("<{}>: the model has no '{}'; it is left out", property, name));
+      run.result.notes.push_back(fmt::format("<{}>: the model has no '{}'; it is left out", property, name));
     }
   }
   return indices;
@@ -69,48 +64,40 @@ void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
   std::vector<Channel> channels;
   for (const int c : columns) {
     const auto& coordinate = model.coordinates[at(c)];
-    channels.push_back({coordinate.name, coordinate.motion == model::MotionType::rotational
-                                             ? Unit::radian
-                                             : Unit::dimensionless});
+    channels.push_back(
+        {coordinate.name, coordinate.motion == model::MotionType::rotational ? Unit::radian : Unit::dimensionless});
   }
   const auto write = [&](const char* suffix, const char* title, const Eigen::MatrixXd& values) {
-    write_result(
-        run, analysis_name(node) + suffix,
-        {run.motion.q.time_s(), channels, Eigen::MatrixXd(values(Eigen::all, columns))},
-        {.title = title, .in_degrees = in_degrees, .description = std::string("\n") + kUnitsNote});
+    write_result(run, analysis_name(node) + suffix,
+                 {run.motion.q.time_s(), channels, Eigen::MatrixXd(values(Eigen::all, columns))},
+                 {.title = title, .in_degrees = in_degrees, .description = std::string("\n") + kUnitsNote});
   };
   write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
   write("_u.sto", "Speeds", run.motion.qdot.values());
-  if (const Eigen::MatrixXd* qddot = accelerations_of(run))
-    write("_dudt.sto", "Accelerations", *qddot);
+  if (const Eigen::MatrixXd* qddot = accelerations_of(run)) write("_dudt.sto", "Accelerations", *qddot);
 }
 
 void report_muscles(AnalysisRun& run, pugi::xml_node node) {
   const auto& xml = run.setup.xml();
   const auto& model = run.model;
   if (model.muscles.empty()) xml.fail(node, "MuscleAnalysis: the model has no muscles");
-  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium,
-                                        .progress = run.options.progress};
+  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
   options.muscles = chosen(run, node, "muscle_list", model.muscles.size(),
                            [&](const std::string& name) { return model.find_muscle(name); });
-  if (options.muscles.empty())
-    xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
+  if (options.muscles.empty()) xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
   if (xml.flag(node, "compute_moments", true)) {
-    options.coordinates =
-        chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
-               [&](const std::string& name) { return model.find_coordinate(name); });
+    options.coordinates = chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
+                                 [&](const std::string& name) { return model.find_coordinate(name); });
   }
   if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
-  if (run.fiber_length_m.size() > 0)
-    options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
+  if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
   if (!run.equilibrium && run.fiber_length_m.size() == 0) {
     run.result.notes.push_back(fmt::format(
         "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
         "default lengths ({}), so that their velocities and forces mean little; lengths "
         "of muscles and moment arms do not depend on it",
-        run.options.compat.class_fiber_length
-            ? "0.1 m where the model gives none, as in OpenSim"
-            : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
+        run.options.compat.class_fiber_length ? "0.1 m where the model gives none, as in OpenSim"
+                                              : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
   }
   const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
   run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
@@ -120,8 +107,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
           "forces, tendon lengths, moment arms, etc).\n") +
       kUnitsNote;
   for (const auto& [name, table] : analysis.tables) {
-    write_result(run, analysis_name(node) + "_" + name + ".sto", table,
-                 {.title = name, .description = description});
+    write_result(run, analysis_name(node) + "_" + name + ".sto", table, {.title = name, .description = description});
   }
 }
 
@@ -138,11 +124,9 @@ std::optional<Output> output_named(const model::BodyModel& model, const std::str
   const std::string what = path.substr(bar + 1);
   std::string component = path.substr(0, bar);
   for (const char* tail : {"/path", "/geometrypath"}) {
-    if (component.ends_with(tail))
-      component.erase(component.size() - std::string_view(tail).size());
+    if (component.ends_with(tail)) component.erase(component.size() - std::string_view(tail).size());
   }
-  if (const auto slash = component.rfind('/'); slash != std::string::npos)
-    component.erase(0, slash + 1);
+  if (const auto slash = component.rfind('/'); slash != std::string::npos) component.erase(0, slash + 1);
   const auto make = [&](Output::Kind kind, std::optional<int> index) -> std::optional<Output> {
     if (!index) return {};
     return Output{kind, *index, path};
@@ -168,9 +152,8 @@ struct OutputTable {
 };
 
 std::string text_of(const OutputTable& table, const Eigen::VectorXd& times) {
-  std::string text =
-      fmt::format("inDegrees=no\nnumColumns={}\nDataType={}\nversion=3\nendheader\ntime",
-                  table.outputs.size(), table.components == 3 ? "Vec3" : "double");
+  std::string text = fmt::format("inDegrees=no\nnumColumns={}\nDataType={}\nversion=3\nendheader\ntime",
+                                 table.outputs.size(), table.components == 3 ? "Vec3" : "double");
   for (const Output& output : table.outputs) text += "\t" + output.path;
   text += '\n';
   for (Eigen::Index i = 0; i < times.size(); ++i) {
@@ -197,10 +180,10 @@ std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node)
     }
   }
   if (!missing.empty()) {
-    run.result.notes.push_back(fmt::format(
-        "{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of "
-        "markers and positions of bodies are reported",
-        analysis_name(node), missing));
+    run.result.notes.push_back(
+        fmt::format("{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of "
+                    "markers and positions of bodies are reported",
+                    analysis_name(node), missing));
   }
   return tables;
 }
@@ -210,8 +193,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   auto tables = wanted_outputs(run, node);
   auto& [numbers, points] = tables;
   const Eigen::Index frames = run.motion.sample_count();
-  for (OutputTable& table : tables)
-    table.values.resize(frames, table.components * std::ssize(table.outputs));
+  for (OutputTable& table : tables) table.values.resize(frames, table.components * std::ssize(table.outputs));
   MovingBodies moving(model, run.motion);
   model::PathWorkspace workspace;
   model::PathResult path;
@@ -222,8 +204,7 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
     for (std::size_t k = 0; k < numbers.outputs.size(); ++k) {
       const Output& output = numbers.outputs[k];
       if (output.index != computed)
-        model::compute_path(model, *paths[at(output.index)].second, moving.state(), workspace,
-                            path);
+        model::compute_path(model, *paths[at(output.index)].second, moving.state(), workspace, path);
       computed = output.index;
       numbers.values(i, static_cast<Eigen::Index>(k)) =
           output.kind == Output::Kind::length ? path.length_m : path.speed_mps;
@@ -235,34 +216,27 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
         points.values.row(i).segment<3>(column) = moving.pose(at(output.index)).p.transpose();
       } else {
         const model::Marker& marker = model.markers[at(output.index)];
-        points.values.row(i).segment<3>(column) =
-            (moving.pose(at(marker.body)) * marker.p_BM).transpose();
+        points.values.row(i).segment<3>(column) = (moving.pose(at(marker.body)) * marker.p_BM).transpose();
       }
     }
   }
   for (const OutputTable& table : tables) {
     if (table.outputs.empty()) continue;
-    recording::write_file(
-        claim_result(run, table.components == 1 ? "Outputs.sto" : "OutputsVec3.sto"),
-        text_of(table, run.motion.q.time_s()), recording::Flush::later);
+    recording::write_file(claim_result(run, table.components == 1 ? "Outputs.sto" : "OutputsVec3.sto"),
+                          text_of(table, run.motion.q.time_s()), recording::Flush::later);
   }
 }
 
-constexpr std::array kKnown{KnownAnalysis{"Actuation", report_actuation},
-                            KnownAnalysis{"BodyKinematics", report_bodies},
-                            KnownAnalysis{"ForceReporter", report_forces},
-                            KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
-                            KnownAnalysis{"JointReaction", report_reactions},
-                            KnownAnalysis{"Kinematics", report_kinematics},
-                            KnownAnalysis{"MuscleAnalysis", report_muscles},
-                            KnownAnalysis{"OutputReporter", report_outputs},
-                            KnownAnalysis{"PointKinematics", report_point},
-                            KnownAnalysis{"StaticOptimization", run_static_optimization}};
+constexpr std::array kKnown{
+    KnownAnalysis{"Actuation", report_actuation},     KnownAnalysis{"BodyKinematics", report_bodies},
+    KnownAnalysis{"ForceReporter", report_forces},    KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
+    KnownAnalysis{"JointReaction", report_reactions}, KnownAnalysis{"Kinematics", report_kinematics},
+    KnownAnalysis{"MuscleAnalysis", report_muscles},  KnownAnalysis{"OutputReporter", report_outputs},
+    KnownAnalysis{"PointKinematics", report_point},   KnownAnalysis{"StaticOptimization", run_static_optimization}};
 
 const KnownAnalysis* find_analysis(std::string_view class_name) {
-  const auto known = std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) {
-    return k.class_name == class_name;
-  });
+  const auto known =
+      std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) { return k.class_name == class_name; });
   return known == kKnown.end() ? nullptr : &*known;
 }
 
@@ -277,16 +251,14 @@ bool is_known_analysis(std::string_view class_name) { return find_analysis(class
 
 std::string known_analyses() {
   std::string names;
-  for (const KnownAnalysis& known : kKnown)
-    names += (names.empty() ? "" : ", ") + std::string(known.class_name);
+  for (const KnownAnalysis& known : kKnown) names += (names.empty() ? "" : ", ") + std::string(known.class_name);
   return names;
 }
 
 void run_analysis(AnalysisRun& run, pugi::xml_node node) {
   const std::string_view kind = node.name();
   // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
-  for (const char* moving :
-       {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
+  for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
     if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
   find_analysis(kind)->run(run, node);
   run.result.frames = static_cast<int>(run.motion.sample_count());
@@ -298,10 +270,7 @@ std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
   return path;
 }
 
-void write_result(AnalysisRun& run,
-                  const std::string& name,
-                  const TimeSeries& table,
-                  OpensimFormat format) {
+void write_result(AnalysisRun& run, const std::string& name, const TimeSeries& table, OpensimFormat format) {
   format.decimals = run.decimals;
   write_opensim_storage(claim_result(run, name), table, format);
 }
@@ -317,8 +286,7 @@ std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(file.data.sample_count(), count);
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : model.coordinates)
-    channels.push_back({c.name, kinematics::coordinate_unit(c, 1)});
+  for (const model::Coordinate& c : model.coordinates) channels.push_back({c.name, kinematics::coordinate_unit(c, 1)});
   bool any = false;
   for (std::size_t column = 0; column < file.data.channels().size(); ++column) {
     std::string name = file.data.channels()[column].name;
@@ -332,8 +300,8 @@ std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
     const auto c = model.find_coordinate(name);
     if (!c) continue;
     const bool angle = model.coordinates[at(*c)].motion == model::MotionType::rotational;
-    values.col(*c) = file.data.values().col(static_cast<Eigen::Index>(column)) *
-                     (angle && file.in_degrees ? kDegree : 1.0);
+    values.col(*c) =
+        file.data.values().col(static_cast<Eigen::Index>(column)) * (angle && file.in_degrees ? kDegree : 1.0);
     any = true;
   }
   if (!any) return {};

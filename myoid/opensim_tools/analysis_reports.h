@@ -45,9 +45,8 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
 [[nodiscard]] model::BodyModel with_coordinate_actuators(model::BodyModel model);
 /// Reports Actuation: forces, speeds and powers of muscles (by their states) and actuators.
 void report_actuation(AnalysisRun& run, pugi::xml_node node);
-/// Reports InverseDynamics: the forces that cause the motion's accelerations, with the least sum of
-/// squares of force by strength. The forces are unbounded and act in muscles and actuators or in an
-/// actuator on every coordinate.
+/// Reports InverseDynamics: the forces that cause the motion's accelerations, with the least sum of squares of force by
+/// strength. The forces are unbounded and act in muscles and actuators or in an actuator on every coordinate.
 void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node);
 /// Reports ForceReporter: muscles by their states, passive forces and external loads.
 void report_forces(AnalysisRun& run, pugi::xml_node node);
@@ -55,8 +54,7 @@ void report_forces(AnalysisRun& run, pugi::xml_node node);
 void report_reactions(AnalysisRun& run, pugi::xml_node node);
 /// Reports BodyKinematics: centers of mass, orientations, their velocities and accelerations.
 void report_bodies(AnalysisRun& run, pugi::xml_node node);
-/// Reports PointKinematics: place, velocity and acceleration of a point of a body, in the axes of
-/// another body.
+/// Reports PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another body.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
 /// Returns the forces of all actuators at the motion's rows: tendon forces of muscles by their
@@ -76,14 +74,10 @@ void write_forces(AnalysisRun& run,
 /// Returns <results>/<tool>_<name>, announced as a file of the run.
 [[nodiscard]] std::filesystem::path claim_result(AnalysisRun& run, const std::string& name);
 /// Claims <results>/<tool>_<name> and writes the table there with the run's decimals.
-void write_result(AnalysisRun& run,
-                  const std::string& name,
-                  const TimeSeries& table,
-                  OpensimFormat format);
+void write_result(AnalysisRun& run, const std::string& name, const TimeSeries& table, OpensimFormat format);
 
-/// Speeds of a file in the model's order, zero for a coordinate without a column; empty for a file
-/// without any speed. Columns are named "<path>/speed" or "<coordinate>_u", in a file of speeds
-/// only also by the coordinate alone.
+/// Speeds of a file in the model's order, zero for a coordinate without a column; empty for a file without any speed.
+/// Columns are named "<path>/speed" or "<coordinate>_u", in a file of speeds only also by the coordinate alone.
 [[nodiscard]] std::optional<TimeSeries> read_speeds(const model::BodyModel& model,
                                                     const std::filesystem::path& path,
                                                     bool only_speeds,

@@ -31,8 +31,8 @@ class ForeignSetups : public test::ToolFolder {
     write("setups/loads.mot",
           "loads\nversion=1\nnRows=2\nnColumns=7\ninDegrees=no\nendheader\n"
           "time\tf_vx\tf_vy\tf_vz\tf_px\tf_py\tf_pz\n0\t1\t2\t3\t0\t0\t0\n1\t2\t3\t4\t0\t0.1\t0\n");
-    write("setups/reserves.xml", "<OpenSimDocument Version=\"40000\"><ForceSet><objects>" +
-                                     reserves() + "</objects></ForceSet></OpenSimDocument>");
+    write("setups/reserves.xml", "<OpenSimDocument Version=\"40000\"><ForceSet><objects>" + reserves() +
+                                     "</objects></ForceSet></OpenSimDocument>");
     for (const bool foreign : {true, false}) {
       write(foreign ? "setups/loads.xml" : "setups/native_loads.xml",
             "<OpenSimDocument Version=\"40000\"><ExternalLoads><objects><ExternalForce name=\"f\">"
@@ -138,8 +138,7 @@ TEST_F(ForeignSetups, FilesOfTheCommandLineStandInForTheSetUps) {
   EXPECT_EQ(result.files, std::vector{folder_ / "results/id.sto"});
   EXPECT_THAT(result.notes, Contains(HasSubstr("only the name of the file counts")));
   EXPECT_EQ(read("results/id.sto").sample_count(), 60);
-  EXPECT_THROW((void)run_as(true, "<InverseKinematicsTool/>",
-                            {.external_loads = folder_ / "setups/native_loads.xml"}),
+  EXPECT_THROW((void)run_as(true, "<InverseKinematicsTool/>", {.external_loads = folder_ / "setups/native_loads.xml"}),
                InvalidInput);
 }
 
@@ -167,24 +166,21 @@ TEST_F(ForeignSetups, DegreesLabelledRadiansAreRefused) {
   motion = motion.substr(0, motion.find("endheader") + 10) + "time\telbow_flexion\n";
   for (int i = 0; i < 60; ++i) motion += fmt::format("{}\t{}\n", 0.01 * i, elbow(i) / kDegree);
   write("motion.mot", motion);
-  EXPECT_THROW(
-      (void)run("<InverseDynamicsTool><model_file>arm.osim</model_file><coordinates_file>motion.mot"
-                "</coordinates_file></InverseDynamicsTool>"),
-      ReadError);
+  EXPECT_THROW((void)run("<InverseDynamicsTool><model_file>arm.osim</model_file><coordinates_file>motion.mot"
+                         "</coordinates_file></InverseDynamicsTool>"),
+               ReadError);
 }
 
 TEST_F(ForeignSetups, TasksOfMarkersThatAreNamedOtherwiseAreNamed) {
   std::string tasks;
-  for (const model::Marker& marker : arm_.markers)
-    tasks += "<IKMarkerTask name=\"" + marker.name + "\"/>";
+  for (const model::Marker& marker : arm_.markers) tasks += "<IKMarkerTask name=\"" + marker.name + "\"/>";
   std::string recorded = text_of(folder_ / "m.trc");
   const std::string& renamed = arm_.markers[0].name;
   recorded.replace(recorded.find("\t" + renamed + "\t") + 1, renamed.size(), "subject:" + renamed);
   write("m.trc", recorded);
-  const ToolResult result =
-      run("<InverseKinematicsTool><model_file>arm.osim</model_file><IKTaskSet><objects>" + tasks +
-          "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_motion_file>ik.mot"
-          "</output_motion_file></InverseKinematicsTool>");
+  const ToolResult result = run("<InverseKinematicsTool><model_file>arm.osim</model_file><IKTaskSet><objects>" + tasks +
+                                "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_motion_file>ik.mot"
+                                "</output_motion_file></InverseKinematicsTool>");
   EXPECT_THAT(result.notes, Contains(HasSubstr("is it 'subject:" + renamed + "' there?")));
 }
 

@@ -51,8 +51,7 @@ void add_coordinate_task(const OpensimSetup& setup,
                          std::vector<std::string>& notes) {
   const std::string name = OsimXml::name_of(node);
   const auto found = model.find_coordinate(name);
-  if (!found)
-    xml.fail(node, fmt::format("IKCoordinateTask '{}': the model has no such coordinate", name));
+  if (!found) xml.fail(node, fmt::format("IKCoordinateTask '{}': the model has no such coordinate", name));
   const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(*found)];
   kinematics::CoordinateTask task{name, coordinate.default_value, xml.number(node, "weight", 1.0)};
   if (!(task.weight > 0.0) || model.is_constrained(*found)) return;  // nothing to wish for
@@ -65,11 +64,8 @@ void add_coordinate_task(const OpensimSetup& setup,
       xml.fail(node, fmt::format("IKCoordinateTask '{}' takes its values from a file, but the "
                                  "set-up has no <coordinate_file>",
                                  name));
-    const TimeSeries wished =
-        read_coordinates(model, *file, MissingCoordinate::default_value, notes);
-    task.values = math::Spline::interpolate(wished.time_s(), wished.column(name))
-                      .evaluate(markers.time_s)
-                      .value;
+    const TimeSeries wished = read_coordinates(model, *file, MissingCoordinate::default_value, notes);
+    task.values = math::Spline::interpolate(wished.time_s(), wished.column(name)).evaluate(markers.time_s).value;
   } else if (!source.empty() && source != "default_value") {
     xml.fail(node, fmt::format("IKCoordinateTask '{}': <value_type> '{}', expected default_value, "
                                "manual_value or from_file",
@@ -90,15 +86,12 @@ void note_unseen_markers(const kinematics::IkOptions& ik,
     for (const auto& [found, name] : *names) called[name] = found;
   std::string unseen;
   for (const std::string& name : wanted) {
-    if (std::find(markers.names.begin(), markers.names.end(), name) != markers.names.end())
-      continue;
+    if (std::find(markers.names.begin(), markers.names.end(), name) != markers.names.end()) continue;
     const auto other = called.find(name);
-    unseen += fmt::format(
-        "{}'{}'{}", unseen.empty() ? "" : ", ", name,
-        other == called.end() ? "" : fmt::format(" (is it '{}' there?)", other->second));
+    unseen += fmt::format("{}'{}'{}", unseen.empty() ? "" : ", ", name,
+                          other == called.end() ? "" : fmt::format(" (is it '{}' there?)", other->second));
   }
-  if (!unseen.empty())
-    notes.push_back(fmt::format("tasks of markers that the recording does not have: {}", unseen));
+  if (!unseen.empty()) notes.push_back(fmt::format("tasks of markers that the recording does not have: {}", unseen));
 }
 
 }  // namespace
@@ -122,8 +115,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
     if (marker_task) {
       const double weight = xml.number(node, "weight", 1.0);
       if (!(weight >= 0.0)) {
-        xml.fail(node, fmt::format("IKMarkerTask '{}': weight {}, expected 0 or more",
-                                   OsimXml::name_of(node), weight));
+        xml.fail(node, fmt::format("IKMarkerTask '{}': weight {}, expected 0 or more", OsimXml::name_of(node), weight));
       }
       const std::string name = OsimXml::name_of(node);
       if (!named.insert(name).second)
@@ -139,8 +131,7 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
     unknown += fmt::format("{}'{}'", unknown.empty() ? "" : ", ", task.first);
     return true;
   });
-  if (!unknown.empty())
-    notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
+  if (!unknown.empty()) notes.push_back(fmt::format("tasks of markers that the model does not have: {}", unknown));
   note_unseen_markers(ik, markers, notes);
   if (tasks.xml) {
     const std::vector<std::string>& defaulted = xml.defaulted();

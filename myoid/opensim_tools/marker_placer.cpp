@@ -60,8 +60,7 @@ TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, do
   std::vector<double> values;
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const model::Coordinate& coordinate = model.coordinates[c];
-    const std::string path =
-        "/jointset/" + model.joints[at(coordinate.joint)].name + "/" + coordinate.name;
+    const std::string path = "/jointset/" + model.joints[at(coordinate.joint)].name + "/" + coordinate.name;
     channels.push_back({path + "/value", Unit::dimensionless});
     channels.push_back({path + "/speed", Unit::dimensionless});
     values.push_back(q[static_cast<Eigen::Index>(c)]);
@@ -86,9 +85,7 @@ TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, do
           Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))};
 }
 
-std::string join_names(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
+std::string join_names(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 /// Notes coordinates at an end of their range: the static pose is then not the person's, and the
 /// model takes over the misfit of the markers.
@@ -104,15 +101,14 @@ void note_limits(const model::BodyModel& model,
     const double near = 1e-6 * (c.upper - c.lower);
     if (value > c.lower + near && value < c.upper - near) continue;
     const bool angle = c.motion == model::MotionType::rotational;
-    at_limit.push_back(fmt::format("'{}' at its limit of {:.4g} {}", c.name,
-                                   angle ? value / kDegree : value, angle ? "degrees" : "m"));
+    at_limit.push_back(fmt::format("'{}' at its limit of {:.4g} {}", c.name, angle ? value / kDegree : value,
+                                   angle ? "degrees" : "m"));
   }
   if (at_limit.empty()) return;
-  notes.push_back(fmt::format(
-      "static pose: the markers alone put {}{}; the markers placed from the pose take over what "
-      "does not fit. Are the ranges right, and the markers' places in the model?",
-      join_names(at_limit),
-      held_inside ? " (the pose is held off there as in OpenSim's search)" : ""));
+  notes.push_back(
+      fmt::format("static pose: the markers alone put {}{}; the markers placed from the pose take over what "
+                  "does not fit. Are the ranges right, and the markers' places in the model?",
+                  join_names(at_limit), held_inside ? " (the pose is held off there as in OpenSim's search)" : ""));
 }
 
 /// Notes the coordinates that no marker of the static pose determines, and the markers that are
@@ -127,38 +123,33 @@ void note_undetermined(const model::BodyModel& model,
   for (const model::Joint& joint : model.joints) {
     bool moves = carried[at(joint.parent)];
     for (const int c : joint.coordinates)
-      moves = moves || std::find(undetermined.begin(), undetermined.end(),
-                                 model.coordinates[at(c)].name) != undetermined.end();
+      moves = moves ||
+              std::find(undetermined.begin(), undetermined.end(), model.coordinates[at(c)].name) != undetermined.end();
     carried[at(joint.child)] = moves;
   }
   std::vector<std::string> placed;
   for (const model::Marker& marker : model.markers) {
     const auto weight = ik.marker_weights.find(marker.name);
-    const bool counts =
-        weight != ik.marker_weights.end() ? weight->second > 0.0 : !ik.only_named_markers;
+    const bool counts = weight != ik.marker_weights.end() ? weight->second > 0.0 : !ik.only_named_markers;
     if (carried[at(marker.body)] && !counts) placed.push_back(marker.name);
   }
-  notes.push_back(fmt::format(
-      "static pose: no marker with a weight determines {}: {}{}. Give weight to markers that do, "
-      "or "
-      "the coordinates a task",
-      join_names(undetermined),
-      held_inside
-          ? "each in the middle of its range, if it is clamped to one, as OpenSim's search has it"
-          : "each at its default value",
-      placed.empty() ? std::string()
-                     : fmt::format("; markers placed by that: {}", join_names(placed))));
+  notes.push_back(
+      fmt::format("static pose: no marker with a weight determines {}: {}{}. Give weight to markers that do, "
+                  "or "
+                  "the coordinates a task",
+                  join_names(undetermined),
+                  held_inside ? "each in the middle of its range, if it is clamped to one, as OpenSim's search has it"
+                              : "each at its default value",
+                  placed.empty() ? std::string() : fmt::format("; markers placed by that: {}", join_names(placed))));
 }
 
-/// Returns the barrier at which OpenSim's search for the static pose stops. For a model with
-/// constraints (locked coordinates count) OpenSim uses an interior-point method with a tolerance of
-/// 1e-4 (of J, m^2), which a barrier of tolerance / 11 meets (Waechter and Biegler 2006, eq. 7:
-/// error below ten barriers).
+/// Returns the barrier at which OpenSim's search for the static pose stops. For a model with constraints (locked
+/// coordinates count) OpenSim uses an interior-point method with a tolerance of 1e-4 (of J, m^2), which a barrier of
+/// tolerance / 11 meets (Waechter and Biegler 2006, eq. 7: error below ten barriers).
 double barrier_of(const model::BodyModel& model) {
-  const bool constrained =
-      !model.couplers.empty() || !model.constraints.empty() ||
-      std::any_of(model.coordinates.begin(), model.coordinates.end(),
-                  [](const model::Coordinate& c) { return c.locked || c.prescribed; });
+  const bool constrained = !model.couplers.empty() || !model.constraints.empty() ||
+                           std::any_of(model.coordinates.begin(), model.coordinates.end(),
+                                       [](const model::Coordinate& c) { return c.locked || c.prescribed; });
   return model.compat.static_pose_inside_ranges && constrained ? 1e-4 / 11.0 : 0.0;
 }
 
@@ -190,16 +181,14 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
   auto& notes = scaling.result.notes;
   const auto file = scaling.setup.required_file(placer, "marker_file");
   const recording::MarkerSeries all = markers_of(scaling, file);
-  if (all.frame_count() == 0)
-    throw InvalidInput(fmt::format("{}: there are no frames", file.string()));
+  if (all.frame_count() == 0) throw InvalidInput(fmt::format("{}: there are no frames", file.string()));
   const auto range = scaling.setup.time_range(placer, "time_range");
   const recording::MarkerSeries pose =
       averaged(all, range, 1e-3 * xml.number(placer, "max_marker_movement", -1.0), notes);
   editor.remove_markers([&](const std::string& name) {
     return std::find(pose.names.begin(), pose.names.end(), name) == pose.names.end();
   });
-  model::BodyModel model =
-      model::parse_osim(editor.text(), editor.path(), {.compat = scaling.options.compat});
+  model::BodyModel model = model::parse_osim(editor.text(), editor.path(), {.compat = scaling.options.compat});
   kinematics::IkOptions ik = read_ik_tasks(scaling.setup, placer, model, pose, notes);
   kinematics::IkResult solved = kinematics::inverse_kinematics(model, pose, ik);
   note_limits(model, solved.q.values().row(0).transpose(), barrier_of(model) > 0.0, notes);
@@ -219,8 +208,7 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
     const auto found = std::find(pose.names.begin(), pose.names.end(), marker.name);
     const Eigen::Index m = found - pose.names.begin();
     if (pose.missing(0, m)) {
-      notes.push_back(fmt::format(
-          "marker '{}' is never seen in the static pose: it stays where it is", marker.name));
+      notes.push_back(fmt::format("marker '{}' is never seen in the static pose: it stays where it is", marker.name));
       continue;
     }
     editor.move_marker(marker.name, state.X_GB[at(marker.body)].inverse() * pose.position(0, m));

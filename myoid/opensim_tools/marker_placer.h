@@ -19,14 +19,12 @@ struct Scaling {
   ToolResult& result;
 };
 
-/// Reads the markers of a file. Measuring and placing usually read one file: each repair is noted
-/// once.
-[[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling,
-                                                 const std::filesystem::path& file);
+/// Reads the markers of a file. Measuring and placing usually read one file: each repair is noted once.
+[[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling, const std::filesystem::path& file);
 
 /// Returns the first and last frame of a time range; all frames for a range without a frame.
-[[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(
-    const recording::MarkerSeries& markers, std::pair<double, double> range);
+[[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(const recording::MarkerSeries& markers,
+                                                              std::pair<double, double> range);
 
 /// Runs <MarkerPlacer>: fits the model to the mean of the static trial, moves all markers but the
 /// fixed ones to their measured places, and writes the pose and the marker set if asked for.

@@ -13,8 +13,8 @@ void MovingBodies::set(Eigen::Index row) {
   const auto& q = motion_.q.values();
   model::compute_poses(model_, model::assemble(model_, q.row(row).transpose()).q, state_);
   model::compute_velocities(model_, motion_.qdot.values().row(row).transpose(), state_);
-  const Eigen::VectorXd qddot = qddot_ != nullptr ? Eigen::VectorXd(qddot_->row(row).transpose())
-                                                  : Eigen::VectorXd::Zero(q.cols());
+  const Eigen::VectorXd qddot =
+      qddot_ != nullptr ? Eigen::VectorXd(qddot_->row(row).transpose()) : Eigen::VectorXd::Zero(q.cols());
   model::compute_accelerations(model_, qddot, state_, acceleration_);
 }
 
@@ -24,9 +24,7 @@ PointMotion MovingBodies::point(std::size_t body, const Vec3& p_B) const {
           acceleration_.of_station(state_, static_cast<model::BodyIndex>(body), p_B)};
 }
 
-PointMotion MovingBodies::center(std::size_t body) const {
-  return point(body, model_.bodies[body].p_BBcm_B);
-}
+PointMotion MovingBodies::center(std::size_t body) const { return point(body, model_.bodies[body].p_BBcm_B); }
 
 PointMotion MovingBodies::center_of_all() const {
   double mass_kg = 0.0;

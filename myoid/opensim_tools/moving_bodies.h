@@ -26,9 +26,7 @@ class MovingBodies {
   [[nodiscard]] const model::BodyState& state() const { return state_; }
   [[nodiscard]] const Pose& pose(std::size_t body) const { return state_.X_GB[body]; }
   [[nodiscard]] const Vec3& angular_velocity(std::size_t body) const { return state_.w_GB[body]; }
-  [[nodiscard]] const Vec3& angular_acceleration(std::size_t body) const {
-    return acceleration_.alpha_GB[body];
-  }
+  [[nodiscard]] const Vec3& angular_acceleration(std::size_t body) const { return acceleration_.alpha_GB[body]; }
   [[nodiscard]] PointMotion point(std::size_t body, const Vec3& p_B) const;
   /// Returns the mass center of a body.
   [[nodiscard]] PointMotion center(std::size_t body) const;

@@ -27,8 +27,7 @@ model::BodyModel cart() {
   hinge.coordinates = {1};
   for (model::Joint* joint : {&slider, &hinge}) {
     for (std::size_t k = 0; k < 3; ++k)
-      joint->rotation[k].axis = joint->translation[k].axis =
-          Vec3::Unit(static_cast<Eigen::Index>(k));
+      joint->rotation[k].axis = joint->translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
   }
   slider.translation[0] = {Vec3::UnitX(), 0, model::Linear{1.0, 0.0}};
   hinge.rotation[2] = {Vec3::UnitZ(), 1, model::Linear{1.0, 0.0}};

@@ -39,8 +39,7 @@ TimeSeries read_coordinates(const model::BodyModel& model,
                             MissingCoordinate missing,
                             std::vector<std::string>& notes) {
   const recording::Storage file = recording::read_storage(path);
-  for (const recording::Repair& repair : file.repairs)
-    notes.push_back(recording::to_string(path, repair));
+  for (const recording::Repair& repair : file.repairs) notes.push_back(recording::to_string(path, repair));
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd q(file.data.sample_count(), count);
   std::vector<Channel> channels;
@@ -55,23 +54,22 @@ TimeSeries read_coordinates(const model::BodyModel& model,
     const int k = coordinate_of(model, file.data.channels()[column].name);
     if (k < 0 || found[at(k)]) continue;
     const bool angle = model.coordinates[at(k)].motion == model::MotionType::rotational;
-    q.col(k) = file.data.values().col(static_cast<Eigen::Index>(column)) *
-               (angle && file.in_degrees ? kDegree : 1.0);
+    q.col(k) = file.data.values().col(static_cast<Eigen::Index>(column)) * (angle && file.in_degrees ? kDegree : 1.0);
     found[at(k)] = true;
     any = true;
   }
   if (!any) {
-    throw InvalidInput(fmt::format("{}: no column ({}) is a coordinate of the model '{}'",
-                                   path.string(), channel_names(file.data), model.name));
+    throw InvalidInput(fmt::format("{}: no column ({}) is a coordinate of the model '{}'", path.string(),
+                                   channel_names(file.data), model.name));
   }
   std::string absent;
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k]) absent += (absent.empty() ? "" : ", ") + model.coordinates[k].name;
   }
   if (!absent.empty()) {
-    notes.push_back(fmt::format("{}: no column for {}; they stay at {}", path.string(), absent,
-                                missing == MissingCoordinate::zero ? "0, as in OpenSim's analyses"
-                                                                   : "their default values"));
+    notes.push_back(
+        fmt::format("{}: no column for {}; they stay at {}", path.string(), absent,
+                    missing == MissingCoordinate::zero ? "0, as in OpenSim's analyses" : "their default values"));
   }
   TimeSeries result(file.data.time_s(), std::move(channels), std::move(q));
   require_finite(result, path.string());
@@ -87,8 +85,7 @@ Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s) {
 
 TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last) {
   const Eigen::Index count = last - first + 1;
-  return {series.time_s().segment(first, count), series.channels(),
-          series.values().middleRows(first, count)};
+  return {series.time_s().segment(first, count), series.channels(), series.values().middleRows(first, count)};
 }
 
 TimeSeries ColumnTable::at_times(const Eigen::VectorXd& times_s) const {
@@ -101,35 +98,30 @@ TimeSeries with_file_units(const model::BodyModel& model, const TimeSeries& q) {
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c && model.coordinates[at(*c)].motion == model::MotionType::coupled)
-      channel.unit = Unit::dimensionless;
+    if (c && model.coordinates[at(*c)].motion == model::MotionType::coupled) channel.unit = Unit::dimensionless;
   }
   return {q.time_s(), std::move(channels), q.values()};
 }
 
-void write_opensim_storage(const std::filesystem::path& path,
-                           const TimeSeries& series,
-                           const OpensimFormat& format) {
-  std::string text =
-      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n{}endheader\ntime",
-                  format.title, series.sample_count(), series.channel_count() + 1,
-                  format.in_degrees ? "yes" : "no", format.description);
+void write_opensim_storage(const std::filesystem::path& path, const TimeSeries& series, const OpensimFormat& format) {
+  std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n{}endheader\ntime", format.title,
+                                 series.sample_count(), series.channel_count() + 1, format.in_degrees ? "yes" : "no",
+                                 format.description);
   for (const Channel& channel : series.channels()) text += "\t" + channel.name;
   text += '\n';
   const auto width = static_cast<std::size_t>(format.decimals + 8);
   // Room for every number and, behind the last, for the longest.
-  std::size_t room =
-      text.size() +
-      static_cast<std::size_t>(series.values().size() + series.sample_count()) * (width + 1) +
-      recording::kFixedRoom + 1;
+  std::size_t room = text.size() +
+                     static_cast<std::size_t>(series.values().size() + series.sample_count()) * (width + 1) +
+                     recording::kFixedRoom + 1;
   auto buffer = std::make_unique_for_overwrite<char[]>(room);
   std::size_t used = text.copy(buffer.get(), text.size());
   // Most moment arms of a body are zero; the copy is of one size, the place has room.
   constexpr std::size_t kZeroRoom = 64;
   static_assert(recording::kFixedRoom >= kZeroRoom);
   std::array<char, recording::kFixedRoom> zero{};
-  const auto zero_size = static_cast<std::size_t>(
-      recording::write_fixed(zero.data(), 0.0, format.decimals, width) - zero.data());
+  const auto zero_size =
+      static_cast<std::size_t>(recording::write_fixed(zero.data(), 0.0, format.decimals, width) - zero.data());
   const auto write = [&](double value, char behind) {
     if (room - used <= recording::kFixedRoom) {
       auto larger = std::make_unique_for_overwrite<char[]>(2 * room);

@@ -11,21 +11,18 @@
 
 namespace myoid {
 
-/// The value of a coordinate without a column: its default value (inverse dynamics) or 0 (the
-/// analyses of AnalyzeTool).
+/// The value of a coordinate without a column: its default value (inverse dynamics) or 0 (the analyses of AnalyzeTool).
 enum class MissingCoordinate { default_value, zero };
 
-/// Reads the coordinates of a motion or states file, in the model's order [rad, m]. Columns have
-/// the name of the coordinate, "joint/coordinate/value" or "/jointset/joint/coordinate/value". Only
-/// angles are converted from degrees. Throws ReadError as read_storage, and InvalidInput if no
-/// column is a coordinate.
+/// Reads the coordinates of a motion or states file, in the model's order [rad, m]. Columns have the name of the
+/// coordinate, "joint/coordinate/value" or "/jointset/joint/coordinate/value". Only angles are converted from degrees.
+/// Throws ReadError as read_storage, and InvalidInput if no column is a coordinate.
 [[nodiscard]] TimeSeries read_coordinates(const model::BodyModel& model,
                                           const std::filesystem::path& path,
                                           MissingCoordinate missing,
                                           std::vector<std::string>& notes);
 
-/// Returns the row of the greatest time that is not after `time_s`; the first row if all times are
-/// later.
+/// Returns the row of the greatest time that is not after `time_s`; the first row if all times are later.
 [[nodiscard]] Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s);
 
 /// Rows `first` to `last`, both included.
@@ -37,9 +34,7 @@ enum class MissingCoordinate { default_value, zero };
 
 /// Returns a table whose row i `fill(i, row)` writes, one for each time.
 template <typename Fill>
-[[nodiscard]] TimeSeries frame_table(const Eigen::VectorXd& times_s,
-                                     std::vector<Channel> channels,
-                                     const Fill& fill) {
+[[nodiscard]] TimeSeries frame_table(const Eigen::VectorXd& times_s, std::vector<Channel> channels, const Fill& fill) {
   Eigen::MatrixXd values(times_s.size(), static_cast<Eigen::Index>(channels.size()));
   for (Eigen::Index i = 0; i < values.rows(); ++i) fill(i, values.row(i));
   return {times_s, std::move(channels), std::move(values)};
@@ -72,11 +67,8 @@ struct OpensimFormat {
   int decimals = 8;
 };
 
-/// Writes a storage file as OpenSim's tools do: version 1, fixed decimals in columns eight
-/// characters wider than the decimals, NaN for unknown values. The file appears whole or not at
-/// all.
-void write_opensim_storage(const std::filesystem::path& path,
-                           const TimeSeries& series,
-                           const OpensimFormat& format);
+/// Writes a storage file as OpenSim's tools do: version 1, fixed decimals in columns eight characters wider than the
+/// decimals, NaN for unknown values. The file appears whole or not at all.
+void write_opensim_storage(const std::filesystem::path& path, const TimeSeries& series, const OpensimFormat& format);
 
 }  // namespace myoid

@@ -31,9 +31,7 @@ TEST(OpensimFiles, AStorageIsWrittenAsOpenSimWritesIt) {
   Eigen::MatrixXd values(1, 2);
   values << kPi, -0.25;
   write_opensim_storage(path,
-                        {Eigen::VectorXd::Constant(1, 0.1),
-                         {{"angle", Unit::radian}, {"shift", Unit::meter}},
-                         values},
+                        {Eigen::VectorXd::Constant(1, 0.1), {{"angle", Unit::radian}, {"shift", Unit::meter}}, values},
                         {.title = "Coordinates", .in_degrees = true, .description = "\nUnits\n\n"});
   EXPECT_EQ(content(path),
             "Coordinates\nversion=1\nnRows=1\nnColumns=3\ninDegrees=yes\n\nUnits\n\nendheader\n"
@@ -50,8 +48,7 @@ TEST(OpensimFiles, CoordinatesAreFoundByNameAndByPath) {
   const TimeSeries q = read_coordinates(m, path, MissingCoordinate::zero, notes);
   EXPECT_DOUBLE_EQ(q.column("elbow_flexion")[0], 0.5);
   EXPECT_EQ(q.channel_count(), static_cast<Eigen::Index>(m.coordinates.size()));
-  std::ofstream(path)
-      << "x\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\tother\n0\t1\n";
+  std::ofstream(path) << "x\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\tother\n0\t1\n";
   EXPECT_THROW((void)read_coordinates(m, path, MissingCoordinate::zero, notes), InvalidInput);
   std::filesystem::remove(path);
 }

@@ -75,20 +75,16 @@ OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead
   }
   if (!tool_) {
     const auto first = model::OsimXml::first_element(root, {"defaults"});
-    xml_.fail(
-        first ? first : root,
-        fmt::format(
-            "found <{}>, expected a set-up of InverseKinematicsTool, "
-            "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
-            "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
-            "tools are not run{}",
-            first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
+    xml_.fail(first ? first : root,
+              fmt::format("found <{}>, expected a set-up of InverseKinematicsTool, "
+                          "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
+                          "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
+                          "tools are not run{}",
+                          first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
   }
   if (const auto defaults = root.child("defaults")) xml_.set_prototypes(defaults);
-  if (!instead_.external_loads.empty() && kind() != "AnalyzeTool" &&
-      kind() != "InverseDynamicsTool") {
-    throw InvalidInput(fmt::format("--external-loads: {} holds a {}, which reads no loads",
-                                   path_.string(), kind()));
+  if (!instead_.external_loads.empty() && kind() != "AnalyzeTool" && kind() != "InverseDynamicsTool") {
+    throw InvalidInput(fmt::format("--external-loads: {} holds a {}, which reads no loads", path_.string(), kind()));
   }
 }
 
@@ -108,8 +104,7 @@ std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
   const bool by_states = kind() == "ForwardTool" || !named_in(tool_, "states_file").empty();
   std::vector<std::string_view> motion{"coordinates_file", "marker_file", "orientations_file",
                                        "orientation_file_for_calibration"};
-  if (kind() == "AnalyzeTool" || by_states)
-    motion = {by_states ? "states_file" : "coordinates_file"};
+  if (kind() == "AnalyzeTool" || by_states) motion = {by_states ? "states_file" : "coordinates_file"};
   const bool is_motion = std::find(motion.begin(), motion.end(), name) != motion.end();
   return is_motion ? instead_.motion : std::filesystem::path();
 }
@@ -122,8 +117,7 @@ std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_
                               node.name(), name));
 }
 
-std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object,
-                                                        const char* name) const {
+std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, const char* name) const {
   if (const auto given = replacement(name); !given.empty()) return given;
   const std::string text = named_in(object, name);
   if (text.empty()) return {};
@@ -133,19 +127,16 @@ std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object,
 std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const char* name) const {
   if (const auto found = file(object, name)) return *found;
   const auto node = object.child(name);
-  xml_.fail(node ? node : object,
-            fmt::format("<{}> expected: a file's name, relative to this set-up{}", name,
-                        std::string_view(name) == "model_file" ? ", or --model FILE" : ""));
+  xml_.fail(node ? node : object, fmt::format("<{}> expected: a file's name, relative to this set-up{}", name,
+                                              std::string_view(name) == "model_file" ? ", or --model FILE" : ""));
 }
 
-std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object,
-                                                       const char* name) const {
+std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object, const char* name) const {
   const std::string text = named_in(object, name);
   if (text.empty()) return {};
   // A name may hold blanks: the whole text is tried first, then each word.
   const auto folder = path_.parent_path();
-  if (recording::find_named_file(folder, text).exists)
-    return {recording::find_named_file(folder, text).path};
+  if (recording::find_named_file(folder, text).exists) return {recording::find_named_file(folder, text).path};
   std::vector<std::filesystem::path> found;
   for (const std::string_view word : recording::split_words(text))
     if (!recording::equal_ignoring_case(word, "Unassigned"))
@@ -153,22 +144,19 @@ std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object,
   return found;
 }
 
-std::optional<std::filesystem::path> OpensimSetup::output_file(pugi::xml_node object,
-                                                               const char* name) const {
+std::optional<std::filesystem::path> OpensimSetup::output_file(pugi::xml_node object, const char* name) const {
   const std::string text = named_in(object, name);
   if (text.empty()) return {};
   if (!instead_.out.empty()) return instead_.out / recording::last_part(text);
-  if (is_elsewhere(path_.parent_path(), text))
-    return path_.parent_path() / recording::last_part(text);
+  if (is_elsewhere(path_.parent_path(), text)) return path_.parent_path() / recording::last_part(text);
   return recording::native_path(path_.parent_path(), text);
 }
 
 std::vector<std::pair<pugi::xml_node, const char*>> OpensimSetup::input_elements() const {
   std::vector<std::pair<pugi::xml_node, const char*>> found;
-  for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file",
-                           "coordinate_file", "states_file", "speeds_file", "external_loads_file",
-                           "force_set_files", "actuator_set_files", "forces_file",
-                           "orientations_file", "orientation_file_for_calibration"}) {
+  for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file", "coordinate_file",
+                           "states_file", "speeds_file", "external_loads_file", "force_set_files", "actuator_set_files",
+                           "forces_file", "orientations_file", "orientation_file_for_calibration"}) {
     if (!replacement(name).empty()) found.emplace_back(tool_, name);
     for (const auto holder : holders_of(tool_))
       if (holder.child(name)) found.emplace_back(holder, name);
@@ -193,8 +181,7 @@ std::vector<std::string> OpensimSetup::notes() const {
   std::vector<std::string> notes;
   const auto add = [&](const char* name, const std::string& text) {
     std::string note = fmt::format("<{}>: {}", name, text);
-    if (std::find(notes.begin(), notes.end(), note) == notes.end())
-      notes.push_back(std::move(note));
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   };
   for (const auto& [object, name] : input_elements()) {
     if (!replacement(name).empty()) continue;
@@ -203,8 +190,8 @@ std::vector<std::string> OpensimSetup::notes() const {
   }
   if (!instead_.out.empty()) return notes;
   for (const auto holder : holders_of(tool_)) {
-    for (const char* name : {"results_directory", "output_motion_file", "output_model_file",
-                             "output_scale_file", "output_marker_file"}) {
+    for (const char* name :
+         {"results_directory", "output_motion_file", "output_model_file", "output_scale_file", "output_marker_file"}) {
       const std::string text = holder.child(name) ? named_in(holder, name) : "";
       if (is_elsewhere(path_.parent_path(), text))
         add(name, fmt::format("'{}' is not on this computer; results go beside the set-up (--out "
@@ -265,8 +252,8 @@ model::BodyModel setup_model(const OpensimSetup& setup,
   const auto& xml = setup.xml();
   const auto path = setup.required_file(setup.tool(), "model_file");
   model::BodyModel model = model::read_osim(path, {.compat = compat});
-  const bool replaces = xml.flag(setup.tool(), "replace_force_set",
-                                 xml.flag(setup.tool(), "replace_actuator_set", false));
+  const bool replaces =
+      xml.flag(setup.tool(), "replace_force_set", xml.flag(setup.tool(), "replace_actuator_set", false));
   if (replaces) {
     model.muscles.clear();
     model.actuators.clear();
@@ -278,11 +265,9 @@ model::BodyModel setup_model(const OpensimSetup& setup,
   }
   const std::size_t noted = model.notes.size();
   for (const char* element : {"force_set_files", "actuator_set_files"}) {
-    for (const auto& file : setup.files(setup.tool(), element))
-      model = model::with_force_set(std::move(model), file);
+    for (const auto& file : setup.files(setup.tool(), element)) model = model::with_force_set(std::move(model), file);
   }
-  notes.insert(notes.end(), model.notes.begin() + static_cast<std::ptrdiff_t>(noted),
-               model.notes.end());
+  notes.insert(notes.end(), model.notes.begin() + static_cast<std::ptrdiff_t>(noted), model.notes.end());
   for (const std::string& name : excluded) {
     const bool all = recording::equal_ignoring_case(name, "all");
     const bool muscles = all || recording::equal_ignoring_case(name, "muscles");
@@ -297,8 +282,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     drop(model.path_actuators, actuator);
     drop(model.passive_forces, named);
   }
-  for (const std::string& text : model.unsupported)
-    notes.push_back(fmt::format("{}: {}", path.string(), text));
+  for (const std::string& text : model.unsupported) notes.push_back(fmt::format("{}: {}", path.string(), text));
   return model;
 }
 

@@ -35,22 +35,18 @@ class OpensimSetup {
   [[nodiscard]] bool names_file(pugi::xml_node object, const char* name) const;
   /// Returns the input file that an element names; empty for an element that is absent, empty or
   /// "Unassigned". Throws ReadError, naming the element, if there is no such file.
-  [[nodiscard]] std::optional<std::filesystem::path> file(pugi::xml_node object,
-                                                          const char* name) const;
+  [[nodiscard]] std::optional<std::filesystem::path> file(pugi::xml_node object, const char* name) const;
   /// Returns the input file as `file` does; throws ReadError if the element names none.
   [[nodiscard]] std::filesystem::path required_file(pugi::xml_node object, const char* name) const;
   /// Returns the file of that name, read on behalf of `node`. Throws ReadError if there is none.
   [[nodiscard]] std::filesystem::path file_named(pugi::xml_node node, std::string_view name) const;
   /// Files that a list in an element names.
-  [[nodiscard]] std::vector<std::filesystem::path> files(pugi::xml_node object,
-                                                         const char* name) const;
+  [[nodiscard]] std::vector<std::filesystem::path> files(pugi::xml_node object, const char* name) const;
   /// Returns the output file that an element names; empty as for `file`.
-  [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object,
-                                                                 const char* name) const;
+  [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object, const char* name) const;
   /// Returns the existing files that the set-up names as inputs.
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
-  /// Returns the folder of the results; the set-up's own if no folder, or one of another computer,
-  /// is given.
+  /// Returns the folder of the results; the set-up's own if no folder, or one of another computer, is given.
   [[nodiscard]] std::filesystem::path results_folder() const;
   /// Returns a sentence for each file whose place differs from the name in the set-up.
   [[nodiscard]] std::vector<std::string> notes() const;

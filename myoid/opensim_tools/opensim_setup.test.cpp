@@ -18,8 +18,7 @@ class Setup : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              (std::string("myoid_setup_") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+              (std::string("myoid_setup_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "arm.osim") << model::arm4_osim();
   }
@@ -54,8 +53,7 @@ TEST_F(Setup, AnOldSetUpNeedsNoDocumentElement) {
 
 TEST_F(Setup, AnotherKindOfFileIsNamed) {
   try {
-    const OpensimSetup setup(
-        write("<OpenSimDocument Version=\"40000\"><CMCTool/></OpenSimDocument>"));
+    const OpensimSetup setup(write("<OpenSimDocument Version=\"40000\"><CMCTool/></OpenSimDocument>"));
     FAIL() << "was taken";
   } catch (const ReadError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("CMCTool"));

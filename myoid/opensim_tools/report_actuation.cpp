@@ -36,32 +36,27 @@ model::BodyModel with_coordinate_actuators_only(model::BodyModel model) {
   return with_coordinate_actuators(std::move(model));
 }
 
-/// Returns "<coordinate>_moment", "_force", or the name alone where the coordinate is neither an
-/// angle nor a length.
+/// Returns "<coordinate>_moment", "_force", or the name alone where the coordinate is neither an angle nor a length.
 std::string column_name(const model::Coordinate& coordinate) {
-  return coordinate.motion == model::MotionType::coupled
-             ? coordinate.name
-             : dynamics::generalized_force_name(coordinate);
+  return coordinate.motion == model::MotionType::coupled ? coordinate.name
+                                                         : dynamics::generalized_force_name(coordinate);
 }
 
 }  // namespace
 
 void report_actuation(AnalysisRun& run, pugi::xml_node node) {
   const TimeSeries& forces = forces_of_states(run);
-  if (forces.channel_count() == 0)
-    run.setup.xml().fail(node, "Actuation: the model has neither muscles nor actuators");
-  forces::Actuation result =
-      forces::actuation(run.model, run.motion, forces,
-                        {.speeds_of_opensim = run.options.compat == model::kOpenSim452,
-                         .progress = run.options.progress});
+  if (forces.channel_count() == 0) run.setup.xml().fail(node, "Actuation: the model has neither muscles nor actuators");
+  forces::Actuation result = forces::actuation(
+      run.model, run.motion, forces,
+      {.speeds_of_opensim = run.options.compat == model::kOpenSim452, .progress = run.options.progress});
   const auto write = [&](const char* quantity, const char* title, const TimeSeries& table) {
-    write_result(
-        run, analysis_name(node) + quantity, table,
-        {.title = title,
-         .description = "\nThis file contains the forces, the speeds or the powers of the "
-                        "actuators.\nSpeeds of muscles and other paths are rates of lengthening; "
-                        "a positive power does work on the model.\nUnits are S.I. units (seconds, "
-                        "meters, Newtons, radians, Watts)\n\n"});
+    write_result(run, analysis_name(node) + quantity, table,
+                 {.title = title,
+                  .description = "\nThis file contains the forces, the speeds or the powers of the "
+                                 "actuators.\nSpeeds of muscles and other paths are rates of lengthening; "
+                                 "a positive power does work on the model.\nUnits are S.I. units (seconds, "
+                                 "meters, Newtons, radians, Watts)\n\n"});
   };
   write("_force.sto", "ActuatorForces", forces);
   write("_speed.sto", "ActuatorSpeeds", result.speed);
@@ -71,10 +66,8 @@ void report_actuation(AnalysisRun& run, pugi::xml_node node) {
 void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
   const auto& xml = run.setup.xml();
   const auto path = claim_result(run, analysis_name(node) + ".sto");
-  const bool use_forces =
-      xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
-  const model::BodyModel model =
-      without_bounds(use_forces ? run.model : with_coordinate_actuators_only(run.model));
+  const bool use_forces = xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
+  const model::BodyModel model = without_bounds(use_forces ? run.model : with_coordinate_actuators_only(run.model));
   std::size_t unknown = 0;
   for (std::size_t c = 0; c < model.coordinates.size(); ++c)
     if (!model.is_constrained(static_cast<int>(c))) ++unknown;
@@ -85,11 +78,9 @@ void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
                                "<use_model_force_set> false",
                                count, unknown));
   }
-  const forces::StaticOptimizationResult solved =
-      forces::static_optimization(model, run.motion,
-                                  {.muscle_physiology = false,
-                                   .loads = run.loads ? &*run.loads : nullptr,
-                                   .progress = run.options.progress});
+  const forces::StaticOptimizationResult solved = forces::static_optimization(
+      model, run.motion,
+      {.muscle_physiology = false, .loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
   std::vector<Channel> channels = solved.force.channels();
   if (!use_forces) {
     for (Channel& channel : channels)

@@ -18,8 +18,7 @@ constexpr const char* kWholeBody = "center_of_mass";
 
 /// Returns the body-fixed X-Y-Z angles [rad].
 Vec3 angles_of(const Mat3& R) {
-  return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)),
-          std::atan2(-R(0, 1), R(0, 0))};
+  return {std::atan2(-R(1, 2), R(2, 2)), std::asin(std::clamp(R(0, 2), -1.0, 1.0)), std::atan2(-R(0, 1), R(0, 0))};
 }
 
 struct Wanted {
@@ -35,8 +34,7 @@ Wanted wanted_bodies(AnalysisRun& run, pugi::xml_node node) {
   for (const std::string& name : names) {
     if (recording::equal_ignoring_case(name, "all")) {
       wanted.bodies.clear();
-      for (std::size_t b = 1; b < model.bodies.size(); ++b)
-        wanted.bodies.push_back(static_cast<model::BodyIndex>(b));
+      for (std::size_t b = 1; b < model.bodies.size(); ++b) wanted.bodies.push_back(static_cast<model::BodyIndex>(b));
       wanted.whole_body = true;
       break;
     }
@@ -45,10 +43,9 @@ Wanted wanted_bodies(AnalysisRun& run, pugi::xml_node node) {
     } else if (const auto body = model.find_body(name)) {
       wanted.bodies.push_back(*body);
     } else {
-      run.setup.xml().fail(node,
-                           fmt::format("<bodies>: the model has no body '{}'; expected bodies, "
-                                       "{}, or all",
-                                       name, kWholeBody));
+      run.setup.xml().fail(node, fmt::format("<bodies>: the model has no body '{}'; expected bodies, "
+                                             "{}, or all",
+                                             name, kWholeBody));
     }
   }
   return wanted;
@@ -71,13 +68,9 @@ std::vector<Channel> body_channels(const model::BodyModel& model, const Wanted& 
 /// Tables of positions, velocities and accelerations, frames x columns.
 using MotionTables = std::array<Eigen::MatrixXd, 3>;
 
-/// Computes the tables. With `local` the velocities and accelerations of bodies are in their own
-/// axes.
-MotionTables body_tables(MovingBodies& moving,
-                         const Wanted& wanted,
-                         bool local,
-                         Eigen::Index frames,
-                         Eigen::Index columns) {
+/// Computes the tables. With `local` the velocities and accelerations of bodies are in their own axes.
+MotionTables body_tables(
+    MovingBodies& moving, const Wanted& wanted, bool local, Eigen::Index frames, Eigen::Index columns) {
   MotionTables tables;
   tables.fill(Eigen::MatrixXd(frames, columns));
   auto& [position, velocity, acceleration] = tables;
@@ -119,8 +112,8 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
   if (channels.empty()) xml.fail(node, "BodyKinematics: there are no bodies to report");
   const Eigen::MatrixXd* qddot = accelerations_of(run);
   MovingBodies moving(run.model, run.motion, qddot);
-  MotionTables tables = body_tables(moving, wanted, local, run.motion.sample_count(),
-                                    static_cast<Eigen::Index>(channels.size()));
+  MotionTables tables =
+      body_tables(moving, wanted, local, run.motion.sample_count(), static_cast<Eigen::Index>(channels.size()));
   const std::string name = analysis_name(node);
   const std::string description = fmt::format(
       "\nThis file contains the kinematics of the bodies' centers of mass and their orientations "
@@ -128,8 +121,7 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node) {
       "frame.\n\nUnits are S.I. units (seconds, meters, Newtons, ...)\nAngles are in {}.\n\n",
       local ? "body's own" : "global", in_degrees ? "degrees" : "radians");
   const auto write = [&](const std::string& quantity, const char* title, Eigen::MatrixXd& values) {
-    write_result(run, name + quantity + ".sto",
-                 {run.motion.q.time_s(), channels, std::move(values)},
+    write_result(run, name + quantity + ".sto", {run.motion.q.time_s(), channels, std::move(values)},
                  {.title = title, .in_degrees = in_degrees, .description = description});
   };
   const std::string frame = local ? "_bodyLocal" : "_global";
@@ -172,8 +164,7 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
       "{:f}, {:f}) on the {} of model {}.\n\nUnits are S.I. units (seconds, meters, "
       "Newtons,...)\n\n",
       point[0], point[1], point[2], model.bodies[body].name, model.name);
-  const auto write = [&](const char* quantity, const char* title, Unit unit,
-                         Eigen::MatrixXd& values) {
+  const auto write = [&](const char* quantity, const char* title, Unit unit, Eigen::MatrixXd& values) {
     write_result(run, fmt::format("{}_{}_{}.sto", name, point_name, quantity),
                  {run.motion.q.time_s(),
                   {{point_name + "_X", unit}, {point_name + "_Y", unit}, {point_name + "_Z", unit}},

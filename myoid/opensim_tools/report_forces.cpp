@@ -27,34 +27,27 @@ Eigen::VectorXd limit_forces(const AnalysisRun& run, const model::CoordinateLimi
 }
 
 /// Adds the columns of the passive forces of a name. Only limit forces have one.
-void add_passive(const AnalysisRun& run,
-                 const model::BodyModel& model,
-                 const std::string& name,
-                 ColumnTable& table) {
+void add_passive(const AnalysisRun& run, const model::BodyModel& model, const std::string& name, ColumnTable& table) {
   for (const model::PassiveForce& force : model.passive_forces) {
     if (force.name != name) continue;
     if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
       table.add(name, Unit::dimensionless, limit_forces(run, *limit));
     } else {
       run.result.notes.push_back(
-          fmt::format("force '{}' of class {} acts, but has no column among the forces", name,
-                      force.class_name));
+          fmt::format("force '{}' of class {} acts, but has no column among the forces", name, force.class_name));
     }
   }
 }
 
 /// Returns the force, point and torque of an external force: force and torque in ground, the point
 /// in the body that the force acts on, as OpenSim reports them. Zero where the force has none.
-Eigen::Matrix<double, 1, 9> load_row(const dynamics::ExternalForce& load,
-                                     const MovingBodies& moving,
-                                     double time_s) {
+Eigen::Matrix<double, 1, 9> load_row(const dynamics::ExternalForce& load, const MovingBodies& moving, double time_s) {
   const Mat3& R = moving.pose(at(load.force_frame)).R;
   const Vec3 zero = Vec3::Zero();
   const Vec3 f = load.force ? Vec3(R * load.force->at(time_s)) : zero;
   const Vec3 t = load.torque ? Vec3(R * load.torque->at(time_s)) : zero;
   const Pose X_BG = moving.pose(at(load.body)).inverse();
-  const Vec3 p =
-      load.point ? Vec3(X_BG * (moving.pose(at(load.point_frame)) * load.point->at(time_s))) : zero;
+  const Vec3 p = load.point ? Vec3(X_BG * (moving.pose(at(load.point_frame)) * load.point->at(time_s))) : zero;
   Eigen::Matrix<double, 1, 9> row;
   row << f.transpose(), p.transpose(), t.transpose();
   return row;
@@ -70,16 +63,14 @@ void add_loads(const std::vector<dynamics::ExternalForce>& loads,
   MovingBodies moving(model, motion);
   for (Eigen::Index i = 0; i < times.size(); ++i) {
     moving.set(i);
-    for (std::size_t k = 0; k < loads.size(); ++k)
-      values[k].row(i) = load_row(loads[k], moving, times[i]);
+    for (std::size_t k = 0; k < loads.size(); ++k) values[k].row(i) = load_row(loads[k], moving, times[i]);
   }
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const dynamics::ExternalForce& load = loads[k];
     const std::string stem = model.bodies[at(load.body)].name + "_" + load.name + "_";
     const auto add = [&](bool known, Eigen::Index column, std::array<const char*, 3> names) {
       if (!known) return;
-      for (const char* name : names)
-        table.add(stem + name, Unit::dimensionless, values[k].col(column++));
+      for (const char* name : names) table.add(stem + name, Unit::dimensionless, values[k].col(column++));
     };
     add(load.force.has_value(), 0, {"Fx", "Fy", "Fz"});
     add(load.force && load.point, 3, {"px", "py", "pz"});
@@ -88,9 +79,7 @@ void add_loads(const std::vector<dynamics::ExternalForce>& loads,
 }
 
 /// Returns the table of OpenSim's force reporter.
-TimeSeries force_table(const AnalysisRun& run,
-                       const model::BodyModel& model,
-                       const TimeSeries& forces) {
+TimeSeries force_table(const AnalysisRun& run, const model::BodyModel& model, const TimeSeries& forces) {
   ColumnTable table;
   for (const std::string& name : model.force_order) {
     if (const auto column = forces.find(name)) {
@@ -112,15 +101,12 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
       Eigen::MatrixXd::Zero(run.motion.sample_count(), static_cast<Eigen::Index>(actuators.size()));
   std::vector<Channel> channels;
   for (const forces::Actuator& a : actuators) channels.push_back({a.name, Unit::newton});
-  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium,
-                                        .progress = run.options.progress};
+  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
   for (const forces::Actuator& a : actuators)
-    if (a.kind == forces::Actuator::Kind::muscle)
-      options.muscles.push_back(static_cast<int>(a.index));
+    if (a.kind == forces::Actuator::Kind::muscle) options.muscles.push_back(static_cast<int>(a.index));
   if (!options.muscles.empty()) {
     if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
-    if (run.fiber_length_m.size() > 0)
-      options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
+    if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
     const forces::MuscleAnalysis analysis = forces::muscle_analysis(run.model, run.motion, options);
     run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
     for (const auto& [name, table] : analysis.tables) {
@@ -149,9 +135,9 @@ const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
   if (!run.accelerations) {
     std::vector<std::string>& notes = run.result.notes;
     try {
-      run.accelerations = forces::driven_accelerations(
-          run.model, run.motion, forces_of_states(run),
-          {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+      run.accelerations =
+          forces::driven_accelerations(run.model, run.motion, forces_of_states(run),
+                                       {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
       notes.emplace_back(
           "accelerations follow from the forces, as in OpenSim, and differ from the motion's "
           "second "
@@ -171,20 +157,17 @@ void write_forces(AnalysisRun& run,
   write_opensim_storage(
       path, force_table(run, model, actuators),
       {.title = "ModelForces",
-       .description =
-           std::string(
-               "\nThis file contains the forces exerted on a model during a simulation.\n\nA force "
-               "is a generalized force, meaning that it can be either a force (N) or a torque "
-               "(Nm).\n\n") +
-           kUnitsNote,
+       .description = std::string("\nThis file contains the forces exerted on a model during a simulation.\n\nA force "
+                                  "is a generalized force, meaning that it can be either a force (N) or a torque "
+                                  "(Nm).\n\n") +
+                      kUnitsNote,
        .decimals = run.decimals});
 }
 
 void report_forces(AnalysisRun& run, pugi::xml_node node) {
   const std::string name = analysis_name(node);
   if (run.setup.xml().flag(node, "include_constraint_forces", false)) {
-    run.result.notes.push_back(
-        fmt::format("{}: forces of constraints are not computed and not written", name));
+    run.result.notes.push_back(fmt::format("{}: forces of constraints are not computed and not written", name));
   }
   write_forces(run, run.model, claim_result(run, name + "_forces.sto"), forces_of_states(run));
 }

@@ -66,17 +66,15 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
     std::vector<const model::Joint*> joints;
     for (const model::Joint& joint : model.joints) joints.push_back(&joint);
     std::stable_sort(joints.begin(), joints.end(),
-                     [](const model::Joint* a, const model::Joint* b) {
-                       return a->place_in_file < b->place_in_file;
-                     });
+                     [](const model::Joint* a, const model::Joint* b) { return a->place_in_file < b->place_in_file; });
     names.clear();
     for (const model::Joint* joint : joints) names.push_back(joint->name);
   }
   const auto list = [&](const char* property) {
     std::vector<std::string> words = xml.words(node, property);
     if (words.size() > 1 && words.size() != names.size()) {
-      run.result.notes.push_back(fmt::format("<{}>: {} entries for {} joints; the default is taken",
-                                             property, words.size(), names.size()));
+      run.result.notes.push_back(
+          fmt::format("<{}>: {} entries for {} joints; the default is taken", property, words.size(), names.size()));
       words.clear();
     }
     return words;
@@ -87,8 +85,7 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
     const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
                                     [&](const model::Joint& j) { return j.name == names[k]; });
     if (joint == model.joints.end()) {
-      run.result.notes.push_back(
-          fmt::format("<joint_names>: the model has no '{}'; it is left out", names[k]));
+      run.result.notes.push_back(fmt::format("<joint_names>: the model has no '{}'; it is left out", names[k]));
       continue;
     }
     Asked a;
@@ -96,9 +93,8 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
     a.on_child = lower(entry(on, k, "child")) == "child";
     auto [frame, frame_name] = frame_named(run, node, *joint, entry(in, k, "ground"));
     a.expressed_in = std::move(frame);
-    a.label =
-        fmt::format("{}_on_{}_in_{}", joint->name,
-                    model.bodies[at(a.on_child ? joint->child : joint->parent)].name, frame_name);
+    a.label = fmt::format("{}_on_{}_in_{}", joint->name,
+                          model.bodies[at(a.on_child ? joint->child : joint->parent)].name, frame_name);
     asked.push_back(std::move(a));
   }
   if (asked.empty()) xml.fail(node, "JointReaction: no joint of the list is in the model");
@@ -111,9 +107,7 @@ TimeSeries linear_at(const TimeSeries& file, const Eigen::VectorXd& times) {
   return frame_table(times, file.channels(), [&](Eigen::Index i, auto&& row) {
     const Eigen::Index before = row_at(t, times[i]);
     const Eigen::Index after = std::min(before + 1, t.size() - 1);
-    const double share = after > before
-                             ? std::clamp((times[i] - t[before]) / (t[after] - t[before]), 0.0, 1.0)
-                             : 0.0;
+    const double share = after > before ? std::clamp((times[i] - t[before]) / (t[after] - t[before]), 0.0, 1.0) : 0.0;
     row = (1.0 - share) * file.values().row(before) + share * file.values().row(after);
   });
 }
@@ -147,18 +141,14 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
 std::vector<Channel> reaction_channels(const std::vector<Asked>& asked) {
   std::vector<Channel> channels;
   for (const Asked& a : asked) {
-    for (const char* part : {"_fx", "_fy", "_fz"})
-      channels.push_back({a.label + part, Unit::newton});
-    for (const char* part : {"_mx", "_my", "_mz"})
-      channels.push_back({a.label + part, Unit::newton_meter});
-    for (const char* part : {"_px", "_py", "_pz"})
-      channels.push_back({a.label + part, Unit::meter});
+    for (const char* part : {"_fx", "_fy", "_fz"}) channels.push_back({a.label + part, Unit::newton});
+    for (const char* part : {"_mx", "_my", "_mz"}) channels.push_back({a.label + part, Unit::newton_meter});
+    for (const char* part : {"_px", "_py", "_pz"}) channels.push_back({a.label + part, Unit::meter});
   }
   return channels;
 }
 
-/// Returns the force, moment and point of a joint's load on the child or the parent, in the frame
-/// asked for.
+/// Returns the force, moment and point of a joint's load on the child or the parent, in the frame asked for.
 Eigen::Matrix<double, 1, 9> reaction(const model::BodyModel& model,
                                      const forces::JointLoads& frame,
                                      const Asked& asked) {
@@ -187,31 +177,27 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Asked> asked = asked_joints(run, node);
   const std::string name = analysis_name(node);
   const auto path = claim_result(run, name + "_ReactionLoads.sto");
-  const auto loads = forces::joint_reactions(
-      run.model, run.motion, actuator_forces(run, node),
-      {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+  const auto loads =
+      forces::joint_reactions(run.model, run.motion, actuator_forces(run, node),
+                              {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
   for (const model::PassiveForce& force : run.model.passive_forces) {
-    if (std::holds_alternative<model::PathSpring>(force.law) ||
-        std::holds_alternative<model::Ligament>(force.law)) {
-      run.result.notes.push_back(
-          fmt::format("{}: the pull of '{}' ({}) moves the model, but does not load the joints",
-                      name, force.name, force.class_name));
+    if (std::holds_alternative<model::PathSpring>(force.law) || std::holds_alternative<model::Ligament>(force.law)) {
+      run.result.notes.push_back(fmt::format("{}: the pull of '{}' ({}) moves the model, but does not load the joints",
+                                             name, force.name, force.class_name));
     }
   }
   const TimeSeries table =
       frame_table(run.motion.q.time_s(), reaction_channels(asked), [&](Eigen::Index i, auto&& row) {
         for (std::size_t k = 0; k < asked.size(); ++k)
-          row.template segment<9>(static_cast<Eigen::Index>(9 * k)) =
-              reaction(run.model, loads[at(i)], asked[k]);
+          row.template segment<9>(static_cast<Eigen::Index>(9 * k)) = reaction(run.model, loads[at(i)], asked[k]);
       });
-  write_opensim_storage(
-      path, table,
-      {.title = "Joint Reaction Loads",
-       .description = "\nThis file contains the reaction forces and moments\napplied to the "
-                      "specified body of a joint pair and expressed  in the specified "
-                      "reference frame.\n\nUnits are S.I. units (seconds, meters, Newtons, "
-                      "...)\n\n",
-       .decimals = run.decimals});
+  write_opensim_storage(path, table,
+                        {.title = "Joint Reaction Loads",
+                         .description = "\nThis file contains the reaction forces and moments\napplied to the "
+                                        "specified body of a joint pair and expressed  in the specified "
+                                        "reference frame.\n\nUnits are S.I. units (seconds, meters, Newtons, "
+                                        "...)\n\n",
+                         .decimals = run.decimals});
 }
 
 }  // namespace myoid

@@ -20,7 +20,6 @@ namespace myoid {
 ///
 /// `notes` names every request of the set-up that is not done, and elements unknown to OpenSim.
 /// Throws ReadError with the line for a set-up that cannot be read or run.
-[[nodiscard]] ToolResult run_tool(const std::filesystem::path& setup,
-                                  const ToolOptions& options = {});
+[[nodiscard]] ToolResult run_tool(const std::filesystem::path& setup, const ToolOptions& options = {});
 
 }  // namespace myoid

@@ -24,12 +24,10 @@ TEST_F(RunTool, InverseKinematicsLeavesTheFilesOfTheTool) {
           "<output_motion_file>out/ik.mot</output_motion_file></InverseKinematicsTool>");
   EXPECT_EQ(result.frames, 20);
   EXPECT_EQ(result.frames_failed, 0);
-  for (const char* name :
-       {"out/ik.mot", "out/swing_ik_marker_errors.sto", "out/swing_ik_model_marker_locations.sto"})
+  for (const char* name : {"out/ik.mot", "out/swing_ik_marker_errors.sto", "out/swing_ik_model_marker_locations.sto"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
   const TimeSeries q = read("out/ik.mot");
-  for (int i = 0; i < 20; ++i)
-    EXPECT_NEAR(q.column("elbow_flexion")[i], elbow(i) / kDegree, 1e-6);  // eight decimals
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(q.column("elbow_flexion")[i], elbow(i) / kDegree, 1e-6);  // eight decimals
 }
 
 TEST_F(RunTool, InverseDynamicsNamesItsColumnsByTheKindOfMotion) {
@@ -69,8 +67,7 @@ TEST_F(RunTool, ATimeRangeOutsideOfTheDataIsRefusedAndNothingIsReplaced) {
   write_motion(60);
   write_markers(20);
   const auto tool = [](const std::string& kind, const std::string& content) {
-    return "<" + kind + " name=\"t\"><model_file>arm.osim</model_file>" + content + "</" + kind +
-           ">";
+    return "<" + kind + " name=\"t\"><model_file>arm.osim</model_file>" + content + "</" + kind + ">";
   };
   const std::string ik =
       "<marker_file>m.trc</marker_file><output_motion_file>result"
@@ -89,10 +86,9 @@ TEST_F(RunTool, ATimeRangeOutsideOfTheDataIsRefusedAndNothingIsReplaced) {
       "<Kinematics/></objects></AnalysisSet>";
   write("result", "earlier");
   write("t_Kinematics_q.sto", "earlier");
-  for (const auto& [setup, recorded] :
-       {std::pair{tool("InverseKinematicsTool", ik), "50 to 60 s, but"},
-        std::pair{tool("InverseDynamicsTool", id), "holds 0 to 0.59 s"},
-        std::pair{tool("AnalyzeTool", analyze), "0.7 to 0.8 s, but"}}) {
+  for (const auto& [setup, recorded] : {std::pair{tool("InverseKinematicsTool", ik), "50 to 60 s, but"},
+                                        std::pair{tool("InverseDynamicsTool", id), "holds 0 to 0.59 s"},
+                                        std::pair{tool("AnalyzeTool", analyze), "0.7 to 0.8 s, but"}}) {
     try {
       (void)run(setup);
       ADD_FAILURE() << setup;
@@ -133,8 +129,7 @@ TEST_F(RunTool, CoordinateTasksTakeTheirTargetsFromAFile) {
 TEST_F(RunTool, MusclesThatAreNotExcludedCountInInverseDynamics) {
   write_motion(60);
   const auto torque = [&](const std::string& excluded) {
-    (void)run("<InverseDynamicsTool><model_file>arm.osim</model_file><forces_to_exclude>" +
-              excluded +
+    (void)run("<InverseDynamicsTool><model_file>arm.osim</model_file><forces_to_exclude>" + excluded +
               "</forces_to_exclude><coordinates_file>motion.mot</coordinates_file>"
               "<output_gen_force_file>id.sto</output_gen_force_file></InverseDynamicsTool>");
     return read("id.sto").column("elbow_flexion_moment");
@@ -146,8 +141,7 @@ TEST_F(RunTool, MusclesThatAreNotExcludedCountInInverseDynamics) {
       "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><final_time>0.59</final_time>"
       "<coordinates_file>motion.mot</coordinates_file><AnalysisSet><objects>"
       "<MuscleAnalysis name=\"MuscleAnalysis\"/></objects></AnalysisSet></AnalyzeTool>");
-  const Eigen::VectorXd moment =
-      read("a_MuscleAnalysis_Moment_elbow_flexion.sto").column(arm_.muscles[0].name);
+  const Eigen::VectorXd moment = read("a_MuscleAnalysis_Moment_elbow_flexion.sto").column(arm_.muscles[0].name);
   EXPECT_GT(moment.cwiseAbs().maxCoeff(), 0.1);
   EXPECT_LT((difference - moment).cwiseAbs().maxCoeff(), 1e-7);  // eight decimals
 }
@@ -172,11 +166,9 @@ TEST_F(RunTool, ASetUpWithoutItsFilesIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THROW((void)run("<InverseKinematicsTool name=\"x\"><model_file>none.osim</model_file>"
                          "<marker_file>m.trc</marker_file></InverseKinematicsTool>"),
                InvalidInput);
-  EXPECT_THROW((void)run("<AnalyzeTool name=\"x\"><model_file>arm.osim</model_file></AnalyzeTool>"),
-               InvalidInput);
+  EXPECT_THROW((void)run("<AnalyzeTool name=\"x\"><model_file>arm.osim</model_file></AnalyzeTool>"), InvalidInput);
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
-    files += entry.is_regular_file();
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) files += entry.is_regular_file();
   EXPECT_EQ(files, 2);  // the model and the set-up
 }
 

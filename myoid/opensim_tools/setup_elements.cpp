@@ -18,15 +18,14 @@ using Names = std::vector<std::string>;
 std::map<std::string, std::string, std::less<>> make_elements() {
   const std::string set = "objects groups defaults";
   const std::string folders = "results_directory input_directory ";
-  const std::string run =
-      folders +
-      "model_file replace_force_set replace_actuator_set force_set_files actuator_set_files "
-      "output_precision initial_time final_time solve_for_equilibrium_for_auxiliary_states "
-      "maximum_number_of_integrator_steps maximum_integrator_step_size "
-      "minimum_integrator_step_size integrator_error_tolerance integrator_fine_tolerance "
-      "AnalysisSet ControllerSet controls_file states_file pseudo_states_file external_loads_file "
-      "external_loads_model_kinematics_file external_loads_body1 external_loads_body2 "
-      "body1_linear_velocity_file lowpass_cutoff_frequency_for_load_kinematics ";
+  const std::string run = folders +
+                          "model_file replace_force_set replace_actuator_set force_set_files actuator_set_files "
+                          "output_precision initial_time final_time solve_for_equilibrium_for_auxiliary_states "
+                          "maximum_number_of_integrator_steps maximum_integrator_step_size "
+                          "minimum_integrator_step_size integrator_error_tolerance integrator_fine_tolerance "
+                          "AnalysisSet ControllerSet controls_file states_file pseudo_states_file external_loads_file "
+                          "external_loads_model_kinematics_file external_loads_body1 external_loads_body2 "
+                          "body1_linear_velocity_file lowpass_cutoff_frequency_for_load_kinematics ";
   const std::string fit = folders +
                           "model_file constraint_weight accuracy time_range output_motion_file "
                           "report_errors report_marker_locations ";
@@ -40,31 +39,24 @@ std::map<std::string, std::string, std::less<>> make_elements() {
   return {
       {"InverseKinematicsTool", marker_fit},
       {"IKTool", marker_fit},
-      {"InverseDynamicsTool",
-       folders + "model_file time_range forces_to_exclude external_loads_file coordinates_file "
-                 "lowpass_cutoff_frequency_for_coordinates output_gen_force_file "
-                 "joints_to_report_body_forces output_body_forces_file"},
-      {"AnalyzeTool",
-       run + "coordinates_file speeds_file lowpass_cutoff_frequency_for_coordinates print_level"},
+      {"InverseDynamicsTool", folders + "model_file time_range forces_to_exclude external_loads_file coordinates_file "
+                                        "lowpass_cutoff_frequency_for_coordinates output_gen_force_file "
+                                        "joints_to_report_body_forces output_body_forces_file"},
+      {"AnalyzeTool", run + "coordinates_file speeds_file lowpass_cutoff_frequency_for_coordinates print_level"},
       {"ForwardTool", run + "use_specified_dt"},
-      {"ScaleTool",
-       folders +
-           "mass height age notes GenericModelMaker ModelScaler MarkerPlacer use_model_marker_set"},
-      {"IMUPlacer", folders +
-                        "model_file base_imu_label base_heading_axis sensor_to_opensim_rotations "
-                        "orientation_file_for_calibration output_model_file"},
-      {"IMUInverseKinematicsTool",
-       fit + "sensor_to_opensim_rotations orientations_file orientation_weights "
-             "OrientationWeightSet"},
+      {"ScaleTool", folders + "mass height age notes GenericModelMaker ModelScaler MarkerPlacer use_model_marker_set"},
+      {"IMUPlacer", folders + "model_file base_imu_label base_heading_axis sensor_to_opensim_rotations "
+                              "orientation_file_for_calibration output_model_file"},
+      {"IMUInverseKinematicsTool", fit + "sensor_to_opensim_rotations orientations_file orientation_weights "
+                                         "OrientationWeightSet"},
       {"orientation_weights", set + " OrientationWeightSet"},
       {"OrientationWeightSet", set},
       {"OrientationWeight", "weight"},
       {"GenericModelMaker", "model_file marker_set_file"},
       {"ModelScaler", files + "apply scaling_order MeasurementSet ScaleSet marker_file time_range "
                               "preserve_mass_distribution"},
-      {"MarkerPlacer",
-       files + "apply IKTaskSet marker_file coordinate_file time_range max_marker_movement "
-               "optimizer_algorithm"},
+      {"MarkerPlacer", files + "apply IKTaskSet marker_file coordinate_file time_range max_marker_movement "
+                               "optimizer_algorithm"},
       {"MeasurementSet", set},
       {"Measurement", "apply MarkerPairSet BodyScaleSet"},
       {"MarkerPairSet", set},
@@ -82,10 +74,9 @@ std::map<std::string, std::string, std::less<>> make_elements() {
       {"BodyKinematics", analysis + "bodies express_results_in_body_local_frame"},
       {"PointKinematics", analysis + "body_name relative_to_body_name point_name point"},
       {"MuscleAnalysis", analysis + "muscle_list moment_arm_coordinate_list compute_moments"},
-      {"StaticOptimization",
-       analysis +
-           "use_model_force_set use_model_actuator_set activation_exponent use_muscle_physiology "
-           "optimizer_convergence_criterion optimizer_max_iterations optimizer_algorithm"},
+      {"StaticOptimization", analysis +
+                                 "use_model_force_set use_model_actuator_set activation_exponent use_muscle_physiology "
+                                 "optimizer_convergence_criterion optimizer_max_iterations optimizer_algorithm"},
       {"JointReaction", analysis + "forces_file joint_names apply_on_bodies express_in_frame"},
       {"InverseDynamics", analysis + "use_model_force_set use_model_actuator_set"},
       {"ForceReporter", analysis + "include_constraint_forces"},
@@ -99,8 +90,7 @@ const Names* elements_of(std::string_view class_name) {
   static const auto kElements = [] {
     std::map<std::string, Names, std::less<>> elements;
     for (const auto& [name, text] : make_elements()) {
-      for (const std::string_view word : recording::split_words(text))
-        elements[name].emplace_back(word);
+      for (const std::string_view word : recording::split_words(text)) elements[name].emplace_back(word);
     }
     return elements;
   }();
@@ -116,8 +106,7 @@ class UnknownElements {
     const Names* known = elements_of(parent.name());
     for (const pugi::xml_node child : parent.children()) {
       if (child.type() != pugi::node_element) continue;
-      if (known != nullptr &&
-          std::find(known->begin(), known->end(), child.name()) == known->end()) {
+      if (known != nullptr && std::find(known->begin(), known->end(), child.name()) == known->end()) {
         tell(child, *known);
       } else if (known != nullptr || std::string_view(parent.name()) == "objects") {
         look_into(child);

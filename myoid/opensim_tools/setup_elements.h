@@ -9,11 +9,9 @@
 
 namespace myoid {
 
-/// Returns a sentence for each element in `tool`, at any depth, that OpenSim's class of its parent
-/// lacks, with its line and the class's nearest name. OpenSim ignores such an element without a
-/// message, and the default of a misspelt setting stays in force. Elements of unlisted classes, as
-/// in a ControllerSet, are not checked.
-[[nodiscard]] std::vector<std::string> unknown_elements(const model::OsimXml& xml,
-                                                        pugi::xml_node tool);
+/// Returns a sentence for each element in `tool`, at any depth, that OpenSim's class of its parent lacks, with its line
+/// and the class's nearest name. OpenSim ignores such an element without a message, and the default of a misspelt
+/// setting stays in force. Elements of unlisted classes, as in a ControllerSet, are not checked.
+[[nodiscard]] std::vector<std::string> unknown_elements(const model::OsimXml& xml, pugi::xml_node tool);
 
 }  // namespace myoid

@@ -29,28 +29,27 @@ std::vector<std::string> told(const std::string& text) {
 }
 
 TEST(UnknownElements, AreToldWithLineAndNearestName) {
-  EXPECT_THAT(told("<OpenSimDocument>\n<AnalyzeTool name=\"t\">\n<model_file>m.osim</model_file>\n"
-                   "<!-- a remark -->\n<final_tiem>2</final_tiem>\n<AnalysisSet>\n<objects>\n"
-                   "<StaticOptimization name=\"s\">\n<activaton_exponent>3</activaton_exponent>\n"
-                   "</StaticOptimization>\n</objects>\n</AnalysisSet>\n<colour/>\n</AnalyzeTool>\n"
-                   "</OpenSimDocument>\n"),
-              ElementsAre(AllOf(HasSubstr("line 5: <AnalyzeTool> has no element <final_tiem>"),
-                                HasSubstr("did you mean <final_time>?")),
-                          AllOf(HasSubstr("line 9: <StaticOptimization>"),
-                                HasSubstr("did you mean <activation_exponent>?")),
-                          AllOf(HasSubstr("line 13: <AnalyzeTool> has no element <colour>;"))));
+  EXPECT_THAT(
+      told("<OpenSimDocument>\n<AnalyzeTool name=\"t\">\n<model_file>m.osim</model_file>\n"
+           "<!-- a remark -->\n<final_tiem>2</final_tiem>\n<AnalysisSet>\n<objects>\n"
+           "<StaticOptimization name=\"s\">\n<activaton_exponent>3</activaton_exponent>\n"
+           "</StaticOptimization>\n</objects>\n</AnalysisSet>\n<colour/>\n</AnalyzeTool>\n"
+           "</OpenSimDocument>\n"),
+      ElementsAre(AllOf(HasSubstr("line 5: <AnalyzeTool> has no element <final_tiem>"),
+                        HasSubstr("did you mean <final_time>?")),
+                  AllOf(HasSubstr("line 9: <StaticOptimization>"), HasSubstr("did you mean <activation_exponent>?")),
+                  AllOf(HasSubstr("line 13: <AnalyzeTool> has no element <colour>;"))));
 }
 
 TEST(UnknownElements, AreFoundInTasksAndMeasurements) {
-  EXPECT_THAT(
-      told("<OpenSimDocument><ScaleTool><ModelScaler><MeasurementSet><object/><objects>"
-           "<Measurement><apply>true</apply><MarkerPairSet><objects><MarkerPair><marker>A B"
-           "</marker></MarkerPair></objects></MarkerPairSet></Measurement></objects>"
-           "</MeasurementSet></ModelScaler><MarkerPlacer><IKTaskSet><objects><IKMarkerTask>"
-           "<wieght>2</wieght></IKMarkerTask></objects></IKTaskSet></MarkerPlacer></ScaleTool>"
-           "</OpenSimDocument>"),
-      ElementsAre(HasSubstr("did you mean <objects>?"), HasSubstr("did you mean <markers>?"),
-                  HasSubstr("did you mean <weight>?")));
+  EXPECT_THAT(told("<OpenSimDocument><ScaleTool><ModelScaler><MeasurementSet><object/><objects>"
+                   "<Measurement><apply>true</apply><MarkerPairSet><objects><MarkerPair><marker>A B"
+                   "</marker></MarkerPair></objects></MarkerPairSet></Measurement></objects>"
+                   "</MeasurementSet></ModelScaler><MarkerPlacer><IKTaskSet><objects><IKMarkerTask>"
+                   "<wieght>2</wieght></IKMarkerTask></objects></IKTaskSet></MarkerPlacer></ScaleTool>"
+                   "</OpenSimDocument>"),
+              ElementsAre(HasSubstr("did you mean <objects>?"), HasSubstr("did you mean <markers>?"),
+                          HasSubstr("did you mean <weight>?")));
 }
 
 // Controllers hold functions and controls, whose elements are not listed.
@@ -85,8 +84,7 @@ TEST(UnknownElements, AreNoneInSetUpsThatOpenSimWrote) {
     if (text.find("Tool name=") == std::string::npos) continue;
     const model::OsimXml xml(text, entry.path(), model::OsimXml::Root::any);
     ++setups;
-    EXPECT_THAT(unknown_elements(xml, model::OsimXml::first_element(xml.root(), {"defaults"})),
-                IsEmpty())
+    EXPECT_THAT(unknown_elements(xml, model::OsimXml::first_element(xml.root(), {"defaults"})), IsEmpty())
         << entry.path();
   }
   EXPECT_GT(setups, 50);

@@ -12,8 +12,7 @@ namespace {
 // welded on, 1 m below it.
 constexpr double kBob_kg = 2.0, kBob_m = 0.5, kTip_kg = 1.0, kTip_m = 1.0, kInertia_kgm2 = 0.03;
 constexpr double kMoment_kgm = kBob_kg * kBob_m + kTip_kg * kTip_m;
-constexpr double kAbout_hinge_kgm2 =
-    kBob_kg * kBob_m * kBob_m + kTip_kg * kTip_m * kTip_m + 2.0 * kInertia_kgm2;
+constexpr double kAbout_hinge_kgm2 = kBob_kg * kBob_m * kBob_m + kTip_kg * kTip_m * kTip_m + 2.0 * kInertia_kgm2;
 
 class ToolAccelerations : public test::ToolFolder {
  protected:
@@ -34,10 +33,8 @@ class ToolAccelerations : public test::ToolFolder {
               "</PinJoint><WeldJoint name=\"weld\"><socket_parent_frame>/bodyset/bob"
               "</socket_parent_frame><socket_child_frame>/bodyset/tip</socket_child_frame>"
               "</WeldJoint></objects></JointSet><ForceSet><objects>" +
-              motor("weak", 1.0) + motor("strong", 3.0) +
-              "</objects></ForceSet></Model></OpenSimDocument>");
-    std::string text =
-        "Coordinates\nversion=1\nnRows=60\nnColumns=2\ninDegrees=no\nendheader\ntime\tswing\n";
+              motor("weak", 1.0) + motor("strong", 3.0) + "</objects></ForceSet></Model></OpenSimDocument>");
+    std::string text = "Coordinates\nversion=1\nnRows=60\nnColumns=2\ninDegrees=no\nendheader\ntime\tswing\n";
     for (int i = 0; i < 60; ++i) text += fmt::format("{}\t{}\n", 0.01 * i, swing(0.01 * i));
     write("motion.mot", text);
   }
@@ -65,13 +62,11 @@ class ToolAccelerations : public test::ToolFolder {
     std::vector<Swing> rows;
     for (Eigen::Index i = 0; i < q.sample_count(); ++i) {
       const double angle = q.values()(i, 0);
-      rows.push_back({angle, u.values()(i, 0),
-                      -kStandardGravity * kMoment_kgm * std::sin(angle) / kAbout_hinge_kgm2});
+      rows.push_back({angle, u.values()(i, 0), -kStandardGravity * kMoment_kgm * std::sin(angle) / kAbout_hinge_kgm2});
     }
     return rows;
   }
-  static constexpr const char* kKinematics =
-      "<Kinematics name=\"k\"><in_degrees>false</in_degrees></Kinematics>";
+  static constexpr const char* kKinematics = "<Kinematics name=\"k\"><in_degrees>false</in_degrees></Kinematics>";
 };
 
 // Eight decimals in the files, times the lengths and rates of the pendulum (below 30).
@@ -83,24 +78,21 @@ TEST_F(ToolAccelerations, AreThoseOfAFreePendulum) {
   const auto rows = swings();
   ASSERT_EQ(rows.size(), 60U);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    EXPECT_NEAR(acceleration.values()(static_cast<Eigen::Index>(i), 0), rows[i].acceleration,
-                kDecimals);
-  EXPECT_THAT(result.notes,
-              ::testing::Contains(::testing::HasSubstr("differ from the motion's second")));
+    EXPECT_NEAR(acceleration.values()(static_cast<Eigen::Index>(i), 0), rows[i].acceleration, kDecimals);
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("differ from the motion's second")));
   std::ignore = analyze("<Kinematics name=\"k\"/>");
   EXPECT_NEAR(kDegree * read("a_k_dudt.sto").values()(7, 0), rows[7].acceleration, kDecimals);
 }
 
 TEST_F(ToolAccelerations, MoveBodiesPointsAndTheWholeBody) {
-  std::ignore =
-      analyze(std::string(kKinematics) +
-              "<BodyKinematics name=\"b\"><in_degrees>false</in_degrees></BodyKinematics>"
-              "<BodyKinematics name=\"own\"><bodies>tip center_of_mass</bodies><in_degrees>false"
-              "</in_degrees><express_results_in_body_local_frame>true"
-              "</express_results_in_body_local_frame></BodyKinematics>"
-              "<PointKinematics name=\"p\"><body_name>tip</body_name><relative_to_body_name>bob"
-              "</relative_to_body_name><point_name>end</point_name><point>0 -1 0</point>"
-              "</PointKinematics>");
+  std::ignore = analyze(std::string(kKinematics) +
+                        "<BodyKinematics name=\"b\"><in_degrees>false</in_degrees></BodyKinematics>"
+                        "<BodyKinematics name=\"own\"><bodies>tip center_of_mass</bodies><in_degrees>false"
+                        "</in_degrees><express_results_in_body_local_frame>true"
+                        "</express_results_in_body_local_frame></BodyKinematics>"
+                        "<PointKinematics name=\"p\"><body_name>tip</body_name><relative_to_body_name>bob"
+                        "</relative_to_body_name><point_name>end</point_name><point>0 -1 0</point>"
+                        "</PointKinematics>");
   const TimeSeries body = read("a_b_acc_global.sto"), own = read("a_own_acc_bodyLocal.sto");
   const TimeSeries end = read("a_p_end_acc.sto");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a_own_pos_global.sto"));
@@ -110,12 +102,9 @@ TEST_F(ToolAccelerations, MoveBodiesPointsAndTheWholeBody) {
     const auto i = static_cast<Eigen::Index>(k);
     const auto [q, u, acceleration] = rows[k];
     const Vec3 across(std::cos(q), std::sin(q), 0.0), inward(-std::sin(q), std::cos(q), 0.0);
-    const auto at_radius = [&](double r) {
-      return Vec3(r * (acceleration * across + u * u * inward));
-    };
+    const auto at_radius = [&](double r) { return Vec3(r * (acceleration * across + u * u * inward)); };
     const auto three = [&](const TimeSeries& table, const std::string& name) {
-      return Vec3(table.column(name + "_X")[i], table.column(name + "_Y")[i],
-                  table.column(name + "_Z")[i]);
+      return Vec3(table.column(name + "_X")[i], table.column(name + "_Y")[i], table.column(name + "_Z")[i]);
     };
     EXPECT_LT((three(body, "bob") - at_radius(kBob_m)).norm(), kDecimals);
     EXPECT_LT((three(body, "tip") - at_radius(kTip_m)).norm(), kDecimals);
@@ -138,8 +127,7 @@ TEST_F(ToolAccelerations, InverseDynamicsSharesTheMomentOfTheMotion) {
   const TimeSeries one = read("a_one.sto"), own = read("a_own.sto");
   for (Eigen::Index i = 15; i < 45; ++i) {
     const double t = one.time_s()[i], q = swing(t);
-    const double moment = -20.0 * std::sin(5.0 * t) * kAbout_hinge_kgm2 +
-                          kStandardGravity * kMoment_kgm * std::sin(q);
+    const double moment = -20.0 * std::sin(5.0 * t) * kAbout_hinge_kgm2 + kStandardGravity * kMoment_kgm * std::sin(q);
     // The quintic spline's second derivative of a sine of 5 rad/s at 100 Hz, away from the ends.
     EXPECT_NEAR(one.column("swing_moment")[i], moment, 1e-3);
     EXPECT_NEAR(own.column("weak")[i], 0.1 * one.column("swing_moment")[i], kDecimals);
@@ -163,18 +151,17 @@ TEST_F(ToolAccelerations, CountTheControlsOfActuators) {
   write("controls.sto",
         "c\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\t/forceset/strong\n"
         "0\t2\n1\t2\n");
-  std::ignore = run(
-      "<AnalyzeTool name=\"a\"><model_file>pendulum.osim</model_file><initial_time>0</initial_time>"
-      "<final_time>0.59</final_time><coordinates_file>motion.mot</coordinates_file><ControllerSet>"
-      "<objects><ControlSetController><controls_file>controls.sto</controls_file>"
-      "</ControlSetController></objects></ControllerSet><AnalysisSet><objects>" +
-      std::string(kKinematics) + "<Actuation name=\"act\"/></objects></AnalysisSet></AnalyzeTool>");
+  std::ignore =
+      run("<AnalyzeTool name=\"a\"><model_file>pendulum.osim</model_file><initial_time>0</initial_time>"
+          "<final_time>0.59</final_time><coordinates_file>motion.mot</coordinates_file><ControllerSet>"
+          "<objects><ControlSetController><controls_file>controls.sto</controls_file>"
+          "</ControlSetController></objects></ControllerSet><AnalysisSet><objects>" +
+          std::string(kKinematics) + "<Actuation name=\"act\"/></objects></AnalysisSet></AnalyzeTool>");
   const TimeSeries acceleration = read("a_k_dudt.sto"), power = read("a_act_power.sto");
   const auto rows = swings();
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    EXPECT_NEAR(acceleration.values()(i, 0), rows[k].acceleration + 6.0 / kAbout_hinge_kgm2,
-                kDecimals);
+    EXPECT_NEAR(acceleration.values()(i, 0), rows[k].acceleration + 6.0 / kAbout_hinge_kgm2, kDecimals);
     EXPECT_NEAR(power.column("strong")[i], 6.0 * rows[k].u, kDecimals);
     EXPECT_EQ(power.column("weak")[i], 0.0);
   }
@@ -191,9 +178,9 @@ TEST_F(ToolAccelerations, AreLeftOutWithWordsWhereNothingHasMass) {
   const ToolResult result = analyze(kKinematics);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a_k_q.sto"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a_k_dudt.sto"));
-  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(
-                                ::testing::HasSubstr("'swing'"),
-                                ::testing::HasSubstr("accelerations are not written"))));
+  EXPECT_THAT(result.notes,
+              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("'swing'"),
+                                                   ::testing::HasSubstr("accelerations are not written"))));
 }
 
 }  // namespace

@@ -39,23 +39,20 @@ std::vector<Channel> channels_of(const model::BodyModel& model, int order) {
   return channels;
 }
 
-/// Forms positions, speeds and accelerations as OpenSim does: given speeds, or derivatives of the
-/// spline through the positions; accelerations are derivatives of the spline through the speeds, or
-/// zero if no analysis uses them.
+/// Forms positions, speeds and accelerations as OpenSim does: given speeds, or derivatives of the spline through the
+/// positions; accelerations are derivatives of the spline through the speeds, or zero if no analysis uses them.
 kinematics::JointMotion motion_of(const model::BodyModel& model,
                                   TimeSeries q,
                                   std::optional<TimeSeries> speeds,
                                   bool with_accelerations) {
   TimeSeries u = speeds ? std::move(*speeds) : derivative(q, channels_of(model, 1));
-  TimeSeries udot = with_accelerations
-                        ? derivative(u, channels_of(model, 2))
-                        : TimeSeries(u.time_s(), channels_of(model, 2),
-                                     Eigen::MatrixXd::Zero(u.sample_count(), u.channel_count()));
+  TimeSeries udot = with_accelerations ? derivative(u, channels_of(model, 2))
+                                       : TimeSeries(u.time_s(), channels_of(model, 2),
+                                                    Eigen::MatrixXd::Zero(u.sample_count(), u.channel_count()));
   return {std::move(q), std::move(u), std::move(udot)};
 }
 
-/// Reads the motion. The range is compared with the times of the file, for a filter adds times at
-/// both ends.
+/// Reads the motion. The range is compared with the times of the file, for a filter adds times at both ends.
 kinematics::JointMotion read_motion(AnalysisRun& run,
                                     const OpensimSetup& setup,
                                     std::pair<double, double> range_s,
@@ -71,8 +68,7 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     setup.check_range(range_s, q.time_s(), *states, notes);
     read_muscle_states(run, *states);
-    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes),
-                     with_accelerations);
+    return motion_of(run.model, std::move(q), read_speeds(run.model, *states, false, notes), with_accelerations);
   }
   const auto path = setup.file(tool, "coordinates_file");
   if (!path) {
@@ -102,8 +98,7 @@ TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>
   return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
 }
 
-/// Returns the rows that an analysis records: the first, every row whose number the interval
-/// divides, the last.
+/// Returns the rows that an analysis records: the first, every row whose number the interval divides, the last.
 std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = first; i <= last; ++i) {
@@ -120,21 +115,17 @@ void read_loads(AnalysisRun& run, const OpensimSetup& setup) {
   notes.insert(notes.end(), run.loads->notes.begin(), run.loads->notes.end());
 }
 
-/// Throws ReadError for an unknown class: the user would not notice the missing files of a misspelt
-/// analysis.
+/// Throws ReadError for an unknown class: the user would not notice the missing files of a misspelt analysis.
 void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
   static const std::vector<std::string> kOfOpensim{
-      "Actuation",       "BodyKinematics",       "ForceReporter",
-      "IMUDataReporter", "InducedAccelerations", "InverseDynamics",
-      "JointReaction",   "Kinematics",           "MomentArmAnalysis",
-      "MuscleAnalysis",  "OutputReporter",       "PointKinematics",
-      "ProbeReporter",   "StatesReporter",       "StaticOptimization"};
+      "Actuation",       "BodyKinematics",  "ForceReporter", "IMUDataReporter",   "InducedAccelerations",
+      "InverseDynamics", "JointReaction",   "Kinematics",    "MomentArmAnalysis", "MuscleAnalysis",
+      "OutputReporter",  "PointKinematics", "ProbeReporter", "StatesReporter",    "StaticOptimization"};
   const std::string kind = node.name();
   if (std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end()) return;
   const auto near = recording::nearest_word(kind, kOfOpensim);
   xml.fail(node, fmt::format("OpenSim has no analysis <{}>{}; there are {}", kind,
-                             near ? fmt::format(" (did you mean {}?)", *near) : "",
-                             fmt::join(kOfOpensim, ", ")));
+                             near ? fmt::format(" (did you mean {}?)", *near) : "", fmt::join(kOfOpensim, ", ")));
 }
 
 }  // namespace
@@ -158,9 +149,8 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) {
       require_opensim_analysis(xml, node);
-      result.notes.push_back(
-          fmt::format("analysis {} is not supported: its files are not written; {} are",
-                      node.name(), known_analyses()));
+      result.notes.push_back(fmt::format("analysis {} is not supported: its files are not written; {} are", node.name(),
+                                         known_analyses()));
     }
   }
   read_loads(run, setup);
@@ -179,16 +169,14 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   const Eigen::VectorXd& times = all.q.time_s();
   const Eigen::Index first = row_at(times, start_s), last = row_at(times, end_s);
   if (run.loads) {
-    note_missing_loads(*run.loads, *setup.file(tool, "external_loads_file"),
-                       times.segment(first, last - first + 1), result.notes);
+    note_missing_loads(*run.loads, *setup.file(tool, "external_loads_file"), times.segment(first, last - first + 1),
+                       result.notes);
   }
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) continue;
-    const auto rows =
-        recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
+    const auto rows = recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
     if (rows != run.rows) {
-      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows),
-                    chosen_rows(all.qddot, rows)};
+      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows), chosen_rows(all.qddot, rows)};
       run.rows = rows;
       run.state_forces.reset();
       run.accelerations.reset();

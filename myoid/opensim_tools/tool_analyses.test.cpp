@@ -32,15 +32,13 @@ TEST_F(ToolAnalyses, AnalysesShareAMotion) {
           "/path|length</output_paths></OutputReporter><InducedAccelerations name=\"ia\"/>"
           "</objects></AnalysisSet></AnalyzeTool>");
   EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("InducedAccelerations")));
-  for (const char* name :
-       {"r/a_MuscleAnalysis_Length.sto", "r/a_MuscleAnalysis_MomentArm_elbow_flexion.sto",
-        "r/a_StaticOptimization_activation.sto", "r/a_StaticOptimization_force.sto",
-        "r/a_StaticOptimization_controls.xml", "r/a_Kinematics_q.sto", "r/a_Outputs.sto"})
+  for (const char* name : {"r/a_MuscleAnalysis_Length.sto", "r/a_MuscleAnalysis_MomentArm_elbow_flexion.sto",
+                           "r/a_StaticOptimization_activation.sto", "r/a_StaticOptimization_force.sto",
+                           "r/a_StaticOptimization_controls.xml", "r/a_Kinematics_q.sto", "r/a_Outputs.sto"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
   const TimeSeries activation = read("r/a_StaticOptimization_activation.sto");
   EXPECT_EQ(activation.sample_count(), 21);
-  EXPECT_EQ(activation.channel_count(),
-            static_cast<Eigen::Index>(arm_.muscles.size() + arm_.coordinates.size()));
+  EXPECT_EQ(activation.channel_count(), static_cast<Eigen::Index>(arm_.muscles.size() + arm_.coordinates.size()));
   EXPECT_EQ(result.frames_failed, 0) << result.summary;
   const Eigen::VectorXd length = read("r/a_MuscleAnalysis_Length.sto").column(arm_.muscles[0].name);
   EXPECT_LT((length - read("r/a_Outputs.sto").values().col(0)).cwiseAbs().maxCoeff(), 1e-8);
@@ -63,13 +61,13 @@ TEST_F(ToolAnalyses, JointReactionCarriesWhatForcesOfStaticOptimizationMake) {
            analysis + "</objects></AnalysisSet></AnalyzeTool>";
   };
   (void)run(tool("<StaticOptimization name=\"so\"/><Kinematics name=\"k\"/>"));
-  const ToolResult result = run(tool(
-      "<JointReaction name=\"jr\"><forces_file>a_so_force.sto</forces_file><joint_names>All"
-      "</joint_names><apply_on_bodies>child</apply_on_bodies><express_in_frame>ground"
-      "</express_in_frame></JointReaction>"
-      "<JointReaction name=\"up\"><forces_file>a_so_force.sto</forces_file><joint_names>shoulder"
-      "</joint_names><apply_on_bodies>parent</apply_on_bodies><express_in_frame>child"
-      "</express_in_frame></JointReaction>"));
+  const ToolResult result =
+      run(tool("<JointReaction name=\"jr\"><forces_file>a_so_force.sto</forces_file><joint_names>All"
+               "</joint_names><apply_on_bodies>child</apply_on_bodies><express_in_frame>ground"
+               "</express_in_frame></JointReaction>"
+               "<JointReaction name=\"up\"><forces_file>a_so_force.sto</forces_file><joint_names>shoulder"
+               "</joint_names><apply_on_bodies>parent</apply_on_bodies><express_in_frame>child"
+               "</express_in_frame></JointReaction>"));
   const TimeSeries loads = read("a_jr_ReactionLoads.sto");
   ASSERT_EQ(loads.sample_count(), 21);
   EXPECT_EQ(loads.channel_count(), static_cast<Eigen::Index>(9 * arm_.joints.size()));
@@ -89,13 +87,11 @@ TEST_F(ToolAnalyses, JointReactionCarriesWhatForcesOfStaticOptimizationMake) {
   };
   for (Eigen::Index i = 5; i < 16; ++i) {
     const double frame = static_cast<double>(i) + 10.0;
-    const Vec3 inertia = (momentum_center(frame + 0.1) - 2.0 * momentum_center(frame) +
-                          momentum_center(frame - 0.1)) /
-                         (0.001 * 0.001);
+    const Vec3 inertia =
+        (momentum_center(frame + 0.1) - 2.0 * momentum_center(frame) + momentum_center(frame - 0.1)) / (0.001 * 0.001);
     const Vec3 expected = inertia - mass_kg * arm_.gravity_G;
     for (Eigen::Index k = 0; k < 3; ++k) {
-      const std::string column =
-          arm_.joints[0].name + "_on_" + arm_.bodies[1].name + "_in_ground_f" + "xyz"[k];
+      const std::string column = arm_.joints[0].name + "_on_" + arm_.bodies[1].name + "_in_ground_f" + "xyz"[k];
       // The spline through 40 samples misses the sine's second derivative by 1e-4 of 5 rad/s^2 at
       // these places; 1 kg m of it.
       EXPECT_NEAR(loads.column(column)[i], expected[k], 2e-3) << column;
@@ -153,10 +149,10 @@ TEST_F(ToolAnalyses, BodiesAreReportedByTheirCentersOfMass) {
   EXPECT_NEAR(place.column(body + "_X")[12], center.x(), 1e-8);
   EXPECT_NEAR(place.column(body + "_Y")[12], center.y(), 1e-8);
   // Speeds are the rates of the places: central differences over 20 ms of a slow swing.
-  EXPECT_NEAR(speed.column(body + "_X")[12],
-              (place.column(body + "_X")[13] - place.column(body + "_X")[11]) / 0.02, 0.02);
-  EXPECT_NEAR(speed.column(body + "_Oz")[12],
-              (place.column(body + "_Oz")[13] - place.column(body + "_Oz")[11]) / 0.02, 1.0);
+  EXPECT_NEAR(speed.column(body + "_X")[12], (place.column(body + "_X")[13] - place.column(body + "_X")[11]) / 0.02,
+              0.02);
+  EXPECT_NEAR(speed.column(body + "_Oz")[12], (place.column(body + "_Oz")[13] - place.column(body + "_Oz")[11]) / 0.02,
+              1.0);
 }
 
 // A muscle that is not left out pulls with its default activation at its default fiber length: the

@@ -21,8 +21,7 @@ using simulation::Signal;
 using simulation::SimulationModel;
 using simulation::SimulationStart;
 
-/// Returns the row of a states file that the motion starts from: posture, speeds, activations and
-/// fibers.
+/// Returns the row of a states file that the motion starts from: posture, speeds, activations and fibers.
 SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double& start_s) {
   auto& notes = run.result.notes;
   const auto path = run.setup.file(run.setup.tool(), "states_file");
@@ -54,8 +53,7 @@ SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double&
   return start;
 }
 
-/// Returns the control of every muscle, clamped to its bounds as in OpenSim; a muscle without
-/// control rests.
+/// Returns the control of every muscle, clamped to its bounds as in OpenSim; a muscle without control rests.
 std::vector<Signal> excitations_of(const SimulationModel& model,
                                    const ModelControls& controls,
                                    std::vector<std::string>& notes) {
@@ -74,21 +72,18 @@ std::vector<Signal> excitations_of(const SimulationModel& model,
     for (double& value : signal.value) value = std::clamp(value, least, 1.0);
     result.push_back(std::move(signal));
   }
-  if (!without.empty())
-    notes.push_back(fmt::format("no control for {}: at their least activation", without));
+  if (!without.empty()) notes.push_back(fmt::format("no control for {}: at their least activation", without));
   return result;
 }
 
 /// Returns the sum of controls times strengths, at the nodes of all.
 Signal sum_of(const std::vector<std::pair<double, const Signal*>>& parts) {
   std::set<double> times;
-  for (const auto& [strength, signal] : parts)
-    times.insert(signal->time_s.begin(), signal->time_s.end());
+  for (const auto& [strength, signal] : parts) times.insert(signal->time_s.begin(), signal->time_s.end());
   Signal sum;
   for (const double t : times) {
     double value = 0.0;
-    for (const auto& [strength, signal] : parts)
-      value += strength * simulation::value_at(*signal, t);
+    for (const auto& [strength, signal] : parts) value += strength * simulation::value_at(*signal, t);
     sum.time_s.push_back(t);
     sum.value.push_back(value);
   }
@@ -107,11 +102,10 @@ std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
     if (a.kind != forces::Actuator::Kind::coordinate) {
       const auto& values = control->second.value;
       if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; })) continue;
-      setup.xml().fail(
-          setup.tool(),
-          fmt::format("actuator '{}' acts on bodies and is controlled: such forces are not part of "
-                      "forward dynamics here; muscles and CoordinateActuators are",
-                      a.name));
+      setup.xml().fail(setup.tool(),
+                       fmt::format("actuator '{}' acts on bodies and is controlled: such forces are not part of "
+                                   "forward dynamics here; muscles and CoordinateActuators are",
+                                   a.name));
     }
     const model::CoordinateActuator& actuator = model.actuators[a.index];
     parts[at(actuator.coordinate)].emplace_back(actuator.optimal_force, &control->second);
@@ -119,8 +113,7 @@ std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
   }
   std::vector<Signal> result;
   if (!any) return result;
-  for (const auto& part : parts)
-    result.push_back(part.empty() ? simulation::constant(0.0) : sum_of(part));
+  for (const auto& part : parts) result.push_back(part.empty() ? simulation::constant(0.0) : sum_of(part));
   return result;
 }
 
@@ -128,8 +121,7 @@ std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
 TimeSeries states_table(const SimulationModel& model, const simulation::Simulation& s) {
   ColumnTable table;
   for (const model::Coordinate& c : model.body.coordinates) {
-    const std::string path =
-        fmt::format("/jointset/{}/{}/", model.body.joints[at(c.joint)].name, c.name);
+    const std::string path = fmt::format("/jointset/{}/{}/", model.body.joints[at(c.joint)].name, c.name);
     const bool turns = c.motion == model::MotionType::rotational;
     const Unit unit = turns ? Unit::radian : Unit::dimensionless;
     table.add(path + "value", unit, s.motion.column(c.name));
@@ -151,8 +143,7 @@ TimeSeries controls_table(const model::BodyModel& model,
   for (const forces::Actuator& actuator : forces::actuators_of(model)) {
     Eigen::VectorXd values = Eigen::VectorXd::Zero(times.size());
     if (const auto control = controls.find(actuator.name); control != controls.end()) {
-      for (Eigen::Index i = 0; i < times.size(); ++i)
-        values[i] = simulation::value_at(control->second, times[i]);
+      for (Eigen::Index i = 0; i < times.size(); ++i) values[i] = simulation::value_at(control->second, times[i]);
     }
     table.add(actuator.name, Unit::dimensionless, std::move(values));
   }
@@ -197,22 +188,19 @@ void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResu
   simulation::SimulationOptions how;
   how.end_s = xml.number(tool, "final_time", 1.0);
   if (!(how.end_s > start_s)) {
-    xml.fail(tool, fmt::format("<final_time> {} s, expected after the start at {} s", how.end_s,
-                               start_s));
+    xml.fail(tool, fmt::format("<final_time> {} s, expected after the start at {} s", how.end_s, start_s));
   }
   how.ode.relative_tolerance = std::min(1e-8, xml.number(tool, "integrator_error_tolerance", 1e-5));
   how.ode.absolute_tolerance = 0.01 * how.ode.relative_tolerance;
   how.progress = options.progress;
-  const simulation::Simulation done =
-      simulation::simulate(model,
-                           {.excitation = excitations_of(model, controls, result.notes),
-                            .external = coordinate_forces(setup, run.model, controls),
-                            .device = simulation::default_devices(model)},
-                           start, how);
+  const simulation::Simulation done = simulation::simulate(model,
+                                                           {.excitation = excitations_of(model, controls, result.notes),
+                                                            .external = coordinate_forces(setup, run.model, controls),
+                                                            .device = simulation::default_devices(model)},
+                                                           start, how);
   const TimeSeries states = states_table(model, done);
   write_opensim_storage(states_file, states, {.title = "states", .decimals = run.decimals});
-  write_opensim_storage(degrees_file, states,
-                        {.title = setup.name(), .in_degrees = true, .decimals = run.decimals});
+  write_opensim_storage(degrees_file, states, {.title = setup.name(), .in_degrees = true, .decimals = run.decimals});
   write_opensim_storage(controls_file, controls_table(run.model, controls, done),
                         {.title = "ModelControls", .decimals = run.decimals});
   result.frames = static_cast<int>(states.sample_count());

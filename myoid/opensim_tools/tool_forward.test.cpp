@@ -21,8 +21,8 @@ class ToolForward : public test::ToolFolder {
            "</controls_file></ControlSetController></objects></ControllerSet>";
   }
   [[nodiscard]] static std::string tool(const std::string& model, const std::string& more) {
-    return "<ForwardTool name=\"f\"><model_file>" + model +
-           "</model_file><results_directory>r</results_directory>" + more + "</ForwardTool>";
+    return "<ForwardTool name=\"f\"><model_file>" + model + "</model_file><results_directory>r</results_directory>" +
+           more + "</ForwardTool>";
   }
   /// A cart of 2 kg on a rail along x, and a wheel on it about z; a motor on each.
   void write_cart() const {
@@ -47,12 +47,10 @@ class ToolForward : public test::ToolFolder {
           name, coordinate, strength);
     };
     write("cart.osim",
-          "<OpenSimDocument Version=\"40000\"><Model name=\"cart\"><BodySet><objects>" +
-              body("cart") + body("wheel") + "</objects></BodySet><JointSet><objects>" +
-              joint("SliderJoint", "rail", "/ground", "cart", "x") +
-              joint("PinJoint", "axle", "/bodyset/cart", "wheel", "turn") +
-              "</objects></JointSet><ForceSet><objects>" + motor("push", "x", 4.0) +
-              motor("spin", "turn", 0.5) +
+          "<OpenSimDocument Version=\"40000\"><Model name=\"cart\"><BodySet><objects>" + body("cart") + body("wheel") +
+              "</objects></BodySet><JointSet><objects>" + joint("SliderJoint", "rail", "/ground", "cart", "x") +
+              joint("PinJoint", "axle", "/bodyset/cart", "wheel", "turn") + "</objects></JointSet><ForceSet><objects>" +
+              motor("push", "x", 4.0) + motor("spin", "turn", 0.5) +
               "<TorqueActuator name=\"twist\"><bodyA>wheel</bodyA><bodyB>ground</bodyB>"
               "</TorqueActuator></objects></ForceSet></Model></OpenSimDocument>");
     write("start.sto",
@@ -72,11 +70,10 @@ TEST_F(ToolForward, MovesACartAsNewtonSays) {
         "<ControlLinearNode><t>2</t><value>2</value></ControlLinearNode></x_nodes></ControlLinear>"
         "<ControlConstant name=\"spin.excitation\"><value>0.5</value></ControlConstant></objects>"
         "</ControlSet></OpenSimDocument>");
-  const ToolResult result =
-      run(tool("cart.osim",
-               "<states_file>start.sto</states_file><initial_time>0.25</initial_time>"
-               "<final_time>1.2</final_time><output_precision>12</output_precision>" +
-                   controller("controls.xml")));
+  const ToolResult result = run(tool("cart.osim",
+                                     "<states_file>start.sto</states_file><initial_time>0.25</initial_time>"
+                                     "<final_time>1.2</final_time><output_precision>12</output_precision>" +
+                                         controller("controls.xml")));
   EXPECT_EQ(result.frames_failed, 0) << result.summary;
   const TimeSeries states = read("r/f_states.sto"), degrees = read("r/f_states_degrees.mot"),
                    controls = read("r/f_controls.sto");
@@ -101,9 +98,8 @@ TEST_F(ToolForward, MovesACartAsNewtonSays) {
 // Two ways to the same accelerations: rates of the speeds that the integration of muscles and
 // bodies leaves, and the forward dynamics of an AnalyzeTool at those states.
 TEST_F(ToolForward, AgreesWithTheAccelerationsOfItsStates) {
-  std::string controls =
-      "controls\nversion=1\nnRows=2\nnColumns=" + std::to_string(arm_.muscles.size() + 1) +
-      "\ninDegrees=no\nendheader\ntime";
+  std::string controls = "controls\nversion=1\nnRows=2\nnColumns=" + std::to_string(arm_.muscles.size() + 1) +
+                         "\ninDegrees=no\nendheader\ntime";
   std::string first = "\n0", second = "\n1";
   for (std::size_t m = 0; m < arm_.muscles.size(); ++m) {
     controls += "\t/forceset/" + arm_.muscles[m].name;
@@ -111,24 +107,21 @@ TEST_F(ToolForward, AgreesWithTheAccelerationsOfItsStates) {
     second += fmt::format("\t{}", 0.3 - 0.05 * static_cast<double>(m));
   }
   write("controls.sto", controls + first + second + "\n");
-  const ToolResult result =
-      run(tool("arm.osim",
-               "<final_time>0.3</final_time><output_precision>14</output_precision>"
-               "<solve_for_equilibrium_for_auxiliary_states>true"
-               "</solve_for_equilibrium_for_auxiliary_states>" +
-                   controller("controls.sto")));
+  const ToolResult result = run(tool("arm.osim",
+                                     "<final_time>0.3</final_time><output_precision>14</output_precision>"
+                                     "<solve_for_equilibrium_for_auxiliary_states>true"
+                                     "</solve_for_equilibrium_for_auxiliary_states>" +
+                                         controller("controls.sto")));
   EXPECT_EQ(result.frames_failed, 0) << result.summary;
-  std::ignore = run(
-      "<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><states_file>r/f_states.sto"
-      "</states_file><initial_time>0</initial_time><final_time>0.3</final_time><output_precision>12"
-      "</output_precision><AnalysisSet><objects><Kinematics name=\"k\"><in_degrees>false"
-      "</in_degrees></Kinematics></objects></AnalysisSet></AnalyzeTool>");
+  std::ignore =
+      run("<AnalyzeTool name=\"a\"><model_file>arm.osim</model_file><states_file>r/f_states.sto"
+          "</states_file><initial_time>0</initial_time><final_time>0.3</final_time><output_precision>12"
+          "</output_precision><AnalysisSet><objects><Kinematics name=\"k\"><in_degrees>false"
+          "</in_degrees></Kinematics></objects></AnalysisSet></AnalyzeTool>");
   const TimeSeries states = read("r/f_states.sto"), rates = read("a_k_dudt.sto");
   const std::string joint =
-      arm_
-          .joints[static_cast<std::size_t>(
-              arm_.coordinates[static_cast<std::size_t>(arm_.coordinate_index("elbow_flexion"))]
-                  .joint)]
+      arm_.joints[static_cast<std::size_t>(
+                      arm_.coordinates[static_cast<std::size_t>(arm_.coordinate_index("elbow_flexion"))].joint)]
           .name;
   const Eigen::VectorXd speed = states.column("/jointset/" + joint + "/elbow_flexion/speed");
   const Eigen::VectorXd rate = rates.column("elbow_flexion");
@@ -136,8 +129,7 @@ TEST_F(ToolForward, AgreesWithTheAccelerationsOfItsStates) {
   double greatest = 0.0;
   const double step_s = states.time_s()[1] - states.time_s()[0];
   for (Eigen::Index i = 20; i + 2 < speed.size(); ++i) {
-    const double difference =
-        (8.0 * (speed[i + 1] - speed[i - 1]) - speed[i + 2] + speed[i - 2]) / (12.0 * step_s);
+    const double difference = (8.0 * (speed[i + 1] - speed[i - 1]) - speed[i + 2] + speed[i - 2]) / (12.0 * step_s);
     greatest = std::max(greatest, std::abs(rate[i]));
     // Truncation h^4 / 30 of the fifth derivative of a speed that changes within 10 ms.
     EXPECT_NEAR(rate[i], difference, 1e-5 * greatest + 1e-4) << i;
@@ -156,14 +148,12 @@ TEST_F(ToolForward, RefusesWithWordsWhatItCannot) {
     return std::string("nothing");
   };
   using ::testing::HasSubstr;
-  EXPECT_THAT(message("<external_loads_file>loads.xml</external_loads_file>"),
-              HasSubstr("loads on bodies"));
+  EXPECT_THAT(message("<external_loads_file>loads.xml</external_loads_file>"), HasSubstr("loads on bodies"));
   EXPECT_THAT(message("<ControllerSet><objects><CorrectionController name=\"k\"/></objects>"
                       "</ControllerSet>"),
               HasSubstr("CorrectionController"));
   EXPECT_THAT(message("<final_time>0</final_time>"), HasSubstr("<final_time>"));
-  write("controls.sto",
-        "c\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\ttwist\n0\t0\n1\t1\n");
+  write("controls.sto", "c\nversion=1\nnRows=2\nnColumns=2\ninDegrees=no\nendheader\ntime\ttwist\n0\t0\n1\t1\n");
   EXPECT_THAT(message(controller("controls.sto")), HasSubstr("'twist' acts on bodies"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "r/f_states.sto"));
 }

@@ -27,8 +27,7 @@ TimeSeries without_muscles(const model::BodyModel& model,
   forces::MuscleAnalysisOptions options{.equilibrium = false, .progress = progress};
   for (std::size_t m = 0; m < model.muscles.size(); ++m)
     if (model.muscles[m].applies_force) options.muscles.push_back(static_cast<int>(m));
-  for (std::size_t c = 0; c < model.coordinates.size(); ++c)
-    options.coordinates.push_back(static_cast<int>(c));
+  for (std::size_t c = 0; c < model.coordinates.size(); ++c) options.coordinates.push_back(static_cast<int>(c));
   if (options.muscles.empty()) return tau;
   Eigen::MatrixXd values = tau.values();
   const forces::MuscleAnalysis analysis = forces::muscle_analysis(uncoupled, motion, options);
@@ -60,12 +59,12 @@ void note_angular_speeds(const model::BodyModel& model,
     const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
     names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", joint.name, joint.class_name);
   }
-  notes.push_back(fmt::format(
-      "joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
-      "difference is {:.3g} {}, {} at {:.4g} s",
-      names, as_opensim ? "so does this result, --compat exact does not" : "this result does not",
-      largest, tau.channels()[static_cast<std::size_t>(column)].unit == Unit::newton ? "N" : "N m",
-      tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
+  notes.push_back(
+      fmt::format("joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
+                  "difference is {:.3g} {}, {} at {:.4g} s",
+                  names, as_opensim ? "so does this result, --compat exact does not" : "this result does not", largest,
+                  tau.channels()[static_cast<std::size_t>(column)].unit == Unit::newton ? "N" : "N m",
+                  tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
 }
 
 /// Returns the file of the result. As in OpenSim a folder in its name does not count, and the
@@ -86,9 +85,7 @@ std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::str
 
 }  // namespace
 
-void run_inverse_dynamics(const OpensimSetup& setup,
-                          const ToolOptions& options,
-                          ToolResult& result) {
+void run_inverse_dynamics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
   const auto out = force_file(setup, result.notes);
@@ -96,19 +93,17 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   const auto excluded = xml.words(tool, "forces_to_exclude");
   const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
   if (!model.muscles.empty()) {
-    result.notes.push_back(
-        options.compat.class_fiber_length
-            ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
-              "default activations and fiber lengths (0.1 m where the model gives none)"
-            : "forces_to_exclude does not name the muscles: they pull with their default "
-              "activations and fiber lengths (optimal ones where the model gives none; OpenSim "
-              "takes 0.1 m)");
+    result.notes.push_back(options.compat.class_fiber_length
+                               ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
+                                 "default activations and fiber lengths (0.1 m where the model gives none)"
+                               : "forces_to_exclude does not name the muscles: they pull with their default "
+                                 "activations and fiber lengths (optimal ones where the model gives none; OpenSim "
+                                 "takes 0.1 m)");
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
     result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
   const auto motion_file = setup.required_file(tool, "coordinates_file");
-  TimeSeries q =
-      read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
+  TimeSeries q = read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
   const auto [start_s, end_s] = setup.time_range(tool, "time_range");
   setup.check_range({start_s, end_s}, q.time_s(), motion_file, result.notes);
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
@@ -116,8 +111,7 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
   const Eigen::Index first = row_at(motion.q.time_s(), start_s);
   const Eigen::Index last = row_at(motion.q.time_s(), end_s);
-  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last),
-            rows_of(motion.qddot, first, last)};
+  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last), rows_of(motion.qddot, first, last)};
   dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
   dynamics::ExternalLoads loads;
   if (const auto file = setup.file(tool, "external_loads_file")) {
@@ -133,8 +127,7 @@ void run_inverse_dynamics(const OpensimSetup& setup,
   std::vector<std::string> columns;
   for (const model::Joint& joint : model.joints) {
     for (const int c : joint.coordinates)
-      columns.push_back(
-          dynamics::generalized_force_name(model.coordinates[static_cast<std::size_t>(c)]));
+      columns.push_back(dynamics::generalized_force_name(model.coordinates[static_cast<std::size_t>(c)]));
   }
   write_opensim_storage(out, tau.select(columns), {.title = "Inverse Dynamics Generalized Forces"});
   result.frames = static_cast<int>(tau.sample_count());

@@ -31,8 +31,7 @@ recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, 
   return markers;
 }
 
-/// Returns the element with the task: the tool itself or, in documents before 20300, the first
-/// trial of its set.
+/// Returns the element with the task: the tool itself or, in documents before 20300, the first trial of its set.
 pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& notes) {
   pugi::xml_node trial = setup.tool();
   int count = 0;
@@ -40,8 +39,7 @@ pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& not
     if (std::string_view(node.name()) != "IKTrial") continue;
     if (count++ == 0) trial = node;
   }
-  if (count > 1)
-    notes.push_back(fmt::format("of the {} trials the first is solved, as in OpenSim", count));
+  if (count > 1) notes.push_back(fmt::format("of the {} trials the first is solved, as in OpenSim", count));
   return trial;
 }
 
@@ -50,10 +48,7 @@ struct IkFiles {
   std::optional<std::filesystem::path> motion, errors, locations;
 };
 
-IkFiles claimed_files(const OpensimSetup& setup,
-                      pugi::xml_node trial,
-                      const ToolOptions& options,
-                      ToolResult& result) {
+IkFiles claimed_files(const OpensimSetup& setup, pugi::xml_node trial, const ToolOptions& options, ToolResult& result) {
   const auto report = [&](const char* flag, bool otherwise, const char* ending) {
     return setup.xml().flag(setup.tool(), flag, otherwise)
                ? std::optional(setup.results_folder() / (setup.name() + ending))
@@ -64,29 +59,22 @@ IkFiles claimed_files(const OpensimSetup& setup,
                       report("report_marker_locations", false, "_ik_model_marker_locations.sto")};
   for (const auto& file : {files.motion, files.errors, files.locations})
     if (file) claim_file(options, *file, result);
-  if (!files.motion)
-    result.notes.push_back("the set-up has no <output_motion_file>: no motion is written");
+  if (!files.motion) result.notes.push_back("the set-up has no <output_motion_file>: no motion is written");
   return files;
 }
 
-void write_files(const IkFiles& files,
-                 const model::BodyModel& model,
-                 const kinematics::IkResult& solved) {
+void write_files(const IkFiles& files, const model::BodyModel& model, const kinematics::IkResult& solved) {
   if (files.motion) {
     write_opensim_storage(*files.motion, with_file_units(model, solved.q),
-                          {.title = "Coordinates",
-                           .in_degrees = true,
-                           .description = std::string("\n") + kUnitsNote});
+                          {.title = "Coordinates", .in_degrees = true, .description = std::string("\n") + kUnitsNote});
   }
   if (files.errors) {
-    write_opensim_storage(
-        *files.errors,
-        solved.errors.select({"total_squared_error", "marker_error_RMS", "marker_error_max"}),
-        {.title = "Model Marker Errors from IK"});
+    write_opensim_storage(*files.errors,
+                          solved.errors.select({"total_squared_error", "marker_error_RMS", "marker_error_max"}),
+                          {.title = "Model Marker Errors from IK"});
   }
   if (files.locations) {
-    write_opensim_storage(*files.locations, solved.marker_locations,
-                          {.title = "Model Marker Locations from IK"});
+    write_opensim_storage(*files.locations, solved.marker_locations, {.title = "Model Marker Locations from IK"});
   }
 }
 
@@ -94,20 +82,16 @@ void write_files(const IkFiles& files,
 void note_unsolved(const kinematics::IkResult& solved, std::vector<std::string>& notes) {
   for (std::size_t i = 0; i < solved.status.size(); ++i) {
     if (solved.status[i] == kinematics::FrameStatus::not_converged)
-      notes.push_back(fmt::format("no converged solution at {} s",
-                                  solved.q.time_s()[static_cast<Eigen::Index>(i)]));
+      notes.push_back(fmt::format("no converged solution at {} s", solved.q.time_s()[static_cast<Eigen::Index>(i)]));
   }
   if (!solved.undetermined.empty()) {
-    notes.push_back(
-        fmt::format("not determined by the markers: {}", fmt::join(solved.undetermined, ", ")));
+    notes.push_back(fmt::format("not determined by the markers: {}", fmt::join(solved.undetermined, ", ")));
   }
 }
 
 }  // namespace
 
-void run_inverse_kinematics(const OpensimSetup& setup,
-                            const ToolOptions& options,
-                            ToolResult& result) {
+void run_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
   const auto trial = trial_of(setup, result.notes);
   const IkFiles files = claimed_files(setup, trial, options, result);
   const model::BodyModel model = setup_model(setup, options.compat, {}, result.notes);
@@ -117,15 +101,13 @@ void run_inverse_kinematics(const OpensimSetup& setup,
     result.notes.push_back(recording::to_string(marker_path, repair));
   const auto range_s = setup.time_range(trial, "time_range");
   setup.check_range(range_s, file.markers.time_s, marker_path, result.notes);
-  const recording::MarkerSeries markers =
-      within(std::move(file.markers), range_s.first, range_s.second);
+  const recording::MarkerSeries markers = within(std::move(file.markers), range_s.first, range_s.second);
 
   kinematics::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, result.notes);
   ik.progress = options.progress;
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
-  if (!ik.only_named_markers)
-    result.notes.insert(result.notes.end(), solved.notes.begin(), solved.notes.end());
+  if (!ik.only_named_markers) result.notes.insert(result.notes.end(), solved.notes.begin(), solved.notes.end());
   write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
@@ -133,10 +115,9 @@ void run_inverse_kinematics(const OpensimSetup& setup,
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;
-  result.summary = fmt::format(
-      "{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}",
-      result.frames, solved.frames_not_converged, solved.frames_without_markers,
-      1000.0 * misfit.rms_m, misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
+  result.summary = fmt::format("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}",
+                               result.frames, solved.frames_not_converged, solved.frames_without_markers,
+                               1000.0 * misfit.rms_m, misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
 }
 
 }  // namespace myoid

@@ -29,8 +29,7 @@ using recording::OrientationSeries;
 /// Returns the rotation about the axes of ground, x first: R = Rz Ry Rx.
 Mat3 sensor_to_ground(const OpensimSetup& setup) {
   const Vec3 angles = setup.xml().vec3(setup.tool(), "sensor_to_opensim_rotations", Vec3::Zero());
-  return (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
-          Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
+  return (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
           Eigen::AngleAxisd(angles.x(), Vec3::UnitX()))
       .toRotationMatrix();
 }
@@ -62,11 +61,9 @@ OrientationSeries rows_between(const OrientationSeries& series,
 }
 
 /// Reads orientations; adds the repairs of the reader to `notes`.
-OrientationSeries orientations_of(const std::filesystem::path& path,
-                                  std::vector<std::string>& notes) {
+OrientationSeries orientations_of(const std::filesystem::path& path, std::vector<std::string>& notes) {
   OrientationSeries series = recording::read_orientations(path);
-  for (const recording::Repair& repair : series.repairs)
-    notes.push_back(recording::to_string(path, repair));
+  for (const recording::Repair& repair : series.repairs) notes.push_back(recording::to_string(path, repair));
   return series;
 }
 
@@ -74,9 +71,8 @@ OrientationSeries orientations_of(const std::filesystem::path& path,
 Vec3 heading_axis(const OpensimSetup& setup, const std::string& name) {
   const char letter = name.empty() ? ' ' : static_cast<char>(name.back() | 0x20);
   if (letter < 'x' || letter > 'z') {
-    setup.xml().fail(
-        setup.tool(),
-        fmt::format("<base_heading_axis>: expected x, -x, y, -y, z or -z, found '{}'", name));
+    setup.xml().fail(setup.tool(),
+                     fmt::format("<base_heading_axis>: expected x, -x, y, -y, z or -z, found '{}'", name));
   }
   return (name.front() == '-' ? -1.0 : 1.0) * Vec3::Unit(letter - 'x');
 }
@@ -98,24 +94,22 @@ Mat3 heading_correction(const OpensimSetup& setup,
   }
   const model::Joint* base = nullptr;
   for (const model::Joint& joint : model.joints) {
-    if (joint.parent == 0 && (base == nullptr || joint.place_in_file < base->place_in_file))
-      base = &joint;
+    if (joint.parent == 0 && (base == nullptr || joint.place_in_file < base->place_in_file)) base = &joint;
   }
   if (base == nullptr) setup.xml().fail(setup.tool(), "no body of the model stands on ground");
-  const Vec3 heading = series.rotation(0, static_cast<std::size_t>(place - series.names.begin())) *
-                       heading_axis(setup, axis);
+  const Vec3 heading =
+      series.rotation(0, static_cast<std::size_t>(place - series.names.begin())) * heading_axis(setup, axis);
   const Vec3 forward = state.X_GB[at(base->child)].R.col(0);
   double angle = std::acos(std::clamp(heading.dot(forward), -1.0, 1.0));
   if (forward.cross(heading).y() > 0.0) angle = -angle;
   return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
 }
 
-std::vector<model::SensorPlace> place_sensors(
-    const model::BodyModel& model,
-    const model::BodyState& state,
-    const OrientationSeries& series,
-    const std::map<std::string, model::NamedFrame>& frames,
-    std::vector<std::string>& notes) {
+std::vector<model::SensorPlace> place_sensors(const model::BodyModel& model,
+                                              const model::BodyState& state,
+                                              const OrientationSeries& series,
+                                              const std::map<std::string, model::NamedFrame>& frames,
+                                              std::vector<std::string>& notes) {
   std::vector<model::SensorPlace> places;
   for (std::size_t k = 0; k < series.names.size(); ++k) {
     const std::string& name = series.names[k];
@@ -124,16 +118,14 @@ std::vector<model::SensorPlace> place_sensors(
     const Mat3 R = series.rotation(0, k);
     if (frame == frames.end() || !R.allFinite()) {
       notes.push_back(fmt::format("sensor '{}' is not placed: {}", name,
-                                  frame == frames.end()
-                                      ? "expected the name of a body or frame and '_imu'"
-                                      : "its first orientation is not known"));
+                                  frame == frames.end() ? "expected the name of a body or frame and '_imu'"
+                                                        : "its first orientation is not known"));
       continue;
     }
     const int body = *model.find_body(frame->second.body);
     const Mat3 R_GF = state.X_GB[at(body)].R * frame->second.X_BF.R;
     const bool on_body = frame->second.path.ends_with("/" + frame->second.body);
-    places.push_back({name, frame->second,
-                      on_body ? model.bodies[at(body)].p_BBcm_B : Vec3(Vec3::Zero()),
+    places.push_back({name, frame->second, on_body ? model.bodies[at(body)].p_BBcm_B : Vec3(Vec3::Zero()),
                       Mat3(R_GF.transpose() * R).eulerAngles(0, 1, 2)});
   }
   return places;
@@ -154,8 +146,7 @@ Sensors sensors_of(const OpensimSetup& setup,
   if (const auto inner = set.child("OrientationWeightSet")) set = inner;
   for (const auto node : model::OsimXml::objects(set)) {
     const double weight = setup.xml().number(node, "weight", 1.0);
-    if (!(weight >= 0.0))
-      setup.xml().fail(node, fmt::format("<weight> {}, expected 0 or more", weight));
+    if (!(weight >= 0.0)) setup.xml().fail(node, fmt::format("<weight> {}, expected 0 or more", weight));
     weights[model::OsimXml::name_of(node)] = weight;
   }
   Sensors sensors;
@@ -175,25 +166,22 @@ Sensors sensors_of(const OpensimSetup& setup,
 /// Returns the file that OpenSim's tool writes: the name of <output_motion_file> (or
 /// "ik_<orientations>") in the results folder or, without one, in the folder of
 /// <output_motion_file>.
-std::filesystem::path motion_file(const OpensimSetup& setup,
-                                  const std::filesystem::path& orientations) {
+std::filesystem::path motion_file(const OpensimSetup& setup, const std::filesystem::path& orientations) {
   const auto wanted = setup.output_file(setup.tool(), "output_motion_file");
   std::filesystem::path folder = setup.results_folder();
-  if (!setup.output_file(setup.tool(), "results_directory") && wanted)
-    folder = wanted->parent_path();
-  const std::string name =
-      wanted ? wanted->filename().string() : "ik_" + orientations.stem().string();
+  if (!setup.output_file(setup.tool(), "results_directory") && wanted) folder = wanted->parent_path();
+  const std::string name = wanted ? wanted->filename().string() : "ik_" + orientations.stem().string();
   return folder / (name.find('.') == std::string::npos ? name + ".mot" : name);
 }
 
 void note_fit(const kinematics::OrientationFit& fit, std::vector<std::string>& notes) {
   if (!fit.undetermined.empty()) {
-    notes.push_back(fmt::format("the sensors do not determine {}; they stay where they are",
-                                fmt::join(fit.undetermined, ", ")));
+    notes.push_back(
+        fmt::format("the sensors do not determine {}; they stay where they are", fmt::join(fit.undetermined, ", ")));
   }
   if (fit.frames_without_sensors > 0) {
-    notes.push_back(fmt::format("{} frames without any orientation keep the pose of the one before",
-                                fit.frames_without_sensors));
+    notes.push_back(
+        fmt::format("{} frames without any orientation keep the pose of the one before", fit.frames_without_sensors));
   }
 }
 
@@ -203,47 +191,39 @@ void run_imu_placer(const OpensimSetup& setup, const ToolOptions& options, ToolR
   const auto tool = setup.tool();
   const auto model_path = setup.required_file(tool, "model_file");
   const auto named = setup.output_file(tool, "output_model_file");
-  if (!named)
-    setup.xml().fail(tool, "<output_model_file> expected: a file's name, relative to this set-up");
+  if (!named) setup.xml().fail(tool, "<output_model_file> expected: a file's name, relative to this set-up");
   const std::filesystem::path& out = *named;
   claim_file(options, out, result);
   const std::string old_text = recording::read_text_file(model_path);
   const model::UpdatedOsim updated =
       model::updated_osim(old_text, model_path, {.six_digits = options.compat.six_digit_offsets});
   result.notes.insert(result.notes.end(), updated.notes.begin(), updated.notes.end());
-  const model::BodyModel model =
-      model::parse_osim(updated.text, model_path, {.compat = options.compat});
+  const model::BodyModel model = model::parse_osim(updated.text, model_path, {.compat = options.compat});
   const auto orientations = setup.required_file(tool, "orientation_file_for_calibration");
-  OrientationSeries series =
-      turned(orientations_of(orientations, result.notes), sensor_to_ground(setup));
+  OrientationSeries series = turned(orientations_of(orientations, result.notes), sensor_to_ground(setup));
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
   series = turned(std::move(series), heading_correction(setup, model, state, series));
-  const auto places = place_sensors(model, state, series,
-                                    model::named_frames(updated.text, model_path), result.notes);
+  const auto places = place_sensors(model, state, series, model::named_frames(updated.text, model_path), result.notes);
   if (places.empty()) {
     setup.xml().fail(tool, fmt::format("{}: no sensor is named after a body or frame of the model "
                                        "and '_imu' (as pelvis_imu); there are {}",
                                        orientations.string(), fmt::join(series.names, ", ")));
   }
   recording::write_file(out, model::with_sensors(updated.text, model_path, places));
-  result.summary = fmt::format("{} sensors placed by their orientations at {} s", places.size(),
-                               series.time_s[0]);
+  result.summary = fmt::format("{} sensors placed by their orientations at {} s", places.size(), series.time_s[0]);
   result.frames = 1;
 }
 
-void run_imu_inverse_kinematics(const OpensimSetup& setup,
-                                const ToolOptions& options,
-                                ToolResult& result) {
+void run_imu_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
   const auto tool = setup.tool();
   auto& notes = result.notes;
   const auto path = setup.required_file(tool, "orientations_file");
   const auto motion_path = motion_file(setup, path);
   auto errors_path = motion_path;
   const auto wanted = setup.output_file(tool, "output_motion_file");
-  errors_path.replace_filename(
-      (wanted ? wanted->filename().string() : motion_path.stem().string()) +
-      "_orientationErrors.sto");
+  errors_path.replace_filename((wanted ? wanted->filename().string() : motion_path.stem().string()) +
+                               "_orientationErrors.sto");
   const bool report_errors = setup.xml().flag(tool, "report_errors", true);
   claim_file(options, motion_path, result);
   if (report_errors) claim_file(options, errors_path, result);
@@ -253,8 +233,8 @@ void run_imu_inverse_kinematics(const OpensimSetup& setup,
   setup.check_range(range_s, series.time_s, path, notes);
   series = turned(rows_between(series, range_s, setup), sensor_to_ground(setup));
   const auto model_path = setup.required_file(tool, "model_file");
-  const Sensors sensors = sensors_of(
-      setup, model, series, model::named_frames(recording::read_text_file(model_path), model_path));
+  const Sensors sensors =
+      sensors_of(setup, model, series, model::named_frames(recording::read_text_file(model_path), model_path));
   if (sensors.on_bodies.empty()) {
     setup.xml().fail(tool, fmt::format("{}: the model has no frame of the name of a sensor ({}); "
                                        "run IMUPlacer first",
@@ -267,12 +247,10 @@ void run_imu_inverse_kinematics(const OpensimSetup& setup,
   const kinematics::OrientationFit fit =
       kinematics::fit_orientations(model, series, sensors.on_bodies, options.progress);
   note_fit(fit, notes);
-  write_opensim_storage(
-      motion_path, with_file_units(model, fit.q),
-      {.title = motion_path.filename().string(), .in_degrees = true, .decimals = 12});
+  write_opensim_storage(motion_path, with_file_units(model, fit.q),
+                        {.title = motion_path.filename().string(), .in_degrees = true, .decimals = 12});
   if (report_errors) {
-    write_opensim_storage(errors_path, fit.errors_rad,
-                          {.title = "OrientationErrors", .decimals = 12});
+    write_opensim_storage(errors_path, fit.errors_rad, {.title = "OrientationErrors", .decimals = 12});
   }
   result.frames = static_cast<int>(series.time_s.size());
   result.frames_failed = fit.frames_not_converged;

@@ -33,8 +33,7 @@ class ToolOrientations : public test::ToolFolder {
                           const Eigen::VectorXd& times,
                           const Mat3& R_LG) const {
     std::string text = "DataType=Quaternion\nversion=3\nendheader\ntime";
-    for (std::size_t b = 1; b < model.bodies.size(); ++b)
-      text += "\t" + model.bodies[b].name + "_imu";
+    for (std::size_t b = 1; b < model.bodies.size(); ++b) text += "\t" + model.bodies[b].name + "_imu";
     model::BodyState state = model::make_state(model);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
       text += "\n" + recording::format_number(times[i]);
@@ -146,12 +145,10 @@ TEST_F(ToolOrientations, GiveTheMotionOfPublicModelsBack) {
     const model::BodyModel model = model::read_osim(folder / "model.osim");
     write("model.osim", recording::read_text_file(folder / "model.osim"));
     const Eigen::VectorXd rest = model::assemble(model, model.default_q()).q;
-    write_orientations("calibration.sto", model, rest.transpose(), Eigen::VectorXd::Zero(1),
-                       z_up());
+    write_orientations("calibration.sto", model, rest.transpose(), Eigen::VectorXd::Zero(1), z_up());
     std::ignore = run(place("model.osim", kUp));
     std::vector<std::string> notes;
-    const TimeSeries motion =
-        read_coordinates(model, folder / "smooth.mot", MissingCoordinate::default_value, notes);
+    const TimeSeries motion = read_coordinates(model, folder / "smooth.mot", MissingCoordinate::default_value, notes);
     Eigen::MatrixXd q = motion.values().topRows(40);
     for (Eigen::Index i = 0; i < q.rows(); ++i) {
       Eigen::VectorXd row = q.row(i).transpose();

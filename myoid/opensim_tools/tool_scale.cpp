@@ -29,8 +29,7 @@ model::BodyState default_state(const model::BodyModel& model) {
   return state;
 }
 
-/// Returns the factor of one measurement: the mean over its pairs of measured distance / model
-/// distance.
+/// Returns the factor of one measurement: the mean over its pairs of measured distance / model distance.
 std::optional<double> measured_factor(const Scaling& scaling,
                                       pugi::xml_node measurement,
                                       const model::BodyModel& model,
@@ -48,8 +47,7 @@ std::optional<double> measured_factor(const Scaling& scaling,
   for (const auto pair : OsimXml::objects(measurement.child("MarkerPairSet"))) {
     const auto names = scaling.setup.xml().words(pair, "markers");
     if (names.size() != 2)
-      scaling.setup.xml().fail(
-          pair, fmt::format("<markers>: expected two names, found {}", names.size()));
+      scaling.setup.xml().fail(pair, fmt::format("<markers>: expected two names, found {}", names.size()));
     Vec3 p[2];
     Eigen::Index column[2];
     for (std::size_t k = 0; k < 2; ++k) {
@@ -58,8 +56,7 @@ std::optional<double> measured_factor(const Scaling& scaling,
       const model::Marker& marker = model.markers[at(*in_model)];
       p[k] = state.X_GB[at(marker.body)] * marker.p_BM;
       const auto found = std::find(markers.names.begin(), markers.names.end(), names[k]);
-      if (found == markers.names.end())
-        return refuse(fmt::format("the recording has no marker '{}'", names[k]));
+      if (found == markers.names.end()) return refuse(fmt::format("the recording has no marker '{}'", names[k]));
       column[k] = found - markers.names.begin();
     }
     double distance = 0.0;
@@ -69,11 +66,9 @@ std::optional<double> measured_factor(const Scaling& scaling,
       distance += (markers.position(i, column[1]) - markers.position(i, column[0])).norm();
       ++seen;
     }
-    if (seen == 0)
-      return refuse(fmt::format("'{}' and '{}' are never seen together", names[0], names[1]));
+    if (seen == 0) return refuse(fmt::format("'{}' and '{}' are never seen together", names[0], names[1]));
     const double own = (p[1] - p[0]).norm();
-    if (!(own > 0.0))
-      return refuse(fmt::format("'{}' and '{}' coincide in the model", names[0], names[1]));
+    if (!(own > 0.0)) return refuse(fmt::format("'{}' and '{}' coincide in the model", names[0], names[1]));
     sum += distance / static_cast<double>(seen) / own;
     ++count;
   }
@@ -81,9 +76,7 @@ std::optional<double> measured_factor(const Scaling& scaling,
   return sum / count;
 }
 
-model::OsimEditor::Factors factors_of(const Scaling& scaling,
-                                      pugi::xml_node scaler,
-                                      const model::BodyModel& model) {
+model::OsimEditor::Factors factors_of(const Scaling& scaling, pugi::xml_node scaler, const model::BodyModel& model) {
   const OsimXml& xml = scaling.setup.xml();
   model::OsimEditor::Factors factors;
   for (const model::Body& body : model.bodies) factors[body.name] = Vec3::Ones();
@@ -99,10 +92,9 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
       const model::BodyState state = default_state(model);
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
-        if (!markers)
-          markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
-        const auto factor = measured_factor(scaling, node, model, state, *markers,
-                                            scaling.setup.time_range(scaler, "time_range"));
+        if (!markers) markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
+        const auto factor =
+            measured_factor(scaling, node, model, state, *markers, scaling.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
         for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
           const std::string name = OsimXml::name_of(body);
@@ -122,15 +114,14 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling,
         if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
       }
     } else {
-      xml.fail(
-          scaler.child("scaling_order"),
-          fmt::format("<scaling_order>: expected measurements or manualScale, found '{}'", method));
+      xml.fail(scaler.child("scaling_order"),
+               fmt::format("<scaling_order>: expected measurements or manualScale, found '{}'", method));
     }
   }
   for (const auto& [name, f] : factors) {
     if (!(f.cwiseAbs().minCoeff() > 0.0) || !f.allFinite())
-      xml.fail(scaler, fmt::format("the factors of body '{}' are {} {} {}, expected other than 0",
-                                   name, f[0], f[1], f[2]));
+      xml.fail(scaler,
+               fmt::format("the factors of body '{}' are {} {} {}, expected other than 0", name, f[0], f[1], f[2]));
   }
   return factors;
 }
@@ -158,8 +149,7 @@ void scale(const Scaling& scaling,
   }
 }
 
-std::string scale_set_text(const model::OsimEditor::Factors& factors,
-                           const model::BodyModel& model) {
+std::string scale_set_text(const model::OsimEditor::Factors& factors, const model::BodyModel& model) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40500\">\n"
       "\t<ScaleSet name=\"ScaleSet\">\n\t\t<objects>\n";
@@ -175,18 +165,16 @@ std::string scale_set_text(const model::OsimEditor::Factors& factors,
 
 /// Keeps the scaled model's original beside a result that replaces it, which OpenSim allows too.
 /// Refuses a second run, which would scale a scaled model.
-void keep_model(const std::filesystem::path& file,
-                const std::filesystem::path& model_file,
-                ToolResult& result) {
+void keep_model(const std::filesystem::path& file, const std::filesystem::path& model_file, ToolResult& result) {
   std::error_code ignored;
   if (!std::filesystem::equivalent(file, model_file, ignored)) return;
   auto kept = model_file;
   kept.replace_filename(model_file.stem().string() + "_unscaled" + model_file.extension().string());
   if (std::filesystem::exists(kept, ignored)) {
-    throw InvalidInput(fmt::format(
-        "{} is the result of an earlier run of this set-up, which kept the model as {}; name that "
-        "as <model_file>, or give --model {}",
-        model_file.string(), kept.string(), kept.string()));
+    throw InvalidInput(
+        fmt::format("{} is the result of an earlier run of this set-up, which kept the model as {}; name that "
+                    "as <model_file>, or give --model {}",
+                    model_file.string(), kept.string(), kept.string()));
   }
   recording::write_file(kept, recording::read_text_file(model_file));
   result.notes.push_back(
@@ -227,8 +215,7 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
   model::OsimEditor editor(recording::read_text_file(model_file), model_file);
   if (!setup.name().empty()) editor.set_name(setup.name());
   if (const auto markers = setup.file(maker, "marker_set_file")) editor.add_markers(*markers);
-  const model::BodyModel generic =
-      model::parse_osim(editor.text(), editor.path(), {.compat = options.compat});
+  const model::BodyModel generic = model::parse_osim(editor.text(), editor.path(), {.compat = options.compat});
   for (const std::string& text : generic.unsupported)
     result.notes.push_back(fmt::format("{}: {}", model_file.string(), text));
   if (scales) {
@@ -238,8 +225,7 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
     if (scaled_file) recording::write_file(*scaled_file, editor.text());
   }
   double mass = 0.0;
-  for (const model::Body& body : model::parse_osim(editor.text(), editor.path()).bodies)
-    mass += body.mass_kg;
+  for (const model::Body& body : model::parse_osim(editor.text(), editor.path()).bodies) mass += body.mass_kg;
   result.summary = fmt::format("model of {:.4g} kg", mass);
   if (places) place_markers(scaling, placer, editor);
   if (placed_file) recording::write_file(*placed_file, editor.text());

@@ -71,8 +71,7 @@ TEST_F(ToolScale, AStaticPoseAtTheEndOfARangeIsSaidSo) {
                "</ScaleTool>")
         .notes;
   };
-  const auto said =
-      ::testing::Contains(::testing::HasSubstr("'elbow_flexion' at its limit of 57.3 degrees"));
+  const auto said = ::testing::Contains(::testing::HasSubstr("'elbow_flexion' at its limit of 57.3 degrees"));
   EXPECT_THAT(placed_with_range("0 1"), said);
   std::filesystem::remove(folder_ / "placed.osim");
   EXPECT_THAT(placed_with_range("0 2"), ::testing::Not(said));
@@ -93,8 +92,7 @@ TEST_F(ToolScale, AStaticPoseStaysOffTheEndOfARangeWhereOpenSimsSearchHasABarrie
   std::string text = model::arm4_osim();
   const auto change = [&](const std::string& coordinate, const char* tag, const std::string& to) {
     const std::string open = std::string("<") + tag + ">";
-    const auto at =
-        text.find(open, text.find("Coordinate name=\"" + coordinate + "\"")) + open.size();
+    const auto at = text.find(open, text.find("Coordinate name=\"" + coordinate + "\"")) + open.size();
     text.replace(at, text.find('<', at) - at, to);
   };
   change("elbow_flexion", "range", "0 1");
@@ -149,10 +147,9 @@ TEST_F(ToolScale, AStaticPoseSaysWhatNoMarkerDetermines) {
           tasks +
           "</objects></IKTaskSet><marker_file>m.trc</marker_file><output_model_file>placed.osim"
           "</output_model_file></MarkerPlacer></ScaleTool>");
-  EXPECT_THAT(result.notes,
-              ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
-                                                   ::testing::HasSubstr("elbow_flexion"),
-                                                   ::testing::HasSubstr(forearm))));
+  EXPECT_THAT(result.notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("determines"),
+                                                                 ::testing::HasSubstr("elbow_flexion"),
+                                                                 ::testing::HasSubstr(forearm))));
 }
 
 }  // namespace

@@ -12,22 +12,19 @@ void note_missing_loads(const dynamics::ExternalLoads& loads,
                         std::vector<std::string>& notes) {
   const double first_s = times_s[0], last_s = times_s[times_s.size() - 1];
   if (first_s >= loads.start_s - 1e-3 && last_s <= loads.end_s + 1e-3) return;
-  notes.push_back(fmt::format(
-      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; straight lines "
-      "continue the loads beyond",
-      file.string(), loads.start_s, loads.end_s, first_s, last_s));
+  notes.push_back(
+      fmt::format("{}: the loads are known from {} to {} s, the motion goes from {} to {} s; straight lines "
+                  "continue the loads beyond",
+                  file.string(), loads.start_s, loads.end_s, first_s, last_s));
 }
 
-std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
-    const model::BodyModel& model) {
+std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(const model::BodyModel& model) {
   std::vector<std::pair<std::string, const model::MusclePath*>> paths;
   for (const model::Muscle& m : model.muscles) paths.emplace_back(m.name, &m.path);
   for (const model::PathActuator& a : model.path_actuators) paths.emplace_back(a.name, &a.path);
   for (const model::PassiveForce& f : model.passive_forces) {
-    if (const auto* spring = std::get_if<model::PathSpring>(&f.law))
-      paths.emplace_back(f.name, &spring->path);
-    if (const auto* ligament = std::get_if<model::Ligament>(&f.law))
-      paths.emplace_back(f.name, &ligament->path);
+    if (const auto* spring = std::get_if<model::PathSpring>(&f.law)) paths.emplace_back(f.name, &spring->path);
+    if (const auto* ligament = std::get_if<model::Ligament>(&f.law)) paths.emplace_back(f.name, &ligament->path);
   }
   return paths;
 }
@@ -37,10 +34,10 @@ void claim_file(const ToolOptions& options, const std::filesystem::path& path, T
   const bool exists = std::filesystem::exists(path, ignored);
   for (const std::filesystem::path& input : result.inputs) {
     if (path != input && (!exists || !std::filesystem::equivalent(path, input, ignored))) continue;
-    throw InvalidInput(fmt::format(
-        "{} is read by this set-up and would be replaced by its result; name another file for one "
-        "of them",
-        path.string()));
+    throw InvalidInput(
+        fmt::format("{} is read by this set-up and would be replaced by its result; name another file for one "
+                    "of them",
+                    path.string()));
   }
   if (options.claim) options.claim(path);
   if (exists) ++result.replaced;

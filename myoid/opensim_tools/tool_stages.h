@@ -8,18 +8,13 @@
 namespace myoid {
 
 /// Runs one tool and fills the result. run_tool chooses the function.
-void run_inverse_kinematics(const OpensimSetup& setup,
-                            const ToolOptions& options,
-                            ToolResult& result);
-void run_inverse_dynamics(const OpensimSetup& setup,
-                          const ToolOptions& options,
-                          ToolResult& result);
+void run_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
+void run_inverse_dynamics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
 void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
 void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
 
-/// Returns the marker and coordinate tasks of an element with an <IKTaskSet> (inside, or in a file
-/// that it names) and, for tasks from a file, a <coordinate_file>. Without any marker task every
-/// marker has equal weight.
+/// Returns the marker and coordinate tasks of an element with an <IKTaskSet> (inside, or in a file that it names) and,
+/// for tasks from a file, a <coordinate_file>. Without any marker task every marker has equal weight.
 [[nodiscard]] kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
                                                   pugi::xml_node owner,
                                                   const model::BodyModel& model,
@@ -32,10 +27,8 @@ void note_missing_loads(const dynamics::ExternalLoads& loads,
                         const Eigen::VectorXd& times_s,
                         std::vector<std::string>& notes);
 
-/// Returns every path of the model with the name of its owner: of muscles, path actuators, path
-/// springs and ligaments.
-[[nodiscard]] std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(
-    const model::BodyModel& model);
+/// Returns every path of the model with the name of its owner: of muscles, path actuators, path springs and ligaments.
+[[nodiscard]] std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(const model::BodyModel& model);
 
 /// Asks `claim` and remembers the file.
 void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result);

@@ -67,24 +67,20 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   const auto activation_file = claim_result(run, name + "_activation.sto");
   const auto force_file = claim_result(run, name + "_force.sto");
   const auto controls_file = claim_result(run, name + "_controls.xml");
-  const bool use_forces =
-      xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
+  const bool use_forces = xml.flag(node, "use_model_force_set", xml.flag(node, "use_model_actuator_set", true));
   const model::BodyModel model = use_forces ? run.model : with_coordinate_actuators(run.model);
-  const forces::StaticOptimizationOptions options{
-      .exponent = xml.number(node, "activation_exponent", 2.0),
-      .muscle_physiology = xml.flag(node, "use_muscle_physiology", true),
-      .loads = run.loads ? &*run.loads : nullptr,
-      .progress = run.options.progress,
-      .inspect = run.options.inspect};
+  const forces::StaticOptimizationOptions options{.exponent = xml.number(node, "activation_exponent", 2.0),
+                                                  .muscle_physiology = xml.flag(node, "use_muscle_physiology", true),
+                                                  .loads = run.loads ? &*run.loads : nullptr,
+                                                  .progress = run.options.progress,
+                                                  .inspect = run.options.inspect};
   if (!(options.exponent > 1.0)) {
-    xml.fail(
-        xml.property(node, "activation_exponent"),
-        fmt::format("<activation_exponent> {}, expected above 1: only then are the activations "
-                    "determined",
-                    options.exponent));
+    xml.fail(xml.property(node, "activation_exponent"),
+             fmt::format("<activation_exponent> {}, expected above 1: only then are the activations "
+                         "determined",
+                         options.exponent));
   }
-  const forces::StaticOptimizationResult solved =
-      forces::static_optimization(model, run.motion, options);
+  const forces::StaticOptimizationResult solved = forces::static_optimization(model, run.motion, options);
   notes.insert(notes.end(), solved.notes.begin(), solved.notes.end());
   write_opensim_storage(activation_file, solved.control,
                         {.title = "Static Optimization",
@@ -94,19 +90,18 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   recording::write_file(controls_file, controls_text(solved.control), recording::Flush::later);
   const auto infeasible = std::count(solved.is_feasible.begin(), solved.is_feasible.end(), false);
   if (infeasible > 0) {
-    notes.push_back(fmt::format(
-        "in {} frames, from {} s, muscles and actuators cannot make the accelerations; the "
-        "controls that come nearest are written. Append stronger reserve actuators "
-        "(<force_set_files>)",
-        infeasible,
-        run.motion.q
-            .time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
-                      solved.is_feasible.begin()]));
+    notes.push_back(
+        fmt::format("in {} frames, from {} s, muscles and actuators cannot make the accelerations; the "
+                    "controls that come nearest are written. Append stronger reserve actuators "
+                    "(<force_set_files>)",
+                    infeasible,
+                    run.motion.q.time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
+                                          solved.is_feasible.begin()]));
   }
   run.result.frames_failed = solved.frames_failed;
-  run.result.summary = fmt::format(
-      "{} frames, {} without certificate; largest KKT residual {:.1e}", run.motion.sample_count(),
-      solved.frames_failed, solved.kkt_residual.size() > 0 ? solved.kkt_residual.maxCoeff() : 0.0);
+  run.result.summary =
+      fmt::format("{} frames, {} without certificate; largest KKT residual {:.1e}", run.motion.sample_count(),
+                  solved.frames_failed, solved.kkt_residual.size() > 0 ? solved.kkt_residual.maxCoeff() : 0.0);
 }
 
 }  // namespace myoid

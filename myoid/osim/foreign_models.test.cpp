@@ -28,9 +28,8 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string in_model(const std::string& content, int version = 40000) {
-  return fmt::format(
-      "<OpenSimDocument Version=\"{}\"><Model name=\"m\">{}</Model></OpenSimDocument>", version,
-      content);
+  return fmt::format("<OpenSimDocument Version=\"{}\"><Model name=\"m\">{}</Model></OpenSimDocument>", version,
+                     content);
 }
 
 std::string body(const std::string& name, double mass_kg) {
@@ -46,14 +45,12 @@ std::string pin(const std::string& name,
                 const std::string& coordinate) {
   return "<PinJoint name=\"" + name + "\"><socket_parent_frame>" + parent +
          "</socket_parent_frame><socket_child_frame>" + child +
-         "</socket_child_frame><coordinates><Coordinate name=\"" + coordinate +
-         "\"/></coordinates></PinJoint>";
+         "</socket_child_frame><coordinates><Coordinate name=\"" + coordinate + "\"/></coordinates></PinJoint>";
 }
 
 std::string chain(double end_mass_kg) {
   return in_model("<BodySet><objects>" + body("upper", 2.0) + body("hand", end_mass_kg) +
-                  "</objects></BodySet><JointSet><objects>" +
-                  pin("shoulder", "/ground", "/bodyset/upper", "q1") +
+                  "</objects></BodySet><JointSet><objects>" + pin("shoulder", "/ground", "/bodyset/upper", "q1") +
                   pin("wrist", "/bodyset/upper", "/bodyset/hand", "q2") + "</objects></JointSet>");
 }
 
@@ -82,19 +79,16 @@ std::string digest(const std::string& xml) {
     text.precision(17);
     for (const Marker& marker : m.markers)
       text << (state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM).transpose() << '\n';
-    for (const Body& b : m.bodies)
-      text << b.name << b.mass_kg << b.p_BBcm_B.transpose() << b.I_BBcm_B << '\n';
+    for (const Body& b : m.bodies) text << b.name << b.mass_kg << b.p_BBcm_B.transpose() << b.I_BBcm_B << '\n';
     for (const Coordinate& c : m.coordinates)
-      text << c.name << c.default_value << ' ' << c.lower << ' ' << c.upper << c.clamped
-           << c.locked;
+      text << c.name << c.default_value << ' ' << c.lower << ' ' << c.upper << c.clamped << c.locked;
     PathWorkspace workspace;
     PathResult path;
     for (const Muscle& muscle : m.muscles) {
       const MuscleProperties& p = muscle.properties;
-      for (const double v :
-           {p.max_isometric_force_n, p.optimal_fiber_length_m, p.tendon_slack_length_m,
-            p.pennation_at_optimal_rad, p.max_contraction_velocity, p.min_control, p.max_control,
-            p.default_fiber_length_m, p.activation_time_s, p.concentric_shape})
+      for (const double v : {p.max_isometric_force_n, p.optimal_fiber_length_m, p.tendon_slack_length_m,
+                             p.pennation_at_optimal_rad, p.max_contraction_velocity, p.min_control, p.max_control,
+                             p.default_fiber_length_m, p.activation_time_s, p.concentric_shape})
         text << v << ' ';
       compute_path(m, muscle.path, state, workspace, path);
       text << path.length_m << '\n';
@@ -131,21 +125,20 @@ TEST(ForeignModels, ConnectorsOfBetasNameTheBodiesOfAJoint) {
     return "<Connector_PhysicalFrame_ name=\"" + name + "\"><connectee_name>" + target +
            "</connectee_name></Connector_PhysicalFrame_>";
   };
-  const BodyModel m = parse_osim(
-      in_model(
-          "<BodySet><objects>" + body("rod", 1.0) +
-              "</objects></BodySet><FrameSet><objects><PhysicalOffsetFrame name=\"tip\">"
-              "<connectors>" +
-              connector("parent", "rod") +
-              "</connectors><translation>0 -0.5 0</translation></PhysicalOffsetFrame>"
-              "</objects></FrameSet><JointSet><objects><PinJoint name=\"pin\"><connectors>" +
-              connector("parent_body", "../ground") + connector("child_body", "../rod") +
-              "</connectors><location_in_child>0 0.5 0</location_in_child><CoordinateSet>"
-              "<objects><Coordinate name=\"q\"/></objects></CoordinateSet></PinJoint></objects>"
-              "</JointSet><MarkerSet><objects><Marker name=\"end\"><connectors>" +
-              connector("parent_frame", "tip") + "</connectors></Marker></objects></MarkerSet>",
-          30501),
-      "m.osim");
+  const BodyModel m =
+      parse_osim(in_model("<BodySet><objects>" + body("rod", 1.0) +
+                              "</objects></BodySet><FrameSet><objects><PhysicalOffsetFrame name=\"tip\">"
+                              "<connectors>" +
+                              connector("parent", "rod") +
+                              "</connectors><translation>0 -0.5 0</translation></PhysicalOffsetFrame>"
+                              "</objects></FrameSet><JointSet><objects><PinJoint name=\"pin\"><connectors>" +
+                              connector("parent_body", "../ground") + connector("child_body", "../rod") +
+                              "</connectors><location_in_child>0 0.5 0</location_in_child><CoordinateSet>"
+                              "<objects><Coordinate name=\"q\"/></objects></CoordinateSet></PinJoint></objects>"
+                              "</JointSet><MarkerSet><objects><Marker name=\"end\"><connectors>" +
+                              connector("parent_frame", "tip") + "</connectors></Marker></objects></MarkerSet>",
+                          30501),
+                 "m.osim");
   BodyState state = make_state(m);
   compute_poses(m, Eigen::VectorXd::Zero(1), state);
   const Vec3 end = state.X_GB[1] * m.markers.at(0).p_BM;
@@ -153,18 +146,18 @@ TEST(ForeignModels, ConnectorsOfBetasNameTheBodiesOfAJoint) {
 }
 
 TEST(ForeignModels, BodiesJointsMarkersAndConstraintsMayStandAmongTheComponents) {
-  const std::string text = in_model(
-      "<components>" + body("upper", 2.0) + body("hand", 0.5) +
-          pin("shoulder", "/ground", "/upper", "q1") + pin("wrist", "/upper", "/hand", "q2") +
-          "<Marker name=\"k\"><socket_parent_frame>/hand</socket_parent_frame><location>0 0.1 0"
-          "</location></Marker><CoordinateCouplerConstraint "
-          "name=\"c\"><coupled_coordinates_function>"
-          "<LinearFunction><coefficients>2 0</coefficients></LinearFunction>"
-          "</coupled_coordinates_function><independent_coordinate_names>q1"
-          "</independent_coordinate_names><dependent_coordinate_name>q2</dependent_coordinate_name>"
-          "</CoordinateCouplerConstraint><Bhargava2004SmoothedMuscleMetabolics name=\"cost\"/>"
-          "</components>",
-      40600);
+  const std::string text =
+      in_model("<components>" + body("upper", 2.0) + body("hand", 0.5) + pin("shoulder", "/ground", "/upper", "q1") +
+                   pin("wrist", "/upper", "/hand", "q2") +
+                   "<Marker name=\"k\"><socket_parent_frame>/hand</socket_parent_frame><location>0 0.1 0"
+                   "</location></Marker><CoordinateCouplerConstraint "
+                   "name=\"c\"><coupled_coordinates_function>"
+                   "<LinearFunction><coefficients>2 0</coefficients></LinearFunction>"
+                   "</coupled_coordinates_function><independent_coordinate_names>q1"
+                   "</independent_coordinate_names><dependent_coordinate_name>q2</dependent_coordinate_name>"
+                   "</CoordinateCouplerConstraint><Bhargava2004SmoothedMuscleMetabolics name=\"cost\"/>"
+                   "</components>",
+               40600);
   const BodyModel m = parse_osim(text, "m.osim");
   EXPECT_TRUE(m.muscles.empty());
   ASSERT_EQ(m.couplers.size(), 1U);
@@ -176,10 +169,8 @@ TEST(ForeignModels, BodiesJointsMarkersAndConstraintsMayStandAmongTheComponents)
 
 TEST(ForeignModels, CoordinatesOfOneNameAreToldApartByTheirJoints) {
   const std::string text = in_model(
-      "<BodySet><objects>" + body("upper", 2.0) + body("hand", 0.5) +
-      "</objects></BodySet><JointSet><objects>" +
-      pin("shoulder", "/ground", "/bodyset/upper", "r") +
-      pin("wrist", "/bodyset/upper", "/bodyset/hand", "r") +
+      "<BodySet><objects>" + body("upper", 2.0) + body("hand", 0.5) + "</objects></BodySet><JointSet><objects>" +
+      pin("shoulder", "/ground", "/bodyset/upper", "r") + pin("wrist", "/bodyset/upper", "/bodyset/hand", "r") +
       "</objects></JointSet><ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
       "<coupled_coordinates_function><LinearFunction><coefficients>2 0</coefficients>"
       "</LinearFunction></coupled_coordinates_function><independent_coordinate_names>"
@@ -223,13 +214,11 @@ TEST(ForeignModels, OfTwoForcesWithOneNameTheModelsOwnActs) {
 // default_fiber_length from the class's optimal length, 0.1 m, before the file is read.
 TEST(ForeignModels, WithoutADefaultFiberLengthOpenSimTakesTheClassesTenCentimeters) {
   std::string text = arm4_osim();
-  text = std::regex_replace(text, std::regex("<default_fiber_length>[^<]*</default_fiber_length>"),
-                            "");
+  text = std::regex_replace(text, std::regex("<default_fiber_length>[^<]*</default_fiber_length>"), "");
   const BodyModel exact = parse_osim(text, "m.osim");
   const BodyModel opensim = parse_osim(text, "m.osim", {.compat = kOpenSim452});
   for (std::size_t i = 0; i < exact.muscles.size(); ++i) {
-    EXPECT_EQ(exact.muscles[i].properties.default_fiber_length_m,
-              exact.muscles[i].properties.optimal_fiber_length_m);
+    EXPECT_EQ(exact.muscles[i].properties.default_fiber_length_m, exact.muscles[i].properties.optimal_fiber_length_m);
     EXPECT_EQ(opensim.muscles[i].properties.default_fiber_length_m, 0.1);
   }
 }
@@ -245,8 +234,7 @@ TEST(ForeignModels, FramesAreFoundByTheirPaths) {
       "<socket_parent>/bodyset/rod</socket_parent><translation>0 0.5 0</translation>"
       "</PhysicalOffsetFrame></frames></PinJoint></objects></JointSet>");
   const BodyModel m = read_osim(path);
-  for (const char* name :
-       {"/jointset/pin/rod_offset", "pin/rod_offset", "jointset/pin/rod_offset"}) {
+  for (const char* name : {"/jointset/pin/rod_offset", "pin/rod_offset", "jointset/pin/rod_offset"}) {
     const auto frame = find_frame(m, path, name);
     ASSERT_TRUE(frame) << name;
     EXPECT_EQ(frame->body, 1);

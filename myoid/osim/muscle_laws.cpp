@@ -23,8 +23,8 @@ muscle::HillParameters<double> hill_parameters(const MuscleProperties& p, double
           .optimal_fiber_length_m = l0_m,
           .force_length_width_m = l0_m * std::sqrt(p.active_shape),
           .concentric_curvature = p.concentric_shape,
-          .eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
-              slope_ratio, p.concentric_shape, p.eccentric_plateau),
+          .eccentric_curvature_product =
+              muscle::curvature_product_from_slope_ratio(slope_ratio, p.concentric_shape, p.eccentric_plateau),
           .eccentric_plateau = p.eccentric_plateau,
           .max_shortening_speed_mps = p.max_contraction_velocity * l0_m,
           .tendon_slack_length_m = p.tendon_slack_length_m};
@@ -47,10 +47,9 @@ muscle::MusculotendonLaws class_laws(const MuscleProperties& p, muscle::TendonMo
   return laws;
 }
 
-muscle::MusculotendonParameters<double> musculotendon_parameters(
-    const MuscleProperties& p, const muscle::MusculotendonLaws& laws) {
-  muscle::MusculotendonParameters<double> result =
-      muscle::published_defaults(hill_parameters(p), laws);
+muscle::MusculotendonParameters<double> musculotendon_parameters(const MuscleProperties& p,
+                                                                 const muscle::MusculotendonLaws& laws) {
+  muscle::MusculotendonParameters<double> result = muscle::published_defaults(hill_parameters(p), laws);
   result.pennation_at_optimal_rad = p.pennation_at_optimal_rad;
   if (laws.tendon == muscle::TendonLaw::thelen) {
     result.tendon_strain = p.max_tendon_strain;

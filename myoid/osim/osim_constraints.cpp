@@ -15,8 +15,8 @@ void read_function_constraint(OsimReading& r,
                               pugi::xml_node node,
                               const std::string& name,
                               const std::vector<std::string>& independent) {
-  auto function = multi_function_property(r, node, "coupled_coordinates_function",
-                                          static_cast<int>(independent.size()));
+  auto function =
+      multi_function_property(r, node, "coupled_coordinates_function", static_cast<int>(independent.size()));
   if (!function) {
     r.model.unsupported.push_back(
         fmt::format("constraint '{}' couples {} independent coordinates by another function than a "
@@ -44,8 +44,8 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   const auto function = function_property(r, node, "coupled_coordinates_function");
   if (independent.size() != 1 || !function || r.model.unsupported.size() > listed) {
     r.model.unsupported.push_back(
-        fmt::format("constraint '{}' couples {} independent coordinates{}; it is not enforced",
-                    name, independent.size(), function ? "" : " by no function"));
+        fmt::format("constraint '{}' couples {} independent coordinates{}; it is not enforced", name,
+                    independent.size(), function ? "" : " by no function"));
     return;
   }
   CoordinateCoupler coupler;
@@ -58,9 +58,8 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
     r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
   for (const CoordinateCoupler& other : r.model.couplers) {
     if (other.dependent == coupler.dependent) {
-      r.xml.fail(
-          node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
-                            r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
+      r.xml.fail(node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
+                                   r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
     }
   }
   r.model.couplers.push_back(std::move(coupler));
@@ -69,8 +68,7 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
 }  // namespace
 
 void read_constraints(OsimReading& r, pugi::xml_node set) {
-  for (const auto node : OsimXml::objects(set))
-    read_constraint(r, node, "/constraintset/" + OsimXml::name_of(node));
+  for (const auto node : OsimXml::objects(set)) read_constraint(r, node, "/constraintset/" + OsimXml::name_of(node));
 }
 
 void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& owner) {
@@ -95,8 +93,7 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
     const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
     r.model.constraints.push_back(
         {name, kind,
-         DistanceConstraint{first.body, second.body,
-                            first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero()),
+         DistanceConstraint{first.body, second.body, first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero()),
                             second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero()),
                             r.xml.number(node, "constant_distance", 0.0)}});
   } else if (kind == "PointOnLineConstraint") {
@@ -109,8 +106,7 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
                         line.X_BF * r.xml.vec3(node, "point_on_line", Vec3::Zero()),
                         follower.X_BF * r.xml.vec3(node, "point_on_follower", Vec3::Zero())}});
   } else {
-    r.model.unsupported.push_back(
-        fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
+    r.model.unsupported.push_back(fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
   }
 }
 

@@ -36,20 +36,19 @@ std::optional<Surface> read_surface(OsimReading& r, pugi::xml_node force, const 
   const auto node = geometry_named(r, name);
   const std::string_view kind = node.name();
   if (kind != "ContactSphere" && kind != "ContactHalfSpace") {
-    r.model.unsupported.push_back(fmt::format(
-        "{} '{}': {}; what touches it makes no force", force.name(), OsimXml::name_of(force),
-        node ? fmt::format("contact geometry '{}' of kind {} is not supported", name, kind)
-             : fmt::format("there is no contact geometry '{}'", name)));
+    r.model.unsupported.push_back(
+        fmt::format("{} '{}': {}; what touches it makes no force", force.name(), OsimXml::name_of(force),
+                    node ? fmt::format("contact geometry '{}' of kind {} is not supported", name, kind)
+                         : fmt::format("there is no contact geometry '{}'", name)));
     return {};
   }
   const FixedFrame frame = frame_of(r, node, "frame", "/contactgeometryset/" + name, "body_name");
-  Surface surface{
-      name, frame.body, frame.X_BF * pose_of(r, node, "location", "orientation"), {}, {}};
+  Surface surface{name, frame.body, frame.X_BF * pose_of(r, node, "location", "orientation"), {}, {}};
   if (kind == "ContactSphere") {
     surface.radius_m = r.xml.number(node, "radius", 0.0);
     if (!(*surface.radius_m > 0.0) || !std::isfinite(*surface.radius_m)) {
-      r.xml.fail(node, fmt::format("ContactSphere '{}': expected <radius> above 0 m, found {}",
-                                   name, *surface.radius_m));
+      r.xml.fail(node,
+                 fmt::format("ContactSphere '{}': expected <radius> above 0 m, found {}", name, *surface.radius_m));
     }
   }
   return surface;
@@ -69,8 +68,7 @@ Contact::Material material_of(const OsimReading& r, pugi::xml_node node) {
 double transition_velocity(const OsimReading& r, pugi::xml_node force) {
   const double v = r.xml.number(force, "transition_velocity", 0.01);
   if (!(v > 0.0)) {
-    r.xml.fail(force,
-               fmt::format("contact: expected <transition_velocity> above 0 m/s, found {}", v));
+    r.xml.fail(force, fmt::format("contact: expected <transition_velocity> above 0 m/s, found {}", v));
   }
   return v;
 }
@@ -101,10 +99,9 @@ std::vector<Contact> read_contacts(OsimReading& r, pugi::xml_node force) {
     sphere->material = plane->material = material_of(r, force);
     Contact contact = between(*sphere, *plane);
     contact.transition_velocity_mps = transition_velocity(r, force);
-    contact.smoothing =
-        Contact::Smoothing{.constant = r.xml.number(force, "constant_contact_force", 1e-5),
-                           .hertz = r.xml.number(force, "hertz_smoothing", 300.0),
-                           .hunt_crossley = r.xml.number(force, "hunt_crossley_smoothing", 50.0)};
+    contact.smoothing = Contact::Smoothing{.constant = r.xml.number(force, "constant_contact_force", 1e-5),
+                                           .hertz = r.xml.number(force, "hertz_smoothing", 300.0),
+                                           .hunt_crossley = r.xml.number(force, "hunt_crossley_smoothing", 50.0)};
     contacts.push_back(std::move(contact));
     return contacts;
   }

@@ -36,8 +36,7 @@ void multiply(const OsimXml& xml, pugi::xml_node object, const char* name, doubl
 
 /// Multiplies the function in `holder`, by wrapping it if it has no scale of its own.
 void multiply_function(const OsimXml& xml, pugi::xml_node holder, double factor, bool freedom) {
-  if (const auto inner = holder.child("function"); inner && OsimXml::first_element(inner))
-    holder = inner;
+  if (const auto inner = holder.child("function"); inner && OsimXml::first_element(inner)) holder = inner;
   auto function = OsimXml::first_element(holder, {"coordinates", "axis", "coordinate"});
   if (!function || factor == 1.0) return;
   if (std::string_view(function.name()) == "MultiplierFunction") {
@@ -130,8 +129,7 @@ void OsimEditor::add_markers(const std::filesystem::path& file) {
       if (const auto slash = body.rfind('/'); slash != std::string::npos) body.erase(0, slash + 1);
       set_text(added, "body", body);
     } else {
-      if (body.find('/') == std::string::npos)
-        body = body == "ground" ? "/ground" : "/bodyset/" + body;
+      if (body.find('/') == std::string::npos) body = body == "ground" ? "/ground" : "/bodyset/" + body;
       set_text(added, "socket_parent_frame", body);
     }
     (void)resolve_frame(*reading_, node, body, "");
@@ -144,8 +142,7 @@ void OsimEditor::remove_markers(const std::function<bool(const std::string&)>& i
   auto objects = marker_set().child("objects");
   for (auto node = objects.first_child(); node;) {
     const auto next = node.next_sibling();
-    if (std::string_view(node.name()) == "Marker" && is_removed(OsimXml::name_of(node)))
-      objects.remove_child(node);
+    if (std::string_view(node.name()) == "Marker" && is_removed(OsimXml::name_of(node))) objects.remove_child(node);
     node = next;
   }
 }
@@ -205,14 +202,12 @@ void OsimEditor::scale_joint(pugi::xml_node joint, const Vec3& parent, const Vec
     multiply_function(xml_, axis, direction.cwiseAbs().dot(parent), true);
   }
   multiply(xml_, joint, "radii_x_y_z", parent);
-  if (std::string_view(joint.name()) == "ConstantCurvatureJoint")
-    multiply(xml_, joint, "length", child[1]);
+  if (std::string_view(joint.name()) == "ConstantCurvatureJoint") multiply(xml_, joint, "length", child[1]);
   multiply(xml_, joint, "thoracic_ellipsoid_radii_x_y_z", parent);
   if (const auto origin = xml_.property(joint, "scapula_winging_axis_origin")) {
     const auto v = xml_.numbers(origin);
     if (v.size() == 2) {
-      set_text(joint, "scapula_winging_axis_origin",
-               fmt::format("{} {}", v[0] * child[0], v[1] * child[1]));
+      set_text(joint, "scapula_winging_axis_origin", fmt::format("{} {}", v[0] * child[0], v[1] * child[1]));
     }
   }
 }
@@ -231,8 +226,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
       const char* old_functions[] = {"XAttachment", "YAttachment", "ZAttachment"};
       for (int k = 0; k < 3; ++k) {
         for (const char* name : {functions[k], old_functions[k]})
-          if (const auto holder = point.child(name))
-            multiply_function(xml_, holder, factor[k], false);
+          if (const auto holder = point.child(name)) multiply_function(xml_, holder, factor[k], false);
       }
     }
   };
@@ -250,12 +244,10 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   // Objects that refer to frames are scaled before the frames.
   for (const auto node : OsimXml::objects(marker_set())) {
     if (std::string_view(node.name()) != "Marker") continue;
-    const FixedFrame frame =
-        frame_of(*reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
+    const FixedFrame frame = frame_of(*reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
     multiply(xml_, node, "location", factor_of(factors, frame.body));
   }
-  const auto forces =
-      model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
+  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
   for (const auto force : OsimXml::objects(forces)) scale_points(force, factors);
   for (const auto& [joint, owner] : components_of(skeleton_, "JointSet", "Joint")) {
     scale_joint(joint, factor_of(factors, frame_of(*reading_, joint, "parent_frame", owner).body),
@@ -287,14 +279,13 @@ void OsimEditor::scale_geometry(const Factors& factors) {
     multiply(xml_, joint, "location_in_child", factor);
     scale_joint(joint, factor_of(factors, parent), factor);
   }
-  const auto constraints = skeleton_.child("ConstraintSet") ? skeleton_.child("ConstraintSet")
-                                                            : model_.child("ConstraintSet");
+  const auto constraints =
+      skeleton_.child("ConstraintSet") ? skeleton_.child("ConstraintSet") : model_.child("ConstraintSet");
   for (const auto node : OsimXml::objects(constraints)) {
     const std::string_view kind = node.name();
-    if (kind == "PointConstraint" || kind == "ConstantDistanceConstraint" ||
-        kind == "PointOnLineConstraint") {
-      notes_.push_back(fmt::format("{} '{}': its points are not scaled (nor does OpenSim)", kind,
-                                   OsimXml::name_of(node)));
+    if (kind == "PointConstraint" || kind == "ConstantDistanceConstraint" || kind == "PointOnLineConstraint") {
+      notes_.push_back(
+          fmt::format("{} '{}': its points are not scaled (nor does OpenSim)", kind, OsimXml::name_of(node)));
     }
   }
 }
@@ -323,15 +314,13 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
         const double old = body.mass_kg;
         const double radius2 = std::max(0.0, 2.0 * inertia(axis, axis) / old);
         const double length2 =
-            std::max(0.0, 12.0 * (inertia(other, other) - 0.25 * old * radius2) / old) * f[axis] *
-            f[axis];
+            std::max(0.0, 12.0 * (inertia(other, other) - 0.25 * old * radius2) / old) * f[axis] * f[axis];
         const double new_radius2 = radius2 * f.prod() / f[axis];
         for (Eigen::Index a = 0; a < 3; ++a) {
           for (Eigen::Index b = 0; b < 3; ++b) {
             if (a != b) inertia(a, b) *= f[a] * f[b] * (keep_masses ? 1.0 : volume);
           }
-          inertia(a, a) =
-              a == axis ? 0.5 * mass * new_radius2 : mass * (length2 / 12.0 + 0.25 * new_radius2);
+          inertia(a, a) = a == axis ? 0.5 * mass * new_radius2 : mass * (length2 / 12.0 + 0.25 * new_radius2);
         }
       }
     }
@@ -348,20 +337,17 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
     const Mat3 I = share * inertias[b];
     const double values[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
     if (reading_->is_old()) {
-      const char* names[] = {"inertia_xx", "inertia_yy", "inertia_zz",
-                             "inertia_xy", "inertia_xz", "inertia_yz"};
+      const char* names[] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
       for (int k = 0; k < 6; ++k) set_text(node, names[k], fmt::format("{}", values[k]));
     } else {
       set_text(node, "inertia",
-               fmt::format("{} {} {} {} {} {}", values[0], values[1], values[2], values[3],
-                           values[4], values[5]));
+               fmt::format("{} {} {} {} {} {}", values[0], values[1], values[2], values[3], values[4], values[5]));
     }
   }
 }
 
 void OsimEditor::scale_lengths(const std::string& name, double factor) {
-  const auto forces =
-      model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
+  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
   for (const auto force : OsimXml::objects(forces)) {
     if (OsimXml::name_of(force) != name) continue;
     for (const char* property : {"optimal_fiber_length", "tendon_slack_length", "resting_length"})

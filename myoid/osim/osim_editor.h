@@ -30,8 +30,7 @@ class OsimEditor {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   void set_name(const std::string& name);
 
-  /// Takes the markers of a file with a <MarkerSet>; they replace the model's markers of their
-  /// names.
+  /// Takes the markers of a file with a <MarkerSet>; they replace the model's markers of their names.
   void add_markers(const std::filesystem::path& file);
   void remove_markers(const std::function<bool(const std::string&)>& is_removed);
   /// Returns true if marker placement does not move the marker.
@@ -41,9 +40,8 @@ class OsimEditor {
   /// Returns the model's markers as a separate document.
   [[nodiscard]] std::string marker_set_text() const;
 
-  /// Scales mass centers, frames, points of paths, wrap objects, markers and meshes of the bodies,
-  /// and the translations of joints by the factors of the parent. Masses and lengths of muscles
-  /// stay: see scale_masses and scale_lengths.
+  /// Scales mass centers, frames, points of paths, wrap objects, markers and meshes of the bodies, and the translations
+  /// of joints by the factors of the parent. Masses and lengths of muscles stay: see scale_masses and scale_lengths.
   void scale_geometry(const Factors& factors);
   /// Scales inertias by the factors (exactly for equal factors, else as of a cylinder) and masses
   /// unless they are kept; then brings all masses to a total of `total_kg`, if above 0.
@@ -65,9 +63,8 @@ class OsimEditor {
   std::string text_;
   std::filesystem::path path_;
   OsimXml xml_;
-  pugi::xml_node model_;  ///< <Model>
-  pugi::xml_node
-      skeleton_;  ///< The parent of the bodies: the model or, in old documents, its engine.
+  pugi::xml_node model_;     ///< <Model>
+  pugi::xml_node skeleton_;  ///< The parent of the bodies: the model or, in old documents, its engine.
   std::unique_ptr<OsimReading> reading_;
   std::vector<std::string> notes_;
 };

@@ -61,8 +61,7 @@ TEST(OsimEditor, KeepsTheSharesOfMassWhereAsked) {
   const BodyModel after = parse_osim(editor.text(), "scaled.osim");
   EXPECT_NEAR(mass_of(after), 12.0, 1e-12);
   for (std::size_t b = 1; b < before.bodies.size(); ++b) {
-    EXPECT_NEAR(after.bodies[b].mass_kg / mass_of(after),
-                before.bodies[b].mass_kg / mass_of(before), 1e-14);
+    EXPECT_NEAR(after.bodies[b].mass_kg / mass_of(after), before.bodies[b].mass_kg / mass_of(before), 1e-14);
   }
 }
 

@@ -26,8 +26,7 @@ void read_common(const OsimReading& r, pugi::xml_node node, ActuatorBase& actuat
 CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int coordinate) {
   CoordinateLimitForce f;
   f.coordinate = coordinate;
-  const bool angle =
-      r.model.coordinates[static_cast<std::size_t>(coordinate)].motion == MotionType::rotational;
+  const bool angle = r.model.coordinates[static_cast<std::size_t>(coordinate)].motion == MotionType::rotational;
   const double unit_rad = angle ? kDegree : 1.0;  // limits in degrees, stiffness per degree
   f.upper_limit = unit_rad * r.xml.number(node, "upper_limit", 0.0);
   f.lower_limit = unit_rad * r.xml.number(node, "lower_limit", 0.0);
@@ -36,8 +35,7 @@ CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int c
   f.damping = r.xml.number(node, "damping", 0.001) / unit_rad;
   f.transition = unit_rad * r.xml.number(node, "transition", 0.1);
   if (!(f.transition > 0.0))
-    r.xml.fail(node, fmt::format("CoordinateLimitForce '{}': expected <transition> above 0",
-                                 OsimXml::name_of(node)));
+    r.xml.fail(node, fmt::format("CoordinateLimitForce '{}': expected <transition> above 0", OsimXml::name_of(node)));
   return f;
 }
 
@@ -60,33 +58,30 @@ Expression formula_of(const OsimReading& r,
   try {
     return text.empty() ? Expression() : Expression(text, variables);
   } catch (const InvalidInput& error) {
-    r.xml.fail(node, fmt::format("{} '{}': <{}>: {}", node.name(), OsimXml::name_of(node), name,
-                                 error.what()));
+    r.xml.fail(node, fmt::format("{} '{}': <{}>: {}", node.name(), OsimXml::name_of(node), name, error.what()));
   }
 }
 
 /// Reads a bushing whose forces are functions or formulas of its deflections.
 Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
-  constexpr const char* kComponents[] = {"m_x_theta_x_function", "m_y_theta_y_function",
-                                         "m_z_theta_z_function", "f_x_delta_x_function",
-                                         "f_y_delta_y_function", "f_z_delta_z_function"};
+  constexpr const char* kComponents[] = {"m_x_theta_x_function", "m_y_theta_y_function", "m_z_theta_z_function",
+                                         "f_x_delta_x_function", "f_y_delta_y_function", "f_z_delta_z_function"};
   constexpr const char* kFormulas[] = {"Mx_expression", "My_expression", "Mz_expression",
                                        "Fx_expression", "Fy_expression", "Fz_expression"};
   Bushing bushing = read_bushing(r, node);
   bushing.rotational_stiffness = bushing.translational_stiffness = Vec3::Zero();
   if (std::string_view(node.name()) == "ExpressionBasedBushingForce") {
     for (const char* name : kFormulas)
-      bushing.formulas.push_back(formula_of(
-          r, node, name, {"theta_x", "theta_y", "theta_z", "delta_x", "delta_y", "delta_z"}));
+      bushing.formulas.push_back(
+          formula_of(r, node, name, {"theta_x", "theta_y", "theta_z", "delta_x", "delta_y", "delta_z"}));
     return bushing;
   }
   for (const char* name : kComponents)
     bushing.functions.push_back(function_property(r, node, name).value_or(Function(Constant{0.0})));
   if (r.compat.opensim_paths &&
       (!bushing.rotational_damping.isZero(0.0) || !bushing.translational_damping.isZero(0.0))) {
-    r.model.notes.push_back(
-        fmt::format("FunctionBasedBushingForce '{}': its damping does not act, as in OpenSim 4.5.2",
-                    OsimXml::name_of(node)));
+    r.model.notes.push_back(fmt::format("FunctionBasedBushingForce '{}': its damping does not act, as in OpenSim 4.5.2",
+                                        OsimXml::name_of(node)));
     bushing.rotational_damping = bushing.translational_damping = Vec3::Zero();
   }
   return bushing;
@@ -128,9 +123,8 @@ PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
 
 /// Returns the class's default curve of force (over pcsa_force) by length (over resting length).
 Function default_ligament_curve() {
-  return make_simm_spline(
-      {-5.0, 0.998, 0.999, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.601, 1.602, 5.0},
-      {0.0, 0.0, 0.0, 0.0, 0.035, 0.12, 0.26, 0.55, 1.17, 2.0, 2.0, 2.0, 2.0});
+  return make_simm_spline({-5.0, 0.998, 0.999, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.601, 1.602, 5.0},
+                          {0.0, 0.0, 0.0, 0.0, 0.035, 0.12, 0.26, 0.55, 1.17, 2.0, 2.0, 2.0, 2.0});
 }
 
 int coordinate_of(const OsimReading& r, pugi::xml_node node) {
@@ -170,8 +164,7 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
   const std::string_view kind = node.name();
   if (is_muscle(node)) {
     r.model.muscles.push_back(read_muscle(r, node));
-  } else if (kind == "CoordinateActuator" || kind == "GeneralizedForce" ||
-             kind == "ActivationCoordinateActuator") {
+  } else if (kind == "CoordinateActuator" || kind == "GeneralizedForce" || kind == "ActivationCoordinateActuator") {
     CoordinateActuator actuator;
     read_common(r, node, actuator);
     actuator.coordinate = coordinate_of(r, node);
@@ -187,9 +180,8 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
     r.model.path_actuators.push_back(std::move(actuator));
   } else if (kind == "BodyActuator") {
     // Six controls without bounds: OpenSim's tools that solve for controls ignore them.
-    r.model.notes.push_back(
-        fmt::format("BodyActuator '{}' makes no force: every tool keeps its six controls at zero",
-                    OsimXml::name_of(node)));
+    r.model.notes.push_back(fmt::format("BodyActuator '{}' makes no force: every tool keeps its six controls at zero",
+                                        OsimXml::name_of(node)));
   } else {
     return false;
   }
@@ -207,8 +199,7 @@ std::optional<Ligament> read_ligament(OsimReading& r, pugi::xml_node node) {
                     OsimXml::name_of(node)));
     return std::nullopt;
   }
-  if (auto curve = function_property(r, node, "force_length_curve"))
-    ligament.force_length = std::move(*curve);
+  if (auto curve = function_property(r, node, "force_length_curve")) ligament.force_length = std::move(*curve);
   return ligament;
 }
 
@@ -223,19 +214,16 @@ bool read_passive(OsimReading& r, pugi::xml_node node) {
     add(read_limit(r, node, coordinate_of(r, node)));
   } else if (kind == "SpringGeneralizedForce") {
     add(CoordinateSpring{coordinate_of(r, node), r.xml.number(node, "stiffness", 0.0),
-                         r.xml.number(node, "rest_length", 0.0),
-                         r.xml.number(node, "viscosity", 0.0)});
+                         r.xml.number(node, "rest_length", 0.0), r.xml.number(node, "viscosity", 0.0)});
   } else if (kind == "ExpressionBasedCoordinateForce") {
-    add(CoordinateFormula{coordinate_of(r, node),
-                          formula_of(r, node, "expression", {"q", "qdot"})});
+    add(CoordinateFormula{coordinate_of(r, node), formula_of(r, node, "expression", {"q", "qdot"})});
   } else if (kind == "BushingForce") {
     add(read_bushing(r, node));
   } else if (kind == "FunctionBasedBushingForce" || kind == "ExpressionBasedBushingForce") {
     add(read_shaped_bushing(r, node));
   } else if (kind == "ExpressionBasedPointToPointForce") {
     const PointSpring ends = read_point_spring(r, node);
-    add(PointFormula{ends.body1, ends.body2, ends.p_B1, ends.p_B2,
-                     formula_of(r, node, "expression", {"d", "ddot"})});
+    add(PointFormula{ends.body1, ends.body2, ends.p_B1, ends.p_B2, formula_of(r, node, "expression", {"d", "ddot"})});
   } else if (kind == "PrescribedForce") {
     add(read_prescribed(r, node));
   } else if (kind == "HuntCrossleyForce" || kind == "SmoothSphereHalfSpaceForce") {
@@ -245,8 +233,7 @@ bool read_passive(OsimReading& r, pugi::xml_node node) {
   } else if (kind == "PointToPointSpring") {
     add(read_point_spring(r, node));
   } else if (kind == "PathSpring") {
-    add(PathSpring{read_path(r, node), r.xml.number(node, "stiffness", 0.0),
-                   r.xml.number(node, "resting_length", 0.0),
+    add(PathSpring{read_path(r, node), r.xml.number(node, "stiffness", 0.0), r.xml.number(node, "resting_length", 0.0),
                    r.xml.number(node, "dissipation", 0.0)});
   } else if (kind == "Ligament") {
     if (auto ligament = read_ligament(r, node)) add(std::move(*ligament));
@@ -260,10 +247,9 @@ void read_law(OsimReading& r, pugi::xml_node node) {
   const std::string kind = node.name();
   const std::string name = OsimXml::name_of(node);
   if (const std::string path = foreign_path(r, node); !path.empty()) {
-    r.model.unsupported.push_back(fmt::format(
-        "{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
-  } else if (!read_driven(r, node) && !read_passive(r, node) &&
-             is_enabled(r, node, "appliesForce")) {
+    r.model.unsupported.push_back(
+        fmt::format("{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
+  } else if (!read_driven(r, node) && !read_passive(r, node) && is_enabled(r, node, "appliesForce")) {
     r.model.unsupported.push_back(
         fmt::format("force '{}' of kind {} is not part of inverse dynamics here", name, kind));
   }
@@ -274,8 +260,7 @@ void read_law(OsimReading& r, pugi::xml_node node) {
 void read_force(OsimReading& r, pugi::xml_node node) {
   const auto count = [&] {
     return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
-           r.model.torque_actuators.size() + r.model.path_actuators.size() +
-           r.model.passive_forces.size();
+           r.model.torque_actuators.size() + r.model.path_actuators.size() + r.model.passive_forces.size();
   };
   const std::size_t before = count();
   read_law(r, node);
@@ -288,8 +273,8 @@ void read_forces(OsimReading& r, pugi::xml_node set) {
 
 void read_component_force(OsimReading& r, pugi::xml_node node) {
   const std::string_view kind = node.name();
-  if (kind.ends_with("Force") || kind.ends_with("Actuator") || kind.ends_with("Spring") ||
-      kind == "Ligament" || is_muscle(node))
+  if (kind.ends_with("Force") || kind.ends_with("Actuator") || kind.ends_with("Spring") || kind == "Ligament" ||
+      is_muscle(node))
     read_force(r, node);
 }
 

@@ -11,8 +11,7 @@ void read_forces(OsimReading& reading, pugi::xml_node set);
 /// Reads one force of a force set.
 void read_force(OsimReading& reading, pugi::xml_node node);
 
-/// Reads a force among the components of a model, outside of the force set; ignores components of
-/// other kinds.
+/// Reads a force among the components of a model, outside of the force set; ignores components of other kinds.
 void read_component_force(OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::model

@@ -48,8 +48,7 @@ TEST(ReadForces, FormulasOfACoordinateAndBetweenTwoPoints) {
         "<expression>2*angle</expression></ExpressionBasedCoordinateForce>");
     FAIL() << "an unknown name was taken";
   } catch (const ReadError& error) {
-    EXPECT_NE(std::string(error.what()).find("'angle' is neither defined nor one of q, qdot"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("'angle' is neither defined nor one of q, qdot"), std::string::npos)
         << error.what();
   }
 }
@@ -57,15 +56,15 @@ TEST(ReadForces, FormulasOfACoordinateAndBetweenTwoPoints) {
 TEST(ReadForces, BushingsByFunctionAndByFormula) {
   const std::string frames =
       "<socket_frame1>/ground</socket_frame1><socket_frame2>/bodyset/forearm_hand</socket_frame2>";
-  const BodyModel m = arm_with(
-      "<FunctionBasedBushingForce name=\"f\">" + frames +
-      "<LinearFunction name=\"m_x_theta_x_function\"><coefficients>7 1</coefficients>"
-      "</LinearFunction><f_z_delta_z_function><StepFunction><end_value>5</end_value>"
-      "</StepFunction></f_z_delta_z_function><rotational_damping>1 1 1</rotational_damping>"
-      "</FunctionBasedBushingForce><ExpressionBasedBushingForce name=\"e\">" +
-      frames +
-      "<My_expression>3*theta_y^3</My_expression><Fx_expression>delta_x*theta_z</Fx_expression>"
-      "<translational_damping>1 2 3</translational_damping></ExpressionBasedBushingForce>");
+  const BodyModel m =
+      arm_with("<FunctionBasedBushingForce name=\"f\">" + frames +
+               "<LinearFunction name=\"m_x_theta_x_function\"><coefficients>7 1</coefficients>"
+               "</LinearFunction><f_z_delta_z_function><StepFunction><end_value>5</end_value>"
+               "</StepFunction></f_z_delta_z_function><rotational_damping>1 1 1</rotational_damping>"
+               "</FunctionBasedBushingForce><ExpressionBasedBushingForce name=\"e\">" +
+               frames +
+               "<My_expression>3*theta_y^3</My_expression><Fx_expression>delta_x*theta_z</Fx_expression>"
+               "<translational_damping>1 2 3</translational_damping></ExpressionBasedBushingForce>");
   EXPECT_TRUE(m.unsupported.empty());
   const auto& formula = last<Bushing>(m);
   const std::array<double, 6> at{0.0, 2.0, 0.5, 4.0, 0.0, 0.0};
@@ -151,11 +150,9 @@ TEST(ReadForces, WhatIsNotSupportedIsListedAndTheRestIsRead) {
       kGround);
   ASSERT_EQ(m.unsupported.size(), 4U);
   EXPECT_NE(m.unsupported[0].find("'ef' of kind ElasticFoundationForce"), std::string::npos);
-  EXPECT_NE(m.unsupported[1].find("contact geometry 'bone' of kind ContactMesh"),
-            std::string::npos);
+  EXPECT_NE(m.unsupported[1].find("contact geometry 'bone' of kind ContactMesh"), std::string::npos);
   EXPECT_NE(m.unsupported[2].find("FunctionBasedPath"), std::string::npos);
-  EXPECT_NE(m.unsupported[3].find("function <Wavelet> of <PrescribedForce> 'odd'"),
-            std::string::npos)
+  EXPECT_NE(m.unsupported[3].find("function <Wavelet> of <PrescribedForce> 'odd'"), std::string::npos)
       << m.unsupported[3];
   EXPECT_FALSE(m.find_muscle("by_function").has_value());
   EXPECT_EQ(m.muscles.size(), 4U);
@@ -172,15 +169,9 @@ TEST(ReadFunctions, EveryKindOfOneVariable) {
     return evaluate(last<PrescribedForce>(m).torque.at(0), x).value;
   };
   EXPECT_EQ(value("<LinearFunction><coefficients>2 1</coefficients></LinearFunction>", 3.0), 7.0);
-  EXPECT_EQ(
-      value("<PolynomialFunction><coefficients>2 1 0</coefficients></PolynomialFunction>", 3.0),
-      21.0);
-  EXPECT_EQ(
-      value("<PiecewiseConstantFunction><x>0 1 2</x><y>5 6 7</y></PiecewiseConstantFunction>", 1.5),
-      6.0);
-  EXPECT_EQ(value("<PiecewiseConstantFunction><x>0 1 2</x><y>5 6 7</y></PiecewiseConstantFunction>",
-                  -3.0),
-            5.0);
+  EXPECT_EQ(value("<PolynomialFunction><coefficients>2 1 0</coefficients></PolynomialFunction>", 3.0), 21.0);
+  EXPECT_EQ(value("<PiecewiseConstantFunction><x>0 1 2</x><y>5 6 7</y></PiecewiseConstantFunction>", 1.5), 6.0);
+  EXPECT_EQ(value("<PiecewiseConstantFunction><x>0 1 2</x><y>5 6 7</y></PiecewiseConstantFunction>", -3.0), 5.0);
   EXPECT_NEAR(value("<MultiplierFunction><scale>3</scale><function><Sine><offset>1</offset></Sine>"
                     "</function></MultiplierFunction>",
                     0.5),
@@ -202,14 +193,13 @@ TEST(ReadFrames, AStationDefinedFrameStandsOnItsPoints) {
            "\"><socket_parent_frame>/bodyset/forearm_hand</socket_parent_frame><location>" + place +
            "</location></Station>";
   };
-  const BodyModel m = arm_with(
-      "<PrescribedForce name=\"f\"><socket_frame>/anatomical</socket_frame></PrescribedForce>",
-      "<components>" + station("a", "0 0 0") + station("b", "0 2 0") + station("c", "0 0 1") +
-          station("o", "0.1 0.2 0.3") +
-          "<StationDefinedFrame name=\"anatomical\"><socket_point_a>/a</socket_point_a>"
-          "<socket_point_b>/b</socket_point_b><socket_point_c>/c</socket_point_c>"
-          "<socket_origin_point>/o</socket_origin_point><ab_axis>+y</ab_axis>"
-          "<ab_x_ac_axis>-z</ab_x_ac_axis></StationDefinedFrame></components>");
+  const BodyModel m = arm_with("<PrescribedForce name=\"f\"><socket_frame>/anatomical</socket_frame></PrescribedForce>",
+                               "<components>" + station("a", "0 0 0") + station("b", "0 2 0") + station("c", "0 0 1") +
+                                   station("o", "0.1 0.2 0.3") +
+                                   "<StationDefinedFrame name=\"anatomical\"><socket_point_a>/a</socket_point_a>"
+                                   "<socket_point_b>/b</socket_point_b><socket_point_c>/c</socket_point_c>"
+                                   "<socket_origin_point>/o</socket_origin_point><ab_axis>+y</ab_axis>"
+                                   "<ab_x_ac_axis>-z</ab_x_ac_axis></StationDefinedFrame></components>");
   // ab = y, ab x ac = x: the frame's z is -x, its x = y cross z = -(y cross x) = z.
   const Pose X = last<PrescribedForce>(m).X_BF;
   EXPECT_EQ(X.p, Vec3(0.1, 0.2, 0.3));

@@ -29,10 +29,7 @@ bool is_frame(pugi::xml_node node) {
   return false;
 }
 
-void collect_frames(OsimReading& r,
-                    pugi::xml_node parent,
-                    const std::string& owner,
-                    int depth = 0) {
+void collect_frames(OsimReading& r, pugi::xml_node parent, const std::string& owner, int depth = 0) {
   if (depth > 64) r.xml.fail(parent, "frames are nested more than 64 deep");
   for (const auto node : parent.children()) {
     if (is_frame(node)) {
@@ -49,13 +46,12 @@ Mat3 inertia_of(const OsimReading& r, pugi::xml_node node, const std::string& bo
   if (const auto element = r.xml.property(node, "inertia")) {
     const auto values = r.xml.numbers(element);
     if (values.size() != 6) {
-      r.xml.fail(element, fmt::format("body '{}': expected six numbers xx yy zz xy xz yz, found {}",
-                                      body, values.size()));
+      r.xml.fail(element,
+                 fmt::format("body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, values.size()));
     }
     std::copy(values.begin(), values.end(), v);
   } else if (r.is_old()) {
-    const char* names[6] = {"inertia_xx", "inertia_yy", "inertia_zz",
-                            "inertia_xy", "inertia_xz", "inertia_yz"};
+    const char* names[6] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
     for (int k = 0; k < 6; ++k) {
       v[k] = r.xml.number(node, names[k], k < 3 ? 1.0 : 0.0);
       if (r.compat.six_digit_offsets) v[k] = six_digits(v[k]);
@@ -65,23 +61,16 @@ Mat3 inertia_of(const OsimReading& r, pugi::xml_node node, const std::string& bo
   return inertia;
 }
 
-FixedFrame resolve(const OsimReading& r,
-                   pugi::xml_node where,
-                   std::string name,
-                   const std::string& owner,
-                   int depth);
+FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner, int depth);
 
 /// Returns the frame that four stations of one body span: its origin, an axis from a to b, another
 /// along ab x ac (StationDefinedFrame of OpenSim 4.5).
-FixedFrame station_defined(const OsimReading& r,
-                           pugi::xml_node node,
-                           const std::string& owner,
-                           int depth) {
+FixedFrame station_defined(const OsimReading& r, pugi::xml_node node, const std::string& owner, int depth) {
   const auto point = [&](const char* name) {
     const std::string target = socket(r, node, name);
     if (target.empty()) {
-      r.xml.fail(node, fmt::format("StationDefinedFrame '{}': the socket '{}' is missing",
-                                   OsimXml::name_of(node), name));
+      r.xml.fail(node,
+                 fmt::format("StationDefinedFrame '{}': the socket '{}' is missing", OsimXml::name_of(node), name));
     }
     return resolve(r, node, target, owner, depth + 1);
   };
@@ -97,20 +86,18 @@ FixedFrame station_defined(const OsimReading& r,
     const bool has_sign = text.front() == '-' || text.front() == '+';
     const char letter = text.size() == (has_sign ? 2U : 1U) ? text.back() : '?';
     if (letter < 'x' || letter > 'z') {
-      r.xml.fail(node,
-                 fmt::format("<{}>: expected +x, -x, +y, -y, +z or -z, found '{}'", name, text));
+      r.xml.fail(node, fmt::format("<{}>: expected +x, -x, +y, -y, +z or -z, found '{}'", name, text));
     }
     return Axis{letter - 'x', text.front() == '-' ? -1.0 : 1.0};
   };
   const Axis first = axis("ab_axis", "+x"), second = axis("ab_x_ac_axis", "+y");
   const Vec3 ab = b.X_BF.p - a.X_BF.p;
   const Vec3 across = ab.cross(c.X_BF.p - a.X_BF.p);
-  if (a.body != b.body || a.body != c.body || a.body != origin.body ||
-      first.index == second.index || !(across.norm() > 0.0)) {
-    r.xml.fail(node,
-               fmt::format("StationDefinedFrame '{}': expected four points of one body, three "
-                           "of them not on a line, and two different axes",
-                           OsimXml::name_of(node)));
+  if (a.body != b.body || a.body != c.body || a.body != origin.body || first.index == second.index ||
+      !(across.norm() > 0.0)) {
+    r.xml.fail(node, fmt::format("StationDefinedFrame '{}': expected four points of one body, three "
+                                 "of them not on a line, and two different axes",
+                                 OsimXml::name_of(node)));
   }
   Mat3 R;
   R.col(first.index) = first.sign * ab.normalized();
@@ -120,19 +107,14 @@ FixedFrame station_defined(const OsimReading& r,
   return {origin.body, {R, origin.X_BF.p}};
 }
 
-FixedFrame resolve(const OsimReading& r,
-                   pugi::xml_node where,
-                   std::string name,
-                   const std::string& owner,
-                   int depth) {
+FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner, int depth) {
   if (depth > 32) r.xml.fail(where, fmt::format("frame '{}' refers to itself", name));
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
     if (path == "/ground") return FixedFrame{};
     // Bodies are in their set or among the components; their names are unique.
     for (const std::string_view set : {"/bodyset/", "/componentset/", "/"}) {
       if (!path.starts_with(set)) continue;
-      if (const auto body = r.find_body(std::string_view(path).substr(set.size())))
-        return FixedFrame{*body, {}};
+      if (const auto body = r.find_body(std::string_view(path).substr(set.size()))) return FixedFrame{*body, {}};
     }
     const auto it = r.frames.find(path);
     if (it == r.frames.end()) return std::nullopt;
@@ -141,13 +123,10 @@ FixedFrame resolve(const OsimReading& r,
       return station_defined(r, frame, it->second.owner, depth);
     const bool is_point = std::strcmp(frame.name(), "Station") == 0;
     const std::string target = socket(r, frame, is_point ? "parent_frame" : "parent");
-    if (target.empty())
-      r.xml.fail(frame, fmt::format("frame '{}': the socket 'parent' is missing", name));
+    if (target.empty()) r.xml.fail(frame, fmt::format("frame '{}': the socket 'parent' is missing", name));
     const FixedFrame parent = resolve(r, frame, target, it->second.owner, depth + 1);
     if (is_point) {
-      return FixedFrame{
-          parent.body,
-          parent.X_BF * Pose{Mat3::Identity(), r.xml.vec3(frame, "location", Vec3::Zero())}};
+      return FixedFrame{parent.body, parent.X_BF * Pose{Mat3::Identity(), r.xml.vec3(frame, "location", Vec3::Zero())}};
     }
     return FixedFrame{parent.body, parent.X_BF * pose_of(r, frame, "translation", "orientation")};
   };
@@ -188,13 +167,9 @@ std::optional<int> place_of(const Places& places, std::string_view name) {
 
 }  // namespace
 
-OsimReading::OsimReading(const OsimXml& document,
-                         const Compat& as,
-                         BodyModel known,
-                         Frames known_frames)
+OsimReading::OsimReading(const OsimXml& document, const Compat& as, BodyModel known, Frames known_frames)
     : xml(document), compat(as), model(std::move(known)), frames(std::move(known_frames)) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    body_places.emplace(model.bodies[b].name, static_cast<int>(b));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) body_places.emplace(model.bodies[b].name, static_cast<int>(b));
   for (std::size_t c = 0; c < model.coordinates.size(); ++c)
     coordinate_places.emplace(model.coordinates[c].name, static_cast<int>(c));
 }
@@ -213,9 +188,7 @@ int OsimReading::add(Coordinate coordinate) {
   return place;
 }
 
-std::optional<int> OsimReading::find_body(std::string_view name) const {
-  return place_of(body_places, name);
-}
+std::optional<int> OsimReading::find_body(std::string_view name) const { return place_of(body_places, name); }
 std::optional<int> OsimReading::find_coordinate(std::string_view name) const {
   if (const auto place = place_of(coordinate_places, name)) return place;
   return name.find('/') == std::string_view::npos ? std::nullopt : model.find_coordinate(name);
@@ -226,16 +199,13 @@ pugi::xml_node skeleton_of(pugi::xml_node model) {
   return engine && !model.child("BodySet") ? engine : model;
 }
 
-std::vector<ModelComponent> components_of(pugi::xml_node model,
-                                          const char* set,
-                                          std::string_view kind) {
+std::vector<ModelComponent> components_of(pugi::xml_node model, const char* set, std::string_view kind) {
   std::vector<ModelComponent> found;
   for (const auto node : OsimXml::objects(model.child(set)))
     found.push_back({node, path_of_set(set) + "/" + OsimXml::name_of(node)});
   const auto add = [&](pugi::xml_node holder, const std::string& owner) {
     for (const auto node : holder.children())
-      if (std::string_view(node.name()).ends_with(kind))
-        found.push_back({node, owner + "/" + OsimXml::name_of(node)});
+      if (std::string_view(node.name()).ends_with(kind)) found.push_back({node, owner + "/" + OsimXml::name_of(node)});
   };
   add(model.child("components"), "");
   add(model.child("ComponentSet").child("objects"), "/componentset");
@@ -253,12 +223,11 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     body.name = OsimXml::name_of(node);
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
     if (body.name == "ground") continue;
-    if (r.find_body(body.name))
-      r.xml.fail(node, fmt::format("two bodies are named '{}'", body.name));
+    if (r.find_body(body.name)) r.xml.fail(node, fmt::format("two bodies are named '{}'", body.name));
     body.mass_kg = r.xml.number(node, "mass", r.is_old() ? 0.0 : std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
-      r.xml.fail(node, fmt::format("body '{}': expected a mass of 0 or more in kg, found '{}'",
-                                   body.name, r.xml.word(node, "mass")));
+      r.xml.fail(node, fmt::format("body '{}': expected a mass of 0 or more in kg, found '{}'", body.name,
+                                   r.xml.word(node, "mass")));
     }
     body.p_BBcm_B = r.xml.vec3(node, "mass_center", Vec3::Zero());
     body.I_BBcm_B = body.mass_kg == 0.0 ? Mat3::Zero() : inertia_of(r, node, body.name);
@@ -267,10 +236,10 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     }
     for (int k = 0; k < 3; ++k) {
       if (body.I_BBcm_B(k, k) < 0.0) {
-        r.model.notes.push_back(fmt::format(
-            "body '{}': the moment of inertia about its axis {} is negative, {} kg m^2; it is used "
-            "as it is",
-            body.name, "xyz"[k], body.I_BBcm_B(k, k)));
+        r.model.notes.push_back(
+            fmt::format("body '{}': the moment of inertia about its axis {} is negative, {} kg m^2; it is used "
+                        "as it is",
+                        body.name, "xyz"[k], body.I_BBcm_B(k, k)));
       }
     }
     collect_frames(r, node.child("components"), path);
@@ -280,26 +249,19 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     collect_frames(r, node.child("frames"), path);
 }
 
-std::string socket(const OsimReading& r,
-                   pugi::xml_node node,
-                   std::string_view name,
-                   const char* old_name) {
+std::string socket(const OsimReading& r, pugi::xml_node node, std::string_view name, const char* old_name) {
   std::string key = fmt::format("socket_{}", name);
   if (const auto child = r.xml.property(node, key.c_str())) return OsimXml::text_of(child);
   key += "_connectee_name";
   if (const auto child = r.xml.property(node, key.c_str())) return OsimXml::text_of(child);
   for (const auto child : node.child("connectors").children()) {
     const std::string own = OsimXml::name_of(child);
-    if (own == name || (old_name != nullptr && own == old_name))
-      return OsimXml::text_of(child.child("connectee_name"));
+    if (own == name || (old_name != nullptr && own == old_name)) return OsimXml::text_of(child.child("connectee_name"));
   }
   return old_name == nullptr ? std::string() : r.xml.word(node, old_name);
 }
 
-FixedFrame resolve_frame(const OsimReading& r,
-                         pugi::xml_node where,
-                         std::string name,
-                         const std::string& owner) {
+FixedFrame resolve_frame(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner) {
   return resolve(r, where, std::move(name), owner, 0);
 }
 
@@ -310,18 +272,13 @@ FixedFrame frame_of(const OsimReading& r,
                     const char* old_name) {
   std::string target = socket(r, node, socket_name, old_name);
   if (target.empty()) {
-    r.xml.fail(node,
-               fmt::format("{} '{}': the socket '{}' is missing; expected the name of a frame",
-                           node.name(), OsimXml::name_of(node), socket_name));
+    r.xml.fail(node, fmt::format("{} '{}': the socket '{}' is missing; expected the name of a frame", node.name(),
+                                 OsimXml::name_of(node), socket_name));
   }
   return resolve_frame(r, node, std::move(target), owner);
 }
 
-Pose pose_of(const OsimReading& r,
-             pugi::xml_node node,
-             const char* location,
-             const char* orientation,
-             bool rounded) {
+Pose pose_of(const OsimReading& r, pugi::xml_node node, const char* location, const char* orientation, bool rounded) {
   Vec3 p = r.xml.vec3(node, location, Vec3::Zero());
   Vec3 angles = r.xml.vec3(node, orientation, Vec3::Zero());
   if (rounded) {
@@ -336,8 +293,7 @@ int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_vie
   // If several coordinates have that name, the first joint's counts, as in OpenSim.
   if (r.shared_coordinate_names.contains(text)) {
     for (const Joint& joint : r.model.joints)
-      if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text)))
-        return *index;
+      if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text))) return *index;
   }
   r.xml.fail(where, fmt::format("there is no coordinate '{}'", text));
 }
@@ -351,20 +307,16 @@ bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive)
 double positive(const OsimReading& r, pugi::xml_node node, const char* name, double otherwise) {
   const double value = r.xml.number(node, name, otherwise);
   if (!(value > 0.0) || !std::isfinite(value)) {
-    r.xml.fail(node, fmt::format("{} '{}': expected <{}> above 0, found {}", node.name(),
-                                 OsimXml::name_of(node), name, value));
+    r.xml.fail(node, fmt::format("{} '{}': expected <{}> above 0, found {}", node.name(), OsimXml::name_of(node), name,
+                                 value));
   }
   return value;
 }
 
-Vec3 direction_of(const OsimReading& r,
-                  pugi::xml_node node,
-                  const char* name,
-                  const Vec3& otherwise) {
+Vec3 direction_of(const OsimReading& r, pugi::xml_node node, const char* name, const Vec3& otherwise) {
   const Vec3 v = r.xml.vec3(node, name, otherwise);
   if (!(v.norm() > 0.0) || !v.allFinite())
-    r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(),
-                                 OsimXml::name_of(node), name));
+    r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(), OsimXml::name_of(node), name));
   return v.normalized();
 }
 
@@ -385,9 +337,7 @@ std::optional<FixedFrame> find_frame(const BodyModel& model,
   const std::string frame = name.substr(slash + 1);
   for (const Joint& joint : model.joints) {
     if (!("/" + name.substr(0, slash)).ends_with("/" + joint.name)) continue;
-    const auto offset = [&](BodyIndex body) {
-      return model.bodies[static_cast<std::size_t>(body)].name + "_offset";
-    };
+    const auto offset = [&](BodyIndex body) { return model.bodies[static_cast<std::size_t>(body)].name + "_offset"; };
     if (frame == offset(joint.child)) return FixedFrame{joint.child, joint.X_BM};
     if (frame == offset(joint.parent)) return FixedFrame{joint.parent, joint.X_PF};
   }
@@ -397,15 +347,13 @@ std::optional<FixedFrame> find_frame(const BodyModel& model,
 std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& r, pugi::xml_node node) {
   const std::string owner = "/forceset/" + OsimXml::name_of(node);
   // Frames of its own: <frames><PhysicalOffsetFrame name="...">.
-  const auto own = [&](const char* socket_name, const char* old_name, const char* location,
-                       const char* orientation) {
+  const auto own = [&](const char* socket_name, const char* old_name, const char* location, const char* orientation) {
     const std::string target = socket(r, node, socket_name);
     for (const auto frame : node.child("frames").children("PhysicalOffsetFrame")) {
       const std::string name = OsimXml::name_of(frame);
       if (target == name || target.ends_with("/" + name)) {
         const FixedFrame parent = frame_of(r, frame, "parent", owner);
-        return FixedFrame{parent.body,
-                          parent.X_BF * pose_of(r, frame, "translation", "orientation")};
+        return FixedFrame{parent.body, parent.X_BF * pose_of(r, frame, "translation", "orientation")};
       }
     }
     FixedFrame frame = frame_of(r, node, socket_name, owner, old_name);

@@ -20,8 +20,7 @@ struct FixedFrame {
   Pose X_BF;
 };
 
-/// State that the parts of the reader share: the document, the model read so far and the frames by
-/// their paths.
+/// State that the parts of the reader share: the document, the model read so far and the frames by their paths.
 struct OsimReading {
   const OsimXml& xml;
   Compat compat;
@@ -40,18 +39,14 @@ struct OsimReading {
   std::set<std::string, std::less<>> shared_coordinate_names;
 
   /// Starts from a model that is partly read.
-  explicit OsimReading(const OsimXml& document,
-                       const Compat& as = {},
-                       BodyModel known = {},
-                       Frames known_frames = {});
+  explicit OsimReading(const OsimXml& document, const Compat& as = {}, BodyModel known = {}, Frames known_frames = {});
   int add(Body body);
   int add(Coordinate coordinate);
   [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
   /// Finds a coordinate by its name or by a path that ends in joint/coordinate.
   [[nodiscard]] std::optional<int> find_coordinate(std::string_view name) const;
 
-  /// Returns true for documents that have joints inside bodies and names of bodies instead of
-  /// sockets.
+  /// Returns true for documents that have joints inside bodies and names of bodies instead of sockets.
   [[nodiscard]] bool is_old() const { return xml.version() < 30500; }
 };
 
@@ -63,29 +58,24 @@ struct ModelComponent {
 
 /// Returns the objects of a set ("/bodyset/x"), then the components outside of the set whose class
 /// name ends in `kind`: in <components> ("/x") or <ComponentSet> of the model.
-[[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model,
-                                                        const char* set,
-                                                        std::string_view kind);
+[[nodiscard]] std::vector<ModelComponent> components_of(pugi::xml_node model, const char* set, std::string_view kind);
 
 /// Returns the element that holds bodies and joints: the model or, before 10700, an engine in it.
 [[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
 
-/// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground,
-/// bodies, joints and the model. Throws ReadError for a body without a name or a mass, and for two
-/// bodies of one name.
+/// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground, bodies, joints and
+/// the model. Throws ReadError for a body without a name or a mass, and for two bodies of one name.
 void read_bodies(OsimReading& reading, pugi::xml_node model);
 
-/// Returns the target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>,
-/// <connectors>, where betas of version 4 use the old name), or the text of <old_name>; empty if
-/// there is none.
+/// Returns the target of a socket in any of its spellings (<socket_x>, <socket_x_connectee_name>, <connectors>, where
+/// betas of version 4 use the old name), or the text of <old_name>; empty if there is none.
 [[nodiscard]] std::string socket(const OsimReading& reading,
                                  pugi::xml_node node,
                                  std::string_view name,
                                  const char* old_name = nullptr);
 
-/// Returns the frame that a name means from the component `owner`: a body, ground or an offset
-/// frame, also in a chain. Throws ReadError for an unknown frame and for a frame that refers to
-/// itself.
+/// Returns the frame that a name means from the component `owner`: a body, ground or an offset frame, also in a chain.
+/// Throws ReadError for an unknown frame and for a frame that refers to itself.
 [[nodiscard]] FixedFrame resolve_frame(const OsimReading& reading,
                                        pugi::xml_node where,
                                        std::string name,
@@ -115,21 +105,14 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
 
 /// Returns the coordinate that a socket or a text names; of several with one name the coordinate of
 /// the first joint. Throws ReadError for an unknown name.
-[[nodiscard]] int coordinate_named(const OsimReading& reading,
-                                   pugi::xml_node where,
-                                   std::string_view text);
+[[nodiscard]] int coordinate_named(const OsimReading& reading, pugi::xml_node where, std::string_view text);
 
 /// Returns true if a force or constraint is switched on, in any version: `positive` (appliesForce,
 /// isEnforced) or the old isDisabled.
-[[nodiscard]] bool is_enabled(const OsimReading& reading,
-                              pugi::xml_node node,
-                              const char* positive);
+[[nodiscard]] bool is_enabled(const OsimReading& reading, pugi::xml_node node, const char* positive);
 
 /// Returns a number above 0; throws ReadError for another.
-[[nodiscard]] double positive(const OsimReading& reading,
-                              pugi::xml_node node,
-                              const char* name,
-                              double otherwise);
+[[nodiscard]] double positive(const OsimReading& reading, pugi::xml_node node, const char* name, double otherwise);
 
 /// Returns the unit vector that a property gives; throws ReadError if it is no direction.
 [[nodiscard]] Vec3 direction_of(const OsimReading& reading,
@@ -138,7 +121,6 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                 const Vec3& otherwise);
 
 /// Returns the two frames that a bushing or a constraint joins, in the new and in the old spelling.
-[[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading,
-                                                           pugi::xml_node node);
+[[nodiscard]] std::pair<FixedFrame, FixedFrame> two_frames(const OsimReading& reading, pugi::xml_node node);
 
 }  // namespace myoid::model

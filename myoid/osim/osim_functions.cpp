@@ -24,8 +24,7 @@ bool is_simm_spline(std::string_view kind) {
 
 std::string named(pugi::xml_node node) {
   const std::string name = OsimXml::name_of(node);
-  return name.empty() ? fmt::format("<{}>", node.name())
-                      : fmt::format("<{}> '{}'", node.name(), name);
+  return name.empty() ? fmt::format("<{}>", node.name()) : fmt::format("<{}> '{}'", node.name(), name);
 }
 
 /// Describes the element that holds the function, and the element's owner.
@@ -42,8 +41,8 @@ std::string place_of(pugi::xml_node node) {
 }
 
 Function unsupported(OsimReading& r, pugi::xml_node node, const std::string& why) {
-  r.model.unsupported.push_back(fmt::format("function <{}>{} {}; it is taken as zero ({})",
-                                            node.name(), place_of(node), why, kSupported));
+  r.model.unsupported.push_back(
+      fmt::format("function <{}>{} {}; it is taken as zero ({})", node.name(), place_of(node), why, kSupported));
   return Constant{0.0};
 }
 
@@ -59,10 +58,8 @@ Function read_knots(OsimReading& r, pugi::xml_node node, double scale) {
   std::vector<double> y = r.xml.numbers(r.xml.property(node, "y"));
   try {
     if (is_simm_spline(kind)) return {make_simm_spline(std::move(x), std::move(y)), scale};
-    if (kind == "PiecewiseLinearFunction")
-      return {make_piecewise_linear(std::move(x), std::move(y)), scale};
-    if (kind == "PiecewiseConstantFunction")
-      return {make_piecewise_constant(std::move(x), std::move(y)), scale};
+    if (kind == "PiecewiseLinearFunction") return {make_piecewise_linear(std::move(x), std::move(y)), scale};
+    if (kind == "PiecewiseConstantFunction") return {make_piecewise_constant(std::move(x), std::move(y)), scale};
     const double half_order = r.xml.number(node, "half_order", 3.0);
     if (r.xml.number(node, "error_variance", 0.0) > 0.0)
       return unsupported(r, node, "smooths (its <error_variance> is above 0)");
@@ -100,18 +97,14 @@ std::optional<Function> function_in(OsimReading& r, pugi::xml_node holder) {
   return read_function(r, element);
 }
 
-std::optional<Function> function_property(OsimReading& r,
-                                          pugi::xml_node object,
-                                          const char* property) {
+std::optional<Function> function_property(OsimReading& r, pugi::xml_node object, const char* property) {
   if (const auto holder = r.xml.property(object, property)) return function_in(r, holder);
   const auto node = object.find_child_by_attribute("name", property);
   if (!node) return std::nullopt;
   return read_function(r, node);
 }
 
-std::vector<Function> functions_property(OsimReading& r,
-                                         pugi::xml_node object,
-                                         const char* property) {
+std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, const char* property) {
   auto set = r.xml.property(object, property);
   if (!set) set = object.find_child_by_attribute("name", property);
   if (const auto inner = set.child("FunctionSet")) set = inner;
@@ -125,15 +118,12 @@ std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
                                                        const char* property,
                                                        int dimension) {
   const auto holder = r.xml.property(object, property);
-  const auto node =
-      holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
+  const auto node = holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
   if (!node) return std::nullopt;
   return multi_function(r, node, dimension);
 }
 
-std::optional<MultiPolynomial> multi_function(const OsimReading& r,
-                                              pugi::xml_node node,
-                                              int dimension) {
+std::optional<MultiPolynomial> multi_function(const OsimReading& r, pugi::xml_node node, int dimension) {
   const double scale = unwrap(r, node);
   const std::string_view kind = node.name();
   MultiPolynomial f{.dimension = dimension, .degree = 1, .scale = scale};
@@ -172,15 +162,13 @@ Function read_function(OsimReading& r, pugi::xml_node node) {
     const auto given = r.xml.property(node, "coefficients");
     const auto c = given ? r.xml.numbers(given) : std::vector<double>{1.0, 0.0};
     if (c.size() != 2) {
-      r.xml.fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers",
-                                   c.size()));
+      r.xml.fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers", c.size()));
     }
     return {Linear{c[0], c[1]}, scale};
   }
   if (kind == "PolynomialFunction") return {Polynomial{coefficients_of(r, node)}, scale};
   if (kind == "MultivariatePolynomialFunction") {
-    if (r.xml.number(node, "dimension", 1.0) != 1.0)
-      return unsupported(r, node, "is one of several variables");
+    if (r.xml.number(node, "dimension", 1.0) != 1.0) return unsupported(r, node, "is one of several variables");
     auto c = coefficients_of(r, node);  // lowest power first
     std::reverse(c.begin(), c.end());
     return {Polynomial{std::move(c)}, scale};
@@ -191,9 +179,8 @@ Function read_function(OsimReading& r, pugi::xml_node node) {
             scale};
   }
   if (kind == "StepFunction") {
-    const SmoothStep step{
-        r.xml.number(node, "start_time", 0.0), r.xml.number(node, "end_time", 1.0),
-        r.xml.number(node, "start_value", 0.0), r.xml.number(node, "end_value", 1.0)};
+    const SmoothStep step{r.xml.number(node, "start_time", 0.0), r.xml.number(node, "end_time", 1.0),
+                          r.xml.number(node, "start_value", 0.0), r.xml.number(node, "end_value", 1.0)};
     if (!(step.end > step.start)) {
       r.xml.fail(node, fmt::format("<StepFunction>: expected <end_time> after <start_time> {}, "
                                    "found {}",

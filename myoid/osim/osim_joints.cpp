@@ -25,8 +25,7 @@ auto coordinates_of(pugi::xml_node joint) {
   return coordinates.children("Coordinate");
 }
 
-/// Returns a coordinate's name in the model, with its joint's name if several joints have a
-/// coordinate of that name.
+/// Returns a coordinate's name in the model, with its joint's name if several joints have a coordinate of that name.
 std::string model_name(const OsimReading& r, const std::string& joint, const std::string& name) {
   return r.shared_coordinate_names.contains(name) ? fmt::format("{}_{}", joint, name) : name;
 }
@@ -36,24 +35,21 @@ void read_coordinate(OsimReading& r, pugi::xml_node node, const std::string& joi
   Coordinate c;
   c.name = model_name(r, joint, OsimXml::name_of(node));
   if (c.name.empty()) xml.fail(node, "a coordinate has no name");
-  if (r.find_coordinate(c.name))
-    xml.fail(node, fmt::format("two coordinates are named '{}'", c.name));
+  if (r.find_coordinate(c.name)) xml.fail(node, fmt::format("two coordinates are named '{}'", c.name));
   c.default_value = xml.number(node, "default_value", xml.number(node, "initial_value", 0.0));
   c.default_speed = xml.number(node, "default_speed_value", 0.0);
   if (!std::isfinite(c.default_value))
     xml.fail(node, fmt::format("coordinate '{}': the default value is not finite", c.name));
   if (const auto range = xml.property(node, "range")) {
     const auto v = xml.numbers(range);
-    if (v.size() != 2)
-      xml.fail(range, fmt::format("<range>: expected two numbers, found {}", v.size()));
+    if (v.size() != 2) xml.fail(range, fmt::format("<range>: expected two numbers, found {}", v.size()));
     c.lower = std::min(v[0], v[1]);
     c.upper = std::max(v[0], v[1]);
   }
   c.clamped = xml.flag(node, "clamped", false);
   c.locked = xml.flag(node, "locked", false);
   c.is_free_to_satisfy_constraints = xml.flag(node, "is_free_to_satisfy_constraints", false);
-  if (xml.flag(node, "prescribed", false))
-    c.prescribed = function_property(r, node, "prescribed_function");
+  if (xml.flag(node, "prescribed", false)) c.prescribed = function_property(r, node, "prescribed_function");
   r.add(std::move(c));
 }
 
@@ -68,16 +64,14 @@ pugi::xml_node transform_axis(const OsimReading& r, pugi::xml_node node, std::si
   std::size_t rotations = 0;
   std::size_t translations = 3;
   for (const auto axis : OsimXml::objects(node.child("TransformAxisSet"))) {
-    if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot)
-      return axis;
+    if ((r.xml.flag(axis, "is_rotation", false) ? rotations++ : translations++) == slot) return axis;
   }
   return {};
 }
 
 /// Returns the coordinate of a joint that an axis names; -1 if the axis names none.
 int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& joint) {
-  const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates")
-                                               : r.xml.words(slot, "coordinate");
+  const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates") : r.xml.words(slot, "coordinate");
   if (names.empty()) return -1;
   if (names.size() > 1) {
     r.xml.fail(slot, fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
@@ -87,10 +81,8 @@ int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& j
   // Some files give the path of the coordinate.
   const std::string own = names[0].substr(names[0].find_last_of('/') + 1);
   const auto index = r.find_coordinate(model_name(r, joint.name, own));
-  if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) ==
-                    joint.coordinates.end()) {
-    r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name,
-                                 names[0]));
+  if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) == joint.coordinates.end()) {
+    r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name, names[0]));
   }
   return *index;
 }
@@ -98,14 +90,12 @@ int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& j
 /// Reads an axis of a CustomJoint.
 void read_axis(OsimReading& r, pugi::xml_node slot, const Joint& joint, TransformAxis& axis) {
   axis.axis = r.xml.vec3(slot, "axis", axis.axis);
-  if (!(axis.axis.norm() > 0.0) || !axis.axis.allFinite())
-    r.xml.fail(slot, "<axis>: the direction is zero");
+  if (!(axis.axis.norm() > 0.0) || !axis.axis.allFinite()) r.xml.fail(slot, "<axis>: the direction is zero");
   axis.axis.normalize();
   axis.coordinate = coordinate_of_axis(r, slot, joint);
-  pugi::xml_node function = OsimXml::first_element(
-      slot, {"coordinates", "coordinate", "axis", "is_rotation", "VisibleObject"});
-  if (function && std::string_view(function.name()) == "function")
-    function = OsimXml::first_element(function);
+  pugi::xml_node function =
+      OsimXml::first_element(slot, {"coordinates", "coordinate", "axis", "is_rotation", "VisibleObject"});
+  if (function && std::string_view(function.name()) == "function") function = OsimXml::first_element(function);
   if (function) {
     axis.function = read_function(r, function);
   } else if (axis.coordinate >= 0) {
@@ -136,8 +126,7 @@ void reorder_coordinates(OsimReading& r, Joint& joint, const std::vector<int>& o
 void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
   std::vector<int> order;
   const auto append = [&](int coordinate) {
-    if (std::find(order.begin(), order.end(), coordinate) == order.end())
-      order.push_back(coordinate);
+    if (std::find(order.begin(), order.end(), coordinate) == order.end()) order.push_back(coordinate);
   };
   for (std::size_t k = 0; k < 6; ++k) {
     TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
@@ -149,22 +138,16 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
   }
   for (const int index : joint.coordinates) append(index);
   reorder_coordinates(r, joint, order);
-  const Mat3 axes =
-      (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis).finished();
-  if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 ||
-      axes.col(1).cross(axes.col(2)).norm() < 1e-5) {
-    r.xml.fail(node,
-               fmt::format("joint '{}': two successive axes of rotation are parallel", joint.name));
+  const Mat3 axes = (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis).finished();
+  if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 || axes.col(1).cross(axes.col(2)).norm() < 1e-5) {
+    r.xml.fail(node, fmt::format("joint '{}': two successive axes of rotation are parallel", joint.name));
   }
 }
 
-void need_coordinates(const OsimReading& r,
-                      pugi::xml_node node,
-                      const Joint& joint,
-                      std::size_t count) {
+void need_coordinates(const OsimReading& r, pugi::xml_node node, const Joint& joint, std::size_t count) {
   if (joint.coordinates.size() == count) return;
-  r.xml.fail(node, fmt::format("joint '{}' ({}): expected {} coordinates, found {}", joint.name,
-                               joint.class_name, count, joint.coordinates.size()));
+  r.xml.fail(node, fmt::format("joint '{}' ({}): expected {} coordinates, found {}", joint.name, joint.class_name,
+                               count, joint.coordinates.size()));
 }
 
 /// Reads the length of a ConstantCurvatureJoint; returns its neutral angles about x, z, y [rad].
@@ -173,14 +156,13 @@ Vec3 read_rod(OsimReading& r, pugi::xml_node node, Joint& joint) {
   joint.rod_length_m = r.xml.number(node, "length", 1.0);
   if (!std::isfinite(*joint.rod_length_m) || !neutral_rad.allFinite())
     r.xml.fail(node, fmt::format("joint '{}': length or neutral angle is not finite", joint.name));
-  for (const int c : joint.coordinates)
-    r.model.coordinates[static_cast<std::size_t>(c)].clamped = true;
-  r.model.notes.push_back(fmt::format(
-      "joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
-      "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
-      "part of its accelerations out, so that moment arms, inverse dynamics and static "
-      "optimization differ there",
-      joint.name));
+  for (const int c : joint.coordinates) r.model.coordinates[static_cast<std::size_t>(c)].clamped = true;
+  r.model.notes.push_back(
+      fmt::format("joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
+                  "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
+                  "part of its accelerations out, so that moment arms, inverse dynamics and static "
+                  "optimization differ there",
+                  joint.name));
   return neutral_rad;
 }
 
@@ -217,15 +199,13 @@ bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
     joint.rotation[2].axis = Vec3::UnitX();
     drive(joint.translation[0], 0);
     drive(joint.translation[1], 1);
-  } else if (kind == "BallJoint" || kind == "GimbalJoint" || kind == "FreeJoint" ||
-             kind == "EllipsoidJoint") {
+  } else if (kind == "BallJoint" || kind == "GimbalJoint" || kind == "FreeJoint" || kind == "EllipsoidJoint") {
     need_coordinates(r, node, joint, kind == "FreeJoint" ? 6 : 3);
     for (std::size_t k = 0; k < 3; ++k) drive(joint.rotation[k], static_cast<Eigen::Index>(k));
     if (kind == "FreeJoint") {
       for (std::size_t k = 0; k < 3; ++k) drive(joint.translation[k], static_cast<Eigen::Index>(k));
     }
-    if (kind == "EllipsoidJoint")
-      joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
+    if (kind == "EllipsoidJoint") joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
   } else if (kind == "ConstantCurvatureJoint") {
     need_coordinates(r, node, joint, 3);
     const Vec3 neutral_rad = read_rod(r, node, joint);
@@ -280,8 +260,7 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   ellipsoid.coordinates.resize(3);
   ellipsoid.ellipsoid_radii_m = Vec3(radii.y(), radii.x(), radii.z());
   for (std::size_t k = 0; k < 3; ++k) {
-    ellipsoid.rotation[k] = {Vec3::Unit(static_cast<Eigen::Index>(k)), joint.coordinates[k],
-                             Linear{1.0, 0.0}};
+    ellipsoid.rotation[k] = {Vec3::Unit(static_cast<Eigen::Index>(k)), joint.coordinates[k], Linear{1.0, 0.0}};
     ellipsoid.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
   }
   Joint hinge = joint;
@@ -299,12 +278,12 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   hinge.rotation[2].axis = axis.cross(Vec3::UnitZ());
   for (const int c : joint.coordinates)
     r.model.coordinates[static_cast<std::size_t>(c)].motion = MotionType::rotational;
-  r.model.notes.push_back(fmt::format(
-      "joint '{}' (ScapulothoracicJoint) is an ellipsoid joint and a hinge with the massless body "
-      "'{}_winging_base' between; its speeds are the rates of its coordinates; OpenSim's tools "
-      "take "
-      "them for angular velocities, which --compat opensim reproduces",
-      joint.name, joint.name));
+  r.model.notes.push_back(
+      fmt::format("joint '{}' (ScapulothoracicJoint) is an ellipsoid joint and a hinge with the massless body "
+                  "'{}_winging_base' between; its speeds are the rates of its coordinates; OpenSim's tools "
+                  "take "
+                  "them for angular velocities, which --compat opensim reproduces",
+                  joint.name, joint.name));
   r.model.joints.push_back(std::move(ellipsoid));
   r.model.joints.push_back(std::move(hinge));
 }
@@ -318,8 +297,7 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     const bool rounded = r.compat.six_digit_offsets;
     const std::string parent = r.xml.word(node, "parent_body");
     if (parent.empty()) {
-      r.xml.fail(node, fmt::format("joint '{}' has no <parent_body>; expected the name of a body",
-                                   joint.name));
+      r.xml.fail(node, fmt::format("joint '{}' has no <parent_body>; expected the name of a body", joint.name));
     }
     joint.parent = resolve_frame(r, node, parent, "").body;
     joint.X_PF = pose_of(r, node, "location_in_parent", "orientation_in_parent", rounded);
@@ -357,10 +335,10 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     return;
   }
   if (!set_axes(r, node, joint)) {
-    r.model.unsupported.push_back(fmt::format(
-        "joint '{}' of kind {} is held at its default position; body '{}' and what "
-        "hangs on it are misplaced",
-        joint.name, joint.class_name, r.model.bodies[static_cast<std::size_t>(joint.child)].name));
+    r.model.unsupported.push_back(
+        fmt::format("joint '{}' of kind {} is held at its default position; body '{}' and what "
+                    "hangs on it are misplaced",
+                    joint.name, joint.class_name, r.model.bodies[static_cast<std::size_t>(joint.child)].name));
   }
   set_motion_types(r, joint);
   r.model.joints.push_back(std::move(joint));
@@ -376,18 +354,17 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
     c.name = fmt::format("{}_coord_{}", joint.name, k);
     c.motion = k < 3 ? MotionType::rotational : MotionType::translational;
     TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
-    axis = {Vec3::Unit(static_cast<Eigen::Index>(k % 3)),
-            static_cast<int>(r.model.coordinates.size()), Linear{1.0, 0.0}};
+    axis = {Vec3::Unit(static_cast<Eigen::Index>(k % 3)), static_cast<int>(r.model.coordinates.size()),
+            Linear{1.0, 0.0}};
     joint.coordinates.push_back(axis.coordinate);
     r.add(std::move(c));
   }
-  r.model.notes.push_back(fmt::format("body '{}' has no joint; it is free to move",
-                                      r.model.bodies[static_cast<std::size_t>(body)].name));
+  r.model.notes.push_back(
+      fmt::format("body '{}' has no joint; it is free to move", r.model.bodies[static_cast<std::size_t>(body)].name));
   r.model.joints.push_back(std::move(joint));
 }
 
-/// Finds the names that coordinates of several joints share; OpenSim distinguishes these
-/// coordinates by their paths.
+/// Finds the names that coordinates of several joints share; OpenSim distinguishes these coordinates by their paths.
 void find_shared_names(OsimReading& r, pugi::xml_node model) {
   std::map<std::string, std::vector<std::string>> joints_of;
   const auto add = [&](pugi::xml_node joint) {
@@ -403,11 +380,11 @@ void find_shared_names(OsimReading& r, pugi::xml_node model) {
   for (const auto& [name, joints] : joints_of) {
     if (joints.size() < 2) continue;
     r.shared_coordinate_names.insert(name);
-    r.model.notes.push_back(fmt::format(
-        "{} joints have a coordinate '{}'; here their names are {}_{} to {}_{} (columns "
-        "of files may also name them /jointset/{}/{}); where the model names no joint, the first "
-        "is meant, as in OpenSim",
-        joints.size(), name, joints.front(), name, joints.back(), name, joints.front(), name));
+    r.model.notes.push_back(
+        fmt::format("{} joints have a coordinate '{}'; here their names are {}_{} to {}_{} (columns "
+                    "of files may also name them /jointset/{}/{}); where the model names no joint, the first "
+                    "is meant, as in OpenSim",
+                    joints.size(), name, joints.front(), name, joints.back(), name, joints.front(), name));
   }
 }
 
@@ -415,8 +392,7 @@ void find_shared_names(OsimReading& r, pugi::xml_node model) {
 
 void read_joints(OsimReading& r, pugi::xml_node model) {
   find_shared_names(r, model);
-  for (const auto& [node, path] : components_of(model, "JointSet", "Joint"))
-    read_joint(r, node, path, -1);
+  for (const auto& [node, path] : components_of(model, "JointSet", "Joint")) read_joint(r, node, path, -1);
   const std::size_t bodies = r.model.bodies.size();
   std::vector<bool> has_joint(bodies, false);
   for (const auto body : OsimXml::objects(model.child("BodySet"))) {

@@ -98,8 +98,7 @@ DeGrooteCurves de_groote_curves(const OsimReading& r, pugi::xml_node node) {
   DeGrooteCurves c;
   c.active_width_scale = r.xml.number(node, "active_force_width_scale", 1.0);
   c.fiber_damping = r.xml.number(node, "fiber_damping", 0.0);
-  c.passive_fiber_strain_at_one_force =
-      r.xml.number(node, "passive_fiber_strain_at_one_norm_force", 0.6);
+  c.passive_fiber_strain_at_one_force = r.xml.number(node, "passive_fiber_strain_at_one_norm_force", 0.6);
   c.tendon_strain_at_one_force = r.xml.number(node, "tendon_strain_at_one_norm_force", 0.049);
   c.ignore_passive_fiber_force = r.xml.flag(node, "ignore_passive_fiber_force", false);
   c.ignore_tendon_compliance = r.xml.flag(node, "ignore_tendon_compliance", false);
@@ -113,20 +112,18 @@ DeGrooteCurves de_groote_curves(const OsimReading& r, pugi::xml_node node) {
 void note_classes(BodyModel& model) {
   std::map<std::string, std::vector<std::string>> by_class;
   for (const Muscle& muscle : model.muscles)
-    if (!muscle.class_name.starts_with("Thelen2003Muscle"))
-      by_class[muscle.class_name].push_back(muscle.name);
+    if (!muscle.class_name.starts_with("Thelen2003Muscle")) by_class[muscle.class_name].push_back(muscle.name);
   for (const auto& [name, muscles] : by_class) {
     const bool own = name.starts_with("Millard2012") || name.starts_with("DeGrooteFregly2016");
     constexpr std::size_t kNamed = 3;
     const std::vector<std::string> named(
-        muscles.begin(),
-        muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
+        muscles.begin(), muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
     model.notes.push_back(
         fmt::format("{} {} of class {} ({}{}): identification starts from the numbers that the "
                     "class shares with "
                     "Thelen's; {}",
-                    muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name,
-                    fmt::join(named, ", "), named.size() < muscles.size() ? ", ..." : "",
+                    muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
+                    named.size() < muscles.size() ? ", ..." : "",
                     own ? "so, run-tool and simulate use the class's own curves"
                         : "so, run-tool and simulate take Thelen's curves with their numbers"));
   }
@@ -142,19 +139,16 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   muscle.name = OsimXml::name_of(node);
   muscle.class_name = node.name();
   if (muscle.name.empty()) r.xml.fail(node, "a muscle has no name");
-  if (r.model.find_muscle(muscle.name))
-    r.xml.fail(node, fmt::format("two muscles are named '{}'", muscle.name));
+  if (r.model.find_muscle(muscle.name)) r.xml.fail(node, fmt::format("two muscles are named '{}'", muscle.name));
   muscle.applies_force = is_enabled(r, node, "appliesForce");
   const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
   const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
   const bool millard = muscle.class_name.starts_with("Millard2012");
-  const bool schutte =
-      muscle.class_name.starts_with("Schutte1993") || muscle.class_name.starts_with("Delp1990");
+  const bool schutte = muscle.class_name.starts_with("Schutte1993") || muscle.class_name.starts_with("Delp1990");
   MuscleProperties& p = muscle.properties;
   const auto set = [&](const char* name, double& value) {
     value = r.xml.number(node, name, value);
-    if (!std::isfinite(value) && std::string_view(name) != "min_control" &&
-        std::string_view(name) != "max_control")
+    if (!std::isfinite(value) && std::string_view(name) != "min_control" && std::string_view(name) != "max_control")
       r.xml.fail(node, fmt::format("muscle '{}': <{}> is not finite", muscle.name, name));
   };
   if (!thelen) {
@@ -167,8 +161,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   p.optimal_fiber_length_m = positive(r, node, "optimal_fiber_length", p.optimal_fiber_length_m);
   set("tendon_slack_length", p.tendon_slack_length_m);
   set("pennation_angle_at_optimal", p.pennation_at_optimal_rad);
-  if (!r.xml.property(node, "pennation_angle_at_optimal"))
-    set("pennation_angle", p.pennation_at_optimal_rad);
+  if (!r.xml.property(node, "pennation_angle_at_optimal")) set("pennation_angle", p.pennation_at_optimal_rad);
   for (const auto& [name, field] : kProperties) set(name, p.*field);
   // OpenSim starts every muscle at its classes' default of 0.1 m.
   if (!r.compat.class_fiber_length) p.default_fiber_length_m = p.optimal_fiber_length_m;

@@ -4,8 +4,7 @@
 
 namespace myoid::model {
 
-/// Adds a note for each class of muscles with curves other than Thelen's, with the commands that
-/// use them.
+/// Adds a note for each class of muscles with curves other than Thelen's, with the commands that use them.
 void note_classes(BodyModel& model);
 
 /// Returns true if an element is a muscle of a kind that is read.

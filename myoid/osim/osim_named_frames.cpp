@@ -20,9 +20,8 @@ std::string numbers(const Vec3& v) {
 
 /// Returns the first element of this class and name below `node`.
 pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::string& name) {
-  return node.find_node([&](const pugi::xml_node& n) {
-    return std::string_view(n.name()) == kind && OsimXml::name_of(n) == name;
-  });
+  return node.find_node(
+      [&](const pugi::xml_node& n) { return std::string_view(n.name()) == kind && OsimXml::name_of(n) == name; });
 }
 
 void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace& sensor) {
@@ -38,8 +37,7 @@ void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace&
 
 }  // namespace
 
-std::map<std::string, NamedFrame> named_frames(std::string_view text,
-                                               const std::filesystem::path& path) {
+std::map<std::string, NamedFrame> named_frames(std::string_view text, const std::filesystem::path& path) {
   OsimXml xml(text, path);
   const auto model = xml.root().child("Model");
   xml.set_prototypes(model.child("defaults"));
@@ -47,9 +45,8 @@ std::map<std::string, NamedFrame> named_frames(std::string_view text,
   read_bodies(reading, model);
   std::map<std::string, NamedFrame> frames;
   for (const Body& body : reading.model.bodies) {
-    frames.emplace(
-        body.name,
-        NamedFrame{body.name == "ground" ? "/ground" : "/bodyset/" + body.name, body.name, Pose{}});
+    frames.emplace(body.name,
+                   NamedFrame{body.name == "ground" ? "/ground" : "/bodyset/" + body.name, body.name, Pose{}});
   }
   for (const auto& [frame_path, frame] : reading.frames) {
     if (std::string_view(frame.node.name()) == "Station") continue;

@@ -19,8 +19,7 @@ struct NamedFrame {
 
 /// Bodies and offset frames of a model file by their names. Of several with one name: the body,
 /// else the first by path. Throws ReadError as parse_osim.
-[[nodiscard]] std::map<std::string, NamedFrame> named_frames(std::string_view text,
-                                                             const std::filesystem::path& path);
+[[nodiscard]] std::map<std::string, NamedFrame> named_frames(std::string_view text, const std::filesystem::path& path);
 
 /// A sensor's frame to place on a body or a frame of a model.
 struct SensorPlace {

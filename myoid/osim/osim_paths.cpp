@@ -19,8 +19,8 @@ Quadrant read_quadrant(const OsimReading& r, pugi::xml_node node) {
   const bool negative = text.front() == '-';
   if (negative || text.front() == '+') text.erase(0, 1);
   if (text.size() != 1 || text[0] < 'x' || text[0] > 'z') {
-    r.xml.fail(node, fmt::format("<quadrant>: expected all, x, -x, y, -y, z or -z, found '{}'",
-                                 r.xml.word(node, "quadrant")));
+    r.xml.fail(
+        node, fmt::format("<quadrant>: expected all, x, -x, y, -y, z or -z, found '{}'", r.xml.word(node, "quadrant")));
   }
   const int axis = text[0] - 'x' + 1;
   return negative ? -axis : axis;
@@ -36,13 +36,11 @@ void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& fram
     wrap.quadrant = read_quadrant(r, node);
     const std::string_view kind = node.name();
     if (kind == "WrapCylinder") {
-      wrap.shape =
-          CylinderShape{positive(r, node, "radius", 1.0), r.xml.number(node, "length", 1.0)};
+      wrap.shape = CylinderShape{positive(r, node, "radius", 1.0), r.xml.number(node, "length", 1.0)};
     } else if (kind == "WrapSphere") {
       wrap.shape = SphereShape{positive(r, node, "radius", 1.0)};
     } else if (kind == "WrapTorus") {
-      wrap.shape = TorusShape{positive(r, node, "inner_radius", 0.01),
-                              positive(r, node, "outer_radius", 0.05)};
+      wrap.shape = TorusShape{positive(r, node, "inner_radius", 0.01), positive(r, node, "outer_radius", 0.05)};
     } else if (kind == "WrapEllipsoid") {
       const Vec3 radii = r.xml.vec3(node, "dimensions", Vec3::Constant(0.05));
       if (!(radii.minCoeff() > 0.0) || !radii.allFinite())
@@ -50,8 +48,8 @@ void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& fram
       wrap.shape = EllipsoidShape{radii};
     } else {
       wrap.active = false;
-      r.model.unsupported.push_back(fmt::format(
-          "wrap object '{}' of kind {}: paths run straight through it", wrap.name, kind));
+      r.model.unsupported.push_back(
+          fmt::format("wrap object '{}' of kind {}: paths run straight through it", wrap.name, kind));
     }
     r.model.wrap_objects.push_back(std::move(wrap));
   }
@@ -73,12 +71,10 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
     if (target.empty()) continue;
     const int coordinate = coordinate_named(r, node, target);
     if (moving.coordinate >= 0 && coordinate != moving.coordinate) {
-      r.xml.fail(node,
-                 fmt::format("moving point '{}' depends on two coordinates, '{}' and '{}'; "
-                             "one is expected",
-                             OsimXml::name_of(node),
-                             r.model.coordinates[static_cast<std::size_t>(moving.coordinate)].name,
-                             target));
+      r.xml.fail(node, fmt::format("moving point '{}' depends on two coordinates, '{}' and '{}'; "
+                                   "one is expected",
+                                   OsimXml::name_of(node),
+                                   r.model.coordinates[static_cast<std::size_t>(moving.coordinate)].name, target));
     }
     moving.coordinate = coordinate;
   }
@@ -98,8 +94,7 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
   }
   const bool attachment = !r.xml.property(node, "location") && node.child("attachment");
   point.p_BP = frame.X_BF * r.xml.vec3(node, attachment ? "attachment" : "location", Vec3::Zero());
-  if (!point.p_BP.allFinite())
-    r.xml.fail(node, fmt::format("path point '{}': its location is not finite", point.name));
+  if (!point.p_BP.allFinite()) r.xml.fail(node, fmt::format("path point '{}': its location is not finite", point.name));
   if (kind == "ConditionalPathPoint" || kind == "MuscleViaPoint") {
     PathPoint::Condition condition;
     std::string target = socket(r, node, "coordinate", "coordinate");
@@ -113,8 +108,8 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
     }
     point.condition = condition;
   } else if (kind != "PathPoint" && kind != "MusclePoint") {
-    r.model.unsupported.push_back(fmt::format(
-        "path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind));
+    r.model.unsupported.push_back(
+        fmt::format("path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind));
   }
   return point;
 }
@@ -130,18 +125,15 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
   for (std::size_t w = 0; w < r.model.wrap_objects.size() && wrap.wrap_object < 0; ++w) {
     if (r.model.wrap_objects[w].name == name) wrap.wrap_object = static_cast<int>(w);
   }
-  if (wrap.wrap_object < 0)
-    r.xml.fail(node, fmt::format("path of '{}': there is no wrap object '{}'", owner, name));
+  if (wrap.wrap_object < 0) r.xml.fail(node, fmt::format("path of '{}': there is no wrap object '{}'", owner, name));
   const std::string method = r.xml.word(node, "method");
   using recording::equal_ignoring_case;
   if (equal_ignoring_case(method, "midpoint")) {
     wrap.method = WrapMethod::midpoint;
   } else if (equal_ignoring_case(method, "axial")) {
     wrap.method = WrapMethod::axial;
-  } else if (!method.empty() && !equal_ignoring_case(method, "hybrid") &&
-             !equal_ignoring_case(method, "Unassigned")) {
-    r.xml.fail(node,
-               fmt::format("<method>: expected hybrid, midpoint or axial, found '{}'", method));
+  } else if (!method.empty() && !equal_ignoring_case(method, "hybrid") && !equal_ignoring_case(method, "Unassigned")) {
+    r.xml.fail(node, fmt::format("<method>: expected hybrid, midpoint or axial, found '{}'", method));
   }
   if (const auto range = r.xml.property(node, "range")) {
     const auto v = r.xml.numbers(range);
@@ -172,8 +164,8 @@ std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node n
     path.moment_arms.push_back(*std::move(arm));
   }
   if (!path.moment_arms.empty() && path.moment_arms.size() != path.coordinates.size()) {
-    r.xml.fail(node, fmt::format("<moment_arm_functions>: {} functions for {} coordinates",
-                                 path.moment_arms.size(), path.coordinates.size()));
+    r.xml.fail(node, fmt::format("<moment_arm_functions>: {} functions for {} coordinates", path.moment_arms.size(),
+                                 path.coordinates.size()));
   }
   return path;
 }
@@ -185,16 +177,14 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   // A path refers to the first object of a name over the bodies in tree order.
   std::vector<pugi::xml_node> nodes(r.model.bodies.size());
   for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
-    if (const auto body = r.find_body(OsimXml::name_of(node)))
-      nodes[static_cast<std::size_t>(*body)] = node;
+    if (const auto body = r.find_body(OsimXml::name_of(node))) nodes[static_cast<std::size_t>(*body)] = node;
   }
   if (nodes[0]) read_wraps_of(r, nodes[0], {});
   for (std::size_t b = 1; b < nodes.size(); ++b) {
     if (nodes[b]) read_wraps_of(r, nodes[b], {static_cast<BodyIndex>(b), {}});
   }
   for (const auto& [path, frame] : r.frames) {
-    if (frame.node.child("WrapObjectSet"))
-      read_wraps_of(r, frame.node, resolve_frame(r, frame.node, path, ""));
+    if (frame.node.child("WrapObjectSet")) read_wraps_of(r, frame.node, resolve_frame(r, frame.node, path, ""));
   }
 }
 
@@ -226,8 +216,8 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   for (const auto wrap : OsimXml::objects(either(geometry, "PathWrapSet", "MuscleWrapSet")))
     path.wraps.push_back(read_path_wrap(r, wrap, owner));
   if (path.points.size() < 2) {
-    r.xml.fail(geometry, fmt::format("{} '{}' has {} path points; at least two are needed",
-                                     node.name(), owner, path.points.size()));
+    r.xml.fail(geometry, fmt::format("{} '{}' has {} path points; at least two are needed", node.name(), owner,
+                                     path.points.size()));
   }
   return path;
 }

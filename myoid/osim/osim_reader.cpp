@@ -25,36 +25,31 @@ void read_marker(OsimReading& r, pugi::xml_node node, const std::string& path) {
   const FixedFrame frame = frame_of(r, node, "parent_frame", path);
   marker.body = frame.body;
   marker.p_BM = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
-  if (!marker.p_BM.allFinite())
-    r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
+  if (!marker.p_BM.allFinite()) r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
   r.model.markers.push_back(std::move(marker));
 }
 
 void read_markers(OsimReading& r, pugi::xml_node set) {
   for (const auto node : OsimXml::objects(set)) {
-    if (std::string_view(node.name()) == "Marker")
-      read_marker(r, node, "/markerset/" + OsimXml::name_of(node));
+    if (std::string_view(node.name()) == "Marker") read_marker(r, node, "/markerset/" + OsimXml::name_of(node));
   }
 }
 
 /// Reads markers, constraints and forces outside of their sets.
 void read_loose_components(OsimReading& r, pugi::xml_node model) {
   for (const auto& [node, path] : components_of(model, "", "Marker")) read_marker(r, node, path);
-  for (const auto& [node, path] : components_of(model, "", "Constraint"))
-    read_constraint(r, node, path);
+  for (const auto& [node, path] : components_of(model, "", "Constraint")) read_constraint(r, node, path);
   for (const auto& [node, path] : components_of(model, "", "")) read_component_force(r, node);
 }
 
-/// Returns the name of the file that holds a set in place of the model; empty if the model holds
-/// it.
+/// Returns the name of the file that holds a set in place of the model; empty if the model holds it.
 std::string file_of(pugi::xml_node set) {
   std::string file = set.attribute("file").value();
   std::replace(file.begin(), file.end(), '\\', '/');
   return file == "Unassigned" ? std::string() : file;
 }
 
-/// Reads a set of markers or forces in the model or in a file that the set names, relative to the
-/// model.
+/// Reads a set of markers or forces in the model or in a file that the set names, relative to the model.
 template <typename Read>
 void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   const std::string file = file_of(set);
@@ -79,28 +74,23 @@ void list_external_sets(OsimReading& r, pugi::xml_node model) {
     const std::string file = file_of(node);
     const std::string_view set = node.name();
     if (!file.empty() && set != "MarkerSet" && set != "ForceSet") {
-      r.model.unsupported.push_back(
-          fmt::format("<{}> is in another file, '{}', which is not read", node.name(), file));
+      r.model.unsupported.push_back(fmt::format("<{}> is in another file, '{}', which is not read", node.name(), file));
     }
   }
 }
 
 }  // namespace
 
-BodyModel parse_osim(std::string_view text,
-                     const std::filesystem::path& path,
-                     const OsimOptions& options) {
+BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, const OsimOptions& options) {
   OsimXml xml(text, path);
   auto model = xml.root().child("Model");
   if (!model) {
-    xml.fail(xml.root(),
-             "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
+    xml.fail(xml.root(), "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
   }
   if (xml.version() < 10600) {
-    xml.fail(xml.root(),
-             fmt::format("document version {} is too old (before 10600): open the model "
-                         "in OpenSim and save it again",
-                         xml.version()));
+    xml.fail(xml.root(), fmt::format("document version {} is too old (before 10600): open the model "
+                                     "in OpenSim and save it again",
+                                     xml.version()));
   }
   xml.set_prototypes(model.child("defaults"));
   OsimReading r{xml, options.compat, {}, {}};
@@ -114,13 +104,10 @@ BodyModel parse_osim(std::string_view text,
     xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
-  read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"),
-           read_markers);
+  read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"), read_markers);
   read_wrap_objects(r, skeleton);
-  read_set(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"),
-           read_forces);
-  read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet")
-                                                      : model.child("ConstraintSet"));
+  read_set(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"), read_forces);
+  read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet") : model.child("ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
   for (const std::string& sentence : xml.defaulted()) r.model.notes.push_back(sentence);

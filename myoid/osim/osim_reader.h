@@ -13,22 +13,19 @@ struct OsimOptions {
 
 /// Reads an OpenSim model, document version 10600 to 4xxxx, as a BodyModel.
 ///
-/// Joints: Weld, Pin, Slider, Universal, Gimbal, Ball, Free, Planar, Ellipsoid, Scapulothoracic,
-/// Custom. Speeds are the rates of the coordinates, also where OpenSim's speeds are angular
-/// velocities (kinematics/angular_speeds.h has OpenSim's). A loop of joints is cut as OpenSim does.
-/// Functions: Constant, Linear, Polynomial, PiecewiseLinear, SimmSpline and NaturalCubicSpline,
-/// cubic GCVSpline, Multiplier. Path points: fixed, conditional, moving. Wrap objects: cylinder,
-/// ellipsoid, sphere, torus. Muscles of every class with the curves of Thelen, Millard, Schutte and
-/// DeGrooteFregly. Actuators: Coordinate-, Point-, Torque-. Passive forces: limit forces, bushings,
-/// springs, ligaments. Constraints: couplers of one coordinate, weld, point, distance, point on
-/// line. Values that an object omits come from `<defaults>`, then from the class.
+/// Joints: Weld, Pin, Slider, Universal, Gimbal, Ball, Free, Planar, Ellipsoid, Scapulothoracic, Custom. Speeds are the
+/// rates of the coordinates, also where OpenSim's speeds are angular velocities (kinematics/angular_speeds.h has
+/// OpenSim's). A loop of joints is cut as OpenSim does. Functions: Constant, Linear, Polynomial, PiecewiseLinear,
+/// SimmSpline and NaturalCubicSpline, cubic GCVSpline, Multiplier. Path points: fixed, conditional, moving. Wrap
+/// objects: cylinder, ellipsoid, sphere, torus. Muscles of every class with the curves of Thelen, Millard, Schutte and
+/// DeGrooteFregly. Actuators: Coordinate-, Point-, Torque-. Passive forces: limit forces, bushings, springs, ligaments.
+/// Constraints: couplers of one coordinate, weld, point, distance, point on line. Values that an object omits come from
+/// `<defaults>`, then from the class.
 ///
-/// `BodyModel::unsupported` lists the unsupported parts of the file and their effect on results,
-/// `notes` the harmless omissions. Throws ReadError with the line for bad XML, a missing element or
-/// socket, an unknown frame or a text that is no number; ModelError for a tree that does not close
-/// or cannot be moved.
-[[nodiscard]] BodyModel read_osim(const std::filesystem::path& path,
-                                  const OsimOptions& options = {});
+/// `BodyModel::unsupported` lists the unsupported parts of the file and their effect on results, `notes` the harmless
+/// omissions. Throws ReadError with the line for bad XML, a missing element or socket, an unknown frame or a text that
+/// is no number; ModelError for a tree that does not close or cannot be moved.
+[[nodiscard]] BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& options = {});
 [[nodiscard]] BodyModel parse_osim(std::string_view xml,
                                    const std::filesystem::path& path,
                                    const OsimOptions& options = {});

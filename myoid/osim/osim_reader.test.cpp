@@ -52,27 +52,22 @@ TEST(ParseOsim, ReadsOurOwnArm) {
 }
 
 TEST(ParseOsim, RefusesWhatIsNoModelWithTheRemedy) {
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\"><Mod").find("not valid XML"),
-            std::string::npos);
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\"><Mod").find("not valid XML"), std::string::npos);
   EXPECT_NE(message_of("<html></html>").find("not an OpenSim file"), std::string::npos);
-  EXPECT_NE(message_of("<OpenSimDocument Version=\"10500\"><Model/></OpenSimDocument>")
-                .find("save it again"),
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"10500\"><Model/></OpenSimDocument>").find("save it again"),
             std::string::npos);
-  EXPECT_NE(
-      message_of("<OpenSimDocument Version=\"40000\">\n<Model>\n<BodySet><objects>\n<Body "
-                 "name=\"b\"><mass>x</mass></Body></objects></BodySet></Model></OpenSimDocument>")
-          .find("m.osim:4: <mass>: expected numbers, found 'x'"),
-      std::string::npos);
+  EXPECT_NE(message_of("<OpenSimDocument Version=\"40000\">\n<Model>\n<BodySet><objects>\n<Body "
+                       "name=\"b\"><mass>x</mass></Body></objects></BodySet></Model></OpenSimDocument>")
+                .find("m.osim:4: <mass>: expected numbers, found 'x'"),
+            std::string::npos);
 }
 
 /// Marker locations of OpenSim along a motion; the greatest distance to ours [m].
 double worst_marker_error(const std::string& folder, const std::string& motion) {
   const auto root = test::data_folder() / "opensim" / folder;
   const BodyModel m = read_osim(root / "model.osim");
-  const recording::Storage q_file =
-      recording::read_storage(root / "opensim" / (motion + "_Kinematics_q.sto"));
-  const recording::Storage reference =
-      recording::read_storage(root / "opensim" / (motion + "_OutputsVec3.sto"));
+  const recording::Storage q_file = recording::read_storage(root / "opensim" / (motion + "_Kinematics_q.sto"));
+  const recording::Storage reference = recording::read_storage(root / "opensim" / (motion + "_OutputsVec3.sto"));
   const TimeSeries q = recording::to_si(q_file, [&](const std::string& name) {
     const auto c = m.find_coordinate(name);
     return c && m.coordinates[static_cast<std::size_t>(*c)].motion == MotionType::rotational;
@@ -89,8 +84,7 @@ double worst_marker_error(const std::string& folder, const std::string& motion) 
     for (const Marker& marker : m.markers) {
       const Vec3 p = state.X_GB[static_cast<std::size_t>(marker.body)] * marker.p_BM;
       for (int k = 0; k < 3; ++k) {
-        const auto column =
-            reference.data.find("/markerset/" + marker.name + "|location_" + std::to_string(k + 1));
+        const auto column = reference.data.find("/markerset/" + marker.name + "|location_" + std::to_string(k + 1));
         if (column) worst = std::max(worst, std::abs(reference.data.values()(row, *column) - p[k]));
       }
     }
@@ -110,8 +104,7 @@ std::string arm_replacing(const std::string& old, const std::string& piece) {
 TEST(ParseOsim, TheLeastControlIsThatOfTheMusclesClass) {
   const auto least = [](const char* kind) {
     std::string text = arm4_osim();
-    for (auto at = text.find("Thelen2003Muscle"); at != std::string::npos;
-         at = text.find("Thelen2003Muscle", at + 1))
+    for (auto at = text.find("Thelen2003Muscle"); at != std::string::npos; at = text.find("Thelen2003Muscle", at + 1))
       text.replace(at, 16, kind);
     return parse_osim(text, "arm.osim").muscles.at(0).properties.min_control;
   };
@@ -132,9 +125,8 @@ TEST(ParseOsim, MarkersMayStandInAFileOfTheirOwn) {
   const std::string text = arm4_osim();
   const auto begin = text.find("<MarkerSet"), end = text.find("</MarkerSet>");
   ASSERT_NE(end, std::string::npos);
-  const BodyModel m = parse_osim(
-      text.substr(0, begin) + "<MarkerSet file=\"sets\\m.xml\"/>" + text.substr(end + 12),
-      folder / "arm.osim");
+  const BodyModel m = parse_osim(text.substr(0, begin) + "<MarkerSet file=\"sets\\m.xml\"/>" + text.substr(end + 12),
+                                 folder / "arm.osim");
   ASSERT_EQ(m.markers.size(), 1U);
   EXPECT_EQ(m.markers[0].name, "apart");
   EXPECT_EQ(m.markers[0].p_BM, Vec3(0.1, 0.2, 0.3));
@@ -145,17 +137,16 @@ TEST(ParseOsim, MarkersMayStandInAFileOfTheirOwn) {
 
 TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
   const auto coupled = [](const std::string& function) {
-    const BodyModel m = parse_osim(
-        arm_replacing(
-            "</Model>",
-            "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
-            "<coupled_coordinates_function>" +
-                function +
-                "</coupled_coordinates_function><independent_coordinate_names>elbow_flexion"
-                "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation"
-                "</dependent_coordinate_name><scale_factor>2</scale_factor>"
-                "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
-        "arm.osim");
+    const BodyModel m =
+        parse_osim(arm_replacing("</Model>",
+                                 "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
+                                 "<coupled_coordinates_function>" +
+                                     function +
+                                     "</coupled_coordinates_function><independent_coordinate_names>elbow_flexion"
+                                     "</independent_coordinate_names><dependent_coordinate_name>shoulder_rotation"
+                                     "</dependent_coordinate_name><scale_factor>2</scale_factor>"
+                                     "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
+                   "arm.osim");
     EXPECT_EQ(m.couplers.size(), 1U);
     return evaluate(m.couplers.at(0).function, 0.5).value;
   };
@@ -163,11 +154,8 @@ TEST(ParseOsim, CouplersByPolynomialsAndSplinesOfOneVariable) {
   EXPECT_NEAR(coupled("<MultivariatePolynomialFunction><dimension>1</dimension><order>2</order>"
                       "<coefficients>1 2 3</coefficients></MultivariatePolynomialFunction>"),
               2.0 * 2.75, 1e-14);
-  EXPECT_NEAR(coupled("<GCVSpline><half_order>1</half_order><x>0 1</x><y>1 3</y></GCVSpline>"), 4.0,
-              1e-14);
-  EXPECT_NEAR(
-      coupled("<PiecewiseLinearFunction><x>0 1 2</x><y>0 2 2</y></PiecewiseLinearFunction>"), 2.0,
-      1e-14);
+  EXPECT_NEAR(coupled("<GCVSpline><half_order>1</half_order><x>0 1</x><y>1 3</y></GCVSpline>"), 4.0, 1e-14);
+  EXPECT_NEAR(coupled("<PiecewiseLinearFunction><x>0 1 2</x><y>0 2 2</y></PiecewiseLinearFunction>"), 2.0, 1e-14);
 }
 
 // A point that moves in a frame turned and shifted against the body of a hinge: length by hand,
@@ -195,8 +183,7 @@ TEST(ParseOsim, AMovingPointMayLieInAnOffsetFrame) {
     EXPECT_TRUE(m.unsupported.empty());
     const auto length = [](double q) {
       const auto turned = [](double a, const Vec3& p) {
-        return Vec3(std::cos(a) * p.x() - std::sin(a) * p.y(),
-                    std::sin(a) * p.x() + std::cos(a) * p.y(), p.z());
+        return Vec3(std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y(), p.z());
       };
       const Vec3 in_body = Vec3(0.1, 0.2, 0.0) + turned(0.5, Vec3(0.1 * q + 0.3, 0.05, 0.0));
       return (turned(q, in_body) - Vec3(0.0, 0.5, 0.1)).norm();
@@ -224,8 +211,7 @@ TEST(ParseOsim, APathMayBeAPolynomialOfCoordinates) {
 <coordinates><Coordinate name="p"/><Coordinate name="q"/></coordinates></UniversalJoint></objects></JointSet>
 <ForceSet><objects><Thelen2003Muscle name="muscle"><path><FunctionBasedPath name="path">
 <coordinates>/jointset/hinge/q /jointset/hinge/p</coordinates>)" +
-            path +
-            R"(</FunctionBasedPath></path></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
+            path + R"(</FunctionBasedPath></path></Thelen2003Muscle></objects></ForceSet></Model></OpenSimDocument>)",
         "m.osim");
   };
   const std::string length =
@@ -239,8 +225,7 @@ TEST(ParseOsim, APathMayBeAPolynomialOfCoordinates) {
   compute_poses(m, Eigen::Vector2d(p, q), state);
   compute_velocities(m, Eigen::Vector2d(1.5, 2.5), state);
   const PathResult path = compute_path(m, 0, state);
-  EXPECT_NEAR(path.length_m, 0.3 + 0.1 * p + 0.05 * p * p + 0.2 * q + 0.4 * q * p + 0.6 * q * q,
-              1e-15);
+  EXPECT_NEAR(path.length_m, 0.3 + 0.1 * p + 0.05 * p * p + 0.2 * q + 0.4 * q * p + 0.6 * q * q, 1e-15);
   EXPECT_NEAR(path.moment_arm_m[0], -(0.1 + 0.1 * p + 0.4 * q), 1e-15);
   EXPECT_NEAR(path.moment_arm_m[1], -(0.2 + 0.4 * p + 1.2 * q), 1e-15);
   EXPECT_NEAR(path.speed_mps, -path.moment_arm_m.dot(Eigen::Vector2d(1.5, 2.5)), 1e-15);
@@ -248,16 +233,13 @@ TEST(ParseOsim, APathMayBeAPolynomialOfCoordinates) {
   const std::string constant =
       "<MultivariatePolynomialFunction><coefficients>0.07</coefficients><dimension>2</dimension>"
       "<order>0</order></MultivariatePolynomialFunction>";
-  const BodyModel own =
-      hinges(length + "<moment_arm_functions>" + constant + constant + "</moment_arm_functions>");
+  const BodyModel own = hinges(length + "<moment_arm_functions>" + constant + constant + "</moment_arm_functions>");
   EXPECT_EQ(compute_path(own, 0, state).moment_arm_m, Eigen::Vector2d(0.07, 0.07));
   // What cannot be computed is named, and left out.
   const BodyModel other = hinges("<length_function><SimmSpline/></length_function>");
   ASSERT_EQ(other.unsupported.size(), 1U);
   EXPECT_TRUE(other.muscles.empty());
-  EXPECT_THROW(
-      (void)hinges(length + "<moment_arm_functions>" + constant + "</moment_arm_functions>"),
-      ReadError);
+  EXPECT_THROW((void)hinges(length + "<moment_arm_functions>" + constant + "</moment_arm_functions>"), ReadError);
 }
 
 TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
@@ -285,17 +267,15 @@ TEST(ParseOsim, AConstantCurvatureJointBendsARod) {
 // independent coordinates.
 TEST(ParseOsim, ACouplerMayHaveSeveralIndependentCoordinates) {
   const auto coupled = [](const std::string& function) {
-    return parse_osim(
-        arm_replacing(
-            "</Model>",
-            "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
-            "<coupled_coordinates_function>" +
-                function +
-                "</coupled_coordinates_function><independent_coordinate_names>shoulder_flexion "
-                "elbow_flexion</independent_coordinate_names><dependent_coordinate_name>"
-                "shoulder_rotation</dependent_coordinate_name><scale_factor>2</scale_factor>"
-                "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
-        "arm.osim");
+    return parse_osim(arm_replacing("</Model>",
+                                    "<ConstraintSet><objects><CoordinateCouplerConstraint name=\"c\">"
+                                    "<coupled_coordinates_function>" +
+                                        function +
+                                        "</coupled_coordinates_function><independent_coordinate_names>shoulder_flexion "
+                                        "elbow_flexion</independent_coordinate_names><dependent_coordinate_name>"
+                                        "shoulder_rotation</dependent_coordinate_name><scale_factor>2</scale_factor>"
+                                        "</CoordinateCouplerConstraint></objects></ConstraintSet></Model>"),
+                      "arm.osim");
   };
   const BodyModel m = coupled(
       "<MultivariatePolynomialFunction><dimension>2</dimension><order>2</order><coefficients>"
@@ -319,11 +299,9 @@ TEST(ParseOsim, ACouplerMayHaveSeveralIndependentCoordinates) {
   EXPECT_NEAR(A(0, s), -2.0 * (0.4 + 0.45 + 0.36), 1e-13);
   EXPECT_NEAR(A(0, e), -2.0 * (0.2 + 0.54 + 0.15), 1e-13);
   // By slopes and intercept.
-  const BodyModel line =
-      coupled("<LinearFunction><coefficients>0.5 -0.25 0.125</coefficients></LinearFunction>");
+  const BodyModel line = coupled("<LinearFunction><coefficients>0.5 -0.25 0.125</coefficients></LinearFunction>");
   EXPECT_NEAR(assemble(line, q).q[r], 2.0 * (0.15 - 0.225 + 0.125), 1e-14);
-  EXPECT_THROW((void)coupled("<LinearFunction><coefficients>1 2</coefficients></LinearFunction>"),
-               ReadError);
+  EXPECT_THROW((void)coupled("<LinearFunction><coefficients>1 2</coefficients></LinearFunction>"), ReadError);
   EXPECT_EQ(coupled("<SimmSpline><x>0 1</x><y>0 1</y></SimmSpline>").unsupported.size(), 1U);
 }
 

@@ -54,8 +54,7 @@ void update_switch(pugi::xml_node object) {
                                                                     : "appliesForce";
   const std::string text = child_text(object, "isDisabled");
   const bool disabled = recording::equal_ignoring_case(text, "true") || text == "1";
-  if (!object.child(name))
-    object.insert_child_before(name, old).text().set(disabled ? "false" : "true");
+  if (!object.child(name)) object.insert_child_before(name, old).text().set(disabled ? "false" : "true");
   object.remove_child(old);
 }
 
@@ -163,8 +162,7 @@ void update_force(pugi::xml_node object, int version) {
   if (kind.find("Muscle") != std::string_view::npos) {
     rename_child(object, "pennation_angle", "pennation_angle_at_optimal");
     // A bound of 0 meant no bound: the class's default holds.
-    if (version < 30513 && object.child("min_control") &&
-        object.child("min_control").text().as_double() == 0.0)
+    if (version < 30513 && object.child("min_control") && object.child("min_control").text().as_double() == 0.0)
       object.remove_child("min_control");
   } else if (kind == "TorqueActuator") {
     rename_child(object, "body_A", "bodyA");
@@ -181,8 +179,8 @@ void update_force(pugi::xml_node object, int version) {
 
 void update_object(pugi::xml_node object, int version) {
   const std::string_view old_kind = object.name();
-  const auto renamed = std::find_if(std::begin(kClasses), std::end(kClasses),
-                                    [&](const Renaming& r) { return r.first == old_kind; });
+  const auto renamed =
+      std::find_if(std::begin(kClasses), std::end(kClasses), [&](const Renaming& r) { return r.first == old_kind; });
   if (renamed != std::end(kClasses)) object.set_name(renamed->second);
   const std::string_view kind = object.name();
   update_switch(object);
@@ -208,8 +206,7 @@ void update_object(pugi::xml_node object, int version) {
 }  // namespace
 
 void rename_child(pugi::xml_node object, const char* old_name, const char* new_name) {
-  if (auto child = object.child(old_name); child && !object.child(new_name))
-    child.set_name(new_name);
+  if (auto child = object.child(old_name); child && !object.child(new_name)) child.set_name(new_name);
 }
 
 std::string body_path(std::string_view name) {
@@ -224,9 +221,7 @@ pugi::xml_node append_text(pugi::xml_node parent, const char* name, const std::s
   return child;
 }
 
-std::string child_text(pugi::xml_node parent, const char* name) {
-  return OsimXml::text_of(parent.child(name));
-}
+std::string child_text(pugi::xml_node parent, const char* name) { return OsimXml::text_of(parent.child(name)); }
 
 pugi::xml_node append_frame(pugi::xml_node parent,
                             const std::string& name,

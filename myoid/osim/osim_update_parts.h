@@ -7,9 +7,8 @@
 
 namespace myoid::model {
 
-/// Brings every element of a document of version `version` to its present form, as far as the form
-/// does not depend on other elements: names of classes and properties, switches, sockets of
-/// markers, path points, forces and constraints.
+/// Brings every element of a document of version `version` to its present form, as far as the form does not depend on
+/// other elements: names of classes and properties, switches, sockets of markers, path points, forces and constraints.
 void update_parts(pugi::xml_node document, int version);
 
 /// Renames a child unless a child of the new name exists.

@@ -80,9 +80,7 @@ class ModelUpdate {
     return result;
   }
 
-  static bool is_true(const std::string& text) {
-    return recording::equal_ignoring_case(text, "true") || text == "1";
-  }
+  static bool is_true(const std::string& text) { return recording::equal_ignoring_case(text, "true") || text == "1"; }
 
   /// Reverses a joint that moves its parent on its child, which documents until 30514 allow.
   static void reverse_sockets(pugi::xml_node joint) {
@@ -149,9 +147,7 @@ class ModelUpdate {
       std::swap(place_in_parent, place);
       std::swap(turn_in_parent, turn);
     }
-    const auto last = [](const std::string& path) {
-      return path.substr(path.find_last_of('/') + 1) + "_offset";
-    };
+    const auto last = [](const std::string& path) { return path.substr(path.find_last_of('/') + 1) + "_offset"; };
     append_text(joint, "socket_parent_frame", last(parent));
     append_text(joint, "socket_child_frame", last(child));
     if (const auto set = joint.child("CoordinateSet")) {
@@ -174,8 +170,7 @@ class ModelUpdate {
     return name.find('/') == std::string::npos ? body_path(name) : name;
   }
 
-  /// Updates the axes of documents before 10901, whose sets hold rotations and translations in any
-  /// order.
+  /// Updates the axes of documents before 10901, whose sets hold rotations and translations in any order.
   static void update_axes(pugi::xml_node joint) {
     const auto set = joint.child("TransformAxisSet");
     if (!set) return;
@@ -188,16 +183,14 @@ class ModelUpdate {
       axis.remove_child("is_rotation");
       axis.remove_child("VisibleObject");
       rename_child(axis, "coordinate", "coordinates");
-      slots[fmt::format("{}{}", turns ? "rotation" : "translation",
-                        turns ? ++rotations : ++translations)] = axis;
+      slots[fmt::format("{}{}", turns ? "rotation" : "translation", turns ? ++rotations : ++translations)] = axis;
     }
     constexpr const char* kAxes[] = {"1 0 0", "0 1 0", "0 0 1"};
     for (const char* kind : {"rotation", "translation"}) {
       for (int k = 0; k < 3; ++k) {
         const std::string slot = fmt::format("{}{}", kind, k + 1);
         const bool known = slots.contains(slot);
-        auto axis =
-            known ? transform.append_move(slots[slot]) : transform.append_child("TransformAxis");
+        auto axis = known ? transform.append_move(slots[slot]) : transform.append_child("TransformAxis");
         axis.set_name("TransformAxis");
         if (!axis.attribute("name")) axis.append_attribute("name");
         axis.attribute("name").set_value(slot.c_str());
@@ -245,8 +238,7 @@ class ModelUpdate {
       ground.append_attribute("name").set_value("ground");
     }
     for (const char* part : {"attached_geometry", "components", "WrapObjectSet"})
-      if (const auto child = body.child(part); child && !ground.child(part))
-        ground.append_move(child);
+      if (const auto child = body.child(part); child && !ground.child(part)) ground.append_move(child);
     body.parent().remove_child(body);
   }
 
@@ -304,8 +296,7 @@ class ModelUpdate {
     append_text(mesh, "scale_factors", product(scale, child_text(shape, "scale_factors")));
     auto look = mesh.append_child("Appearance");
     for (const char* part : {"opacity", "color"})
-      if (const std::string text = child_text(shape, part); !text.empty())
-        append_text(look, part, text);
+      if (const std::string text = child_text(shape, part); !text.empty()) append_text(look, part, text);
     append_text(mesh, "mesh_file", file);
   }
 
@@ -315,8 +306,7 @@ class ModelUpdate {
   std::set<std::string> has_joint_;
 };
 
-/// Objects take properties that they omit from the prototype of their class; afterwards the
-/// prototypes are removed.
+/// Objects take properties that they omit from the prototype of their class; afterwards the prototypes are removed.
 void spread_defaults(pugi::xml_node holder) {
   const auto defaults = holder.child("defaults");
   if (!defaults) return;
@@ -333,8 +323,7 @@ void spread_defaults(pugi::xml_node holder) {
       if (value.type() != pugi::node_element || node.child(value.name())) continue;
       // Functions and sets of objects belong to the object itself.
       if (name.ends_with("Set") || name == "VisibleObject" || name == "Joint") continue;
-      if (std::string_view(node.name()) == "TransformAxis" && OsimXml::first_element(value))
-        continue;
+      if (std::string_view(node.name()) == "TransformAxis" && OsimXml::first_element(value)) continue;
       node.append_copy(value);
     }
   }
@@ -369,9 +358,7 @@ void drop_visible(pugi::xml_node node, int& count) {
 
 }  // namespace
 
-UpdatedOsim updated_osim(std::string_view text,
-                         const std::filesystem::path& path,
-                         const OsimUpdateOptions& options) {
+UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& path, const OsimUpdateOptions& options) {
   const OsimXml source(text, path, OsimXml::Root::any);
   UpdatedOsim result;
   result.old_version = source.version();
@@ -394,22 +381,20 @@ UpdatedOsim updated_osim(std::string_view text,
     for (const auto node : model.children()) {
       const std::string file = node.attribute("file").value();
       if (!file.empty() && file != "Unassigned") {
-        result.notes.push_back(
-            fmt::format("<{}> stays in its own file, '{}': update that, too", node.name(), file));
+        result.notes.push_back(fmt::format("<{}> stays in its own file, '{}': update that, too", node.name(), file));
       }
     }
   }
   int looks = 0;
   drop_visible(root, looks);
   if (looks > 0) {
-    result.notes.push_back(fmt::format(
-        "{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows "
-        "them as it shows new ones",
-        looks));
+    result.notes.push_back(
+        fmt::format("{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows "
+                    "them as it shows new ones",
+                    looks));
   }
   if (!root.attribute("Version")) root.append_attribute("Version");
-  if (result.old_version < kNewestOsimVersion)
-    root.attribute("Version").set_value(kNewestOsimVersion);
+  if (result.old_version < kNewestOsimVersion) root.attribute("Version").set_value(kNewestOsimVersion);
   while (document.child("OpenSimDocument") != document.first_child() &&
          document.first_child().type() == pugi::node_declaration)
     document.remove_child(document.first_child());

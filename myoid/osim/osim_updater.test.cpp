@@ -156,8 +156,7 @@ TEST(UpdatedOsim, HoldsTheSameModelInTheNewestForm) {
     EXPECT_EQ(updated.text.find(gone), std::string::npos) << gone;
   for (const char* there :
        {"<Ground name=\"ground\">", "<BodySet name=\"bodyset\">", "<ForceSet name=\"forceset\">",
-        "<mesh_file>rod.vtp</mesh_file>", "<scale_factors>3 2 2</scale_factors>",
-        "<isEnforced>false</isEnforced>",
+        "<mesh_file>rod.vtp</mesh_file>", "<scale_factors>3 2 2</scale_factors>", "<isEnforced>false</isEnforced>",
         "<socket_parent_frame>/bodyset/tip</socket_parent_frame>"})
     EXPECT_NE(updated.text.find(there), std::string::npos) << there;
 }
@@ -179,22 +178,20 @@ TEST(UpdatedOsim, RoundsToSixDigitsAsOpensimWhereAsked) {
 }
 
 TEST(UpdatedOsim, UpdatesSetUpsAndSets) {
-  const std::string tool =
-      updated_osim(
-          "<AnalyzeTool name=\"a\"><actuator_set_files>x.xml</actuator_set_files>"
-          "<replace_actuator_set>true</replace_actuator_set></AnalyzeTool>",
-          "s.xml")
-          .text;
+  const std::string tool = updated_osim(
+                               "<AnalyzeTool name=\"a\"><actuator_set_files>x.xml</actuator_set_files>"
+                               "<replace_actuator_set>true</replace_actuator_set></AnalyzeTool>",
+                               "s.xml")
+                               .text;
   EXPECT_NE(tool.find("<OpenSimDocument Version=\"40500\">"), std::string::npos) << tool;
   EXPECT_NE(tool.find("<force_set_files>x.xml</force_set_files>"), std::string::npos);
   EXPECT_NE(tool.find("<replace_force_set>true</replace_force_set>"), std::string::npos);
-  const std::string set =
-      updated_osim(
-          "<OpenSimDocument Version=\"20302\"><ForceSet><objects><CoordinateActuator name=\"r\">"
-          "<isDisabled>false</isDisabled><coordinate>q</coordinate></CoordinateActuator></objects>"
-          "</ForceSet></OpenSimDocument>",
-          "r.xml")
-          .text;
+  const std::string set = updated_osim(
+                              "<OpenSimDocument Version=\"20302\"><ForceSet><objects><CoordinateActuator name=\"r\">"
+                              "<isDisabled>false</isDisabled><coordinate>q</coordinate></CoordinateActuator></objects>"
+                              "</ForceSet></OpenSimDocument>",
+                              "r.xml")
+                              .text;
   EXPECT_NE(set.find("<appliesForce>true</appliesForce>"), std::string::npos);
   const std::string controller =
       updated_osim(
@@ -229,8 +226,8 @@ TEST(UpdatedOsim, IsTheSameForEveryPublicModel) {
       expect_same(old, parse_osim(updated.text, entry.path()));
       ++count;
       if (entry.path().filename() != "model.osim" || old.document_version >= 30500) continue;
-      for (const auto& theirs : {entry.path().parent_path() / "model_v4.osim",
-                                 entry.path().parent_path() / "opensim" / "model_v4.osim"}) {
+      for (const auto& theirs :
+           {entry.path().parent_path() / "model_v4.osim", entry.path().parent_path() / "opensim" / "model_v4.osim"}) {
         if (!std::filesystem::exists(theirs)) continue;
         const UpdatedOsim rounded = updated_osim(text, entry.path(), {.six_digits = true});
         // OpenSim writes the points of functions with six digits: 1e-6 rad moves what they place.

@@ -23,8 +23,7 @@ struct Edit {
 
 std::string text_of(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values)
-    text += (text.empty() ? "" : " ") + recording::format_number(value);
+  for (const double value : values) text += (text.empty() ? "" : " ") + recording::format_number(value);
   return text;
 }
 
@@ -64,10 +63,9 @@ class RawText {
     }
     // The parser's offsets do not count the byte-order mark.
     if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
-    const auto parsed = document_.load_buffer(text.data() + mark_, text.size() - mark_,
-                                              pugi::parse_default, pugi::encoding_utf8);
-    if (!parsed)
-      throw ReadError(path, 0, fmt::format("cannot be read again: {}", parsed.description()));
+    const auto parsed =
+        document_.load_buffer(text.data() + mark_, text.size() - mark_, pugi::parse_default, pugi::encoding_utf8);
+    if (!parsed) throw ReadError(path, 0, fmt::format("cannot be read again: {}", parsed.description()));
   }
   [[nodiscard]] pugi::xml_node root() const { return document_.child("OpenSimDocument"); }
   [[nodiscard]] std::string_view text() const { return text_; }
@@ -115,8 +113,7 @@ std::string_view indentation(std::string_view text, std::size_t after) {
   return next < text.size() && text[next] == '<' ? text.substr(after, next - after) : "";
 }
 
-/// Replaces the content of an element by `values`; blanks around it and comments before and after
-/// it stay.
+/// Replaces the content of an element by `values`; blanks around it and comments before and after it stay.
 Edit fill(const RawText& raw, pugi::xml_node element, const std::string& values) {
   const std::string_view text = raw.text();
   std::optional<std::size_t> first, last;
@@ -136,28 +133,20 @@ Edit fill(const RawText& raw, pugi::xml_node element, const std::string& values)
 }
 
 /// Adds an element that the object lacks.
-Edit add(const RawText& raw,
-         pugi::xml_node object,
-         const std::string& property,
-         const std::string& values) {
+Edit add(const RawText& raw, pugi::xml_node object, const std::string& property, const std::string& values) {
   const std::string element = fmt::format("<{}>{}</{}>", property, values, property);
   const StartTag tag = raw.start_tag(object);
-  if (!tag.is_whole)
-    return {tag.after, 0, std::string(indentation(raw.text(), tag.after)) + element};
+  if (!tag.is_whole) return {tag.after, 0, std::string(indentation(raw.text(), tag.after)) + element};
   return {tag.after - 2, 2, fmt::format(">{}</{}>", element, object.name())};
 }
 
-std::string with_edits(std::string_view text,
-                       std::vector<Edit> edits,
-                       const std::filesystem::path& path) {
-  std::stable_sort(edits.begin(), edits.end(),
-                   [](const Edit& a, const Edit& b) { return a.at < b.at; });
+std::string with_edits(std::string_view text, std::vector<Edit> edits, const std::filesystem::path& path) {
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at < b.at; });
   std::string result;
   result.reserve(text.size() + 64 * edits.size());
   std::size_t done = 0;
   for (const Edit& e : edits) {
-    if (e.at < done)
-      throw ModelError(fmt::format("{}: one number is to be changed twice", path.string()));
+    if (e.at < done) throw ModelError(fmt::format("{}: one number is to be changed twice", path.string()));
     result += text.substr(done, e.at - done);
     result += e.text;
     done = e.at + e.length;
@@ -178,21 +167,19 @@ std::string changed_osim(std::string_view text,
     const OsimChange& change = changes[i];
     for (const double value : change.values) {
       if (!std::isfinite(value)) {
-        throw ModelError(fmt::format("<{}> of '{}': {} cannot be written to a model",
-                                     change.property, change.object, value));
+        throw ModelError(
+            fmt::format("<{}> of '{}': {} cannot be written to a model", change.property, change.object, value));
       }
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (changes[k].set == change.set && changes[k].object == change.object &&
           changes[k].property == change.property) {
-        throw ModelError(
-            fmt::format("<{}> of '{}' is to be changed twice", change.property, change.object));
+        throw ModelError(fmt::format("<{}> of '{}' is to be changed twice", change.property, change.object));
       }
     }
     const auto place = place_of(xml, change);
     if (!place) {
-      throw ModelError(fmt::format("{}: there is no '{}' in <{}> to change", path.string(),
-                                   change.object, change.set));
+      throw ModelError(fmt::format("{}: there is no '{}' in <{}> to change", path.string(), change.object, change.set));
     }
     const auto object = object_at(raw, change.set, *place);
     const auto element = object.child(change.property.c_str());

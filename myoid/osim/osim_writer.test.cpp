@@ -46,20 +46,17 @@ TEST(ChangedOsim, ReplacesTheNumberAndNothingElse) {
   const std::string text = document(
       "  <Thelen2003Muscle   name='a'><max_isometric_force> 1e2\t</max_isometric_force >"
       "<isDisabled>false</isDisabled></Thelen2003Muscle>");
-  EXPECT_EQ(changed(text, {{"ForceSet", "a", "max_isometric_force", {123.25}}}),
-            replaced(text, " 1e2\t", " 123.25\t"));
+  EXPECT_EQ(changed(text, {{"ForceSet", "a", "max_isometric_force", {123.25}}}), replaced(text, " 1e2\t", " 123.25\t"));
 }
 
 TEST(ChangedOsim, LeavesANumberThatIsTheSameInItsOwnDigits) {
-  const std::string text =
-      document("<Thelen2003Muscle name=\"a\"><Af>0.2500</Af><Flen>1.40</Flen></Thelen2003Muscle>");
+  const std::string text = document("<Thelen2003Muscle name=\"a\"><Af>0.2500</Af><Flen>1.40</Flen></Thelen2003Muscle>");
   EXPECT_EQ(changed(text, {{"ForceSet", "a", "Af", {0.25}}, {"ForceSet", "a", "Flen", {1.5}}}),
             replaced(text, "1.40", "1.5"));
 }
 
 TEST(ChangedOsim, KeepsLineEndsAndByteOrderMark) {
-  const std::string muscle =
-      "    <Thelen2003Muscle name=\"a\">\n      <Af>\n  0.2\n </Af>\n    </Thelen2003Muscle>";
+  const std::string muscle = "    <Thelen2003Muscle name=\"a\">\n      <Af>\n  0.2\n </Af>\n    </Thelen2003Muscle>";
   for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
     for (const std::string end : {"\n", "\r\n"}) {
       const std::string text = mark + document(muscle, end);
@@ -69,28 +66,24 @@ TEST(ChangedOsim, KeepsLineEndsAndByteOrderMark) {
 }
 
 TEST(ChangedOsim, AddsWhatTheFileLeavesToItsDefault) {
-  const std::string muscle =
-      "    <Thelen2003Muscle name=\"a>b\">\n      <Flen>1.4</Flen>\n    </Thelen2003Muscle>";
+  const std::string muscle = "    <Thelen2003Muscle name=\"a>b\">\n      <Flen>1.4</Flen>\n    </Thelen2003Muscle>";
   for (const std::string end : {"\n", "\r\n"}) {
     const std::string text = document(muscle, end);
     EXPECT_EQ(changed(text, {{"ForceSet", "a>b", "Af", {0.3}}}),
               replaced(text, "\"a>b\">", "\"a>b\">" + end + "      <Af>0.3</Af>"));
   }
   // No blanks between the elements: none are added.
-  const std::string dense =
-      document("<Thelen2003Muscle name='a'><Flen>1</Flen></Thelen2003Muscle>");
-  EXPECT_EQ(changed(dense, {{"ForceSet", "a", "Af", {0.3}}}),
-            replaced(dense, "name='a'>", "name='a'><Af>0.3</Af>"));
+  const std::string dense = document("<Thelen2003Muscle name='a'><Flen>1</Flen></Thelen2003Muscle>");
+  EXPECT_EQ(changed(dense, {{"ForceSet", "a", "Af", {0.3}}}), replaced(dense, "name='a'>", "name='a'><Af>0.3</Af>"));
   // Two at the same place.
-  EXPECT_EQ(
-      changed(dense, {{"ForceSet", "a", "Af", {0.3}}, {"ForceSet", "a", "KshapeActive", {1}}}),
-      replaced(dense, "name='a'>", "name='a'><Af>0.3</Af><KshapeActive>1</KshapeActive>"));
+  EXPECT_EQ(changed(dense, {{"ForceSet", "a", "Af", {0.3}}, {"ForceSet", "a", "KshapeActive", {1}}}),
+            replaced(dense, "name='a'>", "name='a'><Af>0.3</Af><KshapeActive>1</KshapeActive>"));
 }
 
 TEST(ChangedOsim, FillsAnEmptyElement) {
   for (const char* empty : {"<Af/>", "<Af />", "<Af></Af>", "<Af ></Af >", "<Af> </Af>"}) {
-    const std::string text = document("<Thelen2003Muscle name='a'>" + std::string(empty) +
-                                      "<Flen>1.4</Flen></Thelen2003Muscle>");
+    const std::string text =
+        document("<Thelen2003Muscle name='a'>" + std::string(empty) + "<Flen>1.4</Flen></Thelen2003Muscle>");
     const std::string after = changed(text, {{"ForceSet", "a", "Af", {0.3}}});
     EXPECT_EQ(after.find("<Af"), text.find("<Af"));
     EXPECT_NE(after.find("0.3"), std::string::npos) << after;
@@ -103,8 +96,7 @@ TEST(ChangedOsim, FillsAnEmptyElement) {
 }
 
 TEST(ChangedOsim, WritesOverNumbersAmongComments) {
-  const std::string text =
-      document("<Thelen2003Muscle name='a'><Af><!-- old: 0.1 -->0.2</Af></Thelen2003Muscle>");
+  const std::string text = document("<Thelen2003Muscle name='a'><Af><!-- old: 0.1 -->0.2</Af></Thelen2003Muscle>");
   EXPECT_EQ(changed(text, {{"ForceSet", "a", "Af", {0.3}}}), replaced(text, "0.2<", "0.3<"));
 }
 
@@ -112,9 +104,7 @@ TEST(ChangedOsim, SaysWhatItCannotChange) {
   const std::string text = document("<Thelen2003Muscle name='a'><Af>1</Af></Thelen2003Muscle>");
   EXPECT_THROW((void)changed(text, {{"ForceSet", "b", "Af", {0.3}}}), ModelError);
   EXPECT_THROW((void)changed(text, {{"ForceSet", "a", "Af", {std::nan("")}}}), ModelError);
-  EXPECT_THROW(
-      (void)changed(text, {{"ForceSet", "a", "Af", {0.3}}, {"ForceSet", "a", "Af", {0.4}}}),
-      ModelError);
+  EXPECT_THROW((void)changed(text, {{"ForceSet", "a", "Af", {0.3}}, {"ForceSet", "a", "Af", {0.4}}}), ModelError);
   EXPECT_THROW((void)changed("<OpenSimDocument", {}), InvalidInput);
 }
 
@@ -124,15 +114,13 @@ void expect_only_this_changes(const std::string& text, const std::filesystem::pa
   const BodyModel before = parse_osim(text, file);
   for (const Muscle& muscle : before.muscles) {
     const double value = muscle.properties.max_isometric_force_n;
-    EXPECT_EQ(changed_osim(text, file, {{"ForceSet", muscle.name, "max_isometric_force", {value}}}),
-              text)
+    EXPECT_EQ(changed_osim(text, file, {{"ForceSet", muscle.name, "max_isometric_force", {value}}}), text)
         << file << " " << muscle.name;
   }
   if (before.muscles.empty()) return;
   const Muscle& muscle = before.muscles[before.muscles.size() / 2];
   const double fiber_m = muscle.properties.optimal_fiber_length_m + 0.00123456789;
-  const std::string after =
-      changed_osim(text, file, {{"ForceSet", muscle.name, "optimal_fiber_length", {fiber_m}}});
+  const std::string after = changed_osim(text, file, {{"ForceSet", muscle.name, "optimal_fiber_length", {fiber_m}}});
   // The common beginning and end leave less than a number's digits between them.
   const auto [a, b] = std::mismatch(text.begin(), text.end(), after.begin(), after.end());
   const auto [ra, rb] = std::mismatch(text.rbegin(), text.rend(), after.rbegin(), after.rend());
@@ -142,17 +130,13 @@ void expect_only_this_changes(const std::string& text, const std::filesystem::pa
   const BodyModel changed_model = parse_osim(after, file);
   for (std::size_t m = 0; m < before.muscles.size(); ++m) {
     EXPECT_EQ(changed_model.muscles[m].properties.optimal_fiber_length_m,
-              before.muscles[m].name == muscle.name
-                  ? fiber_m
-                  : before.muscles[m].properties.optimal_fiber_length_m);
+              before.muscles[m].name == muscle.name ? fiber_m : before.muscles[m].properties.optimal_fiber_length_m);
     EXPECT_EQ(changed_model.muscles[m].properties.max_isometric_force_n,
               before.muscles[m].properties.max_isometric_force_n);
   }
 }
 
-TEST(ChangedOsim, ChangesOneNumberOfTheBuiltInArm) {
-  expect_only_this_changes(arm4_osim({}), "arm4.osim");
-}
+TEST(ChangedOsim, ChangesOneNumberOfTheBuiltInArm) { expect_only_this_changes(arm4_osim({}), "arm4.osim"); }
 
 TEST(ChangedOsim, ChangesOneNumberOfEveryPublicModelAndLeavesAllOtherBytes) {
   const auto folder = test::data_folder();

@@ -22,8 +22,7 @@ namespace {
 
 /// Returns true if there is neither text nor an element inside, nor a file that holds them.
 bool is_empty(pugi::xml_node node) {
-  return trim(node.text().get()).empty() && !OsimXml::first_element(node) &&
-         !node.attribute("file");
+  return trim(node.text().get()).empty() && !OsimXml::first_element(node) && !node.attribute("file");
 }
 
 std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
@@ -33,30 +32,26 @@ std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
-OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root)
-    : text_(text), path_(std::move(path)) {
+OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root) : text_(text), path_(std::move(path)) {
   const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
   if (!parsed) {
     using recording::FileFormat;
-    const std::string other = recording::wrong_kind(path_, {FileFormat::model, FileFormat::set_up},
-                                                    "a model (.osim) or a set-up (.xml)");
+    const std::string other =
+        recording::wrong_kind(path_, {FileFormat::model, FileFormat::set_up}, "a model (.osim) or a set-up (.xml)");
     if (!other.empty()) throw ReadError(path_, 0, other);
-    throw ReadError(
-        path_, line_at(text_, parsed.offset),
-        fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
+    throw ReadError(path_, line_at(text_, parsed.offset),
+                    fmt::format("not valid XML: {}; the file may be cut off", parsed.description()));
   }
   root_ = document_.child("OpenSimDocument");
   if (!root_ && root == Root::any) root_ = document_;
   if (!root_) {
-    throw ReadError(path_, 1,
-                    "expected <OpenSimDocument> as the root; this is not an OpenSim file");
+    throw ReadError(path_, 1, "expected <OpenSimDocument> as the root; this is not an OpenSim file");
   }
   version_ = root_.attribute("Version").as_int();
 }
 
 std::size_t OsimXml::line_of(pugi::xml_node where) const {
-  // Elements made while upgrading an old document have no place in the text: the place of a parent
-  // serves.
+  // Elements made while upgrading an old document have no place in the text: the place of a parent serves.
   std::ptrdiff_t offset = where.offset_debug();
   for (pugi::xml_node n = where; offset < 0 && n; n = n.parent()) offset = n.offset_debug();
   return line_at(text_, offset);
@@ -79,8 +74,7 @@ pugi::xml_node OsimXml::property(pugi::xml_node object, const char* name) const 
 
 pugi::xml_node OsimXml::value_of(pugi::xml_node object, const char* name) const {
   if (const auto own = object.child(name); own && is_empty(own)) {
-    std::string sentence =
-        fmt::format("line {}: <{}> is empty; its default holds", line_of(own), name);
+    std::string sentence = fmt::format("line {}: <{}> is empty; its default holds", line_of(own), name);
     if (std::find(defaulted_.begin(), defaulted_.end(), sentence) == defaulted_.end())
       defaulted_.push_back(std::move(sentence));
   }
@@ -94,9 +88,7 @@ std::string OsimXml::text_of(pugi::xml_node node) {
   return std::string(trim(text));
 }
 
-std::string OsimXml::word(pugi::xml_node object, const char* name) const {
-  return text_of(property(object, name));
-}
+std::string OsimXml::word(pugi::xml_node object, const char* name) const { return text_of(property(object, name)); }
 
 std::vector<std::string> OsimXml::words(pugi::xml_node object, const char* name) const {
   std::vector<std::string> result;
@@ -110,8 +102,7 @@ std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
   const std::string text = text_of(node);
   for (const std::string_view w : split_words(text)) {
     const auto value = parse_number(w);
-    if (!value || std::isnan(*value))
-      fail(node, fmt::format("<{}>: expected numbers, found '{}'", node.name(), w));
+    if (!value || std::isnan(*value)) fail(node, fmt::format("<{}>: expected numbers, found '{}'", node.name(), w));
     values.push_back(*value);
   }
   return values;
@@ -123,8 +114,7 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
   const std::string_view text = trim(node.text().get());
   if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
   const auto values = numbers(node);
-  if (values.size() != 1)
-    fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
+  if (values.size() != 1) fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
   return values[0];
 }
 
@@ -132,8 +122,7 @@ Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwis
   const auto node = value_of(object, name);
   if (!node) return otherwise;
   const auto values = numbers(node);
-  if (values.size() != 3)
-    fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));
+  if (values.size() != 3) fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));
   return {values[0], values[1], values[2]};
 }
 
@@ -154,8 +143,7 @@ std::vector<pugi::xml_node> OsimXml::objects(pugi::xml_node set) {
   return elements;
 }
 
-pugi::xml_node OsimXml::first_element(pugi::xml_node parent,
-                                      std::initializer_list<const char*> except) {
+pugi::xml_node OsimXml::first_element(pugi::xml_node parent, std::initializer_list<const char*> except) {
   for (const auto child : parent.children()) {
     if (child.type() != pugi::node_element) continue;
     if (std::any_of(except.begin(), except.end(),

@@ -21,13 +21,11 @@ class OsimXml {
   /// The element that the document must have at its root. With `any`, root() is the document itself
   /// unless its root is <OpenSimDocument> (task sets and loads of old set-ups).
   enum class Root { opensim_document, any };
-  /// Parses; throws ReadError (with the line) if the text is no XML or its root is not
-  /// <OpenSimDocument>.
+  /// Parses; throws ReadError (with the line) if the text is no XML or its root is not <OpenSimDocument>.
   OsimXml(std::string_view text, std::filesystem::path path, Root root = Root::opensim_document);
 
   [[nodiscard]] pugi::xml_node root() const { return root_; }
-  /// Returns the document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a
-  /// version.
+  /// Returns the document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a version.
   [[nodiscard]] int version() const { return version_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -43,16 +41,13 @@ class OsimXml {
   /// Returns the text of an element without blanks around it; empty without such an element.
   [[nodiscard]] std::string word(pugi::xml_node object, const char* name) const;
   [[nodiscard]] static std::string text_of(pugi::xml_node node);
-  [[nodiscard]] static std::string name_of(pugi::xml_node node) {
-    return node.attribute("name").value();
-  }
+  [[nodiscard]] static std::string name_of(pugi::xml_node node) { return node.attribute("name").value(); }
   [[nodiscard]] std::vector<std::string> words(pugi::xml_node object, const char* name) const;
   [[nodiscard]] std::vector<double> numbers(pugi::xml_node node) const;
   [[nodiscard]] double number(pugi::xml_node object, const char* name, double otherwise) const;
   [[nodiscard]] Vec3 vec3(pugi::xml_node object, const char* name, const Vec3& otherwise) const;
   [[nodiscard]] bool flag(pugi::xml_node object, const char* name, bool otherwise) const;
-  /// Returns a sentence for each empty element for which `number`, `vec3` or `flag` took the
-  /// default.
+  /// Returns a sentence for each empty element for which `number`, `vec3` or `flag` took the default.
   [[nodiscard]] const std::vector<std::string>& defaulted() const { return defaulted_; }
 
   /// Returns the elements in the <objects> of a set: <XSet><objects>...</objects></XSet>.

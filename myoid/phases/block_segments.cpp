@@ -10,8 +10,7 @@
 namespace myoid {
 namespace {
 
-/// Returns the robust spread of one block about its neighbors, at least one percent, because people
-/// vary more.
+/// Returns the robust spread of one block about its neighbors, at least one percent, because people vary more.
 double block_sd(const Eigen::VectorXd& x) {
   std::vector<double> differences;
   for (Eigen::Index i = 1; i < x.size(); ++i) differences.push_back(std::abs(x[i] - x[i - 1]));
@@ -72,8 +71,7 @@ BlockChanges find_changes(const std::vector<Block>& blocks) {
   if (frequency_known) x.col(1) = changes.frequency;
   Eigen::VectorXd sd = noise_sds(x);
   const auto segments = [&] {
-    return math::change_points(x,
-                               {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
+    return math::change_points(x, {.cost = math::SegmentCost::mean, .min_length = 2, .noise_sd = sd});
   };
   math::ChangePoints found = segments();
   // Large steps count as noise until they are known, and hide smaller ones.
@@ -98,26 +96,22 @@ BlockChanges find_changes(const std::vector<Block>& blocks) {
 }
 
 bool alike(double speed, double torque, double other_speed, double other_torque, double factor) {
-  const auto within = [&](double a, double b) {
-    return std::max(a, b) < factor * std::max(1e-9, std::min(a, b));
-  };
+  const auto within = [&](double a, double b) { return std::max(a, b) < factor * std::max(1e-9, std::min(a, b)); };
   return within(speed, other_speed) && within(torque, other_torque);
 }
 
 std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options) {
   constexpr double kSurely = 3.0;  // standard errors, of either
   const std::vector<Segment>& all = changes.segments;
-  const auto longest =
-      std::max_element(all.begin(), all.end(),
-                       [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
+  const auto longest = std::max_element(all.begin(), all.end(),
+                                        [](const Segment& a, const Segment& b) { return a.count() < b.count(); });
   auto regular = static_cast<std::size_t>(longest - all.begin());
   if (changes.frequency.size() == 0) return regular;
   for (auto segment = all.begin(); segment != longest; ++segment) {
     const double share = std::sqrt(1.0 / segment->count() + 1.0 / longest->count());
     const double gain = segment->gain - longest->gain;
     const double frequency = segment->frequency - longest->frequency;
-    if (segment->count() >= static_cast<double>(kBatch) &&
-        gain > kSurely * changes.gain_sd * share &&
+    if (segment->count() >= static_cast<double>(kBatch) && gain > kSurely * changes.gain_sd * share &&
         frequency > kSurely * changes.frequency_sd * share &&
         alike(segment->speed, segment->torque, longest->speed, longest->torque, options.alike) &&
         segment->gain > all[regular].gain) {

@@ -36,14 +36,11 @@ struct BlockChanges {
 /// than a fifth of the frequencies are not known, none is used. Gains must be finite.
 [[nodiscard]] BlockChanges find_changes(const std::vector<Block>& blocks);
 
-/// Returns true if two stretches are of one movement: speed and torque differ by less than
-/// `factor`.
-[[nodiscard]] bool alike(
-    double speed, double torque, double other_speed, double other_torque, double factor);
+/// Returns true if two stretches are of one movement: speed and torque differ by less than `factor`.
+[[nodiscard]] bool alike(double speed, double torque, double other_speed, double other_torque, double factor);
 
-/// Chooses the longest segment. If torque per EMG and frequency were both higher in earlier
-/// segments, the muscles tired in the longest one: the earlier segment with the most torque per EMG
-/// is chosen.
+/// Chooses the longest segment. If torque per EMG and frequency were both higher in earlier segments, the muscles tired
+/// in the longest one: the earlier segment with the most torque per EMG is chosen.
 [[nodiscard]] std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options);
 
 }  // namespace myoid

@@ -53,20 +53,18 @@ std::vector<Phase> phases_within(const TrialStretch& stretch,
       break;
     }
   }
-  if (phases.empty())
-    phases.push_back({.kind = PhaseKind::regular, .reason = "too short to search for changes"});
+  if (phases.empty()) phases.push_back({.kind = PhaseKind::regular, .reason = "too short to search for changes"});
   return phases;
 }
 
 void require_valid(const PhaseSignals& s) {
   const Eigen::Index n = s.time_s.size();
-  if (n < 2 || s.velocity_radps.size() != n || s.torque_nm.size() != n ||
-      s.predicted_nm.size() != n || s.activation.rows() != n ||
-      (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
+  if (n < 2 || s.velocity_radps.size() != n || s.torque_nm.size() != n || s.predicted_nm.size() != n ||
+      s.activation.rows() != n || (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
       !s.velocity_radps.allFinite() || !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() ||
       !s.activation.allFinite()) {
-    throw InvalidInput(fmt::format(
-        "phases of {} samples: rate, torques and activations must be as many and finite", n));
+    throw InvalidInput(
+        fmt::format("phases of {} samples: rate, torques and activations must be as many and finite", n));
   }
 }
 
@@ -77,16 +75,12 @@ std::vector<Phase> still_phases(const PhaseSignals& signals,
                                 double begin_s,
                                 double end_s) {
   const double activation =
-      signals.activation.middleRows(stretch.first, stretch.last - stretch.first)
-          .colwise()
-          .mean()
-          .maxCoeff();
+      signals.activation.middleRows(stretch.first, stretch.last - stretch.first).colwise().mean().maxCoeff();
   const bool rest = activation < options.rest_activation;
-  const Phase whole{
-      .kind = rest ? PhaseKind::rest : PhaseKind::isometric,
-      .begin_s = begin_s,
-      .end_s = end_s,
-      .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
+  const Phase whole{.kind = rest ? PhaseKind::rest : PhaseKind::isometric,
+                    .begin_s = begin_s,
+                    .end_s = end_s,
+                    .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
   return rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
 }
 
@@ -137,9 +131,8 @@ std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& 
   for (const TrialStretch& stretch : stretches) {
     const double begin_s = t[stretch.first];
     const double end_s = stretch.last < t.size() ? t[stretch.last] : t[t.size() - 1];
-    std::vector<Phase> parts = stretch.still
-                                   ? still_phases(signals, stretch, options, begin_s, end_s)
-                                   : phases_within(stretch, blocks, moving, t);
+    std::vector<Phase> parts = stretch.still ? still_phases(signals, stretch, options, begin_s, end_s)
+                                             : phases_within(stretch, blocks, moving, t);
     if (!stretch.still) {
       parts.front().begin_s = begin_s;
       for (std::size_t i = 0; i < parts.size(); ++i)

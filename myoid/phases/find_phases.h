@@ -19,9 +19,7 @@ namespace myoid {
 ///   muscles' effort for the same torque differs and approaches the later level (warm_up.h).
 /// - A held contraction is searched for fatigue in the same way, in windows.
 ///
-/// With fewer than 8 blocks all movement is regular. Throws InvalidInput unless sizes agree and
-/// values are finite.
-[[nodiscard]] std::vector<Phase> find_phases(const PhaseSignals& signals,
-                                             const PhaseOptions& options = {});
+/// With fewer than 8 blocks all movement is regular. Throws InvalidInput unless sizes agree and values are finite.
+[[nodiscard]] std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& options = {});
 
 }  // namespace myoid

@@ -27,9 +27,7 @@ struct Scene {
 };
 
 /// A recording by its script: torque noise of 4 % within a movement, 3 % of frequency per window.
-PhaseSignals recording(const std::vector<Scene>& scenes,
-                       bool raw_emg = true,
-                       std::uint64_t seed = 1) {
+PhaseSignals recording(const std::vector<Scene>& scenes, bool raw_emg = true, std::uint64_t seed = 1) {
   math::Random random(seed, 0);
   const auto n = static_cast<Eigen::Index>(scenes.back().end_s * kRate_hz) + 1;
   PhaseSignals s;
@@ -47,8 +45,7 @@ PhaseSignals recording(const std::vector<Scene>& scenes,
     if (i % 100 == 0) cycle_noise = 0.04 * random.normal();
     const double phase = 2.0 * std::numbers::pi * t;
     s.velocity_radps[i] = 2.0 * std::numbers::pi * scene.amplitude_rad * std::cos(phase);
-    s.predicted_nm[i] =
-        scene.amplitude_rad > 0.0 ? 10.0 + 5.0 * std::sin(phase) : 12.0 * scene.activation;
+    s.predicted_nm[i] = scene.amplitude_rad > 0.0 ? 10.0 + 5.0 * std::sin(phase) : 12.0 * scene.activation;
     s.torque_nm[i] = s.predicted_nm[i] * (scene.gain + scene.gain_slope * since + cycle_noise);
     s.effort_nm[i] = s.predicted_nm[i] * (1.0 + scene.wasted * std::exp(-since / scene.fading_s));
     s.activation.row(i).setConstant(scene.activation);
@@ -60,8 +57,7 @@ PhaseSignals recording(const std::vector<Scene>& scenes,
     Eigen::MatrixXd f(windows, 2);
     for (Eigen::Index w = 0; w < windows; ++w) {
       middle[w] = s.time_s[w * 200 + 100];
-      for (Eigen::Index c = 0; c < 2; ++c)
-        f(w, c) = frequency[w * 200 + 100] * (1.0 + 0.03 * random.normal());
+      for (Eigen::Index c = 0; c < 2; ++c) f(w, c) = frequency[w * 200 + 100] * (1.0 + 0.03 * random.normal());
     }
     s.median_frequency_hz = {middle, {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
   }
@@ -87,16 +83,13 @@ TEST(FindPhases, OfARegularTrialThereIsOne) {
 
 TEST(FindPhases, FindsThePapersSequences) {
   // Isometric contraction, warm-up, the regular movement, and muscles that tire (its figures 8-10).
-  const auto phases = find_phases(recording({{.end_s = 6.0, .amplitude_rad = 0.0},
-                                             {.end_s = 18.0, .gain = 1.3},
-                                             {.end_s = 60.0},
-                                             {.end_s = 90.0,
-                                              .gain = 0.9,
-                                              .gain_slope = -0.01,
-                                              .frequency_hz = 74.0,
-                                              .frequency_slope = -0.8}}));
-  ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::isometric, PhaseKind::warm_up,
-                                        PhaseKind::regular, PhaseKind::fatigued}));
+  const auto phases = find_phases(
+      recording({{.end_s = 6.0, .amplitude_rad = 0.0},
+                 {.end_s = 18.0, .gain = 1.3},
+                 {.end_s = 60.0},
+                 {.end_s = 90.0, .gain = 0.9, .gain_slope = -0.01, .frequency_hz = 74.0, .frequency_slope = -0.8}}));
+  ASSERT_EQ(kinds(phases),
+            (std::vector{PhaseKind::isometric, PhaseKind::warm_up, PhaseKind::regular, PhaseKind::fatigued}));
   // A stop is seen half a second late or early (the window of the rate); a change to one block, and
   // fatigue that begins gently to some.
   EXPECT_NEAR(phases[1].begin_s, 6.0, 0.6);
@@ -105,14 +98,12 @@ TEST(FindPhases, FindsThePapersSequences) {
   EXPECT_NEAR(*phases[1].gain, 1.3, 0.08);
   EXPECT_LT(*phases[3].gain, 0.85);
   EXPECT_LT(*phases[3].frequency, 0.88);
-  for (std::size_t i = 1; i < phases.size(); ++i)
-    EXPECT_DOUBLE_EQ(phases[i].begin_s, phases[i - 1].end_s);
+  for (std::size_t i = 1; i < phases.size(); ++i) EXPECT_DOUBLE_EQ(phases[i].begin_s, phases[i - 1].end_s);
 }
 
 TEST(FindPhases, LessTorqueAtTheSameFrequencyIsNotCalledFatigue) {
   const std::vector<Scene> script{{.end_s = 40.0}, {.end_s = 60.0, .gain = 0.8}};
-  EXPECT_EQ(kinds(find_phases(recording(script))),
-            (std::vector{PhaseKind::regular, PhaseKind::changed}));
+  EXPECT_EQ(kinds(find_phases(recording(script))), (std::vector{PhaseKind::regular, PhaseKind::changed}));
   // Without raw EMG the torque alone speaks, and the sentence says so.
   const auto phases = find_phases(recording(script, false));
   ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued}));
@@ -121,8 +112,7 @@ TEST(FindPhases, LessTorqueAtTheSameFrequencyIsNotCalledFatigue) {
 }
 
 TEST(FindPhases, AnotherMovementIsNotAWarmUp) {
-  EXPECT_EQ(kinds(find_phases(
-                recording({{.end_s = 16.0, .amplitude_rad = 0.3, .gain = 1.3}, {.end_s = 60.0}}))),
+  EXPECT_EQ(kinds(find_phases(recording({{.end_s = 16.0, .amplitude_rad = 0.3, .gain = 1.3}, {.end_s = 60.0}}))),
             (std::vector{PhaseKind::changed, PhaseKind::regular}));
 }
 
@@ -146,28 +136,25 @@ TEST(FindPhases, OfMusclesThatTireFromTheBeginningTheFreshOnesAreRegular) {
   // Torque per EMG falls by 0.3 % each second: a tenth of what it was in the first 30 s in
   // the mean is lost after 46 s; that segment may be half or twice as long.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto phases = find_phases(
-        recording({{.end_s = 150.0, .gain_slope = -0.003, .frequency_slope = -0.25}}, true, seed));
+    const auto phases =
+        find_phases(recording({{.end_s = 150.0, .gain_slope = -0.003, .frequency_slope = -0.25}}, true, seed));
     ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::fatigued})) << seed;
     EXPECT_NEAR(phases[1].begin_s, 46.0, 25.0) << seed;
   }
 }
 
 TEST(FindPhases, AHeldContractionTires) {
-  const auto phases = find_phases(recording(
-      {{.end_s = 60.0, .amplitude_rad = 0.0, .gain_slope = -0.006, .frequency_slope = -0.4}}));
+  const auto phases =
+      find_phases(recording({{.end_s = 60.0, .amplitude_rad = 0.0, .gain_slope = -0.006, .frequency_slope = -0.4}}));
   ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::isometric, PhaseKind::fatigued}));
   EXPECT_NEAR(phases[1].begin_s, 20.0, 10.0);
   EXPECT_DOUBLE_EQ(phases[1].end_s, 60.0);
-  EXPECT_EQ(kinds(find_phases(recording({{.end_s = 60.0, .amplitude_rad = 0.0}}))),
-            std::vector{PhaseKind::isometric});
+  EXPECT_EQ(kinds(find_phases(recording({{.end_s = 60.0, .amplitude_rad = 0.0}}))), std::vector{PhaseKind::isometric});
 }
 
 TEST(FindPhases, RestIsStandingStillWithoutActivation) {
-  const auto phases =
-      find_phases(recording({{.end_s = 20.0},
-                             {.end_s = 25.0, .amplitude_rad = 0.0, .activation = 0.01},
-                             {.end_s = 45.0}}));
+  const auto phases = find_phases(
+      recording({{.end_s = 20.0}, {.end_s = 25.0, .amplitude_rad = 0.0, .activation = 0.01}, {.end_s = 45.0}}));
   ASSERT_EQ(kinds(phases), (std::vector{PhaseKind::regular, PhaseKind::rest, PhaseKind::regular}));
   EXPECT_NEAR(phases[1].begin_s, 20.0, 0.6);
   EXPECT_NEAR(phases[1].end_s, 25.0, 0.6);

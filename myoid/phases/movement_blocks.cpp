@@ -38,8 +38,7 @@ double mean_log_frequency(const TimeSeries& median, double begin_s, double end_s
 std::vector<Eigen::Index> lower_turns(const PhaseSignals& s, const TrialStretch& stretch) {
   const Eigen::Index n = stretch.last - stretch.first;
   const double least =
-      std::sqrt(s.velocity_radps.segment(stretch.first, n).squaredNorm() / static_cast<double>(n)) /
-      3.0;
+      std::sqrt(s.velocity_radps.segment(stretch.first, n).squaredNorm() / static_cast<double>(n)) / 3.0;
   std::vector<Eigen::Index> turns;
   bool falling = false;
   Eigen::Index turn = stretch.first;
@@ -88,19 +87,15 @@ std::vector<TrialStretch> still_and_moving(const PhaseSignals& s, const PhaseOpt
   return merged;
 }
 
-std::vector<Block> blocks_of(const PhaseSignals& s,
-                             const TrialStretch& stretch,
-                             const PhaseOptions& options) {
+std::vector<Block> blocks_of(const PhaseSignals& s, const TrialStretch& stretch, const PhaseOptions& options) {
   const double dt = mean_interval(s.time_s);
   const auto shortest = std::max<Eigen::Index>(2, std::lround(options.block_s / dt));
-  const std::vector<Eigen::Index> turns =
-      stretch.still ? std::vector<Eigen::Index>() : lower_turns(s, stretch);
+  const std::vector<Eigen::Index> turns = stretch.still ? std::vector<Eigen::Index>() : lower_turns(s, stretch);
   std::vector<Block> blocks;
   Eigen::Index begin = stretch.first;
   while (begin + shortest <= stretch.last) {
     // The time of a turn is known to about a tenth of a cycle; a block may be shorter by that.
-    const auto turn =
-        std::lower_bound(turns.begin(), turns.end(), begin + shortest - shortest / 10);
+    const auto turn = std::lower_bound(turns.begin(), turns.end(), begin + shortest - shortest / 10);
     const bool turns_in_time = turn != turns.end() && *turn <= begin + 2 * shortest;
     Block block{.first = begin, .last = turns_in_time ? *turn : begin + shortest};
     const Eigen::Index m = block.last - block.first;
@@ -113,11 +108,9 @@ std::vector<Block> blocks_of(const PhaseSignals& s,
       const double economy = measured.norm() / s.effort_nm.segment(block.first, m).norm();
       if (std::isfinite(economy) && economy > 0.0) block.economy = std::log(economy);
     }
-    block.frequency =
-        mean_log_frequency(s.median_frequency_hz, s.time_s[block.first], s.time_s[block.last - 1]);
+    block.frequency = mean_log_frequency(s.median_frequency_hz, s.time_s[block.first], s.time_s[block.last - 1]);
     block.speed =
-        std::max(options.still_radps,
-                 std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
+        std::max(options.still_radps, std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
     block.torque = measured.norm() / std::sqrt(count);
     blocks.push_back(block);
     begin = block.last;
@@ -130,11 +123,9 @@ double long_run_sd(const Eigen::VectorXd& x, Eigen::Index batch) {
   if (count < 4) return kNan;
   Eigen::VectorXd mean(count);
   for (Eigen::Index j = 0; j < count; ++j) mean[j] = x.segment(j * batch, batch).mean();
-  const Eigen::VectorXd second =
-      mean.head(count - 2) - 2.0 * mean.segment(1, count - 2) +
-      mean.tail(count - 2);  // x[i] - 2 x[i+1] + x[i+2] has six times the variance
-  return std::sqrt(second.squaredNorm() / static_cast<double>(count - 2) / 6.0 *
-                   static_cast<double>(batch));
+  const Eigen::VectorXd second = mean.head(count - 2) - 2.0 * mean.segment(1, count - 2) +
+                                 mean.tail(count - 2);  // x[i] - 2 x[i+1] + x[i+2] has six times the variance
+  return std::sqrt(second.squaredNorm() / static_cast<double>(count - 2) / 6.0 * static_cast<double>(batch));
 }
 
 }  // namespace myoid

@@ -15,11 +15,9 @@ struct TrialStretch {
 
 /// Stretches of standing still and of movement, in turn: still where the root mean square of the
 /// rate over 1 s is below `still_radps`; a stop shorter than `shortest_s` is part of the movement.
-[[nodiscard]] std::vector<TrialStretch> still_and_moving(const PhaseSignals& signals,
-                                                         const PhaseOptions& options);
+[[nodiscard]] std::vector<TrialStretch> still_and_moving(const PhaseSignals& signals, const PhaseOptions& options);
 
-/// The unit of the search: whole cycles of a movement, or a window of fixed length where the joint
-/// stands still.
+/// The unit of the search: whole cycles of a movement, or a window of fixed length where the joint stands still.
 struct Block {
   Eigen::Index first = 0, last = 0;  ///< Samples first .. last-1.
   /// ln of measured per predicted torque, by regression through the origin; NaN if not positive.
@@ -33,9 +31,8 @@ struct Block {
   double torque = 0.0;  ///< Root mean square.
 };
 
-/// Blocks of `block_s` or more, one after another from the beginning of the stretch. A block ends
-/// where the joint turns at the lower end of its cycle; where it does not within twice `block_s`, a
-/// block has that length.
+/// Blocks of `block_s` or more, one after another from the beginning of the stretch. A block ends where the joint turns
+/// at the lower end of its cycle; where it does not within twice `block_s`, a block has that length.
 [[nodiscard]] std::vector<Block> blocks_of(const PhaseSignals& signals,
                                            const TrialStretch& stretch,
                                            const PhaseOptions& options);

@@ -102,17 +102,14 @@ TEST(Blocks, FrequenciesOfChannelsThatAreKnownAtTimesAreComparable) {
   // One channel of 80 Hz, one of 120 Hz that falls silent after 15 s: nothing has changed.
   PhaseSignals s = swing(0.7);
   Eigen::MatrixXd f(30, 2);
-  for (Eigen::Index w = 0; w < 30; ++w)
-    f.row(w) << 80.0, w < 15 ? 120.0 : std::numeric_limits<double>::quiet_NaN();
-  s.median_frequency_hz = {
-      Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
+  for (Eigen::Index w = 0; w < 30; ++w) f.row(w) << 80.0, w < 15 ? 120.0 : std::numeric_limits<double>::quiet_NaN();
+  s.median_frequency_hz = {Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
   const auto blocks = blocks_of(s, {.first = 0, .last = 3001}, {});
   for (const Block& b : blocks) EXPECT_NEAR(b.frequency, 0.0, 1e-12);
   // A block has the windows within it.
   f.col(0).tail(15).setConstant(40.0);
   f.col(1).setConstant(120.0);
-  s.median_frequency_hz = {
-      Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
+  s.median_frequency_hz = {Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
   const auto fallen = blocks_of(s, {.first = 0, .last = 3001}, {});
   EXPECT_NEAR(fallen.front().frequency - fallen.back().frequency, 0.5 * std::log(2.0), 1e-12);
 }

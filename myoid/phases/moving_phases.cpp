@@ -16,10 +16,7 @@ namespace {
 constexpr std::size_t kFewestBlocks = 8;
 
 /// Compares a segment with the regular one.
-Phase judge(const Segment& segment,
-            const Segment& regular,
-            const BlockChanges& changes,
-            const PhaseOptions& options) {
+Phase judge(const Segment& segment, const Segment& regular, const BlockChanges& changes, const PhaseOptions& options) {
   Phase phase;
   const double gain = segment.gain - regular.gain;
   const double frequency = segment.frequency - regular.frequency;
@@ -29,38 +26,30 @@ Phase judge(const Segment& segment,
   if (frequency_known) phase.frequency = std::exp(frequency);
   const bool before = segment.first < regular.first;
   const double least = before && gain < 0.0 ? options.warm_up_change : options.gain_change;
-  const bool gain_differs = std::abs(gain) > -std::log1p(-least) &&
-                            std::abs(gain) > options.significance * changes.gain_sd * share;
-  const bool frequency_fell = frequency_known &&
-                              -frequency > -std::log1p(-options.frequency_fall) &&
+  const bool gain_differs =
+      std::abs(gain) > -std::log1p(-least) && std::abs(gain) > options.significance * changes.gain_sd * share;
+  const bool frequency_fell = frequency_known && -frequency > -std::log1p(-options.frequency_fall) &&
                               -frequency > options.significance * changes.frequency_sd * share;
-  const bool same_movement =
-      alike(segment.speed, segment.torque, regular.speed, regular.torque, options.alike);
+  const bool same_movement = alike(segment.speed, segment.torque, regular.speed, regular.torque, options.alike);
   const std::string numbers = fmt::format(
       "torque per EMG {:+.0f} %{}", 100.0 * std::expm1(gain),
-      frequency_known ? fmt::format(", median frequency {:+.0f} %", 100.0 * std::expm1(frequency))
-                      : std::string());
-  if (!before && gain < 0.0 && gain_differs && same_movement &&
-      (frequency_fell || !frequency_known)) {
+      frequency_known ? fmt::format(", median frequency {:+.0f} %", 100.0 * std::expm1(frequency)) : std::string());
+  if (!before && gain < 0.0 && gain_differs && same_movement && (frequency_fell || !frequency_known)) {
     phase.kind = PhaseKind::fatigued;
     phase.reason =
-        numbers + (frequency_known ? ": the muscles tire"
-                                   : ": the muscles tire, by the torque alone (no raw EMG)");
+        numbers + (frequency_known ? ": the muscles tire" : ": the muscles tire, by the torque alone (no raw EMG)");
   } else if (before && gain_differs && same_movement && gain > 0.0 && frequency_known &&
              frequency > 2.0 * changes.frequency_sd * share) {
     phase.kind = PhaseKind::regular;
     phase.reason = numbers + ": fresher than in the phase that the others are compared with";
-  } else if (before && gain_differs && same_movement &&
-             segment.count() >= static_cast<double>(kBatch)) {
+  } else if (before && gain_differs && same_movement && segment.count() >= static_cast<double>(kBatch)) {
     phase.kind = PhaseKind::warm_up;
     phase.reason = numbers + " against the regular phase that follows";
   } else if (gain_differs) {
     phase.kind = PhaseKind::changed;
-    phase.reason =
-        numbers + (before && same_movement ? ", for too few cycles to be called a warm-up"
-                   : same_movement
-                       ? ", and the frequency of the EMG does not show fatigue"
-                       : ": another movement or load; the law of the muscle may explain it");
+    phase.reason = numbers + (before && same_movement ? ", for too few cycles to be called a warm-up"
+                              : same_movement         ? ", and the frequency of the EMG does not show fatigue"
+                                              : ": another movement or load; the law of the muscle may explain it");
   } else {
     phase.kind = PhaseKind::regular;
     phase.reason = frequency_fell ? numbers + ": the frequency fell, the torque did not" : numbers;
@@ -83,9 +72,9 @@ std::size_t end_of_warm_up(const std::vector<Block>& blocks,
     comparable.push_back(b);
     economy.push_back(blocks[b].economy);
   }
-  const auto found = find_warm_up(
-      Eigen::Map<const Eigen::VectorXd>(economy.data(), static_cast<Eigen::Index>(economy.size())),
-      -std::log1p(-options.warm_up_change), options.false_alarm);
+  const auto found =
+      find_warm_up(Eigen::Map<const Eigen::VectorXd>(economy.data(), static_cast<Eigen::Index>(economy.size())),
+                   -std::log1p(-options.warm_up_change), options.false_alarm);
   if (!found || found->blocks == 0) return 0;
   phase.kind = PhaseKind::warm_up;
   phase.reason = fmt::format(
@@ -110,21 +99,18 @@ std::size_t begin_of_fatigue(const Segment& before,
   const double slope = centred.dot(y) / centred.squaredNorm();
   const double line = (y.array() - y.mean() - slope * centred.array()).square().sum();
   const auto split = static_cast<Eigen::Index>(after.first) - first;
-  const double step = (y.head(split).array() - before.gain).square().sum() +
-                      (y.tail(n - split).array() - after.gain).square().sum();
+  const double step =
+      (y.head(split).array() - before.gain).square().sum() + (y.tail(n - split).array() - after.gain).square().sum();
   if (line >= step || slope >= 0.0) return after.first;
   const double fallen = regular.gain + std::log1p(-options.gain_change);
   const double place = t.mean() + (fallen - y.mean()) / slope;
-  return static_cast<std::size_t>(std::clamp(std::lround(place), 1L, static_cast<long>(n) - 1) +
-                                  first);
+  return static_cast<std::size_t>(std::clamp(std::lround(place), 1L, static_cast<long>(n) - 1) + first);
 }
 
 }  // namespace
 
-std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
-                                      const PhaseOptions& options) {
-  const bool known = std::all_of(blocks.begin(), blocks.end(),
-                                 [](const Block& b) { return std::isfinite(b.gain); });
+std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks, const PhaseOptions& options) {
+  const bool known = std::all_of(blocks.begin(), blocks.end(), [](const Block& b) { return std::isfinite(b.gain); });
   if (blocks.size() < kFewestBlocks || !known) return {};
   const BlockChanges changes = find_changes(blocks);
   const std::size_t regular = regular_segment(changes, options);
@@ -133,13 +119,12 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
   bool tired = false;
   for (std::size_t i = 0; i < changes.segments.size(); ++i) {
     const Segment& segment = changes.segments[i];
-    Phase phase = i == regular ? Phase{.kind = PhaseKind::regular,
-                                       .gain = 1.0,
-                                       .reason = "the phase that the others are compared with"}
-                               : judge(segment, reference, changes, options);
+    Phase phase =
+        i == regular
+            ? Phase{.kind = PhaseKind::regular, .gain = 1.0, .reason = "the phase that the others are compared with"}
+            : judge(segment, reference, changes, options);
     // Fatigue lasts until torque per EMG has recovered.
-    if (tired && phase.kind != PhaseKind::fatigued &&
-        *phase.gain < 1.0 - 0.5 * options.gain_change) {
+    if (tired && phase.kind != PhaseKind::fatigued && *phase.gain < 1.0 - 0.5 * options.gain_change) {
       phase.kind = PhaseKind::fatigued;
       phase.reason = "after the muscles have tired, before their torque is back";
     }
@@ -150,20 +135,19 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks,
     // Fatigue lowers the torque earlier than the frequency.
     const Phase& next = phases[i + 1].phase;
     Phase& here = phases[i].phase;
-    if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::changed && *here.gain < 1.0 &&
-        here.frequency && *here.frequency < 1.0) {
+    if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::changed && *here.gain < 1.0 && here.frequency &&
+        *here.frequency < 1.0) {
       here.kind = PhaseKind::fatigued;
       here.reason = next.reason;
     }
     if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::regular) {
-      phases[i].last = phases[i + 1].first = begin_of_fatigue(
-          changes.segments[i], changes.segments[i + 1], reference, changes, options);
+      phases[i].last = phases[i + 1].first =
+          begin_of_fatigue(changes.segments[i], changes.segments[i + 1], reference, changes, options);
     }
   }
   Phase warm_up;
   const std::size_t warm = end_of_warm_up(blocks, reference, options, warm_up);
-  const bool known_already =
-      phases.front().phase.kind == PhaseKind::warm_up && phases.front().last >= warm;
+  const bool known_already = phases.front().phase.kind == PhaseKind::warm_up && phases.front().last >= warm;
   if (warm > 0 && warm < reference.last && !known_already) {
     const auto count = static_cast<Eigen::Index>(warm);
     warm_up.gain = std::exp(changes.gain.head(count).mean() - reference.gain);

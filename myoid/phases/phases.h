@@ -21,8 +21,7 @@ enum class PhaseKind {
   changed,    ///< Differs from the regular phase, and neither warm-up nor fatigue explains it.
   regular,    ///< The parameters are identified from it.
 };
-inline constexpr std::string_view kPhaseNames[] = {"rest",     "isometric", "warm_up",
-                                                   "fatigued", "changed",   "regular"};
+inline constexpr std::string_view kPhaseNames[] = {"rest", "isometric", "warm_up", "fatigued", "changed", "regular"};
 constexpr ChoiceNames choice_names(PhaseKind) { return kPhaseNames; }
 
 struct Phase {
@@ -55,7 +54,7 @@ struct TrialPhases {
 };
 
 struct PhaseOptions {
-  double still_radps = 0.1;  ///< Root mean square of the rate over 1 s below which nothing moves.
+  double still_radps = 0.1;       ///< Root mean square of the rate over 1 s below which nothing moves.
   double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.
   double shortest_s = 1.5;        ///< Shortest rest and isometric phase.
   double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
@@ -63,10 +62,10 @@ struct PhaseOptions {
   double warm_up_change = 0.06;   ///< Least relevant change before the regular phase: a change that
                                   ///< fades is small on average, and leaving it out costs little.
   double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
-  double significance = 4.0;   ///< Standard errors by which a phase differs from the regular one.
-  double false_alarm = 0.001;  ///< Chance that a trial begins with a warm-up that is none.
-  double alike = 1.6;          ///< Phases whose speed or torque differ by a larger factor are not
-                               ///< compared: the law, not the muscle, may explain them.
+  double significance = 4.0;      ///< Standard errors by which a phase differs from the regular one.
+  double false_alarm = 0.001;     ///< Chance that a trial begins with a warm-up that is none.
+  double alike = 1.6;             ///< Phases whose speed or torque differ by a larger factor are not
+                                  ///< compared: the law, not the muscle, may explain them.
 };
 
 }  // namespace myoid

@@ -84,13 +84,11 @@ std::optional<WarmUp> find_warm_up(const Eigen::VectorXd& x, double least, doubl
     if (!(t > best.t)) continue;
     best = {.change = solution[4], .fading = fading, .blocks = 0, .t = t, .critical = freedom};
   }
-  best.critical = kCaution * math::student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried),
-                                                    best.critical);
+  best.critical = kCaution * math::student_quantile(1.0 - 0.5 * false_alarm / std::max(1, tried), best.critical);
   const double mean = std::abs(best.change) * (1.0 - std::exp(-1.0));
   if (tried == 0 || !(best.t > best.critical) || mean < least) return std::nullopt;
-  best.blocks = std::min(
-      n / 2,
-      static_cast<Eigen::Index>(std::ceil(best.fading * std::log(std::abs(best.change) / least))));
+  best.blocks =
+      std::min(n / 2, static_cast<Eigen::Index>(std::ceil(best.fading * std::log(std::abs(best.change) / least))));
   return best;
 }
 

@@ -23,8 +23,7 @@ Eigen::VectorXd noise(Eigen::Index n, double correlation, double beat, std::uint
   for (Eigen::Index k = 0; k < n; ++k) {
     state = correlation * state + std::sqrt(1.0 - correlation * correlation) * random.normal();
     x[k] = 0.05 * state;
-    if (beat > 0.0)
-      x[k] += 0.15 * std::sin(2.0 * std::numbers::pi * static_cast<double>(k) / beat + phase);
+    if (beat > 0.0) x[k] += 0.15 * std::sin(2.0 * std::numbers::pi * static_cast<double>(k) / beat + phase);
   }
   return x;
 }
@@ -36,8 +35,8 @@ TEST(FindWarmUp, ChanceIsSeldomTakenForOne) {
     Eigen::Index n;
     double correlation, beat;
   };
-  for (const Kind kind : {Kind{30, 0.0, 0.0}, Kind{90, 0.0, 0.0}, Kind{90, 0.5, 0.0},
-                          Kind{90, -0.4, 0.0}, Kind{90, 0.2, 3.3}, Kind{90, 0.0, 8.5}}) {
+  for (const Kind kind : {Kind{30, 0.0, 0.0}, Kind{90, 0.0, 0.0}, Kind{90, 0.5, 0.0}, Kind{90, -0.4, 0.0},
+                          Kind{90, 0.2, 3.3}, Kind{90, 0.0, 8.5}}) {
     int found = 0;
     for (std::uint64_t seed = 1; seed <= 1000; ++seed)
       found += find_warm_up(noise(kind.n, kind.correlation, kind.beat, seed), 0.0, 0.001) ? 1 : 0;

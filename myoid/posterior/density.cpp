@@ -28,8 +28,7 @@ struct HalfNormal {
 HalfNormal half_normal(double score) {
   const double x = std::clamp(score, -kFarthestScore, kFarthestScore);
   const double tail = 0.5 * std::erfc(std::abs(x) / std::numbers::sqrt2);  // Phi(-|x|)
-  const double y =
-      std::numbers::sqrt2 * (x < 0.0 ? boost::math::erf_inv(tail) : boost::math::erfc_inv(tail));
+  const double y = std::numbers::sqrt2 * (x < 0.0 ? boost::math::erf_inv(tail) : boost::math::erfc_inv(tail));
   return {y, 0.5 * std::exp(0.5 * (y * y - x * x)) / y};
 }
 
@@ -42,9 +41,7 @@ double score_of(double size) {
 }  // namespace
 
 Density::Density(const StudyData& data, const EstimatorOptions& options)
-    : strength_sd_(options.unseen.strength),
-      likelihood_(data, options),
-      unlike_(parameters().free(), strength_sd_) {
+    : strength_sd_(options.unseen.strength), likelihood_(data, options), unlike_(parameters().free(), strength_sd_) {
   const std::vector<Unknown>& free = parameters().free();
   const auto p = static_cast<Eigen::Index>(free.size());
   lower_.resize(p);
@@ -57,15 +54,14 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
     range_[j] = of.bounds.upper - of.bounds.lower;
     if (of.prior.sd > 0.0) prior_mean_[j] = of.prior.mean;
   }
-  const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
-                                 [&](const std::string& name) {
-                                   const auto at = options.emg_bandwidth_hz.find(name);
-                                   return at != options.emg_bandwidth_hz.end() && at->second > 0.0;
-                                 });
+  const bool known =
+      std::all_of(parameters().channels().begin(), parameters().channels().end(), [&](const std::string& name) {
+        const auto at = options.emg_bandwidth_hz.find(name);
+        return at != options.emg_bandwidth_hz.end() && at->second > 0.0;
+      });
   noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count());
   noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);
-  noise_mean_[kTorqueSd] =
-      std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
+  noise_mean_[kTorqueSd] = std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));
   noise_sd_[kTorqueSd] = beliefs::kTorqueNoise.sd;
   noise_mean_[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value);
   noise_sd_[kTorqueTime] = beliefs::kTorqueNoiseTime.sd;
@@ -95,8 +91,7 @@ double Density::prior(const Eigen::VectorXd& off, Eigen::VectorXd& gradient) con
 }
 
 Eigen::VectorXd Density::z_of(const Eigen::VectorXd& x) const {
-  return lower_ +
-         range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v); }));
+  return lower_ + range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v); }));
 }
 
 NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
@@ -107,20 +102,17 @@ NoiseValues Density::noise_of(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd Density::slope(const Eigen::VectorXd& x) const {
-  return range_.cwiseProduct(
-      x.head(lower_.size()).unaryExpr([](double v) { return logistic(v) * logistic(-v); }));
+  return range_.cwiseProduct(x.head(lower_.size()).unaryExpr([](double v) { return logistic(v) * logistic(-v); }));
 }
 
 Eigen::VectorXd Density::x_of(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   Eigen::VectorXd x(size());
   for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double share =
-        range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
+    const double share = range_[j] > 0.0 ? std::clamp((z[j] - lower_[j]) / range_[j], kInside, 1.0 - kInside) : 0.5;
     x[j] = std::log(share / (1.0 - share));
   }
   x.tail(noise.size()) = noise;
-  x[lower_.size() + kModelErrorSize] =
-      score_of(std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize]);
+  x[lower_.size() + kModelErrorSize] = score_of(std::exp(noise[kModelErrorSize]) / noise_sd_[kModelErrorSize]);
   return x;
 }
 
@@ -144,8 +136,7 @@ Eigen::VectorXd Density::longest_step(const Eigen::VectorXd& x) const {
 
 double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const {
   const Eigen::Index p = lower_.size();
-  if (!x.allFinite() || x.cwiseAbs().maxCoeff() > kFarthest)
-    return -std::numeric_limits<double>::infinity();
+  if (!x.allFinite() || x.cwiseAbs().maxCoeff() > kFarthest) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd z = z_of(x);
   const NoiseValues noise = noise_of(x);
   Likelihood::Gradient by;
@@ -156,8 +147,7 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
   Eigen::VectorXd pull;
   result += prior(z - prior_mean_, pull);
   for (Eigen::Index j = 0; j < p; ++j) {
-    // ln dz/dx = ln range + ln q + ln (1 - q), where q is the logistic function; its slope is 1 - 2
-    // q.
+    // ln dz/dx = ln range + ln q + ln (1 - q), where q is the logistic function; its slope is 1 - 2 q.
     const double below = -std::abs(x[j]) - 2.0 * std::log1p(std::exp(-std::abs(x[j])));
     result += below;
     if (gradient == nullptr) continue;
@@ -167,13 +157,11 @@ double Density::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) co
     if (field == kModelErrorSize) continue;
     const double scaled = (noise[field] - noise_mean_[field]) / noise_sd_[field];
     result -= 0.5 * scaled * scaled;
-    if (gradient != nullptr)
-      (*gradient)[p + field] = by.by_noise[field] - scaled / noise_sd_[field];
+    if (gradient != nullptr) (*gradient)[p + field] = by.by_noise[field] - scaled / noise_sd_[field];
   }
   const Eigen::Index size = p + kModelErrorSize;
   result -= 0.5 * x[size] * x[size];
-  if (gradient != nullptr)
-    (*gradient)[size] = by.by_noise[kModelErrorSize] * half_normal(x[size]).slope - x[size];
+  if (gradient != nullptr) (*gradient)[size] = by.by_noise[kModelErrorSize] * half_normal(x[size]).slope - x[size];
   return result;
 }
 
@@ -188,16 +176,14 @@ Eigen::MatrixXd Density::gauss_newton(const Eigen::VectorXd& x) const {
   h.diagonal().tail(noise_sd_.size()) = noise_sd_.cwiseAbs2().cwiseInverse();
   // The torque's error has the size b sigma_T: ln b and ln sigma_T share a gradient.
   for (std::size_t r = 0; r < likelihood_.runs().size(); ++r) {
-    const double rows = 0.5 * likelihood_.row_weight(r) *
-                        static_cast<double>(likelihood_.runs()[r].measured_nm.size());
+    const double rows = 0.5 * likelihood_.row_weight(r) * static_cast<double>(likelihood_.runs()[r].measured_nm.size());
     const Eigen::Index size = p + kTorqueSd, share = p + likelihood_.share_place(r);
     h(size, size) += rows;
     h(share, share) += rows;
     h(size, share) += rows;
     h(share, size) += rows;
   }
-  h(p + kModelErrorSize, p + kModelErrorSize) =
-      1.0 + 3.0 * std::pow(half_normal(x[p + kModelErrorSize]).slope, 2);
+  h(p + kModelErrorSize, p + kModelErrorSize) = 1.0 + 3.0 * std::pow(half_normal(x[p + kModelErrorSize]).slope, 2);
   return h;
 }
 

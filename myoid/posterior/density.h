@@ -10,8 +10,7 @@
 
 namespace myoid::identification {
 
-/// The posterior's density over unbounded unknowns x. One entry of x belongs to each entry of the
-/// solver's z,
+/// The posterior's density over unbounded unknowns x. One entry of x belongs to each entry of the solver's z,
 ///
 ///   z = lower + (upper - lower) / (1 + exp(-x)),
 ///
@@ -24,14 +23,12 @@ namespace myoid::identification {
 ///
 ///   ln p(x | y) = ln p(y | z, phi) + ln p(z) + ln p(phi) + sum ln dz/dx
 ///
-/// The priors of z are the study's (ParameterMap); prior_precision joins them over muscles. The
-/// priors of phi stand in beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, s is half
-/// normal.
+/// The priors of z are the study's (ParameterMap); prior_precision joins them over muscles. The priors of phi stand in
+/// beliefs.h: ln sigma_T, ln tau_T, ln kappa and ln b are normal, s is half normal.
 ///
-/// Spreads that are judgments are uncertain themselves, by a common factor lambda (Unlikeness). A
-/// search takes their priors at one value of lambda: the density integrated over lambda has its
-/// greatest value where all numbers are the priors' means, far from where the probability is. The
-/// sampler draws from the integrated density.
+/// Spreads that are judgments are uncertain themselves, by a common factor lambda (Unlikeness). A search takes their
+/// priors at one value of lambda: the density integrated over lambda has its greatest value where all numbers are the
+/// priors' means, far from where the probability is. The sampler draws from the integrated density.
 class Density {
  public:
   Density(const StudyData& data, const EstimatorOptions& options);

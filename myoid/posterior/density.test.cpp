@@ -29,18 +29,14 @@ TEST(Density, TheGradientIsThatOfDifferences) {
     Density density(study.data, options);
     if (lag == EmgLag::shared) density.integrate_unlikeness();
     Eigen::VectorXd x = density.start();
-    for (Eigen::Index j = 0; j < x.size(); ++j)
-      x[j] += 0.05 * std::sin(1.0 + 2.0 * static_cast<double>(j));
+    for (Eigen::Index j = 0; j < x.size(); ++j) x[j] += 0.05 * std::sin(1.0 + 2.0 * static_cast<double>(j));
     Eigen::VectorXd gradient;
     const double value = density.value(x, gradient);
     EXPECT_EQ(value, density.value(x));
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const double h = 2e-4;
-      const auto at = [&](double step) {
-        return density.value(x + step * Eigen::VectorXd::Unit(x.size(), j));
-      };
-      const double difference =
-          (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+      const auto at = [&](double step) { return density.value(x + step * Eigen::VectorXd::Unit(x.size(), j)); };
+      const double difference = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
       EXPECT_NEAR(gradient[j], difference, 1e-4 * (1.0 + std::abs(gradient[j]))) << j;
     }
   }

@@ -14,8 +14,7 @@ namespace {
 std::vector<Eigen::Index> order_of(const Eigen::VectorXd& values) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
   return order;
 }
 
@@ -38,17 +37,14 @@ Draws draw_normal(const Eigen::VectorXd& mean,
   return draws;
 }
 
-double weighted_quantile(const Eigen::VectorXd& values,
-                         const Eigen::VectorXd& weight,
-                         double share) {
+double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weight, double share) {
   const std::vector<Eigen::Index> order = order_of(values);
   double before = 0.0, last = values[order.front()], place = 0.0;
   for (const Eigen::Index i : order) {
     const double middle = before + 0.5 * weight[i];
     if (middle >= share) {
       const double step = middle - place;
-      return step > 0.0 ? last + (values[i] - last) * std::clamp((share - place) / step, 0.0, 1.0)
-                        : values[i];
+      return step > 0.0 ? last + (values[i] - last) * std::clamp((share - place) / step, 0.0, 1.0) : values[i];
     }
     before += weight[i];
     place = middle;

@@ -19,8 +19,6 @@ struct Draws {
                                 std::uint64_t seed);
 
 /// Returns the value below which `share` of the weight lies, by linear interpolation.
-[[nodiscard]] double weighted_quantile(const Eigen::VectorXd& values,
-                                       const Eigen::VectorXd& weight,
-                                       double share);
+[[nodiscard]] double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weight, double share);
 
 }  // namespace myoid::identification

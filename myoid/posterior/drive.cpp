@@ -17,17 +17,17 @@ namespace {
 constexpr double kRatePerCutoff = 5.0;
 constexpr double kBandHalf_hz = 0.25;      // over which the spectrum is averaged
 constexpr double kHighestPerCutoff = 1.2;  // highest frequency of W over the cut-off
-constexpr double kMostNoise = 3.3;    // times the expected power: ln kappa at two prior spreads
-constexpr double kAtOnce_s = 25.0;    // longest piece that is smoothed at once
-constexpr double kMargin_s = 1.0;     // overlap with each neighboring piece
-constexpr double kFade = 0.15;        // spread of the fade, over the period of the frequency grid
-constexpr double kLeastDrive = 1e-4;  // of the resting level, on which noise acts, too
-constexpr double kFloor = 0.01;       // of the resting level, over which the drive fades to zero
-constexpr double kJitter = 1e-5;      // of the variance, added to the diagonal
-constexpr Eigen::Index kFiner = 6;    // samples of the drive for each smoothed sample
-constexpr Eigen::Index kBand = 3;     // frequencies that share one power of the drive's error
-constexpr double kRead_hz = 20.0;     // usual rate of the instants at which the drive is read
-constexpr int kPasses = 3;            // repetitions, because the noise depends on the drive
+constexpr double kMostNoise = 3.3;         // times the expected power: ln kappa at two prior spreads
+constexpr double kAtOnce_s = 25.0;         // longest piece that is smoothed at once
+constexpr double kMargin_s = 1.0;          // overlap with each neighboring piece
+constexpr double kFade = 0.15;             // spread of the fade, over the period of the frequency grid
+constexpr double kLeastDrive = 1e-4;       // of the resting level, on which noise acts, too
+constexpr double kFloor = 0.01;            // of the resting level, over which the drive fades to zero
+constexpr double kJitter = 1e-5;           // of the variance, added to the diagonal
+constexpr Eigen::Index kFiner = 6;         // samples of the drive for each smoothed sample
+constexpr Eigen::Index kBand = 3;          // frequencies that share one power of the drive's error
+constexpr double kRead_hz = 20.0;          // usual rate of the instants at which the drive is read
+constexpr int kPasses = 3;                 // repetitions, because the noise depends on the drive
 
 Eigen::ArrayXd hann_window(Eigen::Index n) {
   return 0.5 - 0.5 * (2.0 * std::numbers::pi / static_cast<double>(n) *
@@ -36,17 +36,14 @@ Eigen::ArrayXd hann_window(Eigen::Index n) {
 }
 
 /// Returns the one-sided power density of evenly sampled values behind a Hann window.
-Eigen::VectorXd power_density(const Eigen::VectorXd& values,
-                              double rate_hz,
-                              const Eigen::VectorXd& frequency_hz) {
+Eigen::VectorXd power_density(const Eigen::VectorXd& values, double rate_hz, const Eigen::VectorXd& frequency_hz) {
   const Eigen::Index n = values.size();
   const Eigen::ArrayXd window = hann_window(n);
   const double mean = (values.array() * window).sum() / window.sum();
   const Eigen::VectorXd x = (values.array() - mean) * window;
   Eigen::VectorXd power(frequency_hz.size());
   for (Eigen::Index k = 0; k < power.size(); ++k) {
-    const std::complex<double> turn =
-        std::polar(1.0, -2.0 * std::numbers::pi * frequency_hz[k] / rate_hz);
+    const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * frequency_hz[k] / rate_hz);
     std::complex<double> phase = 1.0, sum = 0.0;
     for (Eigen::Index i = 0; i < n; ++i, phase *= turn) sum += x[i] * phase;
     power[k] = 2.0 * std::norm(sum) / (rate_hz * window.square().sum());
@@ -107,26 +104,21 @@ Spectra spectra_of(const Eigen::VectorXd& values,
                    const EnvelopeError& error,
                    double cutoff_hz) {
   const Eigen::Index count = std::min<Eigen::Index>(
-      error.spectrum().size(),
-      static_cast<Eigen::Index>(kHighestPerCutoff * cutoff_hz / error.step_hz()));
+      error.spectrum().size(), static_cast<Eigen::Index>(kHighestPerCutoff * cutoff_hz / error.step_hz()));
   const Eigen::VectorXd frequency = error.frequencies_hz().head(count);
   const auto half = static_cast<Eigen::Index>(std::ceil(kBandHalf_hz / error.step_hz()));
   const Eigen::VectorXd power = moving_mean(power_density(values, rate_hz, frequency), half);
   Spectra of;
   double variance = 0.0;
   for (const double u : values) variance += std::pow(envelope_sd_at(u, noise_sd, rest), 2);
-  of.noise = variance / static_cast<double>(values.size()) / error.step_hz() *
-             error.spectrum().head(count);
+  of.noise = variance / static_cast<double>(values.size()) / error.step_hz() * error.spectrum().head(count);
   std::vector<double> ratio;
   for (Eigen::Index i = 0; i < count; ++i) {
-    if (frequency[i] > 0.5 * cutoff_hz && frequency[i] < cutoff_hz)
-      ratio.push_back(power[i] / of.noise[i]);
+    if (frequency[i] > 0.5 * cutoff_hz && frequency[i] < cutoff_hz) ratio.push_back(power[i] / of.noise[i]);
   }
-  std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
-                   ratio.end());
+  std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2), ratio.end());
   // Chi-squared's median over its mean; a Hann window makes 1.5 neighboring frequencies one.
-  const double freedom = std::max(
-      2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(values.size()) / rate_hz / 1.5);
+  const double freedom = std::max(2.0, 2.0 * (2.0 * kBandHalf_hz) * static_cast<double>(values.size()) / rate_hz / 1.5);
   const double median = ratio[ratio.size() / 2] / std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
   of.level = std::min(kMostNoise, median);
   of.noise *= of.level;
@@ -170,14 +162,11 @@ Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
 
 /// Returns columns h_j cos(w j) and h_j sin(w j) for each frequency, h a Hann window: summed over
 /// the two columns v, v' M v is the power there of an error of covariance M.
-Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz,
-                               double interval_s,
-                               Eigen::Index n) {
+Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz, double interval_s, Eigen::Index n) {
   const Eigen::ArrayXd window = hann_window(n);
   Eigen::MatrixXd waves(n, 2 * frequency_hz.size());
   for (Eigen::Index i = 0; i < frequency_hz.size(); ++i)
-    waves.middleCols<2>(2 * i) =
-        turning(2.0 * std::numbers::pi * frequency_hz[i] * interval_s, n).colwise() * window;
+    waves.middleCols<2>(2 * i) = turning(2.0 * std::numbers::pi * frequency_hz[i] * interval_s, n).colwise() * window;
   return waves;
 }
 
@@ -188,9 +177,7 @@ Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 /// Returns the number of bands of kBand frequencies each, of which the last is whole.
-Eigen::Index bands(Eigen::Index frequencies) {
-  return std::max<Eigen::Index>(1, frequencies / kBand);
-}
+Eigen::Index bands(Eigen::Index frequencies) { return std::max<Eigen::Index>(1, frequencies / kBand); }
 
 /// The drive of evenly sampled values, and the powers behind a Hann window of the drive's error and
 /// of the noise, at the middle of each kBand frequencies of the spectra.
@@ -211,9 +198,8 @@ Smoothed smooth(const Eigen::VectorXd& values,
   Smoothed result;
   result.drive = moving_mean(values, static_cast<Eigen::Index>(std::lround(0.25 / interval_s)));
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Eigen::VectorXd scale = result.drive.unaryExpr([&](double u) {
-      return std::sqrt(spectra.level) * envelope_sd_at(std::max(u, least), noise_sd, rest);
-    });
+    const Eigen::VectorXd scale = result.drive.unaryExpr(
+        [&](double u) { return std::sqrt(spectra.level) * envelope_sd_at(std::max(u, least), noise_sd, rest); });
     const Eigen::MatrixXd noise = scale.asDiagonal() * correlation * scale.asDiagonal();
     Eigen::MatrixXd all = prior + noise;
     all.diagonal().array() += kJitter * all.diagonal().mean();
@@ -223,8 +209,8 @@ Smoothed smooth(const Eigen::VectorXd& values,
     if (pass + 1 < kPasses) continue;
     // The drive's error has the covariance P - P (P + N)^-1 P, P the drive's and N the noise's.
     const Eigen::VectorXd frequency = error.frequencies_hz();
-    const Eigen::MatrixXd waves = windowed_waves(
-        frequency(Eigen::seqN(kBand / 2, bands(spectra.drive.size()), kBand)), interval_s, n);
+    const Eigen::MatrixXd waves =
+        windowed_waves(frequency(Eigen::seqN(kBand / 2, bands(spectra.drive.size()), kBand)), interval_s, n);
     const Eigen::MatrixXd of_prior = prior * waves, half = factor.matrixL().solve(of_prior);
     result.error = power_of(waves, of_prior) - power_of(half, half);
     result.noise = power_of(waves, noise * waves);
@@ -244,54 +230,44 @@ NoiseOverEnvelope noise_over_envelope(double u, double noise_sd, double rest) {
   const double certain = std::sqrt(u * u + rest * rest * noise_sd), least = kLeastDrive * rest;
   const double squared = rest * rest / (certain * certain), noise = certain * (1.0 + squared);
   const double drive = std::sqrt(u * u + least * least);  // not the larger: a kink stops a search
-  return {noise / drive,
-          u * ((1.0 - squared) / (certain * drive) - noise / (drive * drive * drive))};
+  return {noise / drive, u * ((1.0 - squared) / (certain * drive) - noise / (drive * drive * drive))};
 }
 
-Drive drive_behind(const Envelope& recorded,
-                   double noise_sd,
-                   double rest,
-                   const EnvelopeError& error,
-                   double cutoff_hz) {
+Drive drive_behind(
+    const Envelope& recorded, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz) {
   const double span_s = recorded.last_s() - recorded.first_s();
   const double rate_hz = kRatePerCutoff * cutoff_hz;
   const auto n = static_cast<Eigen::Index>(span_s * rate_hz) + 1;
   const auto margin = static_cast<Eigen::Index>(kMargin_s * rate_hz);
   Eigen::VectorXd left = Eigen::VectorXd::Ones(error.spectrum().size());
   if (!(noise_sd > 0.0) || n < 2 * margin) return {recorded, left};
-  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
-      n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
+  const Eigen::VectorXd time =
+      Eigen::VectorXd::LinSpaced(n, recorded.first_s(), recorded.first_s() + static_cast<double>(n - 1) / rate_hz);
   const Eigen::VectorXd values = evenly(recorded, time);
   // A constant envelope (a dead electrode, a muscle at one level) has no spectrum.
-  if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff())
-    return {recorded, left};
+  if (values.maxCoeff() - values.minCoeff() <= 1e-9 * values.cwiseAbs().maxCoeff()) return {recorded, left};
   const Spectra spectra = spectra_of(values, rate_hz, noise_sd, rest, error, cutoff_hz);
   const auto longest = static_cast<Eigen::Index>(kAtOnce_s * rate_hz);
   const Eigen::Index count = bands(spectra.drive.size());
   Eigen::VectorXd drive(n), left_power = Eigen::VectorXd::Zero(count), noise_power = left_power;
   for (Eigen::Index first = 0; first < n; first += longest) {
-    const Eigen::Index end = std::min(n, first + longest),
-                       from = std::max<Eigen::Index>(0, first - margin),
+    const Eigen::Index end = std::min(n, first + longest), from = std::max<Eigen::Index>(0, first - margin),
                        to = std::min(n, end + margin);
-    const Smoothed part =
-        smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
+    const Smoothed part = smooth(values.segment(from, to - from), 1.0 / rate_hz, spectra, noise_sd, rest, error);
     drive.segment(first, end - first) = part.drive.segment(first - from, end - first);
     left_power += part.error;
     noise_power += part.noise;
   }
   for (Eigen::Index i = 0; i < left.size(); ++i) {
     const Eigen::Index at = std::min(i / kBand, count - 1);
-    left[i] =
-        spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
+    left[i] = spectra.level * std::clamp(left_power[at] / std::max(noise_power[at], 1e-300), 0.0, 1.0);
   }
   // The finer samples put the kinks at zero where the drive has them. With kinks at the samples, a
   // search for the delay would see the samples.
-  const Eigen::VectorXd fine =
-      Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
+  const Eigen::VectorXd fine = Eigen::VectorXd::LinSpaced(kFiner * (n - 1) + 1, time[0], time[n - 1]);
   const Eigen::VectorXd found = math::Spline::interpolate(time, drive).evaluate(fine).value;
   // A corner at zero in place of the fade would give the posterior a kink at each sample there.
-  const Eigen::VectorXd faded =
-      found.unaryExpr([&](double u) { return 0.5 * (u + std::hypot(u, kFloor * rest)); });
+  const Eigen::VectorXd faded = found.unaryExpr([&](double u) { return 0.5 * (u + std::hypot(u, kFloor * rest)); });
   const double fine_hz = rate_hz * static_cast<double>(kFiner);
   return {Envelope(fine, faded, std::lround(fine_hz / kRead_hz)), std::move(left)};
 }

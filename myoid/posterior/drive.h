@@ -33,21 +33,17 @@ struct NoiseOverEnvelope {
 ///
 ///   W(f) = S(f) / P(f),    S = max(P - N, 0),   P the spectrum of u, N that of its noise
 ///
-/// W falls with f (monotone least-squares fit). N has the relative size `noise_sd`, scaled so that
-/// N matches P in the upper half of the envelope's band, where there is hardly a drive, but to at
-/// most 3.3 times the expected power. A model that takes u for the drive finds lags that do not
-/// exist, because a lag damps the noise of u, too. The remaining error has the spectrum (1 - W)^2 S
-/// + W^2 N. A constant envelope is its own drive.
+/// W falls with f (monotone least-squares fit). N has the relative size `noise_sd`, scaled so that N matches P in the
+/// upper half of the envelope's band, where there is hardly a drive, but to at most 3.3 times the expected power. A
+/// model that takes u for the drive finds lags that do not exist, because a lag damps the noise of u, too. The
+/// remaining error has the spectrum (1 - W)^2 S + W^2 N. A constant envelope is its own drive.
 struct Drive {
   Envelope envelope;  ///< The drive as an envelope.
   /// Power of the drive's error over N, at the frequencies of `EnvelopeError`.
   Eigen::VectorXd left;
 };
-[[nodiscard]] Drive drive_behind(const Envelope& recorded,
-                                 double noise_sd,
-                                 double rest,
-                                 const EnvelopeError& error,
-                                 double cutoff_hz);
+[[nodiscard]] Drive drive_behind(
+    const Envelope& recorded, double noise_sd, double rest, const EnvelopeError& error, double cutoff_hz);
 
 /// The drives that fits of one recording have found: its folds and predictions need the same ones.
 /// Several threads may ask at once.

@@ -19,8 +19,7 @@ struct MadeEnvelope {
 
 MadeEnvelope made_envelope(double noise_sd, double seconds = 20.0, double middle_hz = 0.6) {
   const auto n = static_cast<Eigen::Index>(seconds * kRate_hz) + 1;
-  MadeEnvelope r{Eigen::VectorXd::LinSpaced(n, 0.0, seconds), Eigen::VectorXd(n),
-                 Eigen::VectorXd(n)};
+  MadeEnvelope r{Eigen::VectorXd::LinSpaced(n, 0.0, seconds), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   math::Random random(5);
   const Eigen::VectorXd h = EnvelopeError(kCutoff_hz, {0.0, 0.0}).from_white(1.0 / kRate_hz);
   const auto drive = [&](double t) {
@@ -111,13 +110,11 @@ TEST(NoiseOverEnvelope, IsThatOfTheStandardDeviationAndHasItsSlope) {
   constexpr double kSd = 0.15, kRest = 0.02, kLeast = 1e-4 * kRest;
   for (const double u : {1e-7, kLeast, 1e-4, 0.003, 0.0077, 0.0078, 0.05, 0.8}) {
     const NoiseOverEnvelope noise = noise_over_envelope(u, kSd, kRest);
-    EXPECT_NEAR(noise.value,
-                envelope_sd_at(u, kSd, kRest) / (kSd * std::sqrt(u * u + kLeast * kLeast)),
+    EXPECT_NEAR(noise.value, envelope_sd_at(u, kSd, kRest) / (kSd * std::sqrt(u * u + kLeast * kLeast)),
                 1e-12 * noise.value);
     const double h = 1e-7 * u;
-    const double slope = (noise_over_envelope(u + h, kSd, kRest).value -
-                          noise_over_envelope(u - h, kSd, kRest).value) /
-                         (2.0 * h);
+    const double slope =
+        (noise_over_envelope(u + h, kSd, kRest).value - noise_over_envelope(u - h, kSd, kRest).value) / (2.0 * h);
     EXPECT_NEAR(noise.slope, slope, 1e-5 * (1.0 + std::abs(slope)));
   }
   // The slope has no jump where chance makes u, nor at the least drive: over a millionth of u it

@@ -35,8 +35,7 @@ Eigen::VectorXd moved_start(const Density& density, int number) {
 /// The points that count as one mode.
 class Basin {
  public:
-  Basin(const Density& density, const Eigen::VectorXd& mode)
-      : mode_(mode), precision_(density.gauss_newton(mode)) {}
+  Basin(const Density& density, const Eigen::VectorXd& mode) : mode_(mode), precision_(density.gauss_newton(mode)) {}
   [[nodiscard]] bool holds(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd off = x - mode_;
     return off.dot(precision_ * off) < kSameMode * kSameMode * static_cast<double>(off.size());
@@ -49,10 +48,7 @@ class Basin {
 
 /// Finds a mode, takes the unseen quantities there, and repeats until the mode stays. Gives up
 /// where the first mode lies far below `floor`.
-Mode settle(Density& density,
-            const Eigen::VectorXd& start,
-            double floor,
-            const Progress& progress) {
+Mode settle(Density& density, const Eigen::VectorXd& start, double floor, const Progress& progress) {
   Mode mode = find_mode(density, {.x = start}, progress, kRoughPromise);
   if (mode.log_density < floor - kMayRise) return mode;
   for (int pass = 0; pass < kMostReferences; ++pass) {
@@ -70,39 +66,33 @@ std::vector<Candidate> modes_of(Density& density,
                                 const std::vector<Eigen::VectorXd>& starts,
                                 double floor,
                                 const EstimatorOptions& options) {
-  std::vector<Candidate> found{{.density = &density,
-                                .lag = options.lag,
-                                .mode = settle(density, starts.front(), floor, options.progress)}};
+  std::vector<Candidate> found{
+      {.density = &density, .lag = options.lag, .mode = settle(density, starts.front(), floor, options.progress)}};
   std::vector<Basin> basins{Basin(density, found.front().mode.x)};
   const auto is_known = [&](const Eigen::VectorXd& x) {
     return std::any_of(basins.begin(), basins.end(), [&](const Basin& b) { return b.holds(x); });
   };
   for (std::size_t i = 1; i < starts.size(); ++i) {
-    const Mode rough =
-        find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise, is_known);
-    if (!rough.converged || is_known(rough.x) ||
-        rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
+    const Mode rough = find_mode(density, {.x = starts[i]}, options.progress, kRoughPromise, is_known);
+    if (!rough.converged || is_known(rough.x) || rough.log_density < found.front().mode.log_density - kFarBelow - 1.0)
       continue;
     Mode mode = find_mode(density, rough, options.progress);
     if (!mode.converged || is_known(mode.x)) continue;
     basins.emplace_back(density, mode.x);
     found.push_back({.density = &density, .lag = options.lag, .mode = std::move(mode)});
   }
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.mode.log_density > b.mode.log_density;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.mode.log_density > b.mode.log_density; });
   return found;
 }
 
 /// Computes curvatures and weights, drops light modes, and sorts the heaviest first.
 void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) {
-  const double best = std::max_element(candidates.begin(), candidates.end(),
-                                       [](const Candidate& a, const Candidate& b) {
-                                         return a.mode.log_density < b.mode.log_density;
-                                       })
-                          ->mode.log_density;
-  std::erase_if(candidates,
-                [best](const Candidate& c) { return c.mode.log_density < best - kFarBelow; });
+  const double best =
+      std::max_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.mode.log_density < b.mode.log_density;
+      })->mode.log_density;
+  std::erase_if(candidates, [best](const Candidate& c) { return c.mode.log_density < best - kFarBelow; });
   double most = -1e300;
   for (Candidate& c : candidates) {
     add_curvature(*c.density, options.marginals, c.mode, options.progress);
@@ -120,14 +110,9 @@ void weigh(std::vector<Candidate>& candidates, const EstimatorOptions& options) 
 
 /// Draws about one mode: from the density itself where the options ask for draws, else from its
 /// marginals, else from the normal approximation.
-Draws draws_about(const Candidate& c,
-                  const EstimatorOptions& options,
-                  std::uint64_t seed,
-                  Sample& sample) {
+Draws draws_about(const Candidate& c, const EstimatorOptions& options, std::uint64_t seed, Sample& sample) {
   const auto log_density = [](const Density& of) {
-    return [&of](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-      return of.value(x, gradient);
-    };
+    return [&of](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) { return of.value(x, gradient); };
   };
   const auto count = [&](Eigen::Index of_all) {
     return std::max<Eigen::Index>(100, std::lround(c.weight * static_cast<double>(of_all)));
@@ -135,15 +120,14 @@ Draws draws_about(const Candidate& c,
   if (options.posterior_draws > 0) {
     Density integrated = *c.density;
     integrated.integrate_unlikeness();
-    Sampled sampled = sample_density(log_density(integrated), c.mode,
-                                     count(options.posterior_draws), seed, options.progress);
+    Sampled sampled =
+        sample_density(log_density(integrated), c.mode, count(options.posterior_draws), seed, options.progress);
     sample.rhat = std::max(sample.rhat, sampled.rhat);
     sample.accepted = std::min(sample.accepted, sampled.accepted);
     sample.approximate = sample.approximate || !sampled.trusted();
     return std::move(sampled.draws);
   }
-  if (!options.marginals)
-    return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
+  if (!options.marginals) return draw_normal(c.mode.x, c.mode.covariance, count(kApproximateDraws), seed);
   // Each trial has an ln b, which is not reported.
   const Eigen::Index reported = c.density->parameters().size() + kNoiseFieldCount;
   return draw_about(c.mode, marginals(log_density(*c.density), c.mode, reported, options.progress),
@@ -181,9 +165,7 @@ Exploration explore(const StudyData& data, const EstimatorOptions& options) {
   Exploration found;
   Density& by_delay = *found.densities.emplace_back(std::make_unique<Density>(data, options));
   std::vector<Eigen::VectorXd> starts{by_delay.start()};
-  const int others = options.multistart > 1 ? options.multistart - 1
-                     : options.marginals    ? kOtherStarts
-                                            : 0;
+  const int others = options.multistart > 1 ? options.multistart - 1 : options.marginals ? kOtherStarts : 0;
   for (int s = 0; s < others; ++s) starts.push_back(moved_start(by_delay, s));
   found.modes = modes_of(by_delay, starts, -1e300, options);
   if (options.choose_lag && options.lag == EmgLag::delay) {

@@ -37,13 +37,12 @@ struct Exploration {
   Sample sample;
 };
 
-/// Finds the modes of the posterior and draws from it. Searches begin at the starting values and at
-/// others about them (three, EstimatorOptions::multistart; none without `marginals`), with a pure
-/// delay and with lags where the choice is open. A mode weighs by its evidence; modes of less than
-/// 2 % are left out. The unseen quantities (unseen.h) are taken at the mode of the previous pass
-/// until the mode stays. The draws are from the density with EstimatorOptions::posterior_draws
-/// (sampler.h), else from its marginals (marginals.h) or, without EstimatorOptions::marginals, from
-/// the normal approximation.
+/// Finds the modes of the posterior and draws from it. Searches begin at the starting values and at others about them
+/// (three, EstimatorOptions::multistart; none without `marginals`), with a pure delay and with lags where the choice is
+/// open. A mode weighs by its evidence; modes of less than 2 % are left out. The unseen quantities (unseen.h) are taken
+/// at the mode of the previous pass until the mode stays. The draws are from the density with
+/// EstimatorOptions::posterior_draws (sampler.h), else from its marginals (marginals.h) or, without
+/// EstimatorOptions::marginals, from the normal approximation.
 [[nodiscard]] Exploration explore(const StudyData& data, const EstimatorOptions& options);
 
 }  // namespace myoid::identification

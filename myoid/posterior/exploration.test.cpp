@@ -34,8 +34,7 @@ TEST(Explore, TheApproximationAndTheSamplerAgree) {
   EXPECT_FALSE(sampled.sample.approximate) << sampled.sample.rhat;
   ASSERT_EQ(approximate.sample.z.rows(), sampled.sample.z.rows());
   const Eigen::VectorXd sd = sd_of(sampled.sample);
-  const Eigen::VectorXd shift =
-      (mean_of(approximate.sample) - mean_of(sampled.sample)).cwiseQuotient(sd);
+  const Eigen::VectorXd shift = (mean_of(approximate.sample) - mean_of(sampled.sample)).cwiseQuotient(sd);
   const Eigen::VectorXd ratio = sd_of(approximate.sample).cwiseQuotient(sd);
   // 2,400 draws know a mean to 0.05 standard deviations. The farthest is a width with a long tail.
   EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.9);

@@ -28,9 +28,7 @@ class JointParts {
   [[nodiscard]] bool crosses(std::size_t muscle, int joint) const;
   /// Returns the joint's part of the muscle's length (up to a constant) or rate, n values.
   /// `all_muscles` holds the lengths or rates of all muscles, n x muscles.
-  [[nodiscard]] Eigen::VectorXd of(const Eigen::MatrixXd& all_muscles,
-                                   std::size_t muscle,
-                                   int joint) const;
+  [[nodiscard]] Eigen::VectorXd of(const Eigen::MatrixXd& all_muscles, std::size_t muscle, int joint) const;
 
  private:
   Eigen::MatrixXd longest_arm_m_;  ///< joints x muscles

@@ -28,18 +28,14 @@ TEST(JointParts, AreWhatEachJointMakesOfTheLength) {
     for (const TrialRun& run : runs) {
       for (std::size_t j = 0; j < 2; ++j) {
         const auto q = run.motion.col(0).segment(run.first_row(j), run.time_s.size());
-        const Eigen::VectorXd truth = q.unaryExpr(
-            [&](double of) { return test::leg_part_m(test::kLegMuscles[kGas], j, of, bent); });
-        // Exact of constant arms; else as far as the arms differ from their means, here by up to a
-        // quarter.
-        EXPECT_LT(off(parts.of(run.length_m, kGas, static_cast<int>(j)), truth), bent ? 0.15 : 1e-9)
-            << j;
+        const Eigen::VectorXd truth =
+            q.unaryExpr([&](double of) { return test::leg_part_m(test::kLegMuscles[kGas], j, of, bent); });
+        // Exact of constant arms; else as far as the arms differ from their means, here by up to a quarter.
+        EXPECT_LT(off(parts.of(run.length_m, kGas, static_cast<int>(j)), truth), bent ? 0.15 : 1e-9) << j;
         const auto rate = run.motion.col(1).segment(run.first_row(j), run.time_s.size());
         const Eigen::VectorXd true_rate =
             -run.arm_m.col(kGas).segment(run.first_row(j), run.time_s.size()).cwiseProduct(rate);
-        EXPECT_LT(off(parts.of(run.velocity_mps, kGas, static_cast<int>(j)), true_rate),
-                  bent ? 0.15 : 1e-9)
-            << j;
+        EXPECT_LT(off(parts.of(run.velocity_mps, kGas, static_cast<int>(j)), true_rate), bent ? 0.15 : 1e-9) << j;
       }
     }
   }

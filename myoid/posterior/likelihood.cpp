@@ -28,8 +28,7 @@ void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::Ref<Eigen::MatrixX
   }
 }
 
-/// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient
-/// by the matrix.
+/// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient by the matrix.
 Eigen::VectorXd diagonal_sums(const Eigen::Ref<const Eigen::MatrixXd>& b) {
   const Eigen::Index n = b.rows();
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
@@ -48,8 +47,8 @@ std::vector<JointPair> joint_pairs(const TrialRun& run) {
   std::vector<JointPair> pairs;
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     for (std::size_t i = 0; i <= j; ++i)
-      pairs.push_back({run.first_row(i), run.first_row(j), static_cast<Eigen::Index>(i) * m,
-                       static_cast<Eigen::Index>(j) * m});
+      pairs.push_back(
+          {run.first_row(i), run.first_row(j), static_cast<Eigen::Index>(i) * m, static_cast<Eigen::Index>(j) * m});
   }
   return pairs;
 }
@@ -57,10 +56,7 @@ std::vector<JointPair> joint_pairs(const TrialRun& run) {
 /// Adds the covariance that one noise causes in the rows of all joints; `variance`(pair) is the
 /// product of the noise's factors in both joints at each sample, n.
 template <typename Variance>
-void add_noise(const TrialRun& run,
-               const EmgNoise& noise,
-               const Variance& variance,
-               Eigen::MatrixXd& a) {
+void add_noise(const TrialRun& run, const EmgNoise& noise, const Variance& variance, Eigen::MatrixXd& a) {
   const Eigen::Index m = run.reduction.outputs();
   for (const JointPair& pair : joint_pairs(run)) {
     const Eigen::MatrixXd block = noise.covariance(variance(pair));
@@ -71,9 +67,7 @@ void add_noise(const TrialRun& run,
 
 }  // namespace
 
-Likelihood::Likelihood(const StudyData& data,
-                       const EstimatorOptions& options,
-                       const Recorded* session)
+Likelihood::Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session)
     : data_(data),
       options_(options),
       map_(data, options),
@@ -81,8 +75,7 @@ Likelihood::Likelihood(const StudyData& data,
       given_(runs_.size()),
       columns_(runs_.size()),
       by_slope_(runs_.size()),
-      recorded_(session != nullptr ? *session
-                                   : identification::recorded(runs_, map_.held().muscles)) {
+      recorded_(session != nullptr ? *session : identification::recorded(runs_, map_.held().muscles)) {
   for (const TrialRun& run : runs_) {
     rows_ += run.measured_nm.size();
     if (trial_of_run_.empty() || run.trial != runs_[trial_of_run_.size() - 1].trial) ++trials_;
@@ -98,11 +91,8 @@ Likelihood::Likelihood(const StudyData& data,
 
 void Likelihood::weigh_rows() {
   std::vector<double> rows(static_cast<std::size_t>(trials_));  // of each trial, per joint
-  const auto of_trial = [&](std::size_t r) -> double& {
-    return rows[static_cast<std::size_t>(trial_of_run_[r])];
-  };
-  for (std::size_t r = 0; r < runs_.size(); ++r)
-    of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
+  const auto of_trial = [&](std::size_t r) -> double& { return rows[static_cast<std::size_t>(trial_of_run_[r])]; };
+  for (std::size_t r = 0; r < runs_.size(); ++r) of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
   double most = options_.unseen.independent_rows;
   if (recorded_.told_by_motion >= VerdictRules{}.motion_alone)
     most = std::min(most, static_cast<double>(kMotionCoefficients));
@@ -121,8 +111,8 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
   std::vector<RunEvaluation> at;
   at.reserve(runs_.size());
   for (const TrialRun& run : runs_) at.emplace_back(run, map_, options_.lag, values, nullptr);
-  unseen_ = unseen_quantities(data_, options_, map_, recorded_, runs_, values, at,
-                              steps_from(z, map_, options_.lag, runs_));
+  unseen_ =
+      unseen_quantities(data_, options_, map_, recorded_, runs_, values, at, steps_from(z, map_, options_.lag, runs_));
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Reduction& reduction = runs_[r].reduction;
     columns_[r] = reduction.apply(unseen_.columns[r]);
@@ -133,14 +123,11 @@ void Likelihood::refer_to(const Eigen::VectorXd& z) {
       given_[r]
           .diagonal()
           .segment(static_cast<Eigen::Index>(j) * m, m)
-          .setConstant(std::pow(
-              kLeastTorqueError * recorded_.torque_nm * recorded_.size_share(runs_[r].joints[j]),
-              2));
+          .setConstant(std::pow(kLeastTorqueError * recorded_.torque_nm * recorded_.size_share(runs_[r].joints[j]), 2));
     if (options_.angle_sd_rad <= 0.0 && options_.angle_rate_sd_radps <= 0.0) continue;
     add_noise(
         runs_[r], EmgNoise(reduction, Eigen::VectorXd::Ones(1)),
-        [&](const JointPair& pair) { return motion_variance(runs_[r], at[r], pair.i, pair.j); },
-        given_[r]);
+        [&](const JointPair& pair) { return motion_variance(runs_[r], at[r], pair.i, pair.j); }, given_[r]);
   }
 }
 
@@ -168,17 +155,12 @@ Eigen::VectorXd Likelihood::motion_variance(const TrialRun& run,
   return variance;
 }
 
-void Likelihood::add_torque_error(const TrialRun& run,
-                                  double variance,
-                                  double log_time,
-                                  Eigen::MatrixXd& a) const {
-  const Eigen::VectorXd correlation =
-      torque_error(run.reduction, run.interval_s, log_time).correlation;
+void Likelihood::add_torque_error(const TrialRun& run, double variance, double log_time, Eigen::MatrixXd& a) const {
+  const Eigen::VectorXd correlation = torque_error(run.reduction, run.interval_s, log_time).correlation;
   const Eigen::Index m = run.reduction.outputs();
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
-    add_toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation,
-                 a.block(row, row, m, m));
+    add_toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation, a.block(row, row, m, m));
   }
 }
 
@@ -186,8 +168,7 @@ Eigen::VectorXd Likelihood::weights(const NoiseValues& noise) const {
   Eigen::VectorXd w(static_cast<Eigen::Index>(unseen_.quantities.size()));
   for (std::size_t i = 0; i < unseen_.quantities.size(); ++i) {
     const UnseenQuantity& of = unseen_.quantities[i];
-    const bool exact =
-        believed_ == Believed::geometry_and_sensors_exact && of.source != Source::model;
+    const bool exact = believed_ == Believed::geometry_and_sensors_exact && of.source != Source::model;
     w[static_cast<Eigen::Index>(i)] =
         exact ? 0.0 : of.weight * (of.of_the_model ? std::exp(noise[kModelErrorSize]) : 1.0);
   }
@@ -200,8 +181,7 @@ Eigen::VectorXd Likelihood::grown(const Eigen::VectorXd& z) const {
 
 Eigen::VectorXd Likelihood::envelope_scale(std::size_t r, const NoiseValues& noise) const {
   Eigen::VectorXd scale = std::exp(2.0 * noise[kEmgFactor]) * runs_[r].envelope_sd.cwiseAbs2();
-  for (Eigen::Index c = 0; c < scale.size(); ++c)
-    scale[c] *= runs_[r].errors[static_cast<std::size_t>(c)].share();
+  for (Eigen::Index c = 0; c < scale.size(); ++c) scale[c] *= runs_[r].errors[static_cast<std::size_t>(c)].share();
   return scale;
 }
 
@@ -220,8 +200,7 @@ Eigen::MatrixXd Likelihood::envelope_covariance(std::size_t r,
     add_noise(
         runs_[r], envelope_noise_[r][static_cast<std::size_t>(c)],
         [&](const JointPair& pair) {
-          return Eigen::VectorXd(scale[c] *
-                                 d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
+          return Eigen::VectorXd(scale[c] * d.segment(pair.i, n).cwiseProduct(d.segment(pair.j, n)));
         },
         a);
   }
@@ -235,16 +214,12 @@ Likelihood::AllRuns Likelihood::all_runs(const Eigen::VectorXd& z, const NoiseVa
               .variance = {}};
   for (std::size_t s = 0; s < unseen_.slopes.size(); ++s) {
     const auto& [quantity, unknown, reach] = unseen_.slopes[s];
-    all.turned[static_cast<Eigen::Index>(s)] =
-        reach * std::tanh((z[unknown] - reference_[unknown]) / reach);
+    all.turned[static_cast<Eigen::Index>(s)] = reach * std::tanh((z[unknown] - reference_[unknown]) / reach);
   }
   return all;
 }
 
-bool Likelihood::fill(std::size_t r,
-                      const AllRuns& all,
-                      const NoiseValues& noise,
-                      Block& block) const {
+bool Likelihood::fill(std::size_t r, const AllRuns& all, const NoiseValues& noise, Block& block) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   Eigen::MatrixXd a = envelope_covariance(r, signals, noise);
@@ -255,14 +230,12 @@ bool Likelihood::fill(std::size_t r,
   const double weight = row_weight_[r], log_of_a = log_determinant(block.factor);
   if (weight < 1.0) block.factor.compute(a / weight);
   const Eigen::VectorXd residual = run.measured_nm - run.reduction.apply(signals.torque_nm);
-  block.whitening =
-      block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
+  block.whitening = block.factor.matrixL().solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
   const Eigen::VectorXd white = block.whitening * residual;
   block.solved = block.whitening.transpose() * white;
   block.unseen = columns_[r];
   for (Eigen::Index s = 0; s < all.turned.size(); ++s)
-    block.unseen.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) +=
-        all.turned[s] * by_slope_[r].col(s);
+    block.unseen.col(unseen_.slopes[static_cast<std::size_t>(s)].quantity) += all.turned[s] * by_slope_[r].col(s);
   block.unseen = (block.unseen * all.weights.asDiagonal()).eval();
   block.unseen_half.noalias() = block.whitening * block.unseen;
   block.projected.noalias() = block.unseen_half.transpose() * white;
@@ -272,11 +245,8 @@ bool Likelihood::fill(std::size_t r,
   return std::isfinite(block.own);
 }
 
-void Likelihood::pull_back(std::size_t r,
-                           const NoiseValues& noise,
-                           const AllRuns& all,
-                           const Block& block,
-                           Gradient& gradient) const {
+void Likelihood::pull_back(
+    std::size_t r, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const {
   const TrialRun& run = runs_[r];
   const TorqueSignals& signals = block.evaluation->signals();
   const Eigen::Index rows = run.measured_nm.size(), m = run.reduction.outputs();
@@ -284,8 +254,7 @@ void Likelihood::pull_back(std::size_t r,
   // Sigma^-1 r; the gradient by A is 1/2 (w w' - Sigma^-1), and with A = C C', U = C^-1 L S W and G
   // of all runs Sigma^-1 is C'^-1 (1 - U G^-1 U') C^-1. A block's A is that of the measurement over
   // the rows' weight, by which the determinant's A^-1 is multiplied.
-  const Eigen::VectorXd w =
-      block.solved - block.whitening.transpose() * (block.unseen_half * all.shared);
+  const Eigen::VectorXd w = block.solved - block.whitening.transpose() * (block.unseen_half * all.shared);
   const Eigen::MatrixXd half_left = block.unseen_half * all.variance;
   Eigen::MatrixXd half = row_weight_[r] * Eigen::MatrixXd::Identity(rows, rows);
   half.noalias() -= half_left * block.unseen_half.transpose();
@@ -299,8 +268,7 @@ void Likelihood::pull_back(std::size_t r,
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
-    sums += std::pow(recorded_.size_share(run.joints[j]), 2) *
-            diagonal_sums(by_a.block(row, row, m, m));
+    sums += std::pow(recorded_.size_share(run.joints[j]), 2) * diagonal_sums(by_a.block(row, row, m, m));
   }
   gradient.by_noise.setZero(noise.size());
   gradient.by_noise[kTorqueSd] = 2.0 * variance * sums.dot(torque.correlation);
@@ -318,11 +286,9 @@ void Likelihood::pull_back(std::size_t r,
       // A_ij and its transpose A_ji share the factor D_i D_j; A_ii occurs once.
       const auto of_pair = by_a.block(pair.row_i, pair.row_j, m, m);
       const Eigen::VectorXd by_product = envelope_noise_[r][static_cast<std::size_t>(c)].pull_back(
-          pair.i == pair.j ? Eigen::MatrixXd(of_pair)
-                           : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
+          pair.i == pair.j ? Eigen::MatrixXd(of_pair) : Eigen::MatrixXd(0.5 * (of_pair + of_pair.transpose())));
       by_d.segment(pair.i, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.j, n));
-      if (pair.i != pair.j)
-        by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
+      if (pair.i != pair.j) by_d.segment(pair.j, n) += 2.0 * scale[c] * by_product.cwiseProduct(d.segment(pair.i, n));
     }
     gradient.by_noise[kEmgFactor] += by_d.dot(d);
   }
@@ -346,14 +312,11 @@ void Likelihood::add_gradient_of_columns(std::size_t r,
     const auto& [quantity, unknown, reach] = unseen_.slopes[s];
     const auto column = static_cast<Eigen::Index>(s);
     const double near = 1.0 - std::pow(all.turned[column] / reach, 2);  // of tanh
-    by_z[unknown] +=
-        near * all.weights[quantity] * by_slope_[r].col(column).dot(by_unseen.col(quantity));
+    by_z[unknown] += near * all.weights[quantity] * by_slope_[r].col(column).dot(by_unseen.col(quantity));
   }
 }
 
-double Likelihood::value(const Eigen::VectorXd& z,
-                         const NoiseValues& noise,
-                         Gradient* gradient) const {
+double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gradient* gradient) const {
   std::vector<ParameterMap::Chain> chains;
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
@@ -384,8 +347,7 @@ double Likelihood::value(const Eigen::VectorXd& z,
   const Eigen::VectorXd factors = grown(z);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(quantities, quantities);
   const Eigen::LLT<Eigen::MatrixXd> factor(identity + gram);  // lower halves
-  const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram *
-                                                                factors.asDiagonal());
+  const Eigen::LLT<Eigen::MatrixXd> factor_grown(identity + factors.asDiagonal() * gram * factors.asDiagonal());
   if (factor.info() != Eigen::Success || factor_grown.info() != Eigen::Success) return kNever;
   const Eigen::VectorXd expected = factor_grown.solve(factors.cwiseProduct(projected));
   all.shared = factors.cwiseProduct(expected);

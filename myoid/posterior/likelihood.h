@@ -25,33 +25,28 @@ enum class Believed { nothing_exact, geometry_and_sensors_exact };
 ///   A_ij = [i = j] (L b^2 sigma_i^2 exp(-|dt|/tau_T) L' + (0.002 y_i)^2) + L Q_ij L'
 ///          + kappa^2 sum_c sd_c^2 K_c D_ic D_jc K_c'
 ///
-/// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque
-/// errors of two joints are independent. sigma_i is sigma_T times the joint's root mean square
-/// torque over that of all joints. A torque errs by 0.2 % of its root mean square y_i at the least
-/// (kLeastTorqueError): a torque that never changes would be infinitely exact otherwise. The noise
-/// of an envelope and the error of an angle act on all joints that the muscle crosses. A is one
-/// block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity
-/// includes it. K_c is L behind the filters of the envelope and the drive (EmgNoise). Q and the
-/// size of S belong to reference values of the unknowns; in the quadratic form alone the columns
-/// that multiply F_max grow with it (Unseen::growth), because a determinant that followed would
-/// prefer muscles whose errors are small. The errors of angle and rate in Q are independent from
-/// sample to sample. The constant -n/2 ln(2 pi) is left out.
+/// y holds the torques of all joints of a run; A_ij are the rows of its joints i and j. Torque errors of two joints are
+/// independent. sigma_i is sigma_T times the joint's root mean square torque over that of all joints. A torque errs by
+/// 0.2 % of its root mean square y_i at the least (kLeastTorqueError): a torque that never changes would be infinitely
+/// exact otherwise. The noise of an envelope and the error of an angle act on all joints that the muscle crosses. A is
+/// one block per run. S W^2 S', of the unseen quantities, couples all runs; Woodbury's identity includes it. K_c is L
+/// behind the filters of the envelope and the drive (EmgNoise). Q and the size of S belong to reference values of the
+/// unknowns; in the quadratic form alone the columns that multiply F_max grow with it (Unseen::growth), because a
+/// determinant that followed would prefer muscles whose errors are small. The errors of angle and rate in Q are
+/// independent from sample to sample. The constant -n/2 ln(2 pi) is left out.
 ///
-/// Errors are not independent where a movement is repeated: the drive repeats with the movement,
-/// and so does the error of the model. Of a trial's n rows per joint at most a count: the density
-/// of the trial, given x, has the power min(1, a/n), a = UnseenSpreads::independent_rows; 0 leaves
-/// every row its weight. Where motion alone tells the torque, a is at most the number of the
-/// motion's coefficients (told_by_motion_alone). This is a coarsened posterior (Miller and Dunson,
-/// J. Am. Stat. Assoc. 114, 1113, 2019).
+/// Errors are not independent where a movement is repeated: the drive repeats with the movement, and so does the error
+/// of the model. Of a trial's n rows per joint at most a count: the density of the trial, given x, has the power min(1,
+/// a/n), a = UnseenSpreads::independent_rows; 0 leaves every row its weight. Where motion alone tells the torque, a is
+/// at most the number of the motion's coefficients (told_by_motion_alone). This is a coarsened posterior (Miller and
+/// Dunson, J. Am. Stat. Assoc. 114, 1113, 2019).
 class Likelihood {
  public:
   static constexpr double kLeastTorqueError = 0.002;  ///< Of its root mean square, behind L.
 
   /// Takes the start as the reference. `session` is the recording of which the data are a part;
   /// null: the data are the whole recording.
-  Likelihood(const StudyData& data,
-             const EstimatorOptions& options,
-             const Recorded* session = nullptr);
+  Likelihood(const StudyData& data, const EstimatorOptions& options, const Recorded* session = nullptr);
 
   /// Computes S, its slopes and Q at the reference values z.
   void refer_to(const Eigen::VectorXd& z);
@@ -68,9 +63,7 @@ class Likelihood {
   /// Number of fitted trials, in whose order ln b stands in NoiseValues.
   [[nodiscard]] Eigen::Index trial_count() const { return trials_; }
   /// Returns the index of the run's trial in NoiseValues.
-  [[nodiscard]] Eigen::Index share_place(std::size_t run) const {
-    return kNoiseFieldCount + trial_of_run_[run];
-  }
+  [[nodiscard]] Eigen::Index share_place(std::size_t run) const { return kNoiseFieldCount + trial_of_run_[run]; }
   /// Returns ln b of the run's trial, or 0 where `noise` has no entry for this trial.
   [[nodiscard]] double log_share(std::size_t run, const NoiseValues& noise) const;
   /// Returns the weight of a row of the run, min(1, a/n).
@@ -84,9 +77,7 @@ class Likelihood {
   };
   /// Returns ln p. Evaluates runs in parallel and sums them in order, so the bits do not depend on
   /// the number of threads. Returns -infinity where Sigma is not numerically positive definite.
-  [[nodiscard]] double value(const Eigen::VectorXd& z,
-                             const NoiseValues& noise,
-                             Gradient* gradient = nullptr) const;
+  [[nodiscard]] double value(const Eigen::VectorXd& z, const NoiseValues& noise, Gradient* gradient = nullptr) const;
 
   /// Fisher's information about z in the mean, J' Sigma^-1 J, and each source's part of it,
   /// `by_source`[s] = J' Sigma^-1 Sigma_s Sigma^-1 J. The parts add to `information`.
@@ -150,15 +141,9 @@ class Likelihood {
                                                     const TorqueSignals& signals,
                                                     const NoiseValues& noise) const;
   /// Fills the parts of a run's block that need no other run; false: not positive definite.
-  [[nodiscard]] bool fill(std::size_t run,
-                          const AllRuns& all,
-                          const NoiseValues& noise,
-                          Block& block) const;
-  void pull_back(std::size_t run,
-                 const NoiseValues& noise,
-                 const AllRuns& all,
-                 const Block& block,
-                 Gradient& gradient) const;
+  [[nodiscard]] bool fill(std::size_t run, const AllRuns& all, const NoiseValues& noise, Block& block) const;
+  void pull_back(
+      std::size_t run, const NoiseValues& noise, const AllRuns& all, const Block& block, Gradient& gradient) const;
   /// Adds the gradient by which the columns of S turn (Unseen::slopes). `w` is Sigma^-1 r,
   /// `half_left` is C^-1 L S W G^-1.
   void add_gradient_of_columns(std::size_t run,
@@ -173,10 +158,7 @@ class Likelihood {
                                                 Eigen::Index first_row,
                                                 Eigen::Index other_row) const;
   /// Adds the torque error's covariance at this sigma_T^2 to the rows of each joint.
-  void add_torque_error(const TrialRun& run,
-                        double variance,
-                        double log_time,
-                        Eigen::MatrixXd& a) const;
+  void add_torque_error(const TrialRun& run, double variance, double log_time, Eigen::MatrixXd& a) const;
 
   const StudyData& data_;
   EstimatorOptions options_;

@@ -26,10 +26,7 @@ using test::kNoiseOfLeg;
 using test::leg_study;
 
 /// Force of one muscle by the plain law: activation a (n), lengths and rates of the run.
-Eigen::VectorXd written_force(const TrialRun& run,
-                              std::size_t k,
-                              const MuscleValues& p,
-                              const Eigen::VectorXd& a) {
+Eigen::VectorXd written_force(const TrialRun& run, std::size_t k, const MuscleValues& p, const Eigen::VectorXd& a) {
   const auto column = static_cast<Eigen::Index>(k);
   Eigen::VectorXd force(run.time_s.size());
   for (Eigen::Index i = 0; i < force.size(); ++i) {
@@ -50,11 +47,9 @@ Eigen::VectorXd written_force(const TrialRun& run,
 /// that are a third of a period apart, all inside the run and as far from both ends.
 Eigen::MatrixXd written_low_pass(const TrialRun& run, double cutoff_hz) {
   const Eigen::Index n = run.time_s.size();
-  const double width =
-      std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz) / run.interval_s;
+  const double width = std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz) / run.interval_s;
   const auto reach = static_cast<Eigen::Index>(std::ceil(3.0 * width));
-  const auto apart =
-      static_cast<Eigen::Index>(std::lround(1.0 / (3.0 * cutoff_hz * run.interval_s)));
+  const auto apart = static_cast<Eigen::Index>(std::lround(1.0 / (3.0 * cutoff_hz * run.interval_s)));
   const Eigen::Index free = n - 2 * reach - 1;
   Eigen::MatrixXd l = Eigen::MatrixXd::Zero(free / apart + 1, n);
   for (Eigen::Index j = 0; j < l.rows(); ++j) {
@@ -103,8 +98,8 @@ WrittenRun written_run(const Likelihood& likelihood,
     const auto muscle = static_cast<std::size_t>(k);
     const auto c = static_cast<std::size_t>(map.channel_of_muscle(muscle));
     const auto a = [&](const ModelValues& of) {
-      return Eigen::VectorXd(run.time_s.unaryExpr(
-          [&](double t) { return run.envelopes[c].at(t - of.channels[c][kDelay]).value; }));
+      return Eigen::VectorXd(
+          run.time_s.unaryExpr([&](double t) { return run.envelopes[c].at(t - of.channels[c][kDelay]).value; }));
     };
     const Eigen::VectorXd force = written_force(run, muscle, values.muscles[muscle], a(values));
     const double h = 1e-5;
@@ -117,21 +112,18 @@ WrittenRun written_run(const Likelihood& likelihood,
                              written_force(shorter, muscle, reference.muscles[muscle], at)) /
                             (2.0 * h));
     };
-    const Eigen::ArrayXd by_length = change(&TrialRun::length_m),
-                         by_rate = change(&TrialRun::velocity_mps);
+    const Eigen::ArrayXd by_length = change(&TrialRun::length_m), by_rate = change(&TrialRun::velocity_mps);
     for (Eigen::Index j = 0; j < joints; ++j) {
       const Eigen::ArrayXd arm = run.arm_m.col(k).segment(j * n, n);
       written.torque.segment(j * n, n).array() += arm * force.array();
       // The torque is proportional to the activation, and so to the envelope.
-      written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() +=
-          arm * force.array();
+      written.by_channel.col(static_cast<Eigen::Index>(c)).segment(j * n, n).array() += arm * force.array();
       for (Eigen::Index turned = 0; turned < joints; ++turned) {
         // dq moves a length by -r dq and a rate by -r dq'.
         const Eigen::ArrayXd moved = run.arm_m.col(k).segment(turned * n, n);
         const Eigen::Index at = 2 * (k * joints + turned);
         written.motion.col(at).segment(j * n, n) = options.angle_sd_rad * arm * by_length * moved;
-        written.motion.col(at + 1).segment(j * n, n) =
-            options.angle_rate_sd_radps * arm * by_rate * moved;
+        written.motion.col(at + 1).segment(j * n, n) = options.angle_rate_sd_radps * arm * by_rate * moved;
       }
     }
   }
@@ -149,13 +141,11 @@ Eigen::MatrixXd written_covariance(const TrialRun& run,
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < joints; ++j) {
       for (Eigen::Index other = 0; other < joints; ++other)
-        q(j * n + i, other * n + i) =
-            written.motion.row(j * n + i).dot(written.motion.row(other * n + i));
+        q(j * n + i, other * n + i) = written.motion.row(j * n + i).dot(written.motion.row(other * n + i));
       for (Eigen::Index t = 0; t < n; ++t)
-        q(j * n + i, j * n + t) +=
-            std::pow(torque_size[static_cast<std::size_t>(j)], 2) *
-            std::exp(2.0 * (noise[kTorqueSd] + noise[kNoiseFieldCount + run.trial]) -
-                     std::abs(run.time_s[i] - run.time_s[t]) / std::exp(noise[kTorqueTime]));
+        q(j * n + i, j * n + t) += std::pow(torque_size[static_cast<std::size_t>(j)], 2) *
+                                   std::exp(2.0 * (noise[kTorqueSd] + noise[kNoiseFieldCount + run.trial]) -
+                                            std::abs(run.time_s[i] - run.time_s[t]) / std::exp(noise[kTorqueTime]));
     }
   }
   for (std::size_t c = 0; c < run.errors.size(); ++c) {
@@ -165,13 +155,12 @@ Eigen::MatrixXd written_covariance(const TrialRun& run,
     for (Eigen::Index j = 0; j < joints; ++j) {
       Eigen::VectorXd modulation(n + 2 * margin);
       for (Eigen::Index i = 0; i < modulation.size(); ++i)
-        modulation[i] = written.by_channel(j * n + std::clamp<Eigen::Index>(i - margin, 0, n - 1),
-                                           static_cast<Eigen::Index>(c));
+        modulation[i] =
+            written.by_channel(j * n + std::clamp<Eigen::Index>(i - margin, 0, n - 1), static_cast<Eigen::Index>(c));
       root.middleRows(j * n, n) = filter * modulation.asDiagonal();
     }
     // 0.57 / (2 B T), T the time that two passes of second order average.
-    const double variance =
-        0.7555 * 0.7555 / (2.0 * 150.0 * 0.4815 / envelope_cutoff_hz) * run.errors[c].share();
+    const double variance = 0.7555 * 0.7555 / (2.0 * 150.0 * 0.4815 / envelope_cutoff_hz) * run.errors[c].share();
     q += std::exp(2.0 * noise[kEmgFactor]) * variance * root * root.transpose();
   }
   return q;
@@ -194,8 +183,7 @@ std::vector<double> written_torque_sizes(const std::vector<TrialRun>& runs) {
   return sums;
 }
 
-/// F_max over that of the reference, the geometric mean of the muscles whose strength a quantity
-/// multiplies.
+/// F_max over that of the reference, the geometric mean of the muscles whose strength a quantity multiplies.
 Eigen::VectorXd written_strength(const Likelihood& likelihood,
                                  const Eigen::VectorXd& z,
                                  const Eigen::VectorXd& reference) {
@@ -234,8 +222,7 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   const Eigen::VectorXd reference = map.start();
   Eigen::VectorXd z = reference;
   for (Eigen::Index j = 0; j < z.size(); ++j)
-    z[j] += 0.1 * map.free()[static_cast<std::size_t>(j)].prior.sd *
-            std::sin(1.0 + 2.0 * static_cast<double>(j));
+    z[j] += 0.1 * map.free()[static_cast<std::size_t>(j)].prior.sd * std::sin(1.0 + 2.0 * static_cast<double>(j));
   const std::vector<TrialRun>& runs = likelihood.runs();
   ASSERT_EQ(runs.size(), 2U);
   const Eigen::Index rows = likelihood.row_count();
@@ -250,23 +237,17 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
     const double weight = written_row_weight(runs, run, options.unseen.independent_rows);
     ASSERT_LT(weight, 1.0);
     const Eigen::MatrixXd of_joint = written_low_pass(run, 1.5);
-    const Eigen::Index n = run.time_s.size(), m = run.measured_nm.size(),
-                       joints = m / of_joint.rows();
+    const Eigen::Index n = run.time_s.size(), m = run.measured_nm.size(), joints = m / of_joint.rows();
     Eigen::MatrixXd l = Eigen::MatrixXd::Zero(m, n * joints);
-    for (Eigen::Index j = 0; j < joints; ++j)
-      l.block(j * of_joint.rows(), j * n, of_joint.rows(), n) = of_joint;
-    const WrittenRun written =
-        written_run(likelihood, run, options, map.values(z), map.values(reference));
-    sigma.block(first, first, m, m) = l *
-                                      written_covariance(run, written, written_torque_sizes(runs),
-                                                         noise, options.envelope_cutoff_hz) *
-                                      l.transpose();
+    for (Eigen::Index j = 0; j < joints; ++j) l.block(j * of_joint.rows(), j * n, of_joint.rows(), n) = of_joint;
+    const WrittenRun written = written_run(likelihood, run, options, map.values(z), map.values(reference));
+    sigma.block(first, first, m, m) =
+        l * written_covariance(run, written, written_torque_sizes(runs), noise, options.envelope_cutoff_hz) *
+        l.transpose();
     // The least error of a joint's torque, in each row.
     for (Eigen::Index j = 0; j < joints; ++j)
       sigma.diagonal().segment(first + j * of_joint.rows(), of_joint.rows()).array() +=
-          std::pow(0.002 * likelihood.torque_size_nm() *
-                       written_torque_sizes(runs)[static_cast<std::size_t>(j)],
-                   2);
+          std::pow(0.002 * likelihood.torque_size_nm() * written_torque_sizes(runs)[static_cast<std::size_t>(j)], 2);
     const auto log_determinant = [&] {
       return sigma.block(first, first, m, m).eval().ldlt().vectorD().array().log().sum();
     };
@@ -294,8 +275,8 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   const Eigen::VectorXd ratio = written_strength(likelihood, z, reference);
   for (Eigen::Index i = 0; i < shapes.cols(); ++i)
     sigma += (ratio[i] - 1.0) * weights[i] * weights[i] * shapes.col(i) * shapes.col(i).transpose();
-  const double direct = -0.5 * residual.dot(sigma.ldlt().solve(residual)) -
-                        0.5 * (factor.vectorD().array().log().sum() - counted_twice);
+  const double direct =
+      -0.5 * residual.dot(sigma.ldlt().solve(residual)) - 0.5 * (factor.vectorD().array().log().sum() - counted_twice);
   // The program's derivatives by ln u, length and rate are secants.
   EXPECT_NEAR(likelihood.value(z, noise), direct, 1e-5 * std::abs(direct));
   // The unseen quantities given the torque: conditional moments of a joint normal density.
@@ -303,14 +284,13 @@ void expect_written_out(const StudyData& data, const NoiseValues& noise, Believe
   const Eigen::MatrixXd gain = factor.solve(weighted);
   const Likelihood::UnseenGiven given = likelihood.unseen_given(z, noise);
   EXPECT_LT((given.mean - gain.transpose() * residual).cwiseAbs().maxCoeff(), 1e-4);
-  const Eigen::MatrixXd left =
-      Eigen::MatrixXd::Identity(weights.size(), weights.size()) - weighted.transpose() * gain;
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(weights.size(), weights.size()) - weighted.transpose() * gain;
   EXPECT_LT((given.covariance - left).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TEST(Likelihood, TheValueIsThatOfTheWholeCovarianceWrittenOut) {
-  ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
+  ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 7.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
   // The second muscle shares the electrode of the first.
   study.data.muscles[1].emg_channel = study.data.muscles[0].emg_channel;
   for (const Believed believed : {Believed::nothing_exact, Believed::geometry_and_sensors_exact})
@@ -336,11 +316,9 @@ void expect_gradient(const Likelihood& likelihood, const NoiseValues& noise) {
   };
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const Unknown& of = likelihood.parameters().free()[static_cast<std::size_t>(j)];
-    const double difference = slope(
-        [&](double h) {
-          return likelihood.value(z + h * Eigen::VectorXd::Unit(z.size(), j), noise);
-        },
-        1e-3 * std::max(1e-3, of.prior.sd));
+    const double difference =
+        slope([&](double h) { return likelihood.value(z + h * Eigen::VectorXd::Unit(z.size(), j), noise); },
+              1e-3 * std::max(1e-3, of.prior.sd));
     EXPECT_NEAR(gradient.by_z[j], difference, 1e-4 * (1.0 + std::abs(difference))) << of.label;
   }
   for (Eigen::Index i = 0; i < noise.size(); ++i) {
@@ -366,8 +344,7 @@ TEST(Likelihood, TheGradientIsThatOfDifferences) {
 
 TEST(Likelihood, TheGradientOfTwoJointsIsThatOfDifferences) {
   ElbowStudy study = leg_study({.seconds = 6.0, .emg_cv = 0.1, .torque_sd_nm = 1.0});
-  study.data.rules = {freed("emg_exponent"), freed("joint_torque_offset"),
-                      freed("joint_stiffness", {"knee"})};
+  study.data.rules = {freed("emg_exponent"), freed("joint_torque_offset"), freed("joint_stiffness", {"knee"})};
   EstimatorOptions options;
   options.angle_sd_rad = 0.01;
   for (const test::LegMuscle& muscle : test::kLegMuscles) {

@@ -12,8 +12,7 @@ namespace myoid::identification {
 
 /// The model's values at z and their derivatives by z.
 struct Likelihood::Point {
-  Point(const ParameterMap& map, const Eigen::VectorXd& z)
-      : values(map.values(z, &chains)), by_owner(map, chains) {}
+  Point(const ParameterMap& map, const Eigen::VectorXd& z) : values(map.values(z, &chains)), by_owner(map, chains) {}
   std::vector<ParameterMap::Chain> chains;
   ModelValues values;
   ChainsByOwner by_owner;

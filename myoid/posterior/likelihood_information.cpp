@@ -8,8 +8,7 @@
 
 namespace myoid::identification {
 
-Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
-                                                const NoiseValues& noise) const {
+Likelihood::Information Likelihood::information(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
   const Eigen::VectorXd& w = all.weights;
@@ -22,23 +21,17 @@ Likelihood::Information Likelihood::information(const Eigen::VectorXd& z,
                      std::vector<Eigen::MatrixXd>(kSourceCount, Eigen::MatrixXd::Zero(p, p))};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block& block = blocks[r];
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
-                                                       &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) return result;
     solved[r] = block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(p)));
     gram += block.gram;
     cross += block.unseen.transpose() * solved[r];
   }
-  const Eigen::MatrixXd shared =
-      gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
-  const auto of = [&](Source source) -> Eigen::MatrixXd& {
-    return result.by_source[static_cast<std::size_t>(source)];
-  };
+  const Eigen::MatrixXd shared = gram.llt().solve(cross);  // = (S W)' Sigma^-1 J; lower half of gram
+  const auto of = [&](Source source) -> Eigen::MatrixXd& { return result.by_source[static_cast<std::size_t>(source)]; };
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const Eigen::MatrixXd k =
-        solved[r] - blocks[r].whitening.transpose() * (blocks[r].unseen_half * shared);
-    const Eigen::MatrixXd envelopes =
-        envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
+    const Eigen::MatrixXd k = solved[r] - blocks[r].whitening.transpose() * (blocks[r].unseen_half * shared);
+    const Eigen::MatrixXd envelopes = envelope_covariance(r, blocks[r].evaluation->signals(), noise) / row_weight_[r];
     const Eigen::MatrixXd a = blocks[r].factor.reconstructedMatrix();
     of(Source::electrodes) += k.transpose() * envelopes * k;
     of(Source::noise) += k.transpose() * (a - envelopes) * k;
@@ -62,8 +55,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
     if (r == 0 || runs_[r].trial != runs_[r - 1].trial)
       found.emplace_back(Eigen::MatrixXd::Zero(p + w.size(), p + w.size()));
     Block block;
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
-                                                       &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) continue;
     Eigen::MatrixXd both(block.unseen.rows(), p + w.size());
     both << runs_[r].reduction.apply(block.evaluation->jacobian(p)), block.unseen;
@@ -72,8 +64,7 @@ std::vector<Eigen::MatrixXd> Likelihood::information_by_trial(const Eigen::Vecto
   return found;
 }
 
-Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
-                                                 const NoiseValues& noise) const {
+Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z, const NoiseValues& noise) const {
   const Point point(map_, z);
   const AllRuns all = all_runs(z, noise);
   const Eigen::VectorXd& w = all.weights;
@@ -82,8 +73,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
   Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(w.size(), map_.size());
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Block block;
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values,
-                                                       &point.by_owner);
+    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, point.values, &point.by_owner);
     if (!fill(r, all, noise, block)) continue;
     gram += block.gram;
     projected += block.projected;
@@ -91,8 +81,7 @@ Likelihood::UnseenGiven Likelihood::unseen_given(const Eigen::VectorXd& z,
              block.factor.solve(runs_[r].reduction.apply(block.evaluation->jacobian(map_.size())));
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-  return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())),
-          -factor.solve(cross)};
+  return {factor.solve(projected), factor.solve(Eigen::MatrixXd::Identity(w.size(), w.size())), -factor.solve(cross)};
 }
 
 Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
@@ -115,8 +104,8 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
         std::exp(2.0 * noise[kTorqueSd]) * std::pow(recorded_.size_share(run.joints[j]), 2);
   for (std::size_t c = 0; c < run.errors.size(); ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
-    const double scale = std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) *
-                         run.errors[c].share();
+    const double scale =
+        std::exp(2.0 * noise[kEmgFactor]) * std::pow(run.envelope_sd[channel], 2) * run.errors[c].share();
     of.variance_nm2 += scale * here.signals().by_noise.col(channel).cwiseAbs2();
   }
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
@@ -128,8 +117,7 @@ Likelihood::RunForecast Likelihood::forecast(const TrialRun& run,
   for (std::size_t k = 0; k < data_.muscles.size(); ++k) {
     const MuscleRows& rows = here.muscle(k);
     of.force_n.col(static_cast<Eigen::Index>(k)) = rows.force_n;
-    Eigen::MatrixXd& by_z =
-        of.force_by_z.emplace_back(Eigen::MatrixXd::Zero(run.time_s.size(), map_.size()));
+    Eigen::MatrixXd& by_z = of.force_by_z.emplace_back(Eigen::MatrixXd::Zero(run.time_s.size(), map_.size()));
     for (std::size_t v = 0; v < rows.variables.size(); ++v)
       by_z.col(rows.variables[v]) += rows.by_variable.row(static_cast<Eigen::Index>(v)).transpose();
   }
@@ -145,8 +133,7 @@ Likelihood::Residuals Likelihood::residuals(const Eigen::VectorXd& z) const {
     const RunEvaluation evaluation(runs_[r], map_, options_.lag, values, nullptr);
     const Eigen::Index m = runs_[r].measured_nm.size();
     result.measured_nm.segment(first, m) = runs_[r].measured_nm;
-    result.predicted_nm.segment(first, m) =
-        runs_[r].reduction.apply(evaluation.signals().torque_nm);
+    result.predicted_nm.segment(first, m) = runs_[r].reduction.apply(evaluation.signals().torque_nm);
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto j = static_cast<std::size_t>(i / runs_[r].reduction.outputs());
       result.rows_of_joint[static_cast<std::size_t>(runs_[r].joints[j])].push_back(first + i);

@@ -34,8 +34,7 @@ TEST(Likelihood, TheForecastOfOneJointIsItsPartOfTheForecastOfAll) {
     // Up to the order of sums.
     EXPECT_LT((all.mean_nm.segment(first, n) - one.mean_nm).norm(), 1e-12 * one.mean_nm.norm());
     EXPECT_LT((all.by_z.middleRows(first, n) - one.by_z).norm(), 1e-12 * one.by_z.norm());
-    EXPECT_LT((all.variance_nm2.segment(first, n) - one.variance_nm2).norm(),
-              1e-12 * one.variance_nm2.norm());
+    EXPECT_LT((all.variance_nm2.segment(first, n) - one.variance_nm2).norm(), 1e-12 * one.variance_nm2.norm());
     EXPECT_EQ(all.force_n, one.force_n);
   }
 }
@@ -51,8 +50,7 @@ TEST(Likelihood, TheInformationOfTrialsAddsToThatOfAllWhereTheUnseenIsIntegrated
   // Schur's complement of the quantities, whose precision is 1 beforehand.
   const Eigen::MatrixXd of_unseen = sum.bottomRightCorner(q, q) + Eigen::MatrixXd::Identity(q, q);
   const Eigen::MatrixXd left =
-      sum.topLeftCorner(p, p) -
-      sum.topRightCorner(p, q) * of_unseen.ldlt().solve(sum.bottomLeftCorner(q, p));
+      sum.topLeftCorner(p, p) - sum.topRightCorner(p, q) * of_unseen.ldlt().solve(sum.bottomLeftCorner(q, p));
   const Eigen::MatrixXd whole = likelihood.information(z, kNoise).information;
   EXPECT_LT((left - whole).norm(), 1e-8 * whole.norm());
 }
@@ -66,8 +64,7 @@ TEST(Likelihood, TheSharesOfTheSourcesAddToTheInformation) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(z.size(), z.size());
   for (const Eigen::MatrixXd& part : found.by_source) sum += part;
   EXPECT_LT((sum - found.information).norm(), 1e-9 * sum.norm());
-  for (const Eigen::MatrixXd& part : found.by_source)
-    EXPECT_GE(part.diagonal().minCoeff(), -1e-9 * sum.norm());
+  for (const Eigen::MatrixXd& part : found.by_source) EXPECT_GE(part.diagonal().minCoeff(), -1e-9 * sum.norm());
 }
 
 }  // namespace

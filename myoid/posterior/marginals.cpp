@@ -12,10 +12,10 @@ constexpr double kGridEnd = 9.0;  // standard deviations
 constexpr double kGridStep = 0.05;
 constexpr double kLeastSlope = 0.5, kMostSlope = 8.0;  // of a tail; a normal one has 2
 constexpr double kLeastBend = 0.2, kMostBend = 4.0;    // of a tail; a normal one has 1
-constexpr double kLeastFall = 0.5, kMostFall = 8.0;  // of ln density to a side; a normal one has 2
-constexpr double kMostPromise = 2.0;    // of ln density: the most that a step of Newton may promise
-constexpr double kSmallPromise = 0.02;  // of ln density: a smaller one is believed without a step
-constexpr double kMostDrift = 2.0;      // standard deviations by which a volume may move a mean
+constexpr double kLeastFall = 0.5, kMostFall = 8.0;    // of ln density to a side; a normal one has 2
+constexpr double kMostPromise = 2.0;                   // of ln density: the most that a step of Newton may promise
+constexpr double kSmallPromise = 0.02;                 // of ln density: a smaller one is believed without a step
+constexpr double kMostDrift = 2.0;                     // standard deviations by which a volume may move a mean
 
 /// Returns the cubic on [0, 2] with value and slope 0 at 0.
 double hermite(const Marginal::Side& side, double outward_slope, double distance) {
@@ -25,8 +25,8 @@ double hermite(const Marginal::Side& side, double outward_slope, double distance
 
 /// Returns minus the cubic's second derivative at 2, clamped.
 double tail_curvature(const Marginal::Side& side, double outward_slope) {
-  const double at_side = (4.0 * Marginal::kSide * outward_slope - 6.0 * side.log_density) /
-                         (Marginal::kSide * Marginal::kSide);
+  const double at_side =
+      (4.0 * Marginal::kSide * outward_slope - 6.0 * side.log_density) / (Marginal::kSide * Marginal::kSide);
   return std::clamp(-at_side, kLeastBend, kMostBend);
 }
 
@@ -34,8 +34,7 @@ double standard_normal_below(double t) { return 0.5 * std::erfc(-t / std::sqrt(2
 
 Marginal::Side side_of(const LogDensity& density, const Mode& mode, Eigen::Index j, double sign) {
   const Marginal::Side normal{-2.0, -2.0 * sign};
-  const Eigen::VectorXd response =
-      mode.covariance.col(j) / std::sqrt(mode.covariance(j, j));  // C e_j / sd_j
+  const Eigen::VectorXd response = mode.covariance.col(j) / std::sqrt(mode.covariance(j, j));  // C e_j / sd_j
   const auto follow = [&](const Eigen::VectorXd& gradient) -> Eigen::VectorXd {
     return mode.covariance * gradient - response * response.dot(gradient);
   };
@@ -58,9 +57,7 @@ Marginal::Side side_of(const LogDensity& density, const Mode& mode, Eigen::Index
 }
 
 /// Returns w, from second differences of the gradient along the columns of a root of C.
-Eigen::VectorXd third_derivatives(const LogDensity& density,
-                                  const Mode& mode,
-                                  const Progress& progress) {
+Eigen::VectorXd third_derivatives(const LogDensity& density, const Mode& mode, const Progress& progress) {
   const Eigen::Index d = mode.x.size();
   const Eigen::MatrixXd root = mode.covariance.llt().matrixL();
   Eigen::VectorXd at_mode;
@@ -70,8 +67,7 @@ Eigen::VectorXd third_derivatives(const LogDensity& density,
     for (Eigen::Index k = range.begin(); k < range.end(); ++k) {
       progress.check();
       Eigen::VectorXd above, below;
-      if (std::isfinite(density(mode.x + root.col(k), above)) &&
-          std::isfinite(density(mode.x - root.col(k), below)))
+      if (std::isfinite(density(mode.x + root.col(k), above)) && std::isfinite(density(mode.x - root.col(k), below)))
         parts.col(k) = above + below - 2.0 * at_mode;
     }
   });
@@ -80,8 +76,7 @@ Eigen::VectorXd third_derivatives(const LogDensity& density,
 
 }  // namespace
 
-Marginal::Marginal(const Side& below, const Side& above, double drift)
-    : sides_{below, above}, drift_(drift) {
+Marginal::Marginal(const Side& below, const Side& above, double drift) : sides_{below, above}, drift_(drift) {
   const auto count = static_cast<std::size_t>(std::lround(2.0 * kGridEnd / kGridStep)) + 1;
   share_.resize(count);
   double sum = 0.0, before = std::exp(log_density(-kGridEnd));
@@ -98,8 +93,7 @@ double Marginal::log_density(double t) const {
   const double outward = t < 0.0 ? -side.slope : side.slope, distance = std::abs(t);
   if (distance > kSide) {
     const double beyond = distance - kSide;
-    return side.log_density + beyond * (outward - 0.5 * beyond * tail_curvature(side, outward)) +
-           drift_ * t;
+    return side.log_density + beyond * (outward - 0.5 * beyond * tail_curvature(side, outward)) + drift_ * t;
   }
   return hermite(side, outward, distance) + drift_ * t;
 }
@@ -138,16 +132,12 @@ std::vector<Marginal> marginals(const LogDensity& density,
   return found;
 }
 
-Draws draw_about(const Mode& mode,
-                 const std::vector<Marginal>& marginals,
-                 Eigen::Index count,
-                 std::uint64_t seed) {
+Draws draw_about(const Mode& mode, const std::vector<Marginal>& marginals, Eigen::Index count, std::uint64_t seed) {
   Draws draws = draw_normal(Eigen::VectorXd::Zero(mode.x.size()), mode.covariance, count, seed);
   const Eigen::VectorXd sd = mode.covariance.diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < sd.size(); ++j)
-      draws.x(j, i) =
-          mode.x[j] + sd[j] * marginals[static_cast<std::size_t>(j)].at(draws.x(j, i) / sd[j]);
+      draws.x(j, i) = mode.x[j] + sd[j] * marginals[static_cast<std::size_t>(j)].at(draws.x(j, i) / sd[j]);
   }
   return draws;
 }

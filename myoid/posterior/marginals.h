@@ -13,9 +13,8 @@
 
 namespace myoid::identification {
 
-/// The density of one entry of x, unnormalized, in Laplace's standard deviations t from the mode:
-/// ln p(t) is the cubic through values and slopes at -2, 0 and 2, a parabola in the tails, and
-/// `drift` t.
+/// The density of one entry of x, unnormalized, in Laplace's standard deviations t from the mode: ln p(t) is the cubic
+/// through values and slopes at -2, 0 and 2, a parabola in the tails, and `drift` t.
 class Marginal {
  public:
   /// State of the search at t = -2 or 2: ln p less that of the mode, and its slope in t.
@@ -28,8 +27,7 @@ class Marginal {
   Marginal(const Side& below, const Side& above, double drift = 0.0);
 
   [[nodiscard]] double log_density(double t) const;
-  /// Returns the t at which the distribution reaches the share that a standard normal one has at
-  /// `normal`.
+  /// Returns the t at which the distribution reaches the share that a standard normal one has at `normal`.
   [[nodiscard]] double at(double normal) const;
 
  private:

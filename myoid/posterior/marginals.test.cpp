@@ -39,8 +39,7 @@ TEST(Marginal, HasTheQuantilesOfTheLogarithmOfAGammaVariable) {
     const double all = std::tgamma(a);
     for (double g = 0.5e-4; found.size() < wanted.size(); g += 1e-4) {
       sum += 1e-4 * std::pow(g, a - 1.0) * std::exp(-g) / all;
-      if (before < wanted[found.size()] && sum >= wanted[found.size()])
-        found.push_back(std::log(g / a) / sd);
+      if (before < wanted[found.size()] && sum >= wanted[found.size()]) found.push_back(std::log(g / a) / sd);
       before = sum;
     }
     for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -92,8 +91,7 @@ TEST(Marginals, OfANormalDensityDrawTheNormalDistribution) {
   const Eigen::VectorXd average = draws.x * draws.weight;
   const Eigen::MatrixXd off = draws.x.colwise() - average;
   EXPECT_LT((average - mean).cwiseAbs().maxCoeff(), 0.05);
-  EXPECT_LT((off * draws.weight.asDiagonal() * off.transpose() - covariance).cwiseAbs().maxCoeff(),
-            0.1);
+  EXPECT_LT((off * draws.weight.asDiagonal() * off.transpose() - covariance).cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(Marginals, ASideWithoutADensityStaysNormal) {

@@ -15,18 +15,16 @@ namespace myoid::identification {
 namespace {
 
 constexpr int kMostIterations = 300;
-constexpr double kOfFresh = 10.0;  // a promise by Gauss and Newton's curvature over the search's
-constexpr double kLonger = 2.6;    // the first share of a step over the share of the step before
+constexpr double kOfFresh = 10.0;          // a promise by Gauss and Newton's curvature over the search's
+constexpr double kLonger = 2.6;            // the first share of a step over the share of the step before
 constexpr double kDifference = 1.0 / 3.0;  // standard deviations
 constexpr double kLeastCurvature = 0.1;    // over Gauss and Newton's curvature
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& positive) {
   const Eigen::VectorXd scale = positive.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * positive * scale.asDiagonal();
-  const Eigen::MatrixXd eased =
-      scaled + 1e-10 * Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
-  return scale.asDiagonal() *
-         eased.llt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
+  const Eigen::MatrixXd eased = scaled + 1e-10 * Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
+  return scale.asDiagonal() * eased.llt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
          scale.asDiagonal();
 }
 
@@ -76,15 +74,13 @@ Mode find_mode(const Density& density,
     bool climbed = false;
     for (int halvings = 0; halvings < 12 && promise > 0.0; ++halvings, share *= 0.4) {
       value = density.value(mode.x + share * step, at_trial);
-      climbed =
-          std::isfinite(value) && value > mode.log_density + 1e-4 * share * gradient.dot(step);
+      climbed = std::isfinite(value) && value > mode.log_density + 1e-4 * share * gradient.dot(step);
       if (climbed) break;
     }
     if (!climbed) {
       if (fresh) {
         mode.converged = promise < 100.0 * kFinePromise;
-        mode.message =
-            fmt::format("no step climbs, and {:.2g} of ln density are promised", promise);
+        mode.message = fmt::format("no step climbs, and {:.2g} of ln density are promised", promise);
         break;
       }
       refresh();
@@ -126,28 +122,24 @@ void add_curvature(const Density& density, bool exact, Mode& mode, const Progres
         progress.check();
         const Eigen::VectorXd step = kDifference * scale[j] * Eigen::VectorXd::Unit(d, j);
         Eigen::VectorXd above = Eigen::VectorXd::Zero(d), below = Eigen::VectorXd::Zero(d);
-        const bool finite = std::isfinite(density.value(mode.x + step, above)) &&
-                            std::isfinite(density.value(mode.x - step, below));
+        const bool finite =
+            std::isfinite(density.value(mode.x + step, above)) && std::isfinite(density.value(mode.x - step, below));
         h.col(j) = finite ? Eigen::VectorXd((below - above) / (2.0 * kDifference * scale[j]))
                           : Eigen::VectorXd(expected.col(j));
       }
     });
   }
-  const Eigen::MatrixXd scaled =
-      scale.asDiagonal() * (0.5 * (h + h.transpose())).eval() * scale.asDiagonal();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * (0.5 * (h + h.transpose())).eval() * scale.asDiagonal();
   const Eigen::MatrixXd scaled_expected = scale.asDiagonal() * expected * scale.asDiagonal();
   const math::SymmetricEigen eigen = math::symmetric_eigen(scaled);
   Eigen::VectorXd curvature = eigen.values;
   for (Eigen::Index j = 0; j < d; ++j) {
     const auto direction = eigen.vectors.col(j);
-    curvature[j] =
-        std::max(curvature[j], kLeastCurvature * direction.dot(scaled_expected * direction));
+    curvature[j] = std::max(curvature[j], kLeastCurvature * direction.dot(scaled_expected * direction));
   }
-  const Eigen::MatrixXd root =
-      scale.asDiagonal() * eigen.vectors * curvature.cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd root = scale.asDiagonal() * eigen.vectors * curvature.cwiseSqrt().cwiseInverse().asDiagonal();
   mode.covariance = root * root.transpose();
-  mode.log_evidence = mode.log_density +
-                      0.5 * static_cast<double>(d) * std::log(2.0 * std::numbers::pi) +
+  mode.log_evidence = mode.log_density + 0.5 * static_cast<double>(d) * std::log(2.0 * std::numbers::pi) +
                       scale.array().log().sum() - 0.5 * curvature.array().log().sum();
 }
 

@@ -25,12 +25,11 @@ struct Mode {
   std::string message;
 };
 
-/// Climbs from `start.x` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno. The
-/// first inverse of the second derivatives is `start.covariance`, or Gauss and Newton's where this
-/// is empty. Stops where a full step promises less than `promise` of ln density; kFinePromise is
-/// tried with Gauss and Newton's second derivatives, too, which may promise ten times as much.
-/// `covariance` is the search's; `add_curvature` replaces it and adds `log_evidence`. Where
-/// `is_known`(x) the search gives up, not converged.
+/// Climbs from `start.x` by the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno. The first inverse of the
+/// second derivatives is `start.covariance`, or Gauss and Newton's where this is empty. Stops where a full step
+/// promises less than `promise` of ln density; kFinePromise is tried with Gauss and Newton's second derivatives, too,
+/// which may promise ten times as much. `covariance` is the search's; `add_curvature` replaces it and adds
+/// `log_evidence`. Where `is_known`(x) the search gives up, not converged.
 [[nodiscard]] Mode find_mode(const Density& density,
                              const Mode& start,
                              const Progress& progress,

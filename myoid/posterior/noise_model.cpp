@@ -23,8 +23,7 @@ EnvelopeError::EnvelopeError(double cutoff_hz, const std::array<double, 2>& lag_
     const double passed = 1.0 / std::pow(1.0 + std::pow(f / corner_hz, 4), 2);
     all += passed;
     spectrum_[i] = passed;
-    for (const double lag : lag_s)
-      spectrum_[i] /= 1.0 + std::pow(2.0 * std::numbers::pi * f * lag, 2);
+    for (const double lag : lag_s) spectrum_[i] /= 1.0 + std::pow(2.0 * std::numbers::pi * f * lag, 2);
   }
   share_ = spectrum_.sum() / all;
   spectrum_ /= spectrum_.sum();
@@ -41,8 +40,7 @@ EnvelopeError EnvelopeError::behind(const Eigen::VectorXd& gain) const {
 }
 
 Eigen::VectorXd EnvelopeError::frequencies_hz() const {
-  return step_hz_ *
-         Eigen::VectorXd::LinSpaced(kFrequencies, 0.5, static_cast<double>(kFrequencies) - 0.5);
+  return step_hz_ * Eigen::VectorXd::LinSpaced(kFrequencies, 0.5, static_cast<double>(kFrequencies) - 0.5);
 }
 
 double EnvelopeError::correlation(double apart_s) const {
@@ -50,8 +48,7 @@ double EnvelopeError::correlation(double apart_s) const {
   if (apart >= reach_s_) return 0.0;
   double sum = 0.0;
   for (Eigen::Index i = 0; i < kFrequencies; ++i)
-    sum += spectrum_[i] *
-           std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) * step_hz_ * apart);
+    sum += spectrum_[i] * std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) * step_hz_ * apart);
   return sum;
 }
 
@@ -62,8 +59,7 @@ Eigen::VectorXd EnvelopeError::from_white(double interval_s) const {
   Eigen::VectorXd r(reach + 1);
   for (Eigen::Index j = 0; j <= reach; ++j) r[j] = correlation(static_cast<double>(j) * interval_s);
   const auto cosine = [size](Eigen::Index a, Eigen::Index b) {
-    return std::cos(2.0 * std::numbers::pi * static_cast<double>((a * b) % size) /
-                    static_cast<double>(size));
+    return std::cos(2.0 * std::numbers::pi * static_cast<double>((a * b) % size) / static_cast<double>(size));
   };
   Eigen::VectorXd amplitude(reach + 1);
   for (Eigen::Index k = 0; k <= reach; ++k) {
@@ -125,15 +121,13 @@ Eigen::VectorXd EmgNoise::pull_back(const Eigen::MatrixXd& by) const {
 
 TorqueError torque_error(const Reduction& reduction, double interval_s, double log_time) {
   const Eigen::VectorXd& weights = reduction.weights();
-  const Eigen::Index width = weights.size(), rows = reduction.outputs(),
-                     stride = reduction.stride();
+  const Eigen::Index width = weights.size(), rows = reduction.outputs(), stride = reduction.stride();
   Eigen::VectorXd both(width);  // sum_w weight_w weight_{w + d}
-  for (Eigen::Index d = 0; d < width; ++d)
-    both[d] = weights.head(width - d).dot(weights.tail(width - d));
+  for (Eigen::Index d = 0; d < width; ++d) both[d] = weights.head(width - d).dot(weights.tail(width - d));
   const double over_time = interval_s * std::exp(-log_time);
   const Eigen::ArrayXd apart =
-      over_time * Eigen::ArrayXd::LinSpaced((rows - 1) * stride + width, 0.0,
-                                            static_cast<double>((rows - 1) * stride + width - 1));
+      over_time *
+      Eigen::ArrayXd::LinSpaced((rows - 1) * stride + width, 0.0, static_cast<double>((rows - 1) * stride + width - 1));
   const Eigen::ArrayXd rho = (-apart).exp(), by_log = apart * rho;
   TorqueError result{Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
   for (Eigen::Index j = 0; j < rows; ++j) {

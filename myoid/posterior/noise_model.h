@@ -12,9 +12,9 @@ namespace myoid::identification {
 /// After them stands ln b of each fitted trial, the trial's own factor of sigma_T: a dynamometer
 /// errs by more than the inverse dynamics of the same session.
 enum NoiseField : int {
-  kTorqueSd,    ///< ln sigma_T [N m]: size of the torque's error e_T.
-  kTorqueTime,  ///< ln tau_T [s]: e_T has the covariance sigma_T^2 exp(-|dt| / tau_T).
-  kEmgFactor,   ///< ln kappa: noise of the envelopes over the noise that their bandwidth predicts.
+  kTorqueSd,        ///< ln sigma_T [N m]: size of the torque's error e_T.
+  kTorqueTime,      ///< ln tau_T [s]: e_T has the covariance sigma_T^2 exp(-|dt| / tau_T).
+  kEmgFactor,       ///< ln kappa: noise of the envelopes over the noise that their bandwidth predicts.
   kModelErrorSize,  ///< ln s: relative size of the model's error e_m.
   kNoiseFieldCount
 };
@@ -72,8 +72,6 @@ class EmgNoise {
 struct TorqueError {
   Eigen::VectorXd correlation, by_log_time;
 };
-[[nodiscard]] TorqueError torque_error(const Reduction& reduction,
-                                       double interval_s,
-                                       double log_time);
+[[nodiscard]] TorqueError torque_error(const Reduction& reduction, double interval_s, double log_time);
 
 }  // namespace myoid::identification

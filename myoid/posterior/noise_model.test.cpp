@@ -16,8 +16,7 @@ TEST(EnvelopeError, ItsCorrelationIsThatOfTheSpectrum) {
   // 1 - R is (2 pi f_0 tau)^2 / 2 times the mean of x^2 = (pi / (4 sqrt 2)) / (3 pi / (4 sqrt 2)).
   const double f0 = 6.0 / std::pow(std::sqrt(2.0) - 1.0, 0.25);
   const double tau = 1e-3;
-  EXPECT_NEAR(1.0 - error.correlation(tau),
-              0.5 * std::pow(2.0 * std::numbers::pi * f0 * tau, 2) / 3.0, 2e-5);
+  EXPECT_NEAR(1.0 - error.correlation(tau), 0.5 * std::pow(2.0 * std::numbers::pi * f0 * tau, 2) / 3.0, 2e-5);
   EXPECT_LT(std::abs(error.correlation(0.99 * error.reach_s())), 1e-4);
   EXPECT_EQ(error.correlation(error.reach_s()), 0.0);
 }
@@ -41,8 +40,7 @@ TEST(EnvelopeError, WhatAFilterLetsThroughHasItsSpectrum) {
 TEST(EnvelopeError, WhiteNoiseBehindTheWeightsHasTheAutocorrelation) {
   const EnvelopeError plain(6.0, {0.0, 0.0});
   const Eigen::VectorXd falling = (-plain.frequencies_hz().array() / 2.0).exp();
-  for (const EnvelopeError& error :
-       {plain, plain.behind(falling), EnvelopeError(6.0, {0.04, 0.03})}) {
+  for (const EnvelopeError& error : {plain, plain.behind(falling), EnvelopeError(6.0, {0.04, 0.03})}) {
     for (const double interval_s : {0.01, 0.05}) {
       const Eigen::VectorXd h = error.from_white(interval_s);
       ASSERT_EQ(h.size() % 2, 1);
@@ -71,8 +69,7 @@ TEST(EmgNoise, CovarianceAndPullBackAreDenseProducts) {
   const Eigen::MatrixXd k = dense_kernel(reduction, h);
   const EmgNoise noise(reduction, h);
   Eigen::VectorXd variance(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    variance[i] = 1.0 + 0.8 * std::sin(0.11 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < n; ++i) variance[i] = 1.0 + 0.8 * std::sin(0.11 * static_cast<double>(i));
   Eigen::VectorXd continued(n + 2 * reach);
   for (Eigen::Index i = 0; i < continued.size(); ++i)
     continued[i] = variance[std::clamp<Eigen::Index>(i - reach, 0, n - 1)];
@@ -97,20 +94,17 @@ TEST(TorqueError, IsTheExponentialBehindTheLowPassAndItsDerivativeThatOfDifferen
   const Eigen::MatrixXd l = reduction.apply(Eigen::MatrixXd::Identity(n, n));
   Eigen::MatrixXd q(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      q(i, j) = std::exp(-0.05 * std::abs(static_cast<double>(i - j)) / 0.3);
+    for (Eigen::Index j = 0; j < n; ++j) q(i, j) = std::exp(-0.05 * std::abs(static_cast<double>(i - j)) / 0.3);
   }
   const Eigen::MatrixXd dense = l * q * l.transpose();
   const TorqueError at = torque_error(reduction, 0.05, std::log(0.3));
   for (Eigen::Index i = 0; i < dense.rows(); ++i) {
-    for (Eigen::Index j = 0; j < dense.cols(); ++j)
-      EXPECT_NEAR(dense(i, j), at.correlation[std::abs(i - j)], 1e-12);
+    for (Eigen::Index j = 0; j < dense.cols(); ++j) EXPECT_NEAR(dense(i, j), at.correlation[std::abs(i - j)], 1e-12);
   }
   const double h = 1e-5;
-  const Eigen::VectorXd difference =
-      (torque_error(reduction, 0.05, std::log(0.3) + h).correlation -
-       torque_error(reduction, 0.05, std::log(0.3) - h).correlation) /
-      (2.0 * h);
+  const Eigen::VectorXd difference = (torque_error(reduction, 0.05, std::log(0.3) + h).correlation -
+                                      torque_error(reduction, 0.05, std::log(0.3) - h).correlation) /
+                                     (2.0 * h);
   EXPECT_LT((difference - at.by_log_time).cwiseAbs().maxCoeff(), 1e-9);
 }
 

@@ -29,8 +29,8 @@ constexpr Eigen::Index kKeptDraws = 1000;  // written draws
 /// Returns each source's share of every unknown's variance, by Laplace with Fisher's information.
 std::vector<SourceShares> source_shares(const Candidate& best) {
   const std::vector<Unknown>& free = best.density->parameters().free();
-  const Likelihood::Information of = best.density->likelihood().information(
-      best.density->z_of(best.mode.x), best.density->noise_of(best.mode.x));
+  const Likelihood::Information of =
+      best.density->likelihood().information(best.density->z_of(best.mode.x), best.density->noise_of(best.mode.x));
   const auto p = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd all = of.information + best.density->precision();
   all.diagonal() *= 1.0 + 1e-10;
@@ -41,11 +41,9 @@ std::vector<SourceShares> source_shares(const Candidate& best) {
   // No prior joins a channel's number with another number, so each block belongs to one source.
   const Eigen::MatrixXd pulled = best.density->precision() * covariance;
   for (Eigen::Index j = 0; j < p; ++j) {
-    const Source source = free[static_cast<std::size_t>(j)].field->scope == Scope::channel
-                              ? Source::electrodes
-                              : Source::literature;
-    part.col(static_cast<Eigen::Index>(source)) +=
-        covariance.col(j).cwiseProduct(pulled.row(j).transpose());
+    const Source source =
+        free[static_cast<std::size_t>(j)].field->scope == Scope::channel ? Source::electrodes : Source::literature;
+    part.col(static_cast<Eigen::Index>(source)) += covariance.col(j).cwiseProduct(pulled.row(j).transpose());
   }
   std::vector<SourceShares> shares(free.size());
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -66,9 +64,8 @@ Eigen::VectorXd gauss_newton_sd(const Density& density, const Eigen::VectorXd& x
       .cwiseSqrt();
 }
 
-/// The interval of z with geometry and sensors exact. It has the shape of the person's interval:
-/// the distances of its ends from the mode are those of the person's, by the ratio of both standard
-/// deviations.
+/// The interval of z with geometry and sensors exact. It has the shape of the person's interval: the distances of its
+/// ends from the mode are those of the person's, by the ratio of both standard deviations.
 struct Given {
   Eigen::VectorXd low, high;
 };
@@ -78,8 +75,7 @@ Given given_geometry(const Candidate& best, const Sample& sample, const Progress
   const Eigen::VectorXd of_person = gauss_newton_sd(density, best.mode.x);
   density.believe(Believed::geometry_and_sensors_exact);
   const Mode mode = find_mode(density, {.x = best.mode.x}, progress, kRoughPromise);
-  const Eigen::ArrayXd ratio =
-      (gauss_newton_sd(density, mode.x).array() / of_person.array().max(1e-300)).min(1.0);
+  const Eigen::ArrayXd ratio = (gauss_newton_sd(density, mode.x).array() / of_person.array().max(1e-300)).min(1.0);
   const std::vector<Unknown>& free = density.parameters().free();
   const auto end = [&](double share) {
     Eigen::VectorXd x = mode.x;
@@ -134,8 +130,7 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
   return fmt::format(
       "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest "
       "EMG, between {:.0f} and {:.0f} % of its maximum",
-      reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025),
-      100.0 * reach(share, 0.975));
+      reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025), 100.0 * reach(share, 0.975));
 }
 
 /// Fills the interval and the verdict of a row from draws of its value.
@@ -168,8 +163,7 @@ void judge_row(const Reporting& of,
   const bool of_width = p.field->scope == Scope::muscle && p.field->field == kWidth;
   if (of_width || (p.field->scope == Scope::muscle && p.field->field == kFiberLength)) {
     const auto k = static_cast<std::size_t>(owner);
-    facts.length_span =
-        of.motion[k].length_span_m / of.data.muscles[k].start.optimal_fiber_length_m;
+    facts.length_span = of.motion[k].length_span_m / of.data.muscles[k].start.optimal_fiber_length_m;
   }
   if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
@@ -178,15 +172,13 @@ void judge_row(const Reporting& of,
   const Finding found = finding(facts);
   e.verdict = verdict_of(found);
   e.reason = reason_of(found, facts);
-  if (!of.from_mvc && p.is(Scope::muscle, kMaxForce))
-    e.reason += without_maximum(of, values, owner);
+  if (!of.from_mvc && p.is(Scope::muscle, kMaxForce)) e.reason += without_maximum(of, values, owner);
 }
 
 /// Returns 1 - variance / prior variance of an unknown, over all modes.
 double contraction(const Reporting& of, std::size_t unknown) {
   const Eigen::VectorXd z = of.sample.z.row(static_cast<Eigen::Index>(unknown)).transpose();
-  const double mean = z.dot(of.sample.weight),
-               sd = prior_spread(of.map.free()[unknown], of.strength_sd);
+  const double mean = z.dot(of.sample.weight), sd = prior_spread(of.map.free()[unknown], of.strength_sd);
   return 1.0 - (z.array() - mean).square().matrix().dot(of.sample.weight) / (sd * sd);
 }
 
@@ -207,19 +199,16 @@ ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t t
   e.estimate = value(of.result.solution[at]);
   if (p.prior.sd > 0.0) {
     e.prior_mean = value(p.prior.mean);
-    e.prior_sd =
-        p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
+    e.prior_sd = p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
     e.shrinkage = contraction(of, unknown);
     e.prior_distance = distance_from_prior(p, of.result.solution[at]);
   }
   PosteriorFacts facts;
-  const Eigen::VectorXd draws =
-      of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
+  const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
   facts.low_given = value(of.given.low[at]);
   facts.high_given = value(of.given.high[at]);
   judge_row(of, unknown, draws, target.owner, e, facts);
-  e.routes.push_back(
-      {.route = "geometry_and_sensors_exact", .low = facts.low_given, .high = facts.high_given});
+  e.routes.push_back({.route = "geometry_and_sensors_exact", .low = facts.low_given, .high = facts.high_given});
   return e;
 }
 
@@ -235,8 +224,7 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   const muscle::Range physical = muscle::hill_field(e.parameter).bounds;
   Eigen::VectorXd draws(of.sample.z.cols());
   for (Eigen::Index i = 0; i < draws.size(); ++i)
-    draws[i] = std::clamp(of.map.values(of.sample.z.col(i)).muscles[k][kProduct], physical.lower,
-                          physical.upper);
+    draws[i] = std::clamp(of.map.values(of.sample.z.col(i)).muscles[k][kProduct], physical.lower, physical.upper);
   e.estimate = weighted_quantile(draws, of.sample.weight, 0.5);
   const Unknown& ratio = of.map.free()[unknown];
   if (ratio.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
@@ -257,40 +245,32 @@ void add_estimates(const Reporting& of, IdentificationResult& result) {
     }
     agree_on_tied(result.estimates, p.targets.size());
     if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
-    for (const Unknown::Target& target : p.targets)
-      result.estimates.push_back(product_row(of, j, target.owner));
+    for (const Unknown::Target& target : p.targets) result.estimates.push_back(product_row(of, j, target.owner));
   }
 }
 
-void fill_fit(const Candidate& best,
-              const Sample& sample,
-              const StudyData& data,
-              IdentificationResult& result) {
+void fill_fit(const Candidate& best, const Sample& sample, const StudyData& data, IdentificationResult& result) {
   const Density& density = *best.density;
   const ParameterMap& map = density.parameters();
   const NoiseValues noise = density.noise_of(best.mode.x);
   result.method = "torque";
-  result.termination =
-      best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
+  result.termination = best.mode.converged ? math::Termination::converged : math::Termination::no_descent;
   result.message = "estimator posterior: " + best.mode.message;
   result.iterations = best.mode.iterations;
   result.samples_used = static_cast<int>(density.likelihood().row_count());
   result.effective_samples = 0.0;
   for (std::size_t r = 0; r < density.likelihood().runs().size(); ++r)
     result.effective_samples +=
-        density.likelihood().row_weight(r) *
-        static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
+        density.likelihood().row_weight(r) * static_cast<double>(density.likelihood().runs()[r].measured_nm.size());
   result.lag = best.lag;
   // The mean over several modes may lie between them, where nothing fits.
   const auto z = sample.z.leftCols(sample.of_best);
-  const Eigen::VectorXd weight =
-      sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
+  const Eigen::VectorXd weight = sample.weight.head(sample.of_best) / sample.weight.head(sample.of_best).sum();
   result.solution = z * weight;
   const Eigen::MatrixXd off = z.colwise() - result.solution;
   result.covariance = off * weight.asDiagonal() * off.transpose();
   result.values = map.values(result.solution);
-  for (const MuscleValues& values : result.values.muscles)
-    result.muscles.push_back(hill_parameters(values));
+  for (const MuscleValues& values : result.values.muscles) result.muscles.push_back(hill_parameters(values));
   result.delay_s = result.values.channels.front()[kDelay];
   result.noise = noise;
   result.torque_sd_nm = std::exp(noise[kTorqueSd]);
@@ -303,8 +283,7 @@ void fill_fit(const Candidate& best,
   const Likelihood::Residuals rows = density.likelihood().residuals(result.solution);
   for (const std::vector<Eigen::Index>& joint : rows.rows_of_joint) {
     if (!joint.empty())
-      result.r2 = std::min(
-          result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
+      result.r2 = std::min(result.r2, math::explained_share(rows.predicted_nm(joint), rows.measured_nm(joint)));
   }
   result.prior_distances = prior_distances(map.free(), result.solution, data);
 }
@@ -317,8 +296,7 @@ void keep_draws(const Sample& sample, const ParameterMap& map, IdentificationRes
   result.draw_weights.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < sample.z.rows(); ++j)
-      result.draws(j, i) =
-          map.free()[static_cast<std::size_t>(j)].to_value(sample.z(j, i * stride));
+      result.draws(j, i) = map.free()[static_cast<std::size_t>(j)].to_value(sample.z(j, i * stride));
     result.draw_weights[i] = sample.weight[i * stride];
   }
   result.draw_weights /= result.draw_weights.sum();
@@ -334,22 +312,22 @@ void add_warnings(const std::vector<Candidate>& candidates,
                     "it: the intervals are over all of them",
                     candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
-    result.warnings.push_back(fmt::format(
-        "the draws of the posterior are not to be relied on: the chains of the sampler differ "
-        "(R-hat {:.2f}; 1.10 is the limit) or took {:.0f} % of their proposals (40 % is the "
-        "limit). "
-        "Ask for more draws",
-        sample.rhat, 100.0 * sample.accepted));
+    result.warnings.push_back(
+        fmt::format("the draws of the posterior are not to be relied on: the chains of the sampler differ "
+                    "(R-hat {:.2f}; 1.10 is the limit) or took {:.0f} % of their proposals (40 % is the "
+                    "limit). "
+                    "Ask for more draws",
+                    sample.rhat, 100.0 * sample.accepted));
   if (unlikeness > kUnlike)
-    result.warnings.push_back(fmt::format(
-        "the muscles lie {:.1f} times as far from the model's numbers as people usually do: the "
-        "priors are that much wider here. Was the model scaled to this person?",
-        unlikeness));
+    result.warnings.push_back(
+        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the "
+                    "priors are that much wider here. Was the model scaled to this person?",
+                    unlikeness));
   if (result.model_error > VerdictRules{}.model_error)
-    result.warnings.push_back(fmt::format(
-        "what the model leaves of the torque depends on posture, effort and speed as if it were "
-        "wrong by {:.0f} %",
-        100.0 * result.model_error));
+    result.warnings.push_back(
+        fmt::format("what the model leaves of the torque depends on posture, effort and speed as if it were "
+                    "wrong by {:.0f} %",
+                    100.0 * result.model_error));
   add_distances_to(result.warnings, result.prior_distances);
 }
 
@@ -374,8 +352,8 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
                                         : Given{.low = result.solution, .high = result.solution};
   const std::vector<SourceShares> shares = source_shares(best);
   const std::vector<ActiveMotion> motion = active_motion(data, result.delay_s);
-  add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result,
-                 best.mode.converged, options.from_mvc, options.unseen.strength},
+  add_estimates({data, best.density->parameters(), drawn, shares, given, motion, result, best.mode.converged,
+                 options.from_mvc, options.unseen.strength},
                 result);
   if (options.marginals) keep_draws(drawn, best.density->parameters(), result);
   add_warnings(candidates, drawn, best.density->unlikeness(), result);

@@ -15,7 +15,6 @@ namespace myoid::identification {
 /// tendons, the torque's scale, effort, cross-talk and drift are exact; without
 /// EstimatorOptions::marginals (a fold's fit) it is empty. IdentificationResult::trials is left
 /// empty. Throws InvalidInput without priors.
-[[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data,
-                                                         const EstimatorOptions& options);
+[[nodiscard]] IdentificationResult identify_by_posterior(const StudyData& data, const EstimatorOptions& options);
 
 }  // namespace myoid::identification

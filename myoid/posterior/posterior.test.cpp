@@ -53,8 +53,8 @@ TEST(IdentifyByPosterior, AnUnknownEffortIsInTheIntervalOfTheStrength) {
   constexpr double kEffort = 0.45;
   ElbowStudy study = person(3);
   for (TrialData& trial : study.data.trials)
-    trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(),
-                                  trial.activation.values() / kEffort);
+    trial.activation =
+        TimeSeries(trial.activation.time_s(), trial.activation.channels(), trial.activation.values() / kEffort);
   EstimatorOptions options;
   options.from_mvc = false;
   options.unseen.effort = 0.0;
@@ -119,8 +119,7 @@ TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {
                     .crosstalk = 0.0,
                     .gain_drift = 0.0,
                     .effort = 0.0};
-  for (const MuscleSetup& muscle : study.data.muscles)
-    options.emg_bandwidth_hz[muscle.emg_channel] = 5000.0;
+  for (const MuscleSetup& muscle : study.data.muscles) options.emg_bandwidth_hz[muscle.emg_channel] = 5000.0;
   const IdentificationResult result = identify_by_posterior(study.data, options);
   ASSERT_EQ(result.termination, math::Termination::converged) << result.message;
   EXPECT_GT(result.r2, 0.999);
@@ -142,8 +141,7 @@ TEST(IdentifyByPosterior, TwoJointsAndTheMuscleThatCrossesBothComeBack) {
 TEST(IdentifyByPosterior, OfANoiseThatIsNoMusclesNothingIsIdentified) {
   ElbowStudy study = person(4);
   test::StudyNoise noise(9);
-  for (TrialData& trial : study.data.trials)
-    trial.torque_nm = 10.0 * noise.band(trial.time_s.size(), 2.0, 100.0);
+  for (TrialData& trial : study.data.trials) trial.torque_nm = 10.0 * noise.band(trial.time_s.size(), 2.0, 100.0);
   EstimatorOptions options;
   options.posterior_draws = 0;
   const IdentificationResult result = identify_by_posterior(study.data, options);
@@ -164,10 +162,8 @@ TEST(IdentifyByPosterior, DrawsThatAreKeptHaveTheIntervals) {
     const Eigen::VectorXd drawn = result.draws.row(static_cast<Eigen::Index>(j));
     const double width = *e.ci_high - *e.ci_low;
     // 1000 of 4000 draws: the quantile at 2.5 % is known to 4 % of the interval.
-    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.025), *e.ci_low, 0.12 * width)
-        << label;
-    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.975), *e.ci_high, 0.12 * width)
-        << label;
+    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.025), *e.ci_low, 0.12 * width) << label;
+    EXPECT_NEAR(weighted_quantile(drawn, result.draw_weights, 0.975), *e.ci_high, 0.12 * width) << label;
     ASSERT_TRUE(e.variance_shares) << label;
     double sum = 0.0;
     for (const double share : *e.variance_shares) sum += share;

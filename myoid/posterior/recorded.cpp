@@ -11,16 +11,13 @@ constexpr double kLeastSpeed = 0.1;  // of v_max, likewise
 
 /// Returns the range of one muscle's lengths and rates, n of each for every run.
 template <typename Lengths>
-Recorded::Range range_of(const std::vector<TrialRun>& runs,
-                         const MuscleValues& muscle,
-                         const Lengths& lengths) {
+Recorded::Range range_of(const std::vector<TrialRun>& runs, const MuscleValues& muscle, const Lengths& lengths) {
   Recorded::Range range;
   for (const TrialRun& run : runs) {
     const Eigen::VectorXd length = lengths(run.length_m);
     range.shortest_m = std::min(range.shortest_m, length.minCoeff());
     range.longest_m = std::max(range.longest_m, length.maxCoeff());
-    range.fastest_mps =
-        std::max(range.fastest_mps, lengths(run.velocity_mps).cwiseAbs().maxCoeff());
+    range.fastest_mps = std::max(range.fastest_mps, lengths(run.velocity_mps).cwiseAbs().maxCoeff());
   }
   range.fastest_mps = std::max(range.fastest_mps, kLeastSpeed * muscle[kSpeed]);
   const double more = std::max(0.0, kLeastSpan * muscle[kFiberLength] - range.span_m());
@@ -73,8 +70,7 @@ Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleVal
     }));
     for (int joint = 0; joint < found.parts.joint_count(); ++joint)
       found.by_joint[static_cast<std::size_t>(joint)].push_back(
-          range_of(runs, muscles[k],
-                   [&](const Eigen::MatrixXd& all) { return found.parts.of(all, k, joint); }));
+          range_of(runs, muscles[k], [&](const Eigen::MatrixXd& all) { return found.parts.of(all, k, joint); }));
   }
   add_torque_sizes(runs, found);
   return found;

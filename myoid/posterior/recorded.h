@@ -32,7 +32,6 @@ struct Recorded {
 
 /// Returns the recorded ranges. A range is at least half an optimal fiber length: over a shorter
 /// one neither a muscle's law nor its moment arm can err by as much.
-[[nodiscard]] Recorded recorded(const std::vector<TrialRun>& runs,
-                                const std::vector<MuscleValues>& muscles);
+[[nodiscard]] Recorded recorded(const std::vector<TrialRun>& runs, const std::vector<MuscleValues>& muscles);
 
 }  // namespace myoid::identification

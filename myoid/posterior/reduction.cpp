@@ -10,9 +10,7 @@ namespace {
 constexpr double kReach = 3.0;          // kernel widths to either side
 constexpr double kRowsPerPeriod = 3.0;  // rows per period of the cut-off
 
-double width_s(double cutoff_hz) {
-  return std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz);
-}
+double width_s(double cutoff_hz) { return std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz); }
 
 Eigen::Index stride_of(double rate_hz, double cutoff_hz) {
   return std::max<Eigen::Index>(1, std::lround(rate_hz / (kRowsPerPeriod * cutoff_hz)));
@@ -30,8 +28,8 @@ Reduction::Reduction(Eigen::Index samples, double rate_hz, std::optional<double>
     : inputs_(samples), outputs_(samples), weights_(Eigen::VectorXd::Ones(1)) {
   if (!cutoff_hz || *cutoff_hz >= 0.45 * rate_hz) return;
   const double width = width_s(*cutoff_hz);
-  const auto reach = std::min<Eigen::Index>(
-      static_cast<Eigen::Index>(std::ceil(kReach * width * rate_hz)), (samples - 1) / 2);
+  const auto reach =
+      std::min<Eigen::Index>(static_cast<Eigen::Index>(std::ceil(kReach * width * rate_hz)), (samples - 1) / 2);
   stride_ = stride_of(rate_hz, *cutoff_hz);
   const Eigen::Index free = samples - 1 - 2 * reach;
   outputs_ = free / stride_ + 1;
@@ -48,8 +46,7 @@ Eigen::MatrixXd Reduction::apply(const Eigen::Ref<const Eigen::MatrixXd>& x) con
   Eigen::MatrixXd y(x.rows() / inputs_ * outputs_, x.cols());
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
     for (Eigen::Index j = 0; j < y.rows(); ++j)
-      y(j, c) = weights_.dot(
-          x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()));
+      y(j, c) = weights_.dot(x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()));
   }
   return y;
 }
@@ -58,8 +55,7 @@ Eigen::MatrixXd Reduction::transposed(const Eigen::Ref<const Eigen::MatrixXd>& y
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(y.rows() / outputs_ * inputs_, y.cols());
   for (Eigen::Index c = 0; c < y.cols(); ++c) {
     for (Eigen::Index j = 0; j < y.rows(); ++j)
-      x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()) +=
-          y(j, c) * weights_;
+      x.col(c).segment(j / outputs_ * inputs_ + first(j % outputs_), weights_.size()) += y(j, c) * weights_;
   }
   return x;
 }

@@ -7,11 +7,10 @@
 
 namespace myoid::identification {
 
-/// The linear operator L that turns a run of n even samples into m < n rows: a Gaussian low-pass,
-/// amplitude exp(-(2 pi f sigma)^2 / 2) with -3 dB at `cutoff_hz`, read at every third of 1 /
-/// cut-off. All rows have the same weights, which add to 1 and stay inside the run, so L keeps a
-/// stationary error stationary. A run shorter than the weights gives one row. Without a cut-off L
-/// is the identity.
+/// The linear operator L that turns a run of n even samples into m < n rows: a Gaussian low-pass, amplitude exp(-(2 pi
+/// f sigma)^2 / 2) with -3 dB at `cutoff_hz`, read at every third of 1 / cut-off. All rows have the same weights, which
+/// add to 1 and stay inside the run, so L keeps a stationary error stationary. A run shorter than the weights gives one
+/// row. Without a cut-off L is the identity.
 class Reduction {
  public:
   Reduction(Eigen::Index samples, double rate_hz, std::optional<double> cutoff_hz);

@@ -29,10 +29,9 @@ TEST(Reduction, ItsProductsAreThoseOfItsMatrix) {
   const Eigen::Index n = 60;
   const Reduction l(n, 20.0, 1.5);
   const Eigen::MatrixXd matrix = l.apply(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd a =
-      Eigen::MatrixXd::NullaryExpr(l.outputs(), 3, [](Eigen::Index i, Eigen::Index j) {
-        return std::sin(1.0 + 3.0 * static_cast<double>(i) + 7.0 * static_cast<double>(j));
-      });
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(l.outputs(), 3, [](Eigen::Index i, Eigen::Index j) {
+    return std::sin(1.0 + 3.0 * static_cast<double>(i) + 7.0 * static_cast<double>(j));
+  });
   EXPECT_LT((l.transposed(a) - matrix.transpose() * a).norm(), 1e-12 * a.norm());
   // Every row has the same weights, a stride later, inside the run.
   for (Eigen::Index j = 0; j < l.outputs(); ++j) {

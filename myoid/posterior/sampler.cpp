@@ -124,22 +124,16 @@ double greatest_rhat(const Eigen::MatrixXd& x) {
       variance[h] = (part - mean[h]).square().sum() / static_cast<double>(n - 1);
     }
     const double within = variance.mean();
-    const double between =
-        (mean.array() - mean.mean()).square().sum() / static_cast<double>(halves - 1);
-    if (within > 0.0)
-      greatest =
-          std::max(greatest, std::sqrt(1.0 - 1.0 / static_cast<double>(n) + between / within));
+    const double between = (mean.array() - mean.mean()).square().sum() / static_cast<double>(halves - 1);
+    if (within > 0.0) greatest = std::max(greatest, std::sqrt(1.0 - 1.0 / static_cast<double>(n) + between / within));
   }
   return greatest;
 }
 
 }  // namespace
 
-Sampled sample_density(const LogDensity& density,
-                       const Mode& mode,
-                       Eigen::Index count,
-                       std::uint64_t seed,
-                       const Progress& progress) {
+Sampled sample_density(
+    const LogDensity& density, const Mode& mode, Eigen::Index count, std::uint64_t seed, const Progress& progress) {
   const Eigen::Index each = std::max<Eigen::Index>(1, (count + kChains - 1) / kChains);
   Sampled result;
   result.draws.x.resize(mode.x.size(), each * kChains);
@@ -149,8 +143,7 @@ Sampled sample_density(const LogDensity& density,
     chains.emplace_back(density, mode, math::Random(seed, static_cast<std::uint64_t>(c)));
   const auto each_chain = [&](const auto& run) {
     parallel_ranges(kChains, Eigen::Index{1}, [&](const auto& range) {
-      for (Eigen::Index c = range.begin(); c < range.end(); ++c)
-        run(chains[static_cast<std::size_t>(c)], c);
+      for (Eigen::Index c = range.begin(); c < range.end(); ++c) run(chains[static_cast<std::size_t>(c)], c);
     });
   };
   // First Laplace's covariance, then the density's own, with which the draws are taken.
@@ -174,11 +167,11 @@ Sampled sample_density(const LogDensity& density,
       }
     });
     const Eigen::MatrixXd off = seen.colwise() - seen.rowwise().mean().eval();
-    covariance = (1.0 - kOfLaplace) * off * off.transpose() / static_cast<double>(seen.cols()) +
-                 kOfLaplace * mode.covariance;
+    covariance =
+        (1.0 - kOfLaplace) * off * off.transpose() / static_cast<double>(seen.cols()) + kOfLaplace * mode.covariance;
   }
-  result.draws.weight = Eigen::VectorXd::Constant(result.draws.x.cols(),
-                                                  1.0 / static_cast<double>(result.draws.x.cols()));
+  result.draws.weight =
+      Eigen::VectorXd::Constant(result.draws.x.cols(), 1.0 / static_cast<double>(result.draws.x.cols()));
   result.accepted = accepted.mean();
   result.rhat = greatest_rhat(result.draws.x);
   return result;

@@ -25,16 +25,12 @@ struct Sampled {
 ///
 ///   x = mode + R u,   R R' = covariance,    H(u, p) = -ln p(x) + 1/2 |p|^2,   p ~ N(0, 1),
 ///
-/// in which a nearly normal density is nearly a sphere. A proposal follows H by leapfrog steps for
-/// about a quarter turn, after which draws from a sphere are independent. Four chains begin at
-/// draws from the approximation. Each chain tunes its step twice over 60 proposals, which are not
-/// kept, until 80 % of its proposals are taken. In between, seven tenths of all chains' covariance
-/// and three tenths of Laplace's become the covariance. The draws do not depend on the number of
-/// threads.
-[[nodiscard]] Sampled sample_density(const LogDensity& density,
-                                     const Mode& mode,
-                                     Eigen::Index count,
-                                     std::uint64_t seed,
-                                     const Progress& progress);
+/// in which a nearly normal density is nearly a sphere. A proposal follows H by leapfrog steps for about a quarter
+/// turn, after which draws from a sphere are independent. Four chains begin at draws from the approximation. Each chain
+/// tunes its step twice over 60 proposals, which are not kept, until 80 % of its proposals are taken. In between, seven
+/// tenths of all chains' covariance and three tenths of Laplace's become the covariance. The draws do not depend on the
+/// number of threads.
+[[nodiscard]] Sampled sample_density(
+    const LogDensity& density, const Mode& mode, Eigen::Index count, std::uint64_t seed, const Progress& progress);
 
 }  // namespace myoid::identification

@@ -29,8 +29,7 @@ TEST(Sampler, MeanSpreadAndQuantilesOfASkewedDensity) {
   EXPECT_EQ(sampled.draws.x.cols(), 1000);
   // All 20 entries together: 20,000 draws, of which a third may be independent.
   const Eigen::VectorXd x = sampled.draws.x.reshaped();
-  const Eigen::VectorXd weight =
-      Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size()));
+  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size()));
   EXPECT_NEAR(x.mean(), 1.25612, 0.03);
   EXPECT_NEAR((x.array() - x.mean()).square().mean(), 0.28382, 0.03);
   EXPECT_NEAR(weighted_quantile(x, weight, 0.5), std::log(3.67206), 0.03);

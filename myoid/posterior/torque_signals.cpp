@@ -40,17 +40,13 @@ bool is_proportional(const MuscleValues& values, const std::vector<ParameterMap:
 
 void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen::VectorXd& by_z) {
   const Eigen::VectorXd by = rows.by_variable * by_force;
-  for (std::size_t v = 0; v < rows.variables.size(); ++v)
-    by_z[rows.variables[v]] += by[static_cast<Eigen::Index>(v)];
+  for (std::size_t v = 0; v < rows.variables.size(); ++v) by_z[rows.variables[v]] += by[static_cast<Eigen::Index>(v)];
 }
 
 }  // namespace
 
-ChainsByOwner::ChainsByOwner(const ParameterMap& map,
-                             const std::vector<ParameterMap::Chain>& chains)
-    : of_muscle(map.held().muscles.size()),
-      of_channel(map.channels().size()),
-      of_joint(map.joints().size()) {
+ChainsByOwner::ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains)
+    : of_muscle(map.held().muscles.size()), of_channel(map.channels().size()), of_joint(map.joints().size()) {
   for (const ParameterMap::Chain& chain : chains) {
     const auto owner = static_cast<std::size_t>(chain.owner);
     if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
@@ -59,11 +55,8 @@ ChainsByOwner::ChainsByOwner(const ParameterMap& map,
   }
 }
 
-RunEvaluation::RunEvaluation(const TrialRun& run,
-                             const ParameterMap& map,
-                             EmgLag lag,
-                             const ModelValues& values,
-                             const ChainsByOwner* chains)
+RunEvaluation::RunEvaluation(
+    const TrialRun& run, const ParameterMap& map, EmgLag lag, const ModelValues& values, const ChainsByOwner* chains)
     : run_(run), chains_(chains), muscles_(values.muscles.size()) {
   const Eigen::Index n = run.time_s.size();
   const auto channels = static_cast<Eigen::Index>(run.envelopes.size());
@@ -73,8 +66,7 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
     const JointValues& joint = values.joints[static_cast<std::size_t>(run.joints[j])];
     for (int field = 0; field < kJointFieldCount; ++field) {
       const double value = joint[static_cast<std::size_t>(field)];
-      if (value != 0.0)
-        signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(run, j, field);
+      if (value != 0.0) signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(run, j, field);
     }
   }
   exponent_.resize(channels);
@@ -82,18 +74,15 @@ RunEvaluation::RunEvaluation(const TrialRun& run,
   gain_by_delay_.setZero(n, channels);
   for (std::size_t c = 0; c < run.envelopes.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
-    const std::vector<Envelope::Value> delayed =
-        run.envelopes[c].at(run.time_s, values.channels[c][kDelay]);
+    const std::vector<Envelope::Value> delayed = run.envelopes[c].at(run.time_s, values.channels[c][kDelay]);
     for (Eigen::Index i = 0; i < n && run.rest[column] > 0.0; ++i) {
       const Envelope::Value& u = delayed[static_cast<std::size_t>(i)];
-      const NoiseOverEnvelope noise =
-          noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
+      const NoiseOverEnvelope noise = noise_over_envelope(u.value, run.envelope_sd[column], run.rest[column]);
       gain_(i, column) = noise.value;
       gain_by_delay_(i, column) = -noise.slope * u.slope;
     }
-    activations_.push_back(lag == EmgLag::delay
-                               ? activation(delayed, values.channels[c])
-                               : activation(run.envelopes[c], run.time_s, values.channels[c], lag));
+    activations_.push_back(lag == EmgLag::delay ? activation(delayed, values.channels[c])
+                                                : activation(run.envelopes[c], run.time_s, values.channels[c], lag));
     exponent_[column] = values.channels[c][kExponent];
   }
   for (std::size_t k = 0; k < muscles_.size(); ++k) {
@@ -115,16 +104,15 @@ void RunEvaluation::add_muscle(std::size_t k, const MuscleValues& values) {
   evaluate(activations_[c], m.at);
   m.proportional = is_proportional(values, of_muscle);
   if (!m.proportional) evaluate(more_active(activations_[c], exponent_[m.channel]), m.more_active);
-  const Eigen::ArrayXd by_log_envelope =
-      m.proportional ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
-                     : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
+  const Eigen::ArrayXd by_log_envelope = m.proportional
+                                             ? Eigen::ArrayXd(exponent_[m.channel] * m.at.force_n.array())
+                                             : (m.more_active.force_n - m.at.force_n).array() / kActivationStep;
   const Eigen::Index n = run_.time_s.size();
   for (std::size_t j = 0; j < run_.joints.size(); ++j) {
     const Eigen::Index first = run_.first_row(j);
     const auto arm = run_.arm_m.col(column).segment(first, n).array();
     signals_.torque_nm.segment(first, n).array() += arm * m.at.force_n.array();
-    signals_.by_noise.col(m.channel).segment(first, n).array() +=
-        gain_.col(m.channel).array() * arm * by_log_envelope;
+    signals_.by_noise.col(m.channel).segment(first, n).array() += gain_.col(m.channel).array() * arm * by_log_envelope;
   }
 }
 
@@ -133,8 +121,7 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
   for (std::size_t j = 0; j < run_.joints.size(); ++j) {
     const Eigen::Index first = run_.first_row(j);
     for (const ParameterMap::Chain& chain : own_chains(j))
-      by_z[chain.variable] +=
-          chain.slope * by.torque_nm.segment(first, n).dot(by_joint_field(run_, j, chain.field));
+      by_z[chain.variable] += chain.slope * by.torque_nm.segment(first, n).dot(by_joint_field(run_, j, chain.field));
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
       const Muscle& m = muscles_[static_cast<std::size_t>(k)];
       const auto arm = run_.arm_m.col(k).segment(first, n).array();
@@ -147,10 +134,8 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
         continue;
       }
       add_gradient(m.at, of_force + exponent_[m.channel] * more, by_z);
-      for (const ParameterMap::Chain& chain :
-           chains_->of_channel[static_cast<std::size_t>(m.channel)]) {
-        if (chain.field == kExponent)
-          by_z[chain.variable] += chain.slope * (more * m.at.force_n.array()).sum();
+      for (const ParameterMap::Chain& chain : chains_->of_channel[static_cast<std::size_t>(m.channel)]) {
+        if (chain.field == kExponent) by_z[chain.variable] += chain.slope * (more * m.at.force_n.array()).sum();
       }
     }
   }
@@ -160,10 +145,10 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
     double by_delay = 0.0;
     for (std::size_t j = 0; j < run_.joints.size(); ++j) {
       const Eigen::Index first = run_.first_row(j);
-      by_delay += (by.by_noise.col(column).segment(first, n).array() *
-                   signals_.by_noise.col(column).segment(first, n).array() *
-                   gain_by_delay_.col(column).array() / gain_.col(column).array())
-                      .sum();
+      by_delay +=
+          (by.by_noise.col(column).segment(first, n).array() * signals_.by_noise.col(column).segment(first, n).array() *
+           gain_by_delay_.col(column).array() / gain_.col(column).array())
+              .sum();
     }
     for (const ParameterMap::Chain& chain : chains_->of_channel[c])
       if (chain.field == kDelay) by_z[chain.variable] += chain.slope * by_delay;

@@ -14,9 +14,8 @@ namespace myoid::identification {
 /// function by these signals.
 struct TorqueSignals {
   Eigen::VectorXd torque_nm;  ///< n J: T^_j = sum_k r_jk F_k + the joint's own torque.
-  /// n J x channels: D_c, the change of torque by one standard deviation of rectified EMG, relative
-  /// to the envelope (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u)
-  /// from noise_over_envelope.
+  /// n J x channels: D_c, the change of torque by one standard deviation of rectified EMG, relative to the envelope
+  /// (TrialRun::envelope_sd): d T^ / d ln u_c n(u) / (sd u), with n(u) / (sd u) from noise_over_envelope.
   Eigen::MatrixXd by_noise;
 };
 
@@ -35,17 +34,12 @@ struct ChainsByOwner {
 class RunEvaluation {
  public:
   /// Evaluates a run. Without `chains` (null) the gradients cannot be asked for.
-  RunEvaluation(const TrialRun& run,
-                const ParameterMap& map,
-                EmgLag lag,
-                const ModelValues& values,
-                const ChainsByOwner* chains);
+  RunEvaluation(
+      const TrialRun& run, const ParameterMap& map, EmgLag lag, const ModelValues& values, const ChainsByOwner* chains);
 
   [[nodiscard]] const TorqueSignals& signals() const { return signals_; }
   /// The channels' activations at the n samples.
-  [[nodiscard]] const std::vector<std::vector<Activation>>& activations() const {
-    return activations_;
-  }
+  [[nodiscard]] const std::vector<std::vector<Activation>>& activations() const { return activations_; }
   /// Returns a muscle's tension, with its derivatives by length and rate.
   [[nodiscard]] const MuscleRows& muscle(std::size_t k) const { return muscles_[k].at; }
   /// Adds to `by_z` the gradient of a function whose gradient by the signals is `by`.

@@ -13,8 +13,7 @@ namespace {
 /// Compares jacobian and pull_back with differences of the signals.
 void expect_derivatives(const StudyData& data) {
   EstimatorOptions options;
-  for (const MuscleSetup& muscle : data.muscles)
-    options.emg_bandwidth_hz[muscle.emg_channel] = 150.0;
+  for (const MuscleSetup& muscle : data.muscles) options.emg_bandwidth_hz[muscle.emg_channel] = 150.0;
   options.emg_rest[data.muscles.front().emg_channel] = 0.03;
   options.emg_rest[data.muscles[3].emg_channel] = 0.03;
   const ParameterMap map(data, options);
@@ -67,10 +66,8 @@ TEST(RunEvaluation, WhatALargerEnvelopeMakesIsItsSecant) {
   const StudyData data = test::elbow_study({.trials = 1, .seconds = 6.0}).data;
   const ParameterMap map(data, {});
   const std::vector<TrialRun> runs = trial_runs(data, {}, map);
-  const TorqueSignals signals =
-      RunEvaluation(runs[0], map, EmgLag::delay, map.values(map.start()), nullptr).signals();
-  EXPECT_LT((signals.by_noise.rowwise().sum() - signals.torque_nm).norm(),
-            1e-10 * signals.torque_nm.norm());
+  const TorqueSignals signals = RunEvaluation(runs[0], map, EmgLag::delay, map.values(map.start()), nullptr).signals();
+  EXPECT_LT((signals.by_noise.rowwise().sum() - signals.torque_nm).norm(), 1e-10 * signals.torque_nm.norm());
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ constexpr double kLongest_s = 8.0;
 constexpr Eigen::Index kFewest = 8;  // samples of a run
 
 /// Returns every stride-th sample that may be fitted, in stretches without a gap.
-std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial,
-                                                 double max_rate_hz,
-                                                 double longest_delay_s) {
+std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial, double max_rate_hz, double longest_delay_s) {
   const Eigen::Index all = trial.time_s.size();
   const double begin = trial.time_s[0], end = trial.time_s[all - 1], span = end - begin;
   const double interval = span / static_cast<double>(all - 1);
@@ -55,8 +53,7 @@ std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& r
   std::vector<std::vector<Eigen::Index>> found;
   for (std::size_t k = 0; k < count; ++k) {
     const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k * own);
-    found.emplace_back(
-        first, k + 1 == count ? rows.end() : first + static_cast<std::ptrdiff_t>(own + shared));
+    found.emplace_back(first, k + 1 == count ? rows.end() : first + static_cast<std::ptrdiff_t>(own + shared));
   }
   return found;
 }
@@ -77,15 +74,12 @@ Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const 
   const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();
   Drives drives;
   for (const std::string& name : map.channels())
-    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name),
-                                    floor_of(name, options), plain, options.envelope_cutoff_hz));
+    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name), floor_of(name, options),
+                                    plain, options.envelope_cutoff_hz));
   return drives;
 }
 
-void add_envelopes(const Drives& drives,
-                   const EstimatorOptions& options,
-                   const ParameterMap& map,
-                   TrialRun& run) {
+void add_envelopes(const Drives& drives, const EstimatorOptions& options, const ParameterMap& map, TrialRun& run) {
   run.envelope_sd.resize(static_cast<Eigen::Index>(drives.size()));
   run.rest.resizeLike(run.envelope_sd);
   for (std::size_t c = 0; c < drives.size(); ++c) {
@@ -94,9 +88,8 @@ void add_envelopes(const Drives& drives,
     run.envelope_sd[column] = envelope_spread(options, name);
     run.rest[column] = floor_of(name, options);
     run.envelopes.push_back(drives[c]->envelope);
-    run.errors.push_back(
-        EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
-            .behind(drives[c]->left));
+    run.errors.push_back(EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
+                             .behind(drives[c]->left));
   }
 }
 
@@ -108,15 +101,13 @@ void add_joint(const TrialData& view,
                TrialRun& run) {
   const Eigen::Index n = run.time_s.size(), m = run.reduction.outputs(), first = run.first_row(j);
   const auto& names = map.joints();
-  run.joints[j] =
-      static_cast<int>(std::find(names.begin(), names.end(), view.joint) - names.begin());
+  run.joints[j] = static_cast<int>(std::find(names.begin(), names.end(), view.joint) - names.begin());
   run.arm_m.middleRows(first, n) = view.moment_arm_m(rows, Eigen::all);
   run.resting_nm.segment(first, n) = resting_torque_nm(view)(rows);
   run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m) =
       run.reduction.apply(Eigen::VectorXd(view.torque_nm(rows)));
   const Eigen::Index all = view.time_s.size();
-  if (view.angle_rad.size() != all || view.velocity_radps.size() != all ||
-      view.acceleration_radps2.size() != all)
+  if (view.angle_rad.size() != all || view.velocity_radps.size() != all || view.acceleration_radps2.size() != all)
     return;
   auto motion = run.motion.middleRows(first, n);
   motion.col(0) = view.angle_rad(rows);
@@ -158,11 +149,9 @@ TrialRun make_run(const TrialData& trial,
 
 }  // namespace
 
-std::vector<TrialRun> trial_runs(const StudyData& data,
-                                 const EstimatorOptions& options,
-                                 const ParameterMap& map) {
-  const auto trials = std::count_if(data.trials.begin(), data.trials.end(),
-                                    [](const TrialData& trial) { return trial.calibration; });
+std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& options, const ParameterMap& map) {
+  const auto trials =
+      std::count_if(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; });
   std::vector<Drives> drives(data.trials.size());
   parallel_ranges(data.trials.size(), std::size_t{1}, [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -190,8 +179,7 @@ std::vector<TrialRun> trial_runs(const StudyData& data,
     before += 1.0;
   }
   if (runs.empty())
-    throw InvalidInput(
-        "identification: no calibration sample is left; EMG and motion must overlap in time");
+    throw InvalidInput("identification: no calibration sample is left; EMG and motion must overlap in time");
   return runs;
 }
 
@@ -203,11 +191,10 @@ TrialRun whole_run(const TrialData& trial,
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   TrialRun run = make_run(trial, rows, drives_of(trial, options, map), options, map);
   const auto is_fitted = [](const TrialData& other) { return other.calibration; };
-  const auto here = std::find_if(data.trials.begin(), data.trials.end(),
-                                 [&](const TrialData& of) { return of.name == trial.name; });
+  const auto here =
+      std::find_if(data.trials.begin(), data.trials.end(), [&](const TrialData& of) { return of.name == trial.name; });
   const auto before = static_cast<double>(std::count_if(data.trials.begin(), here, is_fitted));
-  const auto all =
-      static_cast<double>(std::count_if(data.trials.begin(), data.trials.end(), is_fitted));
+  const auto all = static_cast<double>(std::count_if(data.trials.begin(), data.trials.end(), is_fitted));
   run.trial = static_cast<int>(here - data.trials.begin());
   run.session = std::min((before + 0.5) / all, 1.0);
   return run;

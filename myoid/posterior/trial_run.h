@@ -12,11 +12,10 @@
 
 namespace myoid::identification {
 
-/// A stretch of one calibration trial without a gap, n even samples, and its measured torques
-/// behind L. Quantities of the J joints stand joint after joint: n J rows, or m J behind L. Trials
-/// longer than 8 s are cut into runs of equal length. The errors of different runs count as
-/// independent except for the person's own (unseen.h): 8 s are many times the errors' memory, and
-/// the work grows with the square of a run's length.
+/// A stretch of one calibration trial without a gap, n even samples, and its measured torques behind L. Quantities of
+/// the J joints stand joint after joint: n J rows, or m J behind L. Trials longer than 8 s are cut into runs of equal
+/// length. The errors of different runs count as independent except for the person's own (unseen.h): 8 s are many times
+/// the errors' memory, and the work grows with the square of a run's length.
 struct TrialRun {
   int trial = 0;                      ///< Index in StudyData::trials.
   double session = 0.0;               ///< Place of the run's middle in the session, 0 to 1.
@@ -29,17 +28,14 @@ struct TrialRun {
   Eigen::VectorXd resting_nm;         ///< n J: measured passive torque of the joint, or 0.
   std::vector<Envelope> envelopes;    ///< Per EMG channel: the drive (drive.h).
   std::vector<EnvelopeError> errors;  ///< Per EMG channel: the envelope's error.
-  Eigen::VectorXd
-      envelope_sd;       ///< Per EMG channel: relative sd of rectified EMG behind its filter.
-  Eigen::VectorXd rest;  ///< Per EMG channel: resting over full level, 0 where not known.
+  Eigen::VectorXd envelope_sd;        ///< Per EMG channel: relative sd of rectified EMG behind its filter.
+  Eigen::VectorXd rest;               ///< Per EMG channel: resting over full level, 0 where not known.
   double interval_s = 0.0;
   Reduction reduction;
   Eigen::VectorXd measured_nm;  ///< m J: L y.
 
   /// Returns the first row of the run's j-th joint among the n J rows.
-  [[nodiscard]] Eigen::Index first_row(std::size_t j) const {
-    return static_cast<Eigen::Index>(j) * time_s.size();
-  }
+  [[nodiscard]] Eigen::Index first_row(std::size_t j) const { return static_cast<Eigen::Index>(j) * time_s.size(); }
   [[nodiscard]] Eigen::Index row_count() const { return first_row(joints.size()); }
 };
 

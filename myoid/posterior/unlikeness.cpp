@@ -24,8 +24,7 @@ double below(double score) { return 0.5 * std::erfc(-score / std::numbers::sqrt2
 
 /// Returns ln of the share of a normal distribution within the bounds of a number.
 double log_share_within(const muscle::Range& bounds, double mean, double sd) {
-  return std::log(
-      std::max(below((bounds.upper - mean) / sd) - below((bounds.lower - mean) / sd), 1e-12));
+  return std::log(std::max(below((bounds.upper - mean) / sd) - below((bounds.lower - mean) / sd), 1e-12));
 }
 
 }  // namespace
@@ -35,35 +34,29 @@ bool spread_is_judgment(const Unknown& of) {
 }
 
 double prior_spread(const Unknown& of, double strength_sd) {
-  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd)
-                                                              : of.prior.sd;
+  return of.is(Scope::muscle, kMaxForce) && is_literature(of) ? std::hypot(of.prior.sd, strength_sd) : of.prior.sd;
 }
 
-Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
-                                double strength_sd,
-                                double unlikeness) {
+Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free, double strength_sd, double unlikeness) {
   const auto p = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(p, p);
   std::vector<Eigen::Index> strengths;
   for (Eigen::Index j = 0; j < p; ++j) {
     const Unknown& of = free[static_cast<std::size_t>(j)];
-    precision(j, j) =
-        of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
+    precision(j, j) = of.prior_precision() / (spread_is_judgment(of) ? unlikeness * unlikeness : 1.0);
     if (of.is(Scope::muscle, kMaxForce) && is_literature(of)) strengths.push_back(j);
   }
   const auto n = static_cast<Eigen::Index>(strengths.size());
   if (n == 0) return precision;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(n, n, strength_sd * strength_sd);
   for (Eigen::Index i = 0; i < n; ++i)
-    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)],
-                                        strengths[static_cast<std::size_t>(i)]);
+    covariance(i, i) += 1.0 / precision(strengths[static_cast<std::size_t>(i)], strengths[static_cast<std::size_t>(i)]);
   const Eigen::MatrixXd inverse = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
   precision(strengths, strengths) = inverse;
   return precision;
 }
 
-Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd)
-    : free_(free), strength_sd_(strength_sd) {
+Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd) : free_(free), strength_sd_(strength_sd) {
   const double sd = beliefs::kUnlikeness.sd;
   log_lambda_.setLinSpaced(kGrid, kLeast * sd, kMost * sd);
   log_prior_ = -0.5 * (log_lambda_ / sd).square();
@@ -74,8 +67,7 @@ Unlikeness::Unlikeness(const std::vector<Unknown>& free, double strength_sd)
     judged_[static_cast<Eigen::Index>(j)] = of.prior_precision();
     ++count_;
     for (Eigen::Index i = 0; i < kGrid; ++i)
-      log_prior_[i] -=
-          log_share_within(of.bounds, of.prior.mean, std::exp(log_lambda_[i]) * of.prior.sd);
+      log_prior_[i] -= log_share_within(of.bounds, of.prior.mean, std::exp(log_lambda_[i]) * of.prior.sd);
   }
 }
 
@@ -93,8 +85,7 @@ double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::Vec
     for (Eigen::Index j = 0; j < p; ++j) {
       const Unknown& of = free_[static_cast<std::size_t>(j)];
       if (judged_[j] > 0.0)
-        density[i] += log_share_within(of.bounds, of.prior.mean + off[j],
-                                       std::sqrt(std::max(variance[j], 1e-300)));
+        density[i] += log_share_within(of.bounds, of.prior.mean + off[j], std::sqrt(std::max(variance[j], 1e-300)));
     }
   }
   density = (density - density.maxCoeff()).exp();
@@ -103,8 +94,7 @@ double Unlikeness::expected(const Eigen::MatrixXd& information, const Eigen::Vec
 
 Unlikeness::Integrated Unlikeness::integrated(double squares) const {
   const Eigen::ArrayXd precision = (-2.0 * log_lambda_).exp();
-  const Eigen::ArrayXd log_density =
-      log_prior_ - static_cast<double>(count_) * log_lambda_ - 0.5 * squares * precision;
+  const Eigen::ArrayXd log_density = log_prior_ - static_cast<double>(count_) * log_lambda_ - 0.5 * squares * precision;
   const double greatest = log_density.maxCoeff();
   const Eigen::ArrayXd density = (log_density - greatest).exp();
   return {greatest + std::log(density.sum() * (log_lambda_[1] - log_lambda_[0])),

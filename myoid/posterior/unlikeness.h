@@ -8,28 +8,25 @@
 
 namespace myoid::identification {
 
-/// Returns the standard deviation of an unknown's prior. That of F_max, if it is the literature's
-/// and not the study's, has the person's strength (UnseenSpreads::strength) beside the muscle's
-/// own.
+/// Returns the standard deviation of an unknown's prior. That of F_max, if it is the literature's and not the study's,
+/// has the person's strength (UnseenSpreads::strength) beside the muscle's own.
 [[nodiscard]] double prior_spread(const Unknown& of, double strength_sd);
 
 /// Returns true for a number of a muscle whose prior spread is a judgment: all but F_max and l_m0,
 /// of which public models tell the spread, and those of which the study states a prior.
 [[nodiscard]] bool spread_is_judgment(const Unknown& of);
 
-/// Returns the inverse covariance of the priors of z. Where the spread of a muscle's number is a
-/// judgment, `unlikeness` (lambda) multiplies it. All ln F_max of a person share the person's
-/// strength, of spread c = `strength_sd`:
+/// Returns the inverse covariance of the priors of z. Where the spread of a muscle's number is a judgment, `unlikeness`
+/// (lambda) multiplies it. All ln F_max of a person share the person's strength, of spread c = `strength_sd`:
 ///
 ///   cov(ln F_i, ln F_j) = c^2,    i not j.
 [[nodiscard]] Eigen::MatrixXd prior_precision(const std::vector<Unknown>& free,
                                               double strength_sd,
                                               double unlikeness = 1.0);
 
-/// The factor lambda on all prior spreads that are judgments: this person's deviation from the
-/// literature over the literature's spread. If all muscles of a person deviate by two spreads, that
-/// is one coincidence, not twenty. ln lambda has a normal prior (beliefs::kUnlikeness). Given
-/// lambda, z has its normal prior within its bounds.
+/// The factor lambda on all prior spreads that are judgments: this person's deviation from the literature over the
+/// literature's spread. If all muscles of a person deviate by two spreads, that is one coincidence, not twenty. ln
+/// lambda has a normal prior (beliefs::kUnlikeness). Given lambda, z has its normal prior within its bounds.
 class Unlikeness {
  public:
   Unlikeness(const std::vector<Unknown>& free, double strength_sd);
@@ -44,10 +41,9 @@ class Unlikeness {
   ///   ln p(lambda | y) = 1/2 b' (I + P)^-1 b + 1/2 ln |P| - 1/2 ln |I + P|
   ///                      + ln B(y) - ln B + ln p(lambda),
   ///
-  /// where I = `information` is the data's about z, P the prior's precision at lambda, and B and
-  /// B(y) the shares of prior and posterior within the bounds. `b` is (I + P_0) (z - m) at the mode
-  /// z, m the priors' mean and P_0 their precision. A normal prior of this lambda has the variance
-  /// of the mixture over lambda.
+  /// where I = `information` is the data's about z, P the prior's precision at lambda, and B and B(y) the shares of
+  /// prior and posterior within the bounds. `b` is (I + P_0) (z - m) at the mode z, m the priors' mean and P_0 their
+  /// precision. A normal prior of this lambda has the variance of the mixture over lambda.
   [[nodiscard]] double expected(const Eigen::MatrixXd& information, const Eigen::VectorXd& b) const;
 
   /// The prior of the judged numbers, integrated over lambda.

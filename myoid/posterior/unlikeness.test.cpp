@@ -34,10 +34,9 @@ TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
               return u.is(Scope::muscle, of);
             })->field;
   };
-  std::vector<Unknown> free = {
-      number_of(field(kMaxForce), 0.25),    number_of(field(kMaxForce), 0.2),
-      number_of(field(kMaxForce), 0.9),     number_of(field(kMaxForce), 0.3),
-      number_of(field(kFiberLength), 0.02), number_of(field(kWidth), 0.01)};
+  std::vector<Unknown> free = {number_of(field(kMaxForce), 0.25),    number_of(field(kMaxForce), 0.2),
+                               number_of(field(kMaxForce), 0.9),     number_of(field(kMaxForce), 0.3),
+                               number_of(field(kFiberLength), 0.02), number_of(field(kWidth), 0.01)};
   free[3].prior_is_given = true;
   Eigen::VectorXd off(6);
   off << 0.3, -0.1, 0.7, 0.2, 0.03, 0.02;
@@ -54,8 +53,7 @@ TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
       along += common * o / own;
       share += common * common / own;
     }
-    EXPECT_NEAR(off.dot(prior_precision(free, common, unlikeness) * off),
-                squares - along * along / share, 1e-9);
+    EXPECT_NEAR(off.dot(prior_precision(free, common, unlikeness) * off), squares - along * along / share, 1e-9);
   }
   // The precision's inverse has the spreads that are reported.
   const Eigen::MatrixXd covariance = prior_precision(free, common).inverse();
@@ -69,9 +67,8 @@ TEST(PriorPrecision, IsOfAPersonsOwnNumberAndEachMusclesOwn) {
 std::vector<Unknown> judged_numbers(double farthest) {
   const ElbowStudy study = elbow_study({.trials = 1, .seconds = 5.0, .with_priors = true});
   static const ParameterMap map(study.data, {});
-  const Unknown& width = *std::find_if(map.free().begin(), map.free().end(), [](const Unknown& u) {
-    return u.is(Scope::muscle, kWidth);
-  });
+  const Unknown& width =
+      *std::find_if(map.free().begin(), map.free().end(), [](const Unknown& u) { return u.is(Scope::muscle, kWidth); });
   Unknown of = number_of(*width.field, 0.1);
   of.bounds = {0.1 - 0.1 * farthest, 0.1 + 0.1 * farthest};
   return std::vector<Unknown>(5, of);
@@ -94,20 +91,17 @@ TEST(Unlikeness, TheIntegratedPriorIsThatOfAQuadrature) {
       const auto density = [&](double log_lambda) {
         const double lambda = std::exp(log_lambda);
         const double within = std::erf(farthest / lambda / std::sqrt(2.0));
-        return std::pow(lambda * within, -5.0) * std::exp(-0.5 * squares / (lambda * lambda) -
-                                                          0.5 * std::pow(log_lambda / kSpread, 2));
+        return std::pow(lambda * within, -5.0) *
+               std::exp(-0.5 * squares / (lambda * lambda) - 0.5 * std::pow(log_lambda / kSpread, 2));
       };
       const double sum = over_log_lambda(density);
-      const double precision =
-          over_log_lambda([&](double at) { return std::exp(-2.0 * at) * density(at); }) / sum;
+      const double precision = over_log_lambda([&](double at) { return std::exp(-2.0 * at) * density(at); }) / sum;
       const Unlikeness::Integrated found = unlike.integrated(squares);
       EXPECT_NEAR(found.log_density, std::log(sum), 5e-3) << farthest << " " << squares;
       EXPECT_NEAR(found.precision / precision, 1.0, 5e-3) << farthest << " " << squares;
       const double h = 1e-4;  // the precision is the slope, and must fit the value exactly
-      EXPECT_NEAR(
-          -(unlike.integrated(squares + h).log_density - unlike.integrated(squares).log_density) *
-              2.0 / h,
-          unlike.integrated(squares + 0.5 * h).precision, 1e-7);
+      EXPECT_NEAR(-(unlike.integrated(squares + h).log_density - unlike.integrated(squares).log_density) * 2.0 / h,
+                  unlike.integrated(squares + 0.5 * h).precision, 1e-7);
     }
   }
 }
@@ -115,9 +109,9 @@ TEST(Unlikeness, TheIntegratedPriorIsThatOfAQuadrature) {
 TEST(Unlikeness, WithoutDataItsSquareIsThePriorsMean) {
   // E[lambda^2] of a log-normal lambda is exp(2 sd^2), whatever the bounds of the numbers are.
   for (const double farthest : {1.5, 50.0})
-    EXPECT_NEAR(Unlikeness(judged_numbers(farthest), 0.4)
-                    .expected(Eigen::MatrixXd::Zero(5, 5), Eigen::VectorXd::Zero(5)),
-                std::exp(kSpread * kSpread), 1e-3);
+    EXPECT_NEAR(
+        Unlikeness(judged_numbers(farthest), 0.4).expected(Eigen::MatrixXd::Zero(5, 5), Eigen::VectorXd::Zero(5)),
+        std::exp(kSpread * kSpread), 1e-3);
 }
 
 TEST(Unlikeness, OfNumbersThatAreKnownItIsThatOfTheirSquares) {
@@ -128,12 +122,11 @@ TEST(Unlikeness, OfNumbersThatAreKnownItIsThatOfTheirSquares) {
                     0.5 * std::pow(log_lambda / kSpread, 2));
   };
   const double square =
-      over_log_lambda([&](double at) { return std::exp(2.0 * at) * density(at); }) /
-      over_log_lambda(density);
+      over_log_lambda([&](double at) { return std::exp(2.0 * at) * density(at); }) / over_log_lambda(density);
   EXPECT_GT(square, 1.5);
-  EXPECT_NEAR(Unlikeness(judged_numbers(50.0), 0.4)
-                  .expected(exact * Eigen::MatrixXd::Identity(5, 5), (exact + 100.0) * off),
-              std::sqrt(square), 2e-3);
+  EXPECT_NEAR(
+      Unlikeness(judged_numbers(50.0), 0.4).expected(exact * Eigen::MatrixXd::Identity(5, 5), (exact + 100.0) * off),
+      std::sqrt(square), 2e-3);
 }
 
 }  // namespace

@@ -66,16 +66,13 @@ class Collector {
           if (map_.channel_of_muscle(k) == static_cast<int>(c)) multiplies_strength_of(k);
       }
       add(map_.channels()[c] + ".rise_and_fall", Source::model, beliefs::kRiseAndFall.sd);
-      for_channel(c, [&](const OfMuscle& of, auto column) {
-        column += of.torque * earlier(of.at, c).abs();
-      });
+      for_channel(c, [&](const OfMuscle& of, auto column) { column += of.torque * earlier(of.at, c).abs(); });
       for (std::size_t other = 0; other < channels; ++other) {
         if (other == c) continue;
-        add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]),
-            Source::electrodes, spreads_.crosstalk);
+        add(fmt::format("{}.crosstalk_of_{}", map_.channels()[c], map_.channels()[other]), Source::electrodes,
+            spreads_.crosstalk);
         for_channel(c, [&](const OfMuscle& of, auto column) {
-          column +=
-              of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
+          column += of.torque * activation_of(of.at, other) / activation_of(of.at, c).max(kNoneActs);
         });
       }
     }
@@ -84,8 +81,7 @@ class Collector {
   void add_torque_scale() {
     add("torque_scale", Source::torque_scale, spreads_.torque_scale);
     for (std::size_t k = 0; k < data_.muscles.size(); ++k) multiplies_strength_of(k);
-    for (std::size_t r = 0; r < runs_.size(); ++r)
-      columns_[r].back() = at_[r].signals().torque_nm.array();
+    for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].back() = at_[r].signals().torque_nm.array();
   }
 
   void add_model_errors(std::size_t k) {
@@ -104,17 +100,13 @@ class Collector {
     // Beyond the recorded lengths the higher polynomials stay at their ends: their own growth there
     // is no belief about muscles.
     const auto inside = [&](const OfMuscle& of) { return place(of).max(-1.0).min(1.0).eval(); };
-    shape("length_2", 1.0,
-          [&](const OfMuscle& of) { return (1.5 * inside(of).square() - 0.5).eval(); });
-    shape("length_3", 0.5,
-          [&](const OfMuscle& of) { return (2.5 * inside(of).cube() - 1.5 * inside(of)).eval(); });
-    if (!is_free(map_, Scope::channel, kExponent, channel) &&
-        !is_free(map_, Scope::channel, kShape, channel))
+    shape("length_2", 1.0, [&](const OfMuscle& of) { return (1.5 * inside(of).square() - 0.5).eval(); });
+    shape("length_3", 0.5, [&](const OfMuscle& of) { return (2.5 * inside(of).cube() - 1.5 * inside(of)).eval(); });
+    if (!is_free(map_, Scope::channel, kExponent, channel) && !is_free(map_, Scope::channel, kShape, channel))
       shape("effort", 1.0, [&](const OfMuscle& of) {
         return (1.0 + activation_of(of.at, c).max(kLeastActivation).log() / kLogRange).eval();
       });
-    shape("speed", 1.0,
-          [&](const OfMuscle& of) { return (of.velocity / range.fastest_mps).eval(); });
+    shape("speed", 1.0, [&](const OfMuscle& of) { return (of.velocity / range.fastest_mps).eval(); });
     shape("lag", 1.0, [&](const OfMuscle& of) { return (kLag_s * earlier(of.at, c)).eval(); });
     lags_.push_back(quantities_.size() - 1);
   }
@@ -128,8 +120,7 @@ class Collector {
         if (delay.acts_on(map_.channel_of_muscle(k))) shared.push_back(lags_[k]);
       for (auto& columns : columns_) {
         Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(columns.front().size());
-        for (const std::size_t lag : shared)
-          mean += columns[lag] / static_cast<double>(shared.size());
+        for (const std::size_t lag : shared) mean += columns[lag] / static_cast<double>(shared.size());
         for (const std::size_t lag : shared) columns[lag] -= mean;
       }
       // A number of one muscle moves the mean, too. Only the own lag's change is kept.
@@ -158,8 +149,7 @@ class Collector {
       while (k + 1 < data_.muscles.size() && !recorded_.parts.crosses(k, joint)) ++k;
       add(name + ".error_slope", Source::model, 1.0, true);
       for_joint(joint, [&](const TrialRun& run, auto column) {
-        column = size_nm *
-                 recorded_.by_joint[j][k].place(recorded_.parts.of(run.length_m, k, joint).array());
+        column = size_nm * recorded_.by_joint[j][k].place(recorded_.parts.of(run.length_m, k, joint).array());
       });
     }
   }
@@ -168,8 +158,7 @@ class Collector {
     Unseen unseen{std::move(quantities_), {}, std::move(slopes_), {}, {}};
     unseen.growth.setZero(static_cast<Eigen::Index>(unseen.quantities.size()), map_.size());
     for (Eigen::Index i = 0; i < unseen.growth.rows(); ++i) {
-      const std::vector<std::size_t>& muscles =
-          unseen.quantities[static_cast<std::size_t>(i)].strength_of;
+      const std::vector<std::size_t>& muscles = unseen.quantities[static_cast<std::size_t>(i)].strength_of;
       for (const std::size_t k : muscles) {
         for (Eigen::Index j = 0; j < map_.size(); ++j) {
           const Unknown& of = map_.free()[static_cast<std::size_t>(j)];
@@ -197,8 +186,7 @@ class Collector {
 
   static Eigen::MatrixXd joined(const std::vector<Eigen::ArrayXd>& columns, Eigen::Index rows) {
     Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      all.col(static_cast<Eigen::Index>(i)) = columns[i].matrix();
+    for (std::size_t i = 0; i < columns.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = columns[i].matrix();
     return all;
   }
 
@@ -240,8 +228,7 @@ class Collector {
     add(name + "_slope" + of_joint, Source::geometry, spreads_.moment_arm_slope);
     for_runs(k, [&](const OfMuscle& of, auto column) {
       const Eigen::ArrayXd x = range.place(part(of.run.length_m));
-      column += own(of) * of.torque * x +
-                of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
+      column += own(of) * of.torque * x + of.by_length * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0) +
                 of.by_velocity * x * part(of.run.velocity_mps);
     });
   }
@@ -249,8 +236,7 @@ class Collector {
   void add_tendon(std::size_t k, bool priors) {
     const int muscle = static_cast<int>(k);
     const MuscleSetup& setup = data_.muscles[k];
-    const double slack_sd_m =
-        priors && !is_free(map_, Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
+    const double slack_sd_m = priors && !is_free(map_, Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
     if (slack_sd_m > 0.0) {
       add(setup.name + ".tendon_slack_length", Source::geometry, slack_sd_m);
       for_runs(k, [](const OfMuscle& of, auto column) { column -= of.by_length; });
@@ -268,8 +254,7 @@ class Collector {
 
   void add(std::string name, Source source, double weight, bool of_the_model = false) {
     quantities_.push_back({std::move(name), source, weight, of_the_model, {}});
-    for (std::size_t r = 0; r < runs_.size(); ++r)
-      columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
+    for (std::size_t r = 0; r < runs_.size(); ++r) columns_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
   }
 
   void multiplies_strength_of(std::size_t k) { quantities_.back().strength_of.push_back(k); }
@@ -314,8 +299,7 @@ class Collector {
       if (slopes_[s - 1].unknown == unknown) return s - 1;
     const Unknown& of = map_.free()[static_cast<std::size_t>(unknown)];
     slopes_.push_back(
-        {quantity, unknown,
-         of.prior.sd > 0.0 ? of.prior.sd : kSlopeReach * (of.bounds.upper - of.bounds.lower)});
+        {quantity, unknown, of.prior.sd > 0.0 ? of.prior.sd : kSlopeReach * (of.bounds.upper - of.bounds.lower)});
     for (std::size_t r = 0; r < runs_.size(); ++r)
       by_slope_[r].emplace_back(Eigen::ArrayXd::Zero(runs_[r].row_count()));
     return slopes_.size() - 1;
@@ -335,15 +319,13 @@ class Collector {
       std::vector<Eigen::ArrayXd> by_unknown;
       double along = 0.0, size = 0.0;
       for (std::size_t r = 0; r < runs_.size(); ++r) {
-        by_unknown.push_back((part_of(k, runs_[r], step.at[r], fill) - parts[r]) /
-                             step.step[unknown]);
+        by_unknown.push_back((part_of(k, runs_[r], step.at[r], fill) - parts[r]) / step.step[unknown]);
         along += (parts[r] * by_unknown[r]).sum();
         size += parts[r].square().sum();
       }
       if (!(size > 0.0)) continue;
       const std::size_t s = slope_of(unknown);
-      for (std::size_t r = 0; r < runs_.size(); ++r)
-        by_slope_[r][s] += by_unknown[r] - along / size * parts[r];
+      for (std::size_t r = 0; r < runs_.size(); ++r) by_slope_[r][s] += by_unknown[r] - along / size * parts[r];
     }
   }
 
@@ -353,8 +335,7 @@ class Collector {
       const TrialRun& run = runs_[r];
       for (std::size_t j = 0; j < run.joints.size(); ++j) {
         if (run.joints[j] == joint)
-          fill(run, Eigen::Ref<Eigen::ArrayXd>(
-                        columns_[r].back().segment(run.first_row(j), run.time_s.size())));
+          fill(run, Eigen::Ref<Eigen::ArrayXd>(columns_[r].back().segment(run.first_row(j), run.time_s.size())));
       }
     }
   }
@@ -391,10 +372,8 @@ std::vector<Stepped> steps_from(const Eigen::VectorXd& z,
   for (std::size_t j = 0; j < map.free().size(); ++j) {
     const Unknown& of = map.free()[j];
     if (of.field->scope != Scope::muscle || of.field->field == kMaxForce) continue;
-    auto at = std::find_if(steps.begin(), steps.end(),
-                           [&](const Stepped& s) { return s.field == of.field->field; });
-    if (at == steps.end())
-      at = steps.insert(at, {of.field->field, Eigen::VectorXd::Zero(z.size()), {}});
+    auto at = std::find_if(steps.begin(), steps.end(), [&](const Stepped& s) { return s.field == of.field->field; });
+    if (at == steps.end()) at = steps.insert(at, {of.field->field, Eigen::VectorXd::Zero(z.size()), {}});
     at->step[static_cast<Eigen::Index>(j)] = kStep * (of.bounds.upper - of.bounds.lower);
   }
   parallel_ranges(steps.size(), std::size_t{1}, [&](const auto& range) {

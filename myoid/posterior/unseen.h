@@ -19,30 +19,27 @@ namespace myoid::identification {
 struct UnseenQuantity {
   std::string name;
   Source source = Source::model;
-  double weight = 0.0;        ///< Standard deviation; for a model's error, over its size s.
-  bool of_the_model = false;  ///< The standard deviation is s weight.
+  double weight = 0.0;                   ///< Standard deviation; for a model's error, over its size s.
+  bool of_the_model = false;             ///< The standard deviation is s weight.
   std::vector<std::size_t> strength_of;  ///< Muscles whose F_max it multiplies.
 };
 
-/// All unseen quantities of a study, and their columns S in each run, at reference values of the
-/// unknowns. A relative error refers to the recorded torque, so the size of S does not follow the
-/// unknowns: a moment arm that is 10 % too large makes F_max 10 % too small, but does not shrink
-/// the other muscles' errors. The shape of S does: an error of the length acts where the slope of
-/// the force-length curve is.
+/// All unseen quantities of a study, and their columns S in each run, at reference values of the unknowns. A relative
+/// error refers to the recorded torque, so the size of S does not follow the unknowns: a moment arm that is 10 % too
+/// large makes F_max 10 % too small, but does not shrink the other muscles' errors. The shape of S does: an error of
+/// the length acts where the slope of the force-length curve is.
 ///
-/// Moment arm: r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the
-/// length too, l = l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), because r = -dl/dq. In
-/// a muscle that crosses several joints each arm errs by itself: l and x are then the joint's part
-/// of the length (JointParts), and the length acts on the force, and so on all joints. Slack
-/// length: an error d shortens the fibers by d. Tendon: one that the study holds rigid stretches by
-/// l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
-/// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the
-/// channel's torque times the place in the session, 0 at the maximal contraction. Its effort: the
-/// channel's torque; no quantity where its spread is 0. Cross-talk: the channel's torque times the
-/// ratio of another's activation to its own. Rise and fall: activation that rises earlier and falls
-/// later by d than the delay says, a + d |da/dt|. Model error: the muscle's torque times
-/// polynomials of length, ln(activation), speed and lag, and a constant and a slope of the joint,
-/// as ErrorShapes; where the muscles share a free delay, a lag is its difference from their mean.
+/// Moment arm: r (1 + alpha + beta x), x the length over the recorded range, -1 to 1, changes the length too, l =
+/// l_mean + alpha (l - l_mean) + beta (range/4) (x^2 - 1/3), because r = -dl/dq. In a muscle that crosses several
+/// joints each arm errs by itself: l and x are then the joint's part of the length (JointParts), and the length acts on
+/// the force, and so on all joints. Slack length: an error d shortens the fibers by d. Tendon: one that the study holds
+/// rigid stretches by l_ts e ln(1 + 5 F / F_max) / ln 6. Torque scale: S is the whole torque; all joints share one
+/// scale, as from one dynamometer, or from the masses of one person's segments. Gain drift: the channel's torque times
+/// the place in the session, 0 at the maximal contraction. Its effort: the channel's torque; no quantity where its
+/// spread is 0. Cross-talk: the channel's torque times the ratio of another's activation to its own. Rise and fall:
+/// activation that rises earlier and falls later by d than the delay says, a + d |da/dt|. Model error: the muscle's
+/// torque times polynomials of length, ln(activation), speed and lag, and a constant and a slope of the joint, as
+/// ErrorShapes; where the muscles share a free delay, a lag is its difference from their mean.
 struct Unseen {
   /// A column of S whose shape changes with one of a muscle's unknowns.
   struct Slope {
@@ -79,9 +76,8 @@ struct Stepped {
                                               EmgLag lag,
                                               const std::vector<TrialRun>& runs);
 
-/// Returns the unseen quantities. `at` holds the runs evaluated at the reference `values`;
-/// `recorded` describes the fitted runs. The slopes are those of `steps`; without steps there are
-/// none.
+/// Returns the unseen quantities. `at` holds the runs evaluated at the reference `values`; `recorded` describes the
+/// fitted runs. The slopes are those of `steps`; without steps there are none.
 [[nodiscard]] Unseen unseen_quantities(const StudyData& data,
                                        const EstimatorOptions& options,
                                        const ParameterMap& map,

@@ -18,10 +18,7 @@ StudyData two_trials() { return test::elbow_study({.trials = 2, .seconds = 6.0})
 /// A study, its runs, and where they are evaluated: at the start.
 struct AtStart {
   explicit AtStart(StudyData of, EstimatorOptions with = {})
-      : data(std::move(of)),
-        options(std::move(with)),
-        map(data, options),
-        runs(trial_runs(data, options, map)) {}
+      : data(std::move(of)), options(std::move(with)), map(data, options), runs(trial_runs(data, options, map)) {}
 
   /// The torque of all runs, one after the other; `change` gets each run and the model's numbers.
   template <typename Change>
@@ -31,8 +28,7 @@ struct AtStart {
       TrialRun changed = run;
       ModelValues values = map.values(map.start());
       change(changed, values);
-      const Eigen::VectorXd one =
-          RunEvaluation(changed, map, EmgLag::delay, values, nullptr).signals().torque_nm;
+      const Eigen::VectorXd one = RunEvaluation(changed, map, EmgLag::delay, values, nullptr).signals().torque_nm;
       all.conservativeResize(all.size() + one.size());
       all.tail(one.size()) = one;
     }
@@ -41,9 +37,7 @@ struct AtStart {
 
   Unseen unseen() const { return unseen(recorded(runs, map.held().muscles)); }
   Unseen unseen(const Recorded& of_session) const { return unseen(of_session, map.start(), {}); }
-  Unseen unseen(const Recorded& of_session,
-                const Eigen::VectorXd& z,
-                const std::vector<Stepped>& steps) const {
+  Unseen unseen(const Recorded& of_session, const Eigen::VectorXd& z, const std::vector<Stepped>& steps) const {
     const ModelValues values = map.values(z);
     std::vector<RunEvaluation> at;
     at.reserve(runs.size());
@@ -73,10 +67,7 @@ struct AtStart {
 
 /// Compares a column with the difference of the torque that `change(by, run, values)` makes.
 template <typename Change>
-void expect_derivative(const AtStart& at,
-                       const std::string& name,
-                       double step,
-                       const Change& change) {
+void expect_derivative(const AtStart& at, const std::string& name, double step, const Change& change) {
   const auto moved = [&](double by) {
     return at.torque([&](TrialRun& run, ModelValues& values) { change(by, run, values); });
   };
@@ -123,24 +114,22 @@ TEST(Unseen, AMomentArmAtOneOfTwoJointsMovesTheLengthThatThisJointMakes) {
     const auto part = [&](const Eigen::MatrixXd& all) {
       return Eigen::ArrayXd(parts.of(all, 1, static_cast<int>(joint)).array());
     };
-    expect_derivative(at, "GAS.moment_arm_of_" + name, 1e-4,
-                      [&](double by, TrialRun& run, ModelValues&) {
-                        const Eigen::ArrayXd moved = part(run.length_m) - middle;
-                        const Eigen::ArrayXd rate = part(run.velocity_mps);
-                        const Eigen::Index n = run.time_s.size();
-                        run.arm_m.col(1).segment(run.first_row(joint), n) *= 1.0 + by;
-                        run.length_m.col(1).array() += by * moved;
-                        run.velocity_mps.col(1).array() += by * rate;
-                      });
-    expect_derivative(
-        at, "GAS.moment_arm_slope_of_" + name, 1e-4, [&](double by, TrialRun& run, ModelValues&) {
-          const Eigen::ArrayXd x = range.place(part(run.length_m));
-          const Eigen::ArrayXd rate = part(run.velocity_mps);
-          const Eigen::Index n = run.time_s.size();
-          run.arm_m.col(1).segment(run.first_row(joint), n).array() *= 1.0 + by * x;
-          run.length_m.col(1).array() += by * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0);
-          run.velocity_mps.col(1).array() += by * x * rate;
-        });
+    expect_derivative(at, "GAS.moment_arm_of_" + name, 1e-4, [&](double by, TrialRun& run, ModelValues&) {
+      const Eigen::ArrayXd moved = part(run.length_m) - middle;
+      const Eigen::ArrayXd rate = part(run.velocity_mps);
+      const Eigen::Index n = run.time_s.size();
+      run.arm_m.col(1).segment(run.first_row(joint), n) *= 1.0 + by;
+      run.length_m.col(1).array() += by * moved;
+      run.velocity_mps.col(1).array() += by * rate;
+    });
+    expect_derivative(at, "GAS.moment_arm_slope_of_" + name, 1e-4, [&](double by, TrialRun& run, ModelValues&) {
+      const Eigen::ArrayXd x = range.place(part(run.length_m));
+      const Eigen::ArrayXd rate = part(run.velocity_mps);
+      const Eigen::Index n = run.time_s.size();
+      run.arm_m.col(1).segment(run.first_row(joint), n).array() *= 1.0 + by * x;
+      run.length_m.col(1).array() += by * 0.25 * range.span_m() * (x.square() - 1.0 / 3.0);
+      run.velocity_mps.col(1).array() += by * x * rate;
+    });
   }
 }
 
@@ -151,11 +140,11 @@ TEST(Unseen, OfSeveralJointsEachMuscleHasAnArmWhereItCrossesAndEachJointItsOwnEr
     if (q.name.find(".moment_arm_of_") != std::string::npos) arms.push_back(q.name);
     if (q.name.find("e.error_") != std::string::npos) joints.push_back(q.name);
   }
-  EXPECT_EQ(arms, (std::vector<std::string>{"SOL.moment_arm_of_ankle", "GAS.moment_arm_of_ankle",
-                                            "GAS.moment_arm_of_knee", "TA.moment_arm_of_ankle",
-                                            "VAS.moment_arm_of_knee", "HAM.moment_arm_of_knee"}));
-  EXPECT_EQ(joints, (std::vector<std::string>{"ankle.error_constant", "ankle.error_slope",
-                                              "knee.error_constant", "knee.error_slope"}));
+  EXPECT_EQ(arms,
+            (std::vector<std::string>{"SOL.moment_arm_of_ankle", "GAS.moment_arm_of_ankle", "GAS.moment_arm_of_knee",
+                                      "TA.moment_arm_of_ankle", "VAS.moment_arm_of_knee", "HAM.moment_arm_of_knee"}));
+  EXPECT_EQ(joints, (std::vector<std::string>{"ankle.error_constant", "ankle.error_slope", "knee.error_constant",
+                                              "knee.error_slope"}));
   // The knee's constant is one of the knee: of the size of its torque, and 0 at the ankle.
   const Eigen::VectorXd constant = at.column("knee.error_constant");
   const Eigen::Index n = at.runs[0].time_s.size();
@@ -167,15 +156,14 @@ TEST(Unseen, ASlopeOfTheMomentArmIsTheIntegralOfItsLength) {
   const AtStart at(two_trials());
   for (const Eigen::Index k : {0, 3}) {
     const auto [low, high] = recorded_range(at, k);
-    expect_derivative(
-        at, at.data.muscles[static_cast<std::size_t>(k)].name + ".moment_arm_slope", 1e-4,
-        [&, low = low, high = high](double by, TrialRun& run, ModelValues&) {
-          const Eigen::ArrayXd x = 2.0 * (run.length_m.col(k).array() - low) / (high - low) - 1.0;
-          run.arm_m.col(k).array() *= 1.0 + by * x;
-          run.velocity_mps.col(k).array() *= 1.0 + by * x;
-          // d/dl of the change is x: dl' = (1 + by x) dl.
-          run.length_m.col(k).array() += by * 0.25 * (high - low) * (x.square() - 1.0 / 3.0);
-        });
+    expect_derivative(at, at.data.muscles[static_cast<std::size_t>(k)].name + ".moment_arm_slope", 1e-4,
+                      [&, low = low, high = high](double by, TrialRun& run, ModelValues&) {
+                        const Eigen::ArrayXd x = 2.0 * (run.length_m.col(k).array() - low) / (high - low) - 1.0;
+                        run.arm_m.col(k).array() *= 1.0 + by * x;
+                        run.velocity_mps.col(k).array() *= 1.0 + by * x;
+                        // d/dl of the change is x: dl' = (1 + by x) dl.
+                        run.length_m.col(k).array() += by * 0.25 * (high - low) * (x.square() - 1.0 / 3.0);
+                      });
   }
 }
 
@@ -185,9 +173,8 @@ TEST(Unseen, ATendonThatIsLongerMakesFibersShorter) {
     muscle.priors["tendon_slack_length"] =
         Prior{.mean = muscle.start.tendon_slack_length_m, .sd = 0.1, .logarithmic = true};
   const AtStart at(std::move(data));
-  expect_derivative(
-      at, "BIC.tendon_slack_length", 1e-5,
-      [](double by, TrialRun&, ModelValues& values) { values.muscles[0][kSlack] += by; });
+  expect_derivative(at, "BIC.tendon_slack_length", 1e-5,
+                    [](double by, TrialRun&, ModelValues& values) { values.muscles[0][kSlack] += by; });
 }
 
 TEST(Unseen, ATendonThatStretchesIsTheLawsWithASmallStrain) {
@@ -216,8 +203,7 @@ TEST(Unseen, AnActivationRisesEarlierAndFallsLater) {
   expect_derivative(at, "BIC.rise_and_fall", 1e-4, [](double by, TrialRun& run, ModelValues&) {
     const Envelope& u = run.envelopes[0];
     Eigen::VectorXd samples = u.samples();
-    for (Eigen::Index i = 0; i < samples.size(); ++i)
-      samples[i] += by * std::abs(u.at(u.time_s()[i]).slope);
+    for (Eigen::Index i = 0; i < samples.size(); ++i) samples[i] += by * std::abs(u.at(u.time_s()[i]).slope);
     run.envelopes[0] = Envelope(u.time_s(), samples);
   });
 }
@@ -225,8 +211,8 @@ TEST(Unseen, AnActivationRisesEarlierAndFallsLater) {
 TEST(Unseen, CrosstalkAddsAnotherEnvelope) {
   const AtStart at(two_trials());
   expect_derivative(at, "BIC.crosstalk_of_TRI", 1e-3, [](double by, TrialRun& run, ModelValues&) {
-    run.envelopes[0] = Envelope(run.envelopes[0].time_s(),
-                                run.envelopes[0].samples() + by * run.envelopes[3].samples());
+    run.envelopes[0] =
+        Envelope(run.envelopes[0].time_s(), run.envelopes[0].samples() + by * run.envelopes[3].samples());
   });
 }
 
@@ -238,8 +224,7 @@ TEST(Unseen, ATorqueScaleIsTheWholeTorque) {
 TEST(Unseen, TheModelsErrorsAreTheMusclesTorqueTimesTheirShapes) {
   const AtStart at(two_trials());
   const auto alone = [&](double strength) {
-    return at.torque(
-        [&](TrialRun&, ModelValues& values) { values.muscles[3][kMaxForce] *= strength; });
+    return at.torque([&](TrialRun&, ModelValues& values) { values.muscles[3][kMaxForce] *= strength; });
   };
   const Eigen::VectorXd torque = alone(1.0) - alone(0.0);
   EXPECT_LT((at.column("TRI.error_strength") - torque).norm(), 1e-9 * torque.norm());
@@ -256,14 +241,13 @@ TEST(Unseen, BeyondTheRecordedLengthsTheHigherPolynomialsStayAtTheirEnds) {
   const Unseen unseen = at.unseen(session);
   const auto column = [&](const std::string& name) -> Eigen::VectorXd {
     for (std::size_t i = 0; i < unseen.quantities.size(); ++i) {
-      if (unseen.quantities[i].name == "BIC.error_" + name)
-        return unseen.columns[0].col(static_cast<Eigen::Index>(i));
+      if (unseen.quantities[i].name == "BIC.error_" + name) return unseen.columns[0].col(static_cast<Eigen::Index>(i));
     }
     ADD_FAILURE() << name;
     return Eigen::VectorXd::Zero(unseen.columns[0].rows());
   };
-  const Eigen::VectorXd torque = column("strength"), first = column("length_1"),
-                        second = column("length_2"), third_one = column("length_3");
+  const Eigen::VectorXd torque = column("strength"), first = column("length_1"), second = column("length_2"),
+                        third_one = column("length_3");
   double farthest = 0.0;
   for (Eigen::Index i = 0; i < torque.size(); ++i) {
     if (std::abs(torque[i]) < 1e-3) continue;
@@ -276,19 +260,16 @@ TEST(Unseen, BeyondTheRecordedLengthsTheHigherPolynomialsStayAtTheirEnds) {
 }
 
 TEST(Unseen, ALagIsThatOfOneMuscleAgainstTheMuscles) {
-  // Earlier by 150 ms: the sign is that of ln a. Of a common delay the mean of the muscles is
-  // taken.
+  // Earlier by 150 ms: the sign is that of ln a. Of a common delay the mean of the muscles is taken.
   const AtStart common(two_trials());
   expect_derivative(common, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
-    for (std::size_t c = 0; c < 4; ++c)
-      values.channels[c][kDelay] -= 0.15 * by * ((c == 3 ? 1.0 : 0.0) - 0.25);
+    for (std::size_t c = 0; c < 4; ++c) values.channels[c][kDelay] -= 0.15 * by * ((c == 3 ? 1.0 : 0.0) - 0.25);
   });
   EstimatorOptions held;
   held.delay_s = 0.06;
   const AtStart alone(two_trials(), held);
-  expect_derivative(alone, "TRI.error_lag", 1e-3, [](double by, TrialRun&, ModelValues& values) {
-    values.channels[3][kDelay] -= 0.15 * by;
-  });
+  expect_derivative(alone, "TRI.error_lag", 1e-3,
+                    [](double by, TrialRun&, ModelValues& values) { values.channels[3][kDelay] -= 0.15 * by; });
 }
 
 TEST(Unseen, WhatTheModelErrsByIsMarked) {
@@ -328,23 +309,20 @@ TEST(Unseen, ColumnsTurnWithTheNumbersOfTheirMuscleAndKeepTheirSize) {
       });
       const std::string& name = all.quantities[i].name;
       // The torque of all muscles keeps its shape. The lags have their mean taken away.
-      if (of.field->scope != Scope::muscle || of.field->field == kMaxForce ||
-          name == "torque_scale") {
+      if (of.field->scope != Scope::muscle || of.field->field == kMaxForce || name == "torque_scale") {
         EXPECT_EQ(slope, all.slopes.end()) << of.label << " " << name;
         continue;
       }
       if (name.find("error_lag") != std::string::npos) continue;
       const Eigen::VectorXd c = joined(all.columns, column);
-      Eigen::VectorXd turned =
-          (joined(above.columns, column) - joined(below.columns, column)) / (2.0 * h);
+      Eigen::VectorXd turned = (joined(above.columns, column) - joined(below.columns, column)) / (2.0 * h);
       if (slope == all.slopes.end()) {
         EXPECT_LT(turned.norm(), 1e-9) << of.label << " " << name;
         continue;
       }
       turned -= c * c.dot(turned) / c.squaredNorm();
       const Eigen::VectorXd found = joined(all.by_slope, slope - all.slopes.begin());
-      EXPECT_LT((found - turned).norm(), 1e-3 * (turned.norm() + c.norm()))
-          << of.label << " " << name;
+      EXPECT_LT((found - turned).norm(), 1e-3 * (turned.norm() + c.norm())) << of.label << " " << name;
       EXPECT_LT(std::abs(found.dot(c)), 1e-9 * (1.0 + found.norm() * c.norm()));
       turning += found.norm() > 0.1 * c.norm();
     }

@@ -13,8 +13,7 @@ namespace myoid::identification {
 namespace {
 
 constexpr std::array<std::string_view, kSourceCount> kSourceNames = {
-    "noise of the torque", "prior belief",        "geometry",
-    "electrodes",          "scale of the torque", "error of the model"};
+    "noise of the torque", "prior belief", "geometry", "electrodes", "scale of the torque", "error of the model"};
 
 double half_width(double value, double low, double high, bool absolute) {
   const double half = std::max(value - low, high - value);
@@ -27,19 +26,16 @@ bool is_far(const PosteriorFacts& facts) {
 
 std::string size_text(double half, bool is_delay) {
   if (is_delay) return fmt::format("± {:.0f} ms", 1000.0 * half);
-  return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half)
-                      : fmt::format("± {:.0f} %", 100.0 * half);
+  return half < 0.995 ? fmt::format("± {:.2g} %", 100.0 * half) : fmt::format("± {:.0f} %", 100.0 * half);
 }
 
 std::string sources_text(const SourceShares& shares) {
   std::array<std::size_t, kSourceCount> order{0, 1, 2, 3, 4, 5};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
   std::string text;
   for (const std::size_t i : order) {
     if (shares[i] < 0.1) break;
-    text +=
-        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", kSourceNames[i], 100.0 * shares[i]);
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", kSourceNames[i], 100.0 * shares[i]);
   }
   return text;
 }
@@ -56,14 +52,11 @@ Finding finding(const PosteriorFacts& facts) {
   if (facts.contraction && *facts.contraction < rules.least_shrinkage)
     return is_far(facts) ? Finding::far_from_prior : Finding::as_the_prior;
   const double half = half_width(facts.value, facts.low, facts.high, facts.is_delay);
-  if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width))
-    return Finding::too_wide;
-  if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width))
-    return Finding::wide;
+  if (half > (facts.is_delay ? rules.delay_weak_s : rules.weak_half_width)) return Finding::too_wide;
+  if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width)) return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
-  if (facts.contraction && *facts.contraction < rules.half_shrinkage)
-    return Finding::half_the_prior;
+  if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
   return Finding::narrow;
 }
 
@@ -103,18 +96,15 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
   if (facts.contraction)
     text += fmt::format("; the recording takes {:.0f} % off the prior's variance",
                         100.0 * std::max(0.0, *facts.contraction));
-  if (const std::string sources = sources_text(facts.shares); !sources.empty())
-    text += "; it rests on " + sources;
-  if (is_far(facts))
-    text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
+  if (const std::string sources = sources_text(facts.shares); !sources.empty()) text += "; it rests on " + sources;
+  if (is_far(facts)) text += fmt::format("; {:.1f} standard deviations away from its prior", *facts.prior_distance);
   if (finding == Finding::impossible)
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
   if (finding == Finding::wrong_model)
-    text = fmt::format(
-        "the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",
-        100.0 * facts.model_error, text);
+    text = fmt::format("the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",
+                       100.0 * facts.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
         "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or "

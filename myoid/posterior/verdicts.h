@@ -11,10 +11,10 @@ namespace myoid::identification {
 /// The posterior's facts about one number, from which its verdict follows.
 struct PosteriorFacts {
   bool converged = true;
-  bool approximate = false;    ///< The interval comes from the normal approximation.
-  bool nuisance_gain = false;  ///< The gain of an EMG channel: a scale that F_max shares.
+  bool approximate = false;                   ///< The interval comes from the normal approximation.
+  bool nuisance_gain = false;                 ///< The gain of an EMG channel: a scale that F_max shares.
   double value = 0.0, low = 0.0, high = 0.0;  ///< The person's value and 95 % interval.
-  double low_given = 0.0, high_given = 0.0;  ///< The 95 % interval with geometry and sensors exact.
+  double low_given = 0.0, high_given = 0.0;   ///< The 95 % interval with geometry and sensors exact.
   /// 1 - posterior variance / prior variance; empty: no prior.
   std::optional<double> contraction;
   /// Distance of the value from the prior's mean, in its standard deviations; empty: no prior.
@@ -49,8 +49,7 @@ enum class Finding {
 /// Returns the first finding that holds.
 [[nodiscard]] Finding finding(const PosteriorFacts& facts);
 [[nodiscard]] Verdict verdict_of(Finding finding);
-/// Returns a sentence with the finding, its numbers, and the sources that contribute a tenth or
-/// more of the variance.
+/// Returns a sentence with the finding, its numbers, and the sources that contribute a tenth or more of the variance.
 [[nodiscard]] std::string reason_of(Finding finding, const PosteriorFacts& facts);
 
 }  // namespace myoid::identification

@@ -30,8 +30,7 @@ TEST(PosteriorVerdict, ANarrowIntervalIsIdentifiedAndSaysWhatItRestsOn) {
   const std::string reason = reason_of(Finding::narrow, facts);
   EXPECT_THAT(reason, HasSubstr("± 10 % of the person, ± 4.5 % were geometry and sensors exact"));
   EXPECT_THAT(reason, HasSubstr("takes 94 % off"));
-  EXPECT_THAT(reason,
-              HasSubstr("geometry 60 %, noise of the torque 20 %, scale of the torque 15 %"));
+  EXPECT_THAT(reason, HasSubstr("geometry 60 %, noise of the torque 20 %, scale of the torque 15 %"));
   EXPECT_THAT(reason, Not(HasSubstr("prior belief")));
 }
 
@@ -77,9 +76,8 @@ TEST(PosteriorVerdict, AValueThatIsFarFromItsPriorIsNotIdentified) {
   facts.prior_distance = 4.9;
   EXPECT_EQ(finding(facts), Finding::narrow_and_far);
   EXPECT_EQ(verdict_of(Finding::narrow_and_far), Verdict::weak);
-  EXPECT_THAT(
-      reason_of(Finding::narrow_and_far, facts),
-      AllOf(HasSubstr("a simplification of the model"), HasSubstr("4.9 standard deviations away")));
+  EXPECT_THAT(reason_of(Finding::narrow_and_far, facts),
+              AllOf(HasSubstr("a simplification of the model"), HasSubstr("4.9 standard deviations away")));
   facts.contraction = 0.1;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
   facts.prior_distance = 2.9;
@@ -98,8 +96,7 @@ TEST(PosteriorVerdict, AFitThatExplainsLittleIdentifiesNothing) {
   PosteriorFacts facts = good();
   facts.r2 = 0.3;
   EXPECT_EQ(verdict_of(finding(facts)), Verdict::not_identifiable);
-  EXPECT_THAT(reason_of(finding(facts), facts),
-              HasSubstr("explains little of the torque (R2 0.30)"));
+  EXPECT_THAT(reason_of(finding(facts), facts), HasSubstr("explains little of the torque (R2 0.30)"));
   facts.possible = false;
   EXPECT_EQ(finding(facts), Finding::impossible);
 }

@@ -111,17 +111,16 @@ BandSpace::BandSpace(const Eigen::MatrixXd& covariance,
   for (Index n = 0; n < blocks; ++n) {
     const Index begin = first_[static_cast<std::size_t>(n)], end = begin + width(n);
     const auto at = [&](Index row, Index column) {
-      return row < slopes ? covariance(variable_[static_cast<std::size_t>(row)],
-                                       variable_[static_cast<std::size_t>(column)])
-                          : 0.0;
+      return row < slopes
+                 ? covariance(variable_[static_cast<std::size_t>(row)], variable_[static_cast<std::size_t>(column)])
+                 : 0.0;
     };
     for (Index column = begin; column < end; ++column) {
       for (Index row = begin; row < end; ++row) diagonals_.push_back(at(row, column));
     }
     for (Index row = end; row < slopes; row += kRows) {
       for (Index column = begin; column < end; ++column) {
-        for (Index r = row; r < row + kRows; ++r)
-          panels_.push_back(static_cast<float>(at(r, column)));
+        for (Index r = row; r < row + kRows; ++r) panels_.push_back(static_cast<float>(at(r, column)));
       }
     }
   }
@@ -160,12 +159,10 @@ void BandSpace::compute_by_block() {
     for (Index j = 0; j < joints; j += kJointsAtOnce) {
       const Index count = std::min(kJointsAtOnce, joints - j);
       shared_with_later(count)({panel, groups, own}, single_slopes_.data() + begin,
-                               single_levers_.col(j).data() + begin + own, levers_.rows(),
-                               shared_.data() + j);
+                               single_levers_.col(j).data() + begin + own, levers_.rows(), shared_.data() + j);
     }
     // The blocks that come after count twice: C has them on both sides of its diagonal.
-    for (Index j = 0; j < joints; ++j)
-      torque_variance[j] += arms(n, j) * (arms(n, j) * variance + 2.0 * shared_[j]);
+    for (Index j = 0; j < joints; ++j) torque_variance[j] += arms(n, j) * (arms(n, j) * variance + 2.0 * shared_[j]);
     panel += kRows * groups * own;
   }
 }
@@ -178,8 +175,8 @@ void BandSpace::compute_by_unknown(const Eigen::MatrixXd& covariance) {
     const std::size_t end = begin + static_cast<std::size_t>(width(m));
     for (std::size_t a = begin; a < end; ++a) {
       for (std::size_t b = begin; b < end; ++b)
-        variance += slopes_[static_cast<Index>(a)] * covariance(variable_[a], variable_[b]) *
-                    slopes_[static_cast<Index>(b)];
+        variance +=
+            slopes_[static_cast<Index>(a)] * covariance(variable_[a], variable_[b]) * slopes_[static_cast<Index>(b)];
     }
     force_variance[m] = variance;
   }

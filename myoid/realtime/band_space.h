@@ -12,16 +12,14 @@ namespace myoid {
 ///
 ///   var F_m = s_m' C s_m,   var T_j = t_j' C t_j,   t_j = sum_m r_jm s_m + s_j
 ///
-/// s_m holds the slopes of a muscle's force by its few unknowns, s_j the slopes of the joint's own
-/// torque, r_jm is a moment arm. C is symmetric: where muscles have unknowns of their own, each
-/// number of one half of C is read once for all muscles and joints, in single precision between two
-/// blocks: 1e-7 of the terms that a variance is the sum of. Where few unknowns serve many muscles,
-/// C t_j is the shorter way.
+/// s_m holds the slopes of a muscle's force by its few unknowns, s_j the slopes of the joint's own torque, r_jm is a
+/// moment arm. C is symmetric: where muscles have unknowns of their own, each number of one half of C is read once for
+/// all muscles and joints, in single precision between two blocks: 1e-7 of the terms that a variance is the sum of.
+/// Where few unknowns serve many muscles, C t_j is the shorter way.
 class BandSpace {
  public:
   BandSpace() = default;
-  /// Builds the space. `variables`: the unknowns of each block of slopes, first the muscles', then
-  /// the joints'.
+  /// Builds the space. `variables`: the unknowns of each block of slopes, first the muscles', then the joints'.
   BandSpace(const Eigen::MatrixXd& covariance,
             const std::vector<std::vector<Eigen::Index>>& variables,
             std::size_t joints);

@@ -11,18 +11,14 @@ using Eigen::Index;
 
 Eigen::MatrixXd numbers(Index rows, Index columns, double phase) {
   Eigen::MatrixXd m(rows, columns);
-  for (Index i = 0; i < m.size(); ++i)
-    m(i) = std::sin(phase + 0.7 * static_cast<double>(i * i % 97));
+  for (Index i = 0; i < m.size(); ++i) m(i) = std::sin(phase + 0.7 * static_cast<double>(i * i % 97));
   return m;
 }
 
 /// Computes the variances and compares them with the dense products of their definition. All
 /// numbers are about 1, so that round-off is some 1e-13 of the sums of thousands of products; of
 /// torques block by block it is that of single precision.
-void expect_dense(const std::vector<std::vector<Index>>& variables,
-                  Index unknowns,
-                  Index joints,
-                  bool by_block) {
+void expect_dense(const std::vector<std::vector<Index>>& variables, Index unknowns, Index joints, bool by_block) {
   const Eigen::MatrixXd root = numbers(unknowns, unknowns, 0.3);
   const Eigen::MatrixXd C = root * root.transpose();
   BandSpace bands(C, variables, static_cast<std::size_t>(joints));

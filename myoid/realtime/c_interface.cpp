@@ -28,17 +28,12 @@ int count_of(const List& list) {
 
 template <typename List>
 const char* name_of(const List& list, int index) {
-  return index >= 0 && index < count_of(list) ? list[static_cast<std::size_t>(index)].name.c_str()
-                                              : nullptr;
+  return index >= 0 && index < count_of(list) ? list[static_cast<std::size_t>(index)].name.c_str() : nullptr;
 }
 
 /// Writes value and band of each number; NaN where none was computed.
-void put(const Eigen::VectorXd& value,
-         const Eigen::VectorXd& sd,
-         bool done,
-         double* middle,
-         double* low,
-         double* high) {
+void put(
+    const Eigen::VectorXd& value, const Eigen::VectorXd& sd, bool done, double* middle, double* low, double* high) {
   for (Eigen::Index i = 0; i < value.size(); ++i) {
     const double half = myoid::kNormal95 * sd[i];
     if (middle != nullptr) middle[i] = done ? value[i] : myoid::kNan;
@@ -73,9 +68,7 @@ int myoid_muscle_count(const myoid_model* model) { return count_of(model->predic
 const char* myoid_channel_name(const myoid_model* model, int channel) {
   return name_of(model->predictor.channels, channel);
 }
-const char* myoid_joint_name(const myoid_model* model, int joint) {
-  return name_of(model->predictor.joints, joint);
-}
+const char* myoid_joint_name(const myoid_model* model, int joint) { return name_of(model->predictor.joints, joint); }
 const char* myoid_muscle_name(const myoid_model* model, int muscle) {
   return name_of(model->predictor.muscles, muscle);
 }
@@ -102,11 +95,8 @@ myoid_workspace* myoid_workspace_new(const myoid_model* model) {
 
 void myoid_workspace_free(myoid_workspace* workspace) { delete workspace; }
 
-void myoid_follow(const myoid_model* model,
-                  myoid_workspace* workspace,
-                  const double* envelope,
-                  double step_s,
-                  double* acting) {
+void myoid_follow(
+    const myoid_model* model, myoid_workspace* workspace, const double* envelope, double step_s, double* acting) {
   const std::size_t count = model->predictor.channels.size();
   myoid::follow(model->predictor, {envelope, count}, step_s, workspace->space, {acting, count});
 }
@@ -121,12 +111,10 @@ int myoid_evaluate(const myoid_model* model,
   myoid::PredictorWorkspace& w = workspace->space;
   const bool with_bands = output->torque_low_nm != nullptr || output->torque_high_nm != nullptr ||
                           output->force_low_n != nullptr || output->force_high_n != nullptr;
-  const myoid::Prediction end =
-      myoid::predict(p, {envelope, p.channels.size()}, {angle_rad, p.joints.size()},
-                     {speed_radps, p.joints.size()}, w, with_bands);
+  const myoid::Prediction end = myoid::predict(p, {envelope, p.channels.size()}, {angle_rad, p.joints.size()},
+                                               {speed_radps, p.joints.size()}, w, with_bands);
   const bool done = end == myoid::Prediction::done;
-  put(w.torque_nm, w.torque_sd_nm, done, output->torque_nm, output->torque_low_nm,
-      output->torque_high_nm);
+  put(w.torque_nm, w.torque_sd_nm, done, output->torque_nm, output->torque_low_nm, output->torque_high_nm);
   put(w.force_n, w.force_sd_n, done, output->force_n, output->force_low_n, output->force_high_n);
   return end == myoid::Prediction::done           ? MYOID_DONE
          : end == myoid::Prediction::not_a_number ? MYOID_NOT_A_NUMBER

@@ -67,11 +67,8 @@ typedef struct myoid_output {
  * lags of excitation and activation, which the workspace remembers; `acting` receives what
  * myoid_evaluate takes. Without lags in the fit it receives the sample itself. The first sample is
  * taken as held for long. */
-void myoid_follow(const myoid_model* model,
-                  myoid_workspace* workspace,
-                  const double* envelope,
-                  double step_s,
-                  double* acting);
+void myoid_follow(
+    const myoid_model* model, myoid_workspace* workspace, const double* envelope, double step_s, double* acting);
 
 /* Evaluates at the envelope of each channel, the angle and the speed of each joint. Returns
  * MYOID_DONE; otherwise all results are NaN. */

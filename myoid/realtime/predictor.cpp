@@ -33,8 +33,7 @@ void predict_muscle(const Predictor& p, std::size_t m, PredictorWorkspace& w) {
   const identification::Activation& a = w.activations[muscle.channel];
   const Tension t = identification::tension(a.value, length_m, velocity_mps, muscle.values);
   double* slope = w.bands.slopes_of(m);
-  for (const Predictor::Chain& c : muscle.chains)
-    *slope++ = t.by_field[static_cast<std::size_t>(c.field)] * c.slope;
+  for (const Predictor::Chain& c : muscle.chains) *slope++ = t.by_field[static_cast<std::size_t>(c.field)] * c.slope;
   for (const Predictor::Chain& c : p.channels[muscle.channel].chains)
     *slope++ = t.by_activation * a.by_field[static_cast<std::size_t>(c.field)] * c.slope;
   w.force_n[static_cast<Eigen::Index>(m)] = t.force_n;
@@ -60,8 +59,7 @@ void predict_joint(const Predictor& p, std::size_t j, PredictorWorkspace& w) {
   for (std::size_t f = 0; f < by.size(); ++f) torque += by[f] * joint.values[f];
   w.torque_nm[column] = torque;
   double* slope = w.bands.slopes_of(p.muscles.size() + j);
-  for (const Predictor::Chain& c : joint.chains)
-    *slope++ = by[static_cast<std::size_t>(c.field)] * c.slope;
+  for (const Predictor::Chain& c : joint.chains) *slope++ = by[static_cast<std::size_t>(c.field)] * c.slope;
 }
 
 /// Returns the unknowns of the chains of each muscle with its channel's, then of each joint.
@@ -124,16 +122,14 @@ void follow(const Predictor& p,
     const double before = f.excitation;
     f.excitation = input + std::exp(-step_s / channel.values[kExcitationTime]) * (before - input);
     const double middle = 0.5 * (before + f.excitation);  // drives the activation in this step
-    const double time_s =
-        channel.values[middle >= f.activation ? kActivationTime : kDeactivationTime];
+    const double time_s = channel.values[middle >= f.activation ? kActivationTime : kDeactivationTime];
     f.activation = middle + std::exp(-step_s / time_s) * (f.activation - middle);
     f.envelope = u;
     acting[c] = f.activation;
   }
 }
 
-identification::Activation activation_at(double envelope,
-                                         const identification::ChannelValues& channel) {
+identification::Activation activation_at(double envelope, const identification::ChannelValues& channel) {
   using namespace identification;
   constexpr double kLeast = 1e-4;  // below it u^p is a straight line, as in the fit
   constexpr double kFlat = 1e-4;   // shapes below it are parabolas
@@ -180,8 +176,7 @@ Prediction predict(const Predictor& p,
   if (!with_bands) return Prediction::done;
   w.bands.compute(p.covariance);
   w.force_sd_n = w.bands.force_variance.cwiseMax(0.0).cwiseSqrt();
-  w.torque_sd_nm =
-      (w.bands.torque_variance.array().max(0.0) + p.torque_sd_nm * p.torque_sd_nm).sqrt();
+  w.torque_sd_nm = (w.bands.torque_variance.array().max(0.0) + p.torque_sd_nm * p.torque_sd_nm).sqrt();
   return Prediction::done;
 }
 

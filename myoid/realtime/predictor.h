@@ -61,7 +61,7 @@ struct Predictor {
   std::vector<kinematics::PathSurrogate> paths;
   Eigen::VectorXd default_q;   ///< Default values of all coordinates of the model.
   Eigen::MatrixXd covariance;  ///< Covariance of the fit's unknowns.
-  double torque_sd_nm = 0.0;  ///< Standard deviation of the torque that the fit leaves unexplained.
+  double torque_sd_nm = 0.0;   ///< Standard deviation of the torque that the fit leaves unexplained.
 };
 
 /// Space for `predict`, and its results; one per thread.
@@ -95,8 +95,7 @@ enum class Prediction {
 ///
 ///   de/dt = (u - e) / tau_ne,   da/dt = (e - a) / (tau_ac if e >= a, tau_deac if e < a)
 ///
-/// The first sample is taken as held for long. A channel without lags gives the sample itself.
-/// Allocates nothing.
+/// The first sample is taken as held for long. A channel without lags gives the sample itself. Allocates nothing.
 void follow(const Predictor& predictor,
             std::span<const double> envelope,
             double step_s,
@@ -105,15 +104,13 @@ void follow(const Predictor& predictor,
 
 /// Returns the activation a = shape(g u^p) of a channel at its acting envelope u, before the
 /// muscle's share, with the derivatives by gain, shape and exponent.
-[[nodiscard]] identification::Activation activation_at(
-    double envelope, const identification::ChannelValues& channel);
+[[nodiscard]] identification::Activation activation_at(double envelope, const identification::ChannelValues& channel);
 
-/// Predicts torques [N m] and forces [N] with their standard deviations, at the envelope of each
-/// channel (0..1, as activation.sto holds it, through `follow`, of the pure delay ago), and the
-/// angle [rad] and speed [rad/s] of each joint. The standard deviation of a force is that of the
-/// parameters; that of a torque also holds `torque_sd_nm`. Without `with_bands` the standard
-/// deviations, which take most of the time where muscles are many, stay as they are. Allocates
-/// nothing. Results are valid where `done` is returned.
+/// Predicts torques [N m] and forces [N] with their standard deviations, at the envelope of each channel (0..1, as
+/// activation.sto holds it, through `follow`, of the pure delay ago), and the angle [rad] and speed [rad/s] of each
+/// joint. The standard deviation of a force is that of the parameters; that of a torque also holds `torque_sd_nm`.
+/// Without `with_bands` the standard deviations, which take most of the time where muscles are many, stay as they are.
+/// Allocates nothing. Results are valid where `done` is returned.
 [[nodiscard]] Prediction predict(const Predictor& predictor,
                                  std::span<const double> envelope,
                                  std::span<const double> angle_rad,

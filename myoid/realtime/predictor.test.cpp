@@ -93,16 +93,14 @@ TEST(Predictor, HasTheForcesOfHillsMuscleAndTheTorqueOfTheirMomentArms) {
   const PredictorWorkspace w = predicted(p);
   const double q = 1.1, speed = -0.8;
   // Heads weighted: r = 0.25 * 0.03 + 0.75 * 0.05, l the same mean.
-  const double arm_f = 0.045, length_f = 0.325 - arm_f * q, arm_e = -0.02,
-               length_e = 0.29 - arm_e * q;
+  const double arm_f = 0.045, length_f = 0.325 - arm_f * q, arm_e = -0.02, length_e = 0.29 - arm_e * q;
   const double a_f = 0.9 * 0.3;
   const double u = std::pow(0.2, 0.8), a_e = std::expm1(-1.5 * u) / std::expm1(-1.5);
   const double force_f = muscle::hill_force(a_f, length_f - 0.18, -arm_f * speed, flexor());
   const double force_e = muscle::hill_force(a_e, length_e - 0.18, -arm_e * speed, extensor());
   EXPECT_NEAR(w.force_n[0], force_f, 1e-9 * force_f);
   EXPECT_NEAR(w.force_n[1], force_e, 1e-9 * force_e);
-  EXPECT_NEAR(w.torque_nm[0], arm_f * force_f + arm_e * force_e - 0.4 * speed - 1.5 * q - 0.3,
-              1e-10);
+  EXPECT_NEAR(w.torque_nm[0], arm_f * force_f + arm_e * force_e - 0.4 * speed - 1.5 * q - 0.3, 1e-10);
 }
 
 /// A leg of two joints, whose muscles cross one or both and share some unknowns: `own` unknowns of
@@ -121,11 +119,9 @@ Predictor leg(int muscles, int own, int shared) {
     }
     p.paths.push_back(path);
     const auto k = static_cast<std::size_t>(m);
-    p.muscles.push_back(
-        {"m", k % 2, muscle_values(m % 2 == 0 ? flexor() : extensor()), {{k, 1.0}}, {}});
+    p.muscles.push_back({"m", k % 2, muscle_values(m % 2 == 0 ? flexor() : extensor()), {{k, 1.0}}, {}});
     for (int f = 0; f < own; ++f) p.muscles[k].chains.push_back({f, m * own + f, 0.7});
-    for (int f = own; f < own + shared; ++f)
-      p.muscles[k].chains.push_back({f, muscles * own + f - own, 1.1});
+    for (int f = own; f < own + shared; ++f) p.muscles[k].chains.push_back({f, muscles * own + f - own, 1.1});
   }
   p.channels = {{"a", {0.05, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {}},
                 {"b", {0.05, 1.0, -1.5, 0.04, 0.015, 0.05, 0.8}, {}}};
@@ -135,8 +131,7 @@ Predictor leg(int muscles, int own, int shared) {
   p.joints[1].chains = {{kOffset, 1, 0.5}, {kStiffness, 1, 0.5}};
   p.default_q = Eigen::VectorXd::Zero(2);
   Eigen::MatrixXd root(unknowns, unknowns);
-  for (Eigen::Index i = 0; i < root.size(); ++i)
-    root(i) = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 101));
+  for (Eigen::Index i = 0; i < root.size(); ++i) root(i) = std::sin(1.0 + 0.7 * static_cast<double>(i * i % 101));
   p.covariance = 1e-6 * root * root.transpose();
   return p;
 }
@@ -167,8 +162,7 @@ void expect_bands_of_differences(const Predictor& p, const Input& in) {
     by_force.row(j) = (up.force_n - down.force_n).transpose() / (2.0 * kStep);
   }
   for (Eigen::Index j = 0; j < w.torque_nm.size(); ++j) {
-    const double variance =
-        by_torque.col(j).dot(p.covariance * by_torque.col(j)) + p.torque_sd_nm * p.torque_sd_nm;
+    const double variance = by_torque.col(j).dot(p.covariance * by_torque.col(j)) + p.torque_sd_nm * p.torque_sd_nm;
     EXPECT_NEAR(w.torque_sd_nm[j], std::sqrt(variance), 1e-6 * (1.0 + std::sqrt(variance)));
   }
   for (Eigen::Index m = 0; m < w.force_n.size(); ++m) {
@@ -177,9 +171,7 @@ void expect_bands_of_differences(const Predictor& p, const Input& in) {
   }
 }
 
-TEST(Predictor, HasTheBandThatDifferencesInTheUnknownsGive) {
-  expect_bands_of_differences(elbow(), {});
-}
+TEST(Predictor, HasTheBandThatDifferencesInTheUnknownsGive) { expect_bands_of_differences(elbow(), {}); }
 
 TEST(Predictor, HasItWhereUnknownsBelongToOneMuscleAndWhereTheyAreShared) {
   const Predictor own = leg(9, 5, 0), shared = leg(9, 1, 4);
@@ -280,8 +272,7 @@ TEST(Predictor, FollowsAnEnvelopeAsTheFitDoes) {
         const Activation a = activation_at(acting, p.channels[0].values);
         const Activation& e = expected[static_cast<std::size_t>(i)];
         ASSERT_NEAR(a.value, e.value, 1e-12) << i << name(lag);
-        for (const ChannelField f : {kGain, kShape, kExponent})
-          ASSERT_NEAR(a.by_field[f], e.by_field[f], 1e-11) << f;
+        for (const ChannelField f : {kGain, kShape, kExponent}) ASSERT_NEAR(a.by_field[f], e.by_field[f], 1e-11) << f;
       }
     }
   }

@@ -50,8 +50,7 @@ struct Numbers {
     const auto is = [&](const std::string& name) { return owner == name || owner == "subject"; };
     for (std::size_t k = 0; field.scope == Scope::muscle && k < predictor->muscles.size(); ++k) {
       if (!is(predictor->muscles[k].name)) continue;
-      found.push_back(field.field == kSlopeRatio ? &slope_ratio[k]
-                                                 : &predictor->muscles[k].values[f]);
+      found.push_back(field.field == kSlopeRatio ? &slope_ratio[k] : &predictor->muscles[k].values[f]);
     }
     for (Predictor::Channel& channel : predictor->channels) {
       if (field.scope == Scope::channel && is(channel.name)) found.push_back(&channel.values[f]);
@@ -79,9 +78,8 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
   for (std::size_t k = 0; k < numbers.slope_ratio.size(); ++k) {
     MuscleValues& m = numbers.predictor->muscles[k].values;
     if (numbers.slope_ratio[k] > 0.0)
-      m[kProduct] = std::max(muscle::curvature_product_from_slope_ratio(numbers.slope_ratio[k],
-                                                                        m[kCurvature], m[kPlateau]),
-                             1e-12);
+      m[kProduct] = std::max(
+          muscle::curvature_product_from_slope_ratio(numbers.slope_ratio[k], m[kCurvature], m[kPlateau]), 1e-12);
   }
 }
 
@@ -108,8 +106,7 @@ void add_chains(const std::string& label, Eigen::Index variable, Numbers& number
     throw InvalidInput(fmt::format("found the unknown '{}', expected OWNER.PARAMETER", label));
   const ParameterField& field = parameter_field(label.substr(point + 1));
   std::vector<double*> values;
-  for (const std::string_view owner :
-       recording::split(std::string_view(label).substr(0, point), '+'))
+  for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+'))
     for (double* value : numbers.of(field, owner)) values.push_back(value);
   Predictor& p = *numbers.predictor;
   for (double* value : values) {
@@ -118,17 +115,14 @@ void add_chains(const std::string& label, Eigen::Index variable, Numbers& number
     const Predictor::Chain chain{field.field, variable, slope};
     for (std::size_t k = 0; k < p.muscles.size(); ++k) {
       const auto& own = p.muscles[k].values;
-      if (value == &numbers.slope_ratio[k] ||
-          (value >= own.data() && value < own.data() + own.size()))
+      if (value == &numbers.slope_ratio[k] || (value >= own.data() && value < own.data() + own.size()))
         p.muscles[k].chains.push_back(chain);
     }
     for (Predictor::Channel& c : p.channels) {
-      if (value >= c.values.data() && value < c.values.data() + c.values.size())
-        c.chains.push_back(chain);
+      if (value >= c.values.data() && value < c.values.data() + c.values.size()) c.chains.push_back(chain);
     }
     for (Predictor::Joint& j : p.joints) {
-      if (value >= j.values.data() && value < j.values.data() + j.values.size())
-        j.chains.push_back(chain);
+      if (value >= j.values.data() && value < j.values.data() + j.values.size()) j.chains.push_back(chain);
     }
   }
 }
@@ -176,9 +170,8 @@ void set_lags(const json& method, Predictor& p) {
 Predictor start_of(const Study& study, const model::BodyModel& model) {
   Predictor p;
   for (const MuscleSetup& setup : muscle_setups(study, model)) {
-    const auto known = std::find_if(p.channels.begin(), p.channels.end(), [&](const auto& channel) {
-      return channel.name == setup.emg_channel;
-    });
+    const auto known = std::find_if(p.channels.begin(), p.channels.end(),
+                                    [&](const auto& channel) { return channel.name == setup.emg_channel; });
     const auto index = static_cast<std::size_t>(known - p.channels.begin());
     if (known == p.channels.end())
       p.channels.push_back({setup.emg_channel, {0.0, 1.0, 0.0, 0.040, 0.015, 0.050, 1.0}, {}});
@@ -189,20 +182,17 @@ Predictor start_of(const Study& study, const model::BodyModel& model) {
                          .chains = {}});
   }
   for (const std::string& name : study_coordinates(study.model)) {
-    const auto found = std::find_if(model.coordinates.begin(), model.coordinates.end(),
-                                    [&](const auto& c) { return c.name == name; });
-    p.joints.push_back(
-        {name, static_cast<int>(found - model.coordinates.begin()), JointValues{}, {}});
+    const auto found =
+        std::find_if(model.coordinates.begin(), model.coordinates.end(), [&](const auto& c) { return c.name == name; });
+    p.joints.push_back({name, static_cast<int>(found - model.coordinates.begin()), JointValues{}, {}});
   }
   return p;
 }
 
 /// Sets the polynomials of the muscles' heads.
 void set_paths(const Study& study, const model::BodyModel& model, Predictor& p) {
-  const std::vector<kinematics::PathSurrogate> all =
-      kinematics::fit_surrogates(model, {.length_tolerance_m = kLengthTolerance,
-                                         .arm_tolerance_m = kArmTolerance,
-                                         .max_degree = kMaxDegree});
+  const std::vector<kinematics::PathSurrogate> all = kinematics::fit_surrogates(
+      model, {.length_tolerance_m = kLengthTolerance, .arm_tolerance_m = kArmTolerance, .max_degree = kMaxDegree});
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
   std::map<int, std::size_t> place;
   for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -217,8 +207,7 @@ void set_paths(const Study& study, const model::BodyModel& model, Predictor& p) 
 }
 
 void refuse_unlike(const Study& study, const json& parameters) {
-  if (study.identify.normalised)
-    throw InvalidInput("a study with normalised = true cannot be predicted");
+  if (study.identify.normalised) throw InvalidInput("a study with normalised = true cannot be predicted");
   if (!parameters.at("resting_torque").empty())
     throw InvalidInput("a study with measured resting torques cannot be predicted");
   if (!study.model.file && !study.model.forearm_length_m)
@@ -233,9 +222,7 @@ Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
   const json parameters = read_json(results / "parameters.json");
   try {
     const fs::path file =
-        study_file.empty()
-            ? fs::path(read_json(results / "run.json").at("study").get<std::string>())
-            : study_file;
+        study_file.empty() ? fs::path(read_json(results / "run.json").at("study").get<std::string>()) : study_file;
     const Study study = read_study(file);
     refuse_unlike(study, parameters);
     const model::BodyModel model = load_model(study);
@@ -253,8 +240,8 @@ Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
     throw ReadError(results / "parameters.json", 0,
                     fmt::format("is no result of a run of this version: {}", error.what()));
   }
-  throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]",
-                                 (results / "parameters.json").string()));
+  throw InvalidInput(
+      fmt::format("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string()));
 }
 
 }  // namespace myoid

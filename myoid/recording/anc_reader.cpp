@@ -35,23 +35,19 @@ std::vector<std::string_view> values_of(std::string_view line) {
 }
 
 /// Returns the layout of the rows below Name, Rate and Range: a time and one count a channel.
-TableLayout anc_layout(const TableText& table,
-                       std::size_t names_line,
-                       const std::vector<Channel>& channels) {
+TableLayout anc_layout(const TableText& table, std::size_t names_line, const std::vector<Channel>& channels) {
   TableLayout layout;
   layout.separator = '\t';
   layout.names_line = names_line;
   layout.first_row = names_line + 3;
   layout.end_row = table.lines.size();
   layout.columns = {{TableColumn::Kind::time, "time"}};
-  for (const Channel& channel : channels)
-    layout.columns.push_back({TableColumn::Kind::channel, channel.name});
+  for (const Channel& channel : channels) layout.columns.push_back({TableColumn::Kind::channel, channel.name});
   return layout;
 }
 
 /// Returns the index of the row of names, above the rows Rate and Range.
-std::size_t find_names(const std::vector<std::string_view>& lines,
-                       const std::filesystem::path& path) {
+std::size_t find_names(const std::vector<std::string_view>& lines, const std::filesystem::path& path) {
   const auto begins_with = [&](std::size_t n, std::string_view word) {
     return equal_ignoring_case(trim(split(lines[n], '\t')[0]), word);
   };
@@ -80,14 +76,12 @@ std::vector<Channel> read_channels(const std::vector<std::string_view>& lines,
     channels.push_back({name, Unit::volt});
   if (const auto said = header_number(lines, names_at, "#Channels:");
       said && *said != static_cast<double>(channels.size())) {
-    repairs.push_back({0, fmt::format("the header says {} channels, there are {} names", *said,
-                                      channels.size())});
+    repairs.push_back({0, fmt::format("the header says {} channels, there are {} names", *said, channels.size())});
   }
   return channels;
 }
 
-/// Returns the volts per count of each channel: 2 range / (2^bits - 1), with the range in mV to
-/// either side of 0.
+/// Returns the volts per count of each channel: 2 range / (2^bits - 1), with the range in mV to either side of 0.
 std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
                                     std::size_t names_at,
                                     double bits,
@@ -99,8 +93,7 @@ std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
     const auto range = c < ranges.size() ? parse_number(ranges[c]) : std::nullopt;
     if (!range || !(*range > 0.0))
       throw ReadError(path, names_at + 3,
-                      fmt::format("channel '{}' has no range in mV, so its counts cannot be scaled",
-                                  channels[c].name));
+                      fmt::format("channel '{}' has no range in mV, so its counts cannot be scaled", channels[c].name));
     to_volt.push_back(2e-3 * *range / (std::exp2(bits) - 1.0));
   }
   return to_volt;
@@ -113,17 +106,13 @@ void compare_clock(const std::vector<std::string_view>& lines,
                    std::vector<Repair>& repairs) {
   const Eigen::Index count = time_s.size();
   const double rate = static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]);
-  if (const auto said = header_number(lines, names_at, "PreciseRate:");
-      said && std::abs(*said - rate) > 1e-3 * rate) {
-    repairs.push_back(
-        {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", *said,
-                        rate)});
+  if (const auto said = header_number(lines, names_at, "PreciseRate:"); said && std::abs(*said - rate) > 1e-3 * rate) {
+    repairs.push_back({0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", *said, rate)});
   }
   if (const auto said = header_number(lines, names_at, "Duration(Sec.):");
       said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {
-    repairs.push_back(
-        {0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off",
-                        *said, static_cast<double>(count) / rate)});
+    repairs.push_back({0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off", *said,
+                                      static_cast<double>(count) / rate)});
   }
 }
 
@@ -147,17 +136,13 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
   file.repairs.insert(file.repairs.end(), numbers.repairs.begin(), numbers.repairs.end());
   const Eigen::VectorXd time = row_times(layout, numbers, path, file.repairs);
   if (time.size() < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
-  for (std::size_t c = 0; c < channels.size(); ++c)
-    numbers.values.col(static_cast<Eigen::Index>(c)) *= to_volt[c];
+  for (std::size_t c = 0; c < channels.size(); ++c) numbers.values.col(static_cast<Eigen::Index>(c)) *= to_volt[c];
   compare_clock(lines, names_at, time, file.repairs);
-  file.repairs.push_back(
-      {0, "volts at the board's input: the amplifier's gain is not in the file"});
+  file.repairs.push_back({0, "volts at the board's input: the amplifier's gain is not in the file"});
   file.data = TimeSeries(time, std::move(channels), std::move(numbers.values));
   return file;
 }
 
-AncFile read_anc(const std::filesystem::path& path) {
-  return parse_anc(read_text_file(path), path);
-}
+AncFile read_anc(const std::filesystem::path& path) { return parse_anc(read_text_file(path), path); }
 
 }  // namespace myoid::recording

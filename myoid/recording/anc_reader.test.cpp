@@ -51,9 +51,7 @@ TEST(Anc, TheSameTrialAsC3dHoldsTheSameVolts) {
   // EMG from the 13th channel on; before it the C3D file is in N and N mm. Its scale has 24 bits.
   for (Eigen::Index c = 12; c < 28; ++c) {
     const double largest = c3d.values().col(c).cwiseAbs().maxCoeff();
-    EXPECT_LT((anc.data.values().col(c).head(samples) - c3d.values().col(c).head(samples))
-                  .cwiseAbs()
-                  .maxCoeff(),
+    EXPECT_LT((anc.data.values().col(c).head(samples) - c3d.values().col(c).head(samples)).cwiseAbs().maxCoeff(),
               1e-7 * largest)
         << c;
   }

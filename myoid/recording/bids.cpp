@@ -37,8 +37,7 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
   for (std::size_t c = 0; c < head.size(); ++c) column.try_emplace(cell_text(head[c]), c);
   for (const char* required : {"name", "type", "units"}) {
     if (!column.contains(required))
-      throw ReadError(
-          path, 1, fmt::format("there is no column '{}', which every _channels.tsv has", required));
+      throw ReadError(path, 1, fmt::format("there is no column '{}', which every _channels.tsv has", required));
   }
   std::vector<BidsChannel> channels;
   for (std::size_t n = 1; n < lines.size(); ++n) {
@@ -46,8 +45,7 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
     const auto cells = split(lines[n], '\t');
     const auto value = [&](const char* name) {
       const auto it = column.find(name);
-      return it != column.end() && it->second < cells.size() ? cell_text(cells[it->second])
-                                                             : std::string();
+      return it != column.end() && it->second < cells.size() ? cell_text(cells[it->second]) : std::string();
     };
     BidsChannel channel{value("name"),
                         value("type"),
@@ -64,8 +62,7 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
 }
 
 /// Reads the rows of a `_motion.tsv`: no header, one column a channel.
-TableNumbers motion_rows(const std::filesystem::path& path,
-                         const std::vector<BidsChannel>& channels) {
+TableNumbers motion_rows(const std::filesystem::path& path, const std::vector<BidsChannel>& channels) {
   const std::string text = read_text_file(path);
   TableRows rows;
   rows.separator = '\t';
@@ -86,8 +83,7 @@ double rate_of(const std::filesystem::path& path) {
   const auto it = json.find("SamplingFrequency");
   const double rate = it != json.end() && it->is_number() ? it->get<double>() : 0.0;
   if (!(rate > 0.0 && rate < 1e7))
-    throw ReadError(path, 0,
-                    "SamplingFrequency [Hz] is missing; the sidecar of motion data needs it");
+    throw ReadError(path, 0, "SamplingFrequency [Hz] is missing; the sidecar of motion data needs it");
   return rate;
 }
 
@@ -96,8 +92,8 @@ double to_si(const BidsChannel& channel, Unit expected, const std::filesystem::p
   const auto unit = parse_file_unit(channel.unit);
   if (!unit || unit->unit != expected)
     throw ReadError(path, 0,
-                    fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]",
-                                channel.name, channel.type, channel.unit, symbol(expected)));
+                    fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]", channel.name, channel.type,
+                                channel.unit, symbol(expected)));
   return unit->to_si;
 }
 
@@ -119,13 +115,11 @@ MotionColumns motion_columns(const std::vector<BidsChannel>& channels) {
   std::map<std::string, std::size_t> place;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const BidsChannel& channel = channels[c];
-    const std::size_t axis =
-        channel.component.size() == 1
-            ? std::string_view("xyz").find(static_cast<char>(channel.component[0] | 0x20))
-            : std::string_view::npos;
+    const std::size_t axis = channel.component.size() == 1
+                                 ? std::string_view("xyz").find(static_cast<char>(channel.component[0] | 0x20))
+                                 : std::string_view::npos;
     if (equal_ignoring_case(channel.type, "POS") && axis < 3) {
-      const std::string& name =
-          channel.tracked_point.empty() ? channel.name : channel.tracked_point;
+      const std::string& name = channel.tracked_point.empty() ? channel.name : channel.tracked_point;
       const auto [it, is_new] = place.try_emplace(name, columns.points.size());
       if (is_new) columns.points.push_back({name, {}});
       columns.points[it->second].columns[axis] = c;
@@ -138,8 +132,7 @@ MotionColumns motion_columns(const std::vector<BidsChannel>& channels) {
   return columns;
 }
 
-/// Returns the points that have x, y and z, in meters; a frame without one of them is a gap of the
-/// point.
+/// Returns the points that have x, y and z, in meters; a frame without one of them is a gap of the point.
 MarkerSeries markers_of(const std::vector<Point>& points,
                         const std::vector<BidsChannel>& channels,
                         const Eigen::VectorXd& time_s,
@@ -152,21 +145,19 @@ MarkerSeries markers_of(const std::vector<Point>& points,
   Eigen::Index width = 0;
   for (const Point& point : points) {
     if (!point.columns[0] || !point.columns[1] || !point.columns[2]) {
-      repairs.push_back(
-          {0, fmt::format("point '{}' does not have x, y and z; left out", point.name)});
+      repairs.push_back({0, fmt::format("point '{}' does not have x, y and z; left out", point.name)});
       continue;
     }
     markers.names.push_back(point.name);
     for (const auto& column : point.columns)
-      positions.col(width++) = to_si(channels[*column], Unit::meter, path) *
-                               values.col(static_cast<Eigen::Index>(*column));
+      positions.col(width++) =
+          to_si(channels[*column], Unit::meter, path) * values.col(static_cast<Eigen::Index>(*column));
   }
   markers.positions_m = positions.leftCols(width);
   for (Eigen::Index k = 0; k < values.rows(); ++k) {
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
       if (markers.missing(k, m))
-        markers.positions_m.block<1, 3>(k, 3 * m).setConstant(
-            std::numeric_limits<double>::quiet_NaN());
+        markers.positions_m.block<1, 3>(k, 3 * m).setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }
   return markers;
@@ -221,15 +212,12 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
   const MotionColumns columns = motion_columns(*channels);
   if (columns.others > 0)
     motion.repairs.push_back(
-        {0, fmt::format("{} channels are neither positions nor joint angles; left out",
-                        columns.others)});
+        {0, fmt::format("{} channels are neither positions nor joint angles; left out", columns.others)});
   motion.angles = angles_of(columns.angles, *channels, time, numbers.values, path);
-  motion.markers =
-      markers_of(columns.points, *channels, time, numbers.values, path, motion.repairs);
+  motion.markers = markers_of(columns.points, *channels, time, numbers.values, path, motion.repairs);
   if (motion.markers.names.empty()) {
     motion.markers = {};
-    if (motion.angles.empty())
-      throw ReadError(path, 0, "no channel is a position (POS) or a joint angle (JNTANG)");
+    if (motion.angles.empty()) throw ReadError(path, 0, "no channel is a position (POS) or a joint angle (JNTANG)");
   }
   return motion;
 }

@@ -23,20 +23,17 @@ struct BidsChannel {
 /// Reads the `_channels.tsv` of a data file, which has the same folder and the same name up to the
 /// suffix. Returns nothing for EMG data without such a file; motion data need one. Throws ReadError
 /// with the line where name, type or units are missing.
-[[nodiscard]] std::optional<std::vector<BidsChannel>> bids_channels_of(
-    const std::filesystem::path& data);
+[[nodiscard]] std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::path& data);
 
-/// A `_motion.tsv`: no header row, one column for each row of its `_channels.tsv`, the rate from
-/// the `_motion.json`.
+/// A `_motion.tsv`: no header row, one column for each row of its `_channels.tsv`, the rate from the `_motion.json`.
 struct BidsMotion {
   MarkerSeries markers;  ///< POS channels in meters; a point without x, y and z is left out.
   TimeSeries angles;     ///< JNTANG channels in radians.
   std::vector<Repair> repairs;
 };
 
-/// Reads a Motion-BIDS recording. "n/a" and NaN are gaps. Throws ReadError where the numbers of
-/// columns and channels differ, a cell is no number, a unit is neither length nor angle, or the
-/// rate is missing.
+/// Reads a Motion-BIDS recording. "n/a" and NaN are gaps. Throws ReadError where the numbers of columns and channels
+/// differ, a cell is no number, a unit is neither length nor angle, or the rate is missing.
 [[nodiscard]] BidsMotion read_bids_motion(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -15,9 +15,7 @@
 namespace myoid::recording {
 namespace {
 
-void put(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-}
+void put(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
 const std::string kStem = "sub-01_task-lift_tracksys-omc";
 
@@ -63,8 +61,7 @@ TEST(Bids, WhatIsMissingIsSaid) {
 
 TEST(Bids, EmgChannelsHaveTheirUnitMuscleAndStatusFromTheTable) {
   const test::TemporaryFolder folder;
-  put(folder / "sub-01_task-lift_emg.csv",
-      "time,E1,E2,E3,T\n0,1,2,3,0\n0.001,4,5,6,0\n0.002,1,1,1,0\n");
+  put(folder / "sub-01_task-lift_emg.csv", "time,E1,E2,E3,T\n0,1,2,3,0\n0.001,4,5,6,0\n0.002,1,1,1,0\n");
   put(folder / "sub-01_task-lift_channels.tsv",
       "name\ttype\tunits\ttarget_muscle\tstatus\nE1\tEMG\tmV\tbiceps brachii\tgood\n"
       "E2\tEMG\tuV\ttriceps brachii\tgood\nE3\tEMG\tuV\tn/a\tbad\nT\tTRIG\tn/a\tn/a\tgood\n");
@@ -88,14 +85,12 @@ TEST(Bids, ResultsBecomeADerivativeThatIsReadAgain) {
   EXPECT_EQ(files.size(), 6U);
   EXPECT_EQ(read_text_file(folder / "out/sub-S01/sub-S01_desc-identified_parameters.tsv"),
             "muscle\tparameter\testimate\treason\nBIC\tv_max\t0.5\ta, b\n");
-  EXPECT_NE(read_text_file(folder / "out/dataset_description.json").find("\"derivative\""),
-            std::string::npos);
+  EXPECT_NE(read_text_file(folder / "out/dataset_description.json").find("\"derivative\""), std::string::npos);
   const BidsMotion motion =
       read_bids_motion(folder / "out/sub-S01/motion/sub-S01_task-flex1_tracksys-model_motion.tsv");
   EXPECT_DOUBLE_EQ(motion.angles.column("elbow")[0], kPi / 2.0);
   EXPECT_NEAR(motion.angles.time_s()[1], 0.01, 1e-15);
-  EXPECT_THROW(static_cast<void>(write_bids_derivative(folder / "none", folder / "x", "1")),
-               ReadError);
+  EXPECT_THROW(static_cast<void>(write_bids_derivative(folder / "none", folder / "x", "1")), ReadError);
   EXPECT_THROW(static_cast<void>(write_bids_derivative(results, folder / "x", "--")), InvalidInput);
 }
 

@@ -24,8 +24,7 @@ std::string label(const std::string& text) {
   for (const char c : text) {
     if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) result += c;
   }
-  if (result.empty())
-    throw InvalidInput(fmt::format("'{}': a BIDS label needs at least one letter or digit", text));
+  if (result.empty()) throw InvalidInput(fmt::format("'{}': a BIDS label needs at least one letter or digit", text));
   return result;
 }
 
@@ -36,8 +35,7 @@ std::string cell(std::string text) {
 
 std::string parameters_tsv(const CsvTable& table) {
   std::string text;
-  for (std::size_t c = 0; c < table.names.size(); ++c)
-    text += (c == 0 ? "" : "\t") + table.names[c];
+  for (std::size_t c = 0; c < table.names.size(); ++c) text += (c == 0 ? "" : "\t") + table.names[c];
   text += '\n';
   for (const auto& row : table.rows) {
     for (std::size_t c = 0; c < row.size(); ++c) text += (c == 0 ? "" : "\t") + cell(row[c]);
@@ -47,23 +45,22 @@ std::string parameters_tsv(const CsvTable& table) {
 }
 
 ordered_json parameters_columns(const CsvTable& table) {
-  const ordered_json known{
-      {"muscle", "Muscle or group of muscles"},
-      {"parameter", "Parameter of the Hill-type muscle"},
-      {"unit", "Unit of initial, estimate, std_error, ci_low, ci_high, prior_mean and prior_sd"},
-      {"method", "Estimator"},
-      {"case", "Samples used: shortening, lengthening or both"},
-      {"initial", "Starting value"},
-      {"estimate", "Identified value"},
-      {"std_error", "Standard error"},
-      {"ci_low", "Lower end of the confidence interval"},
-      {"ci_high", "Upper end of the confidence interval"},
-      {"prior_mean", "Mean of the prior"},
-      {"prior_sd", "Standard deviation of the prior"},
-      {"shrinkage", "Share of the prior's spread that the data removed"},
-      {"at_bound", "Whether the estimate leans on a bound"},
-      {"verdict", "identified, weak, prior_dominated, not_identifiable or non_physical"},
-      {"reason", "Why"}};
+  const ordered_json known{{"muscle", "Muscle or group of muscles"},
+                           {"parameter", "Parameter of the Hill-type muscle"},
+                           {"unit", "Unit of initial, estimate, std_error, ci_low, ci_high, prior_mean and prior_sd"},
+                           {"method", "Estimator"},
+                           {"case", "Samples used: shortening, lengthening or both"},
+                           {"initial", "Starting value"},
+                           {"estimate", "Identified value"},
+                           {"std_error", "Standard error"},
+                           {"ci_low", "Lower end of the confidence interval"},
+                           {"ci_high", "Upper end of the confidence interval"},
+                           {"prior_mean", "Mean of the prior"},
+                           {"prior_sd", "Standard deviation of the prior"},
+                           {"shrinkage", "Share of the prior's spread that the data removed"},
+                           {"at_bound", "Whether the estimate leans on a bound"},
+                           {"verdict", "identified, weak, prior_dominated, not_identifiable or non_physical"},
+                           {"reason", "Why"}};
   ordered_json json = ordered_json::object();
   for (const std::string& name : table.names)
     json[name] = {{"Description", known.contains(name) ? known[name].get<std::string>() : name}};
@@ -76,9 +73,7 @@ bool is_translation(const std::string& name) {
 
 }  // namespace
 
-std::vector<fs::path> write_bids_derivative(const fs::path& results,
-                                            const fs::path& out,
-                                            const std::string& subject) {
+std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::path& out, const std::string& subject) {
   const CsvTable table = read_csv_table(results / "parameters.csv");
   std::vector<fs::path> written;
   const auto write = [&](const fs::path& path, const std::string& text) {
@@ -86,11 +81,10 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results,
     written.push_back(path);
   };
   const std::string sub = "sub-" + label(subject);
-  const ordered_json description{
-      {"Name", "Muscle parameters identified by Myoid"},
-      {"BIDSVersion", "1.10.0"},
-      {"DatasetType", "derivative"},
-      {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
+  const ordered_json description{{"Name", "Muscle parameters identified by Myoid"},
+                                 {"BIDSVersion", "1.10.0"},
+                                 {"DatasetType", "derivative"},
+                                 {"GeneratedBy", ordered_json::array({{{"Name", "Myoid"}, {"Version", version()}}})}};
   write(out / "dataset_description.json", json_text(description) + '\n');
   const std::string stem = sub + "_desc-identified_parameters";
   write(out / sub / (stem + ".tsv"), parameters_tsv(table));
@@ -115,8 +109,7 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results,
       const bool moves = is_translation(channel.name);
       angles += moves ? 0 : 1;
       channels += fmt::format("{0}\t{1}\t{2}\t{0}\t{3}\n", cell(channel.name),
-                              moves ? channel.name.substr(channel.name.size() - 1) : "n/a",
-                              moves ? "POS" : "JNTANG",
+                              moves ? channel.name.substr(channel.name.size() - 1) : "n/a", moves ? "POS" : "JNTANG",
                               moves               ? "m"
                               : motion.in_degrees ? "deg"
                                                   : "rad");
@@ -129,15 +122,14 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results,
       }
       rows += '\n';
     }
-    const ordered_json sidecar{
-        {"TaskName", task},
-        {"SamplingFrequency", motion.data.mean_rate_hz()},
-        {"TrackingSystemName", "model"},
-        {"Description", "Coordinates of a musculoskeletal model by inverse kinematics"},
-        {"StartTime", motion.data.time_s()[0]},
-        {"MotionChannelCount", motion.data.channel_count()},
-        {"JNTANGChannelCount", angles},
-        {"MissingValues", "n/a"}};
+    const ordered_json sidecar{{"TaskName", task},
+                               {"SamplingFrequency", motion.data.mean_rate_hz()},
+                               {"TrackingSystemName", "model"},
+                               {"Description", "Coordinates of a musculoskeletal model by inverse kinematics"},
+                               {"StartTime", motion.data.time_s()[0]},
+                               {"MotionChannelCount", motion.data.channel_count()},
+                               {"JNTANGChannelCount", angles},
+                               {"MissingValues", "n/a"}};
     write(base / (name + "_motion.tsv"), rows);
     write(base / (name + "_motion.json"), json_text(sidecar) + '\n');
     write(base / (name + "_channels.tsv"), channels);

@@ -14,12 +14,8 @@
 namespace myoid::recording {
 namespace {
 
-/// Reads the selected parts; the others stay empty. `head` keeps the file's statements without
-/// notes and events.
-Recording read(const std::filesystem::path& path,
-               bool with_markers,
-               bool with_analog,
-               C3dHead& head) {
+/// Reads the selected parts; the others stay empty. `head` keeps the file's statements without notes and events.
+Recording read(const std::filesystem::path& path, bool with_markers, bool with_analog, C3dHead& head) {
   ByteSource source(path);
   head = read_c3d_head(source, path);
   Recording recording;
@@ -33,10 +29,8 @@ Recording read(const std::filesystem::path& path,
   try {
     // Notes about the plates do not concern a caller who reads only the channels.
     std::vector<Repair> unsaid;
-    if (with_analog)
-      recording.plates = plate_setups(head.file, with_markers ? recording.repairs : unsaid);
-    if (with_markers && !marker_columns(head.file).empty())
-      markers.emplace(head.file, head.layout.frames);
+    if (with_analog) recording.plates = plate_setups(head.file, with_markers ? recording.repairs : unsaid);
+    if (with_markers && !marker_columns(head.file).empty()) markers.emplace(head.file, head.layout.frames);
   } catch (const InvalidInput& error) {
     throw ReadError(path, 0, error.what());
   }
@@ -56,8 +50,7 @@ Recording read(const std::filesystem::path& path,
   if (with_analog) {
     C3dChannelUnits units = c3d_channel_units(head.file);
     counts.scales = std::move(units.scales);
-    counts.first_sample =
-        static_cast<double>(head.file.first_frame - 1) * head.file.analog_per_frame;
+    counts.first_sample = static_cast<double>(head.file.first_frame - 1) * head.file.analog_per_frame;
     counts.rate_hz = head.file.analog_rate_hz();
     recording.analog = AnalogChannels(std::move(units.channels), std::move(counts));
   }

@@ -16,7 +16,6 @@ namespace myoid::recording {
 [[nodiscard]] Recording read_c3d_markers(const std::filesystem::path& path, std::string& unit);
 
 /// Reads only the channels, and for each whether its unit is known.
-[[nodiscard]] Recording read_c3d_channels(const std::filesystem::path& path,
-                                          std::vector<bool>& has_unit);
+[[nodiscard]] Recording read_c3d_channels(const std::filesystem::path& path, std::vector<bool>& has_unit);
 
 }  // namespace myoid::recording

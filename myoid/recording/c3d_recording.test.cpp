@@ -21,8 +21,7 @@ C3dFile large_file() {
   file.point_scale = 0.1F;
   file.point_labels = {"A", "B", "C"};
   file.analog_per_frame = 5;
-  for (int c = 0; c < 7; ++c)
-    file.channels.push_back({"E" + std::to_string(c), c < 5 ? "mV" : "N", 3.0 * c, 0.25 + c});
+  for (int c = 0; c < 7; ++c) file.channels.push_back({"E" + std::to_string(c), c < 5 ? "mV" : "N", 3.0 * c, 0.25 + c});
   const Eigen::Index frames = 70001;
   file.points.resize(frames, 12);
   file.analog.resize(5 * frames, 7);
@@ -69,11 +68,9 @@ TEST(C3dRecording, PartByPartEverySampleIsInItsPlace) {
       EXPECT_NEAR(channels.time_s()[0], 50.0 / 1000.0, 1e-12);
       for (Eigen::Index c = 0; c < 7; ++c) {
         const double to_si = c < 5 ? 1e-3 : 1.0;
-        const Eigen::VectorXd expected =
-            (large.analog.col(c).cast<double>().array() - 3.0 * static_cast<double>(c)) *
-            (0.25 + static_cast<double>(c)) * to_si;
-        EXPECT_LT((channels.values().col(c) - expected).cwiseAbs().maxCoeff(),
-                  1e-12 * expected.cwiseAbs().maxCoeff())
+        const Eigen::VectorXd expected = (large.analog.col(c).cast<double>().array() - 3.0 * static_cast<double>(c)) *
+                                         (0.25 + static_cast<double>(c)) * to_si;
+        EXPECT_LT((channels.values().col(c) - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff())
             << c;
       }
     }

@@ -13,19 +13,14 @@ namespace myoid::recording {
 namespace {
 
 /// Returns the largest force in rows of counts as stored.
-double largest_force_n(const PlateSetup& plate,
-                       const C3dFile& file,
-                       const C3dFile::Rows& counts,
-                       Eigen::Index rows) {
+double largest_force_n(const PlateSetup& plate, const C3dFile& file, const C3dFile::Rows& counts, Eigen::Index rows) {
   Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(plate.channels.size()));
   for (std::size_t c = 0; c < plate.channels.size(); ++c) {
     const C3dChannel& channel = file.channels[static_cast<std::size_t>(plate.channels[c])];
     values.col(static_cast<Eigen::Index>(c)) =
-        channel.scale *
-        (counts.col(plate.channels[c]).head(rows).cast<double>().array() - channel.offset);
+        channel.scale * (counts.col(plate.channels[c]).head(rows).cast<double>().array() - channel.offset);
   }
-  const double largest =
-      channel_forces(plate, std::move(values)).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
+  const double largest = channel_forces(plate, std::move(values)).rowwise().norm().maxCoeff<Eigen::PropagateNumbers>();
   return std::isfinite(largest) ? largest : 0.0;
 }
 
@@ -55,8 +50,7 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
       for (std::size_t m = 0; m < head.layout.points; ++m) {
         const float* const p = &points[4 * m];
         const bool zero = p[0] == 0.0F && p[1] == 0.0F && p[2] == 0.0F;
-        const bool there = p[3] >= 0.0F && !zero && std::isfinite(p[0]) && std::isfinite(p[1]) &&
-                           std::isfinite(p[2]);
+        const bool there = p[3] >= 0.0F && !zero && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
         survey.missing_frames[m] += there ? 0 : 1;
       }
       if (channels == 0) continue;
@@ -71,8 +65,7 @@ C3dSurvey survey_c3d(const std::filesystem::path& path) {
     }
     for (std::size_t p = 0; p < survey.plates.size(); ++p)
       survey.largest_force_n[p] =
-          std::max(survey.largest_force_n[p],
-                   largest_force_n(survey.plates[p], survey.file, counts, count * ratio));
+          std::max(survey.largest_force_n[p], largest_force_n(survey.plates[p], survey.file, counts, count * ratio));
   });
   survey.lowest.resize(channels);
   survey.highest.resize(channels);

@@ -29,13 +29,11 @@ std::vector<std::string> names_of(const AnalogChannels& channels) {
 
 std::string listed(const std::vector<std::string>& names, std::size_t most = 40) {
   const std::size_t shown = std::min(most, names.size());
-  return fmt::format(
-      "{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-      shown < names.size() ? ", ..." : "");
+  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < names.size() ? ", ..." : "");
 }
 
-std::optional<std::size_t> clock_of(const std::vector<const AnalogChannels*>& clocks,
-                                    const std::string& name) {
+std::optional<std::size_t> clock_of(const std::vector<const AnalogChannels*>& clocks, const std::string& name) {
   for (std::size_t k = 0; k < clocks.size(); ++k) {
     if (clocks[k]->find(name)) return k;
   }
@@ -56,16 +54,15 @@ Found find(const std::vector<const AnalogChannels*>& clocks,
     return {*clock_of(clocks, name), name};
   }
   const auto near = nearest_word(wanted, names);
-  throw ReadError(path, 0,
-                  fmt::format("no channel '{}'{}; there are: {}", wanted,
-                              near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                              names.empty() ? "none" : listed(names)));
+  throw ReadError(
+      path, 0,
+      fmt::format("no channel '{}'{}; there are: {}", wanted, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
+                  names.empty() ? "none" : listed(names)));
 }
 
 std::string described(const AnalogChannels& channels) {
   const auto rate_hz = clock_facts(channels.time_s()).rate_hz;
-  return fmt::format("{} ({})", listed(names_of(channels)),
-                     rate_hz ? fmt::format("{:.6g} Hz", *rate_hz) : "no rate");
+  return fmt::format("{} ({})", listed(names_of(channels)), rate_hz ? fmt::format("{:.6g} Hz", *rate_hz) : "no rate");
 }
 
 }  // namespace
@@ -79,15 +76,14 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
   for (const std::string& one : wanted) {
     Found found = find(clocks, one, path);
     if (clock && *clock != found.clock) {
-      throw ReadError(path, 0,
-                      fmt::format("channels '{}' and '{}' have different clocks; ask for channels "
-                                  "of one clock at a time: either of {} or of {}",
-                                  names.front(), found.name, described(*clocks[*clock]),
-                                  described(*clocks[found.clock])));
+      throw ReadError(
+          path, 0,
+          fmt::format("channels '{}' and '{}' have different clocks; ask for channels "
+                      "of one clock at a time: either of {} or of {}",
+                      names.front(), found.name, described(*clocks[*clock]), described(*clocks[found.clock])));
     }
     clock = found.clock;
-    if (std::find(names.begin(), names.end(), found.name) == names.end())
-      names.push_back(std::move(found.name));
+    if (std::find(names.begin(), names.end(), found.name) == names.end()) names.push_back(std::move(found.name));
   }
   return clocks[*clock]->select(names);
 }
@@ -121,8 +117,7 @@ TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs) 
       repairs.push_back({0, fmt::format("channel '{}' {}; it is left out", name, gaps)});
     }
   }
-  return static_cast<Eigen::Index>(whole.size()) == series.channel_count() ? series
-                                                                           : series.select(whole);
+  return static_cast<Eigen::Index>(whole.size()) == series.channel_count() ? series : series.select(whole);
 }
 
 }  // namespace myoid::recording

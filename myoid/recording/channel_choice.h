@@ -9,11 +9,10 @@
 
 namespace myoid::recording {
 
-/// Returns the channels that a person names, in that order and each once. A name may differ from
-/// the file's in capitals, blanks, '_', '-' and '.', if only one channel fits. Without names,
-/// returns all channels of the first clock. Throws ReadError if there is no such channel, with the
-/// nearest name and the available ones, or if two of them have different clocks, with the channels
-/// of each clock.
+/// Returns the channels that a person names, in that order and each once. A name may differ from the file's in
+/// capitals, blanks, '_', '-' and '.', if only one channel fits. Without names, returns all channels of the first
+/// clock. Throws ReadError if there is no such channel, with the nearest name and the available ones, or if two of them
+/// have different clocks, with the channels of each clock.
 [[nodiscard]] TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
                                          const std::vector<std::string>& wanted,
                                          const std::filesystem::path& path);

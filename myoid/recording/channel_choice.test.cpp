@@ -45,8 +45,7 @@ TEST(ChannelChoice, WithoutNamesAllChannelsOfTheFirstClock) {
 }
 
 TEST(ChannelChoice, TheNamesAskedForComeInTheirOrderAndOnce) {
-  const TimeSeries chosen =
-      choose_channels(two_clocks(), {"Triceps", "biceps_brachii", "TRICEPS"}, "f.csv");
+  const TimeSeries chosen = choose_channels(two_clocks(), {"Triceps", "biceps_brachii", "TRICEPS"}, "f.csv");
   ASSERT_EQ(chosen.channel_count(), 2);
   EXPECT_EQ(chosen.channels()[0].name, "Triceps");
   EXPECT_EQ(chosen.channels()[1].name, "Biceps Brachii");
@@ -59,9 +58,9 @@ TEST(ChannelChoice, AChannelOfAnotherClockBringsItsOwnTimes) {
 }
 
 TEST(ChannelChoice, AWrongNameIsToldWithTheFileTheNearestNameAndAllNames) {
-  EXPECT_THAT(refusal({"Tricep"}), AllOf(HasSubstr("f.csv"), HasSubstr("no channel 'Tricep'"),
-                                         HasSubstr("did you mean 'Triceps'?"),
-                                         HasSubstr("Biceps Brachii, Triceps, ACC X")));
+  EXPECT_THAT(refusal({"Tricep"}),
+              AllOf(HasSubstr("f.csv"), HasSubstr("no channel 'Tricep'"), HasSubstr("did you mean 'Triceps'?"),
+                    HasSubstr("Biceps Brachii, Triceps, ACC X")));
 }
 
 TEST(ChannelChoice, ChannelsOfTwoClocksAreToldApart) {
@@ -83,8 +82,7 @@ TEST(ChannelChoice, AChannelWithAGapIsLeftOutWithItsTimeAndTheOthersStay) {
   EXPECT_EQ(left.channels()[1].name, "C");
   EXPECT_EQ(left.values()(2, 1), 2.0);
   ASSERT_EQ(repairs.size(), 1U);
-  EXPECT_EQ(repairs[0].message,
-            "channel 'B' is not a number at 0.01 s (2 samples); it is left out");
+  EXPECT_EQ(repairs[0].message, "channel 'B' is not a number at 0.01 s (2 samples); it is left out");
 }
 
 }  // namespace

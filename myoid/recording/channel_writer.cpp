@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::string_view kInDegrees = "inDegrees=yes";
 
-/// Returns true if a remark above a table says that angles are in degrees; the table itself is not
-/// read.
+/// Returns true if a remark above a table says that angles are in degrees; the table itself is not read.
 bool remarks_degrees(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -38,15 +37,12 @@ ChannelStatement statement_of(const Storage& file) {
   const auto volt = stated_voltage(file);
   for (const Channel& c : file.data.channels()) {
     const auto named = file.units.find(c.name);
-    said.units.push_back(named != file.units.end() ? named->second
-                         : volt                    ? voltage_name(*volt)
-                                                   : "");
+    said.units.push_back(named != file.units.end() ? named->second : volt ? voltage_name(*volt) : "");
   }
   return said;
 }
 
-ChannelStatement statement_of(const std::vector<Channel>& channels,
-                              const std::filesystem::path& file) {
+ChannelStatement statement_of(const std::vector<Channel>& channels, const std::filesystem::path& file) {
   ChannelStatement said;
   if (extension_of(file) == ".csv") said.in_degrees = remarks_degrees(file);
   for (const Channel& c : channels)
@@ -54,9 +50,7 @@ ChannelStatement statement_of(const std::vector<Channel>& channels,
   return said;
 }
 
-void write_channels(const std::filesystem::path& out,
-                    RowSource rows,
-                    const ChannelStatement& said) {
+void write_channels(const std::filesystem::path& out, RowSource rows, const ChannelStatement& said) {
   std::vector<Channel>& named = rows.channels;
   if (extension_of(out) == ".csv") {
     for (std::size_t c = 0; c < named.size(); ++c) {
@@ -78,8 +72,7 @@ void write_channels(const std::filesystem::path& out,
   format.in_si = std::all_of(said.units.begin(), said.units.end(), is_si);
   const auto other = [&](const std::string& unit) { return unit != said.units.front(); };
   const auto volt = said.units.empty() ? std::nullopt : parse_unit(said.units.front());
-  if (volt && volt->unit == Unit::volt &&
-      std::none_of(said.units.begin(), said.units.end(), other)) {
+  if (volt && volt->unit == Unit::volt && std::none_of(said.units.begin(), said.units.end(), other)) {
     format.comments.push_back("unit=" + said.units.front());
   } else {
     for (std::size_t c = 0; c < named.size(); ++c) {

@@ -23,8 +23,7 @@ struct ChannelStatement {
 
 /// Returns the statements about channels that were read from a file in SI. A table may have
 /// write_channels' remark on degrees.
-[[nodiscard]] ChannelStatement statement_of(const std::vector<Channel>& channels,
-                                            const std::filesystem::path& file);
+[[nodiscard]] ChannelStatement statement_of(const std::vector<Channel>& channels, const std::filesystem::path& file);
 
 /// Writes channels with their statements, so that reading gives the same again. A .csv has units in
 /// its header cells and, for degrees, the remark "# inDegrees=yes". A storage file has its title,

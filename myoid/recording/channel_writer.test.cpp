@@ -46,8 +46,7 @@ TEST_F(ChannelWriter, MicrovoltsStayMicrovoltsAndAreNeverCalledSI) {
 }
 
 TEST_F(ChannelWriter, ATableHasTheUnitInItsHeaderCellsAndReadsBackInVolts) {
-  EXPECT_TRUE(
-      written(kMicrovolts, "b.csv").starts_with("time_s,BIC [uV],TRI [uV]\n0,-1.01,2.49\n"));
+  EXPECT_TRUE(written(kMicrovolts, "b.csv").starts_with("time_s,BIC [uV],TRI [uV]\n0,-1.01,2.49\n"));
   const CsvSeries table = read_csv_series(file("b.csv"));
   const ChannelStatement said = statement_of(table.data.channels(), file("b.csv"));
   EXPECT_THAT(said.units, ::testing::ElementsAre("V", "V"));
@@ -83,8 +82,8 @@ TEST_F(ChannelWriter, UnitsOfTheirOwnStandBesideTheChannelsAndComeBack) {
 }
 
 TEST_F(ChannelWriter, WhatHasNoUnitIsGivenNone) {
-  const std::string text = written(
-      "x\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\tq\n0\t1\n", "b.sto");
+  const std::string text =
+      written("x\nversion=1\nnRows=1\nnColumns=2\ninDegrees=no\nendheader\ntime\tq\n0\t1\n", "b.sto");
   EXPECT_THAT(text, Not(HasSubstr("S.I.")));
   EXPECT_THAT(text, Not(HasSubstr("[1]")));
 }

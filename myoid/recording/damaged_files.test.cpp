@@ -68,8 +68,8 @@ void examine(const Kind& kind, const std::string& bytes, const std::string& what
     return;
   }
   const double slack = 1e-9 * (good.time_s[1] - good.time_s[0]);
-  bool less = (kind.says_its_rows && found.time_s.size() != good.time_s.size()) ||
-              found.values.cols() != good.values.cols();
+  bool less =
+      (kind.says_its_rows && found.time_s.size() != good.time_s.size()) || found.values.cols() != good.values.cols();
   for (Eigen::Index i = 0, g = 0; i < found.time_s.size(); ++i) {
     while (g < good.time_s.size() && good.time_s[g] < found.time_s[i] - slack) ++g;
     if (g == good.time_s.size() || std::abs(good.time_s[g] - found.time_s[i]) > slack) {
@@ -82,8 +82,7 @@ void examine(const Kind& kind, const std::string& bytes, const std::string& what
       if (std::isnan(value)) {
         less = less || !std::isnan(written);
       } else {
-        if (i + 1 == found.time_s.size() &&
-            test::repair_lines(found.repairs).find(kLastRowKept) != std::string::npos)
+        if (i + 1 == found.time_s.size() && test::repair_lines(found.repairs).find(kLastRowKept) != std::string::npos)
           continue;  // the only row, noted as doubtful
         ASSERT_NEAR(value, written, 1e-12 * std::abs(written))
             << "row " << i << ", column " << c << "; said: " << test::repair_lines(found.repairs);
@@ -131,32 +130,30 @@ std::vector<Kind> kinds() {
       return of(f.data, f.repairs);
     };
   };
-  list.push_back({"storage 1",
-                  "x\nversion=1\nnRows=40\nnColumns=4\ninDegrees=no\n\nendheader\ntime\ta\tb\tc\n" +
-                      rows(3, '\t', false, 0.01),
-                  storage("f.sto")});
-  list.push_back({"storage 0",
-                  "name x\ndatacolumns 3\ndatarows 40\nrange 0 0.39\nendheader\ntime\ta\tb\n" +
-                      rows(2, '\t', false, 0.01),
-                  storage("f.mot")});
-  list.push_back({"storage 3",
-                  "DataType=double\nversion=3\nOpenSimVersion=4.5\nendheader\ntime\ta\tb\n" +
-                      rows(2, '\t', false, 0.01),
-                  storage("f.sto"), true, false});
+  list.push_back(
+      {"storage 1",
+       "x\nversion=1\nnRows=40\nnColumns=4\ninDegrees=no\n\nendheader\ntime\ta\tb\tc\n" + rows(3, '\t', false, 0.01),
+       storage("f.sto")});
+  list.push_back(
+      {"storage 0",
+       "name x\ndatacolumns 3\ndatarows 40\nrange 0 0.39\nendheader\ntime\ta\tb\n" + rows(2, '\t', false, 0.01),
+       storage("f.mot")});
+  list.push_back(
+      {"storage 3",
+       "DataType=double\nversion=3\nOpenSimVersion=4.5\nendheader\ntime\ta\tb\n" + rows(2, '\t', false, 0.01),
+       storage("f.sto"), true, false});
   const auto table = [](const std::string& t) {
     CsvSeries f = parse_emg_table(t, "f.csv");
     if (std::find(f.has_unit.begin(), f.has_unit.end(), false) != f.has_unit.end())
       throw ReadError("f.csv", 0, "the unit is not stated");  // as read_emg does
     return of(f.data, f.repairs);
   };
+  list.push_back({"table", "time,E1 [mV],E2 [mV]\n" + rows(2, ',', false, 0.001), table, true, false});
+  list.push_back({"comma decimals", "time;E1 [mV];E2 [mV]\n" + rows(2, ';', false, 0.001, true), table, true, false});
   list.push_back(
-      {"table", "time,E1 [mV],E2 [mV]\n" + rows(2, ',', false, 0.001), table, true, false});
-  list.push_back({"comma decimals", "time;E1 [mV];E2 [mV]\n" + rows(2, ';', false, 0.001, true),
-                  table, true, false});
-  list.push_back({"export",
-                  "Lab export\nSampling rate: 1000 Hz\n\nFrame\tTime\tE1\tE2\n\ts\tmV\tmV\n" +
-                      rows(2, '\t', true, 0.001),
-                  table, true, false});
+      {"export",
+       "Lab export\nSampling rate: 1000 Hz\n\nFrame\tTime\tE1\tE2\n\ts\tmV\tmV\n" + rows(2, '\t', true, 0.001), table,
+       true, false});
   std::string counts;
   for (int i = 0; i < kRows; ++i)
     counts += fmt::format("{:.3f}\t{}\t{}\n", 0.001 * i, engine() % 4000, engine() % 4000);
@@ -169,9 +166,7 @@ std::vector<Kind> kinds() {
                     AncFile f = parse_anc(t, "f.anc");
                     return of(f.data, f.repairs);
                   }});
-  const auto bytes = [](const std::string& t) {
-    return std::as_bytes(std::span(t.data(), t.size()));
-  };
+  const auto bytes = [](const std::string& t) { return std::as_bytes(std::span(t.data(), t.size())); };
   for (const bool integer : {false, true}) {
     C3dFile file;
     file.point_rate_hz = 100.0;
@@ -182,8 +177,7 @@ std::vector<Kind> kinds() {
     file.analog.resize(2 * kRows, 2);
     for (int c = 0; c < 2; ++c) file.channels.push_back({c == 0 ? "E" : "F", "V", 0.0, 0.5});
     const auto step = [&] { return static_cast<float>(static_cast<int>(engine() % 2000) + 1); };
-    for (Eigen::Index i = 0; i < file.points.size(); ++i)
-      file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * step();
+    for (Eigen::Index i = 0; i < file.points.size(); ++i) file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * step();
     for (Eigen::Index i = 0; i < file.analog.size(); ++i) file.analog.data()[i] = step();
     const auto made = format_c3d(file, {C3dProcessor::intel, integer});
     list.push_back({integer ? "c3d integer" : "c3d real",
@@ -199,13 +193,11 @@ std::vector<Kind> kinds() {
                     },
                     false});
   }
-  const auto pad = [](std::string text, std::size_t n) {
-    return text.append(n - text.size(), ' ');
-  };
-  std::string edf = pad("0", 8) + pad("X", 80) + pad("Startdate X", 80) + "01.01.2520.00.00" +
-                    pad("512", 8) + pad("", 44) + pad("4", 8) + pad("1", 8) + pad("1", 4) +
-                    pad("EMG", 16) + pad("", 80) + pad("uV", 8) + pad("-100", 8) + pad("100", 8) +
-                    pad("-32768", 8) + pad("32767", 8) + pad("", 80) + pad("10", 8) + pad("", 32);
+  const auto pad = [](std::string text, std::size_t n) { return text.append(n - text.size(), ' '); };
+  std::string edf = pad("0", 8) + pad("X", 80) + pad("Startdate X", 80) + "01.01.2520.00.00" + pad("512", 8) +
+                    pad("", 44) + pad("4", 8) + pad("1", 8) + pad("1", 4) + pad("EMG", 16) + pad("", 80) +
+                    pad("uV", 8) + pad("-100", 8) + pad("100", 8) + pad("-32768", 8) + pad("32767", 8) + pad("", 80) +
+                    pad("10", 8) + pad("", 32);
   for (int i = 0; i < 80; ++i) edf += static_cast<char>(engine() % 100);
   list.push_back({"edf", edf,
                   [bytes](const std::string& t) {
@@ -252,8 +244,7 @@ TEST(DamagedFiles, NoneGivesAWrongNumberInSilence) {
     }
     // The end of a file is where a cut is hardest to see.
     for (std::size_t less = 1; less <= 6; ++less)
-      examine(kind, kind.good.substr(0, kind.good.size() - less),
-              fmt::format("{} bytes less", less));
+      examine(kind, kind.good.substr(0, kind.good.size() - less), fmt::format("{} bytes less", less));
     if (!kind.is_text) {
       examine(kind, std::string(700, '\x55'), "garbage");
       examine(kind, kind.good.substr(0, 256) + std::string(256, '\0') + kind.good.substr(512),
@@ -279,8 +270,7 @@ TEST(DamagedFiles, NoneGivesAWrongNumberInSilence) {
     examine(kind, "\xEF\xBB\xBF" + kind.good, "byte-order mark");
     examine(kind, joined(lines, std::string(3, separator) + "\n"), "separators at the ends");
     examine(kind, joined(lines, "\n\n"), "empty lines");
-    for (const char* cell :
-         {"", "NaN", "nan", "1.2.3", "--", "#DIV/0!", "1e999", "-", "0x1F", "x"}) {
+    for (const char* cell : {"", "NaN", "nan", "1.2.3", "--", "#DIV/0!", "1e999", "-", "0x1F", "x"}) {
       const std::size_t n = row();
       examine(kind, with_last_cell(n, cell), fmt::format("a cell is '{}'", cell));
     }
@@ -297,8 +287,7 @@ TEST(DamagedFiles, NoneGivesAWrongNumberInSilence) {
     examine(kind, with_row(row(), lines[row()] + separator + "7.5"), "a row with a cell too many");
     const std::size_t n = row();
     examine(kind, with_row(n, lines[n].substr(lines[n].find(separator) + 1)), "a first cell lost");
-    examine(kind, joined({lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end()}),
-            "no header");
+    examine(kind, joined({lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end()}), "no header");
     for (std::size_t h = 0; h < first; ++h) {
       changed = lines;
       changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(h));

@@ -52,8 +52,7 @@ std::string field(std::span<const std::byte> bytes, std::size_t at, std::size_t 
 std::optional<double> number(const std::string& text, std::vector<Repair>& repairs) {
   if (const auto value = parse_number(text)) return value;
   const auto value = parse_comma_number(text);
-  if (value)
-    repairs.push_back({0, fmt::format("'{}' in the header read with a decimal comma", text)});
+  if (value) repairs.push_back({0, fmt::format("'{}' in the header read with a decimal comma", text)});
   return value;
 }
 
@@ -66,14 +65,11 @@ double required_number(std::span<const std::byte> head,
                        std::vector<Repair>& repairs) {
   const std::string text = field(head, at, length);
   const auto value = number(text, repairs);
-  if (!value)
-    throw ReadError(path, 0,
-                    fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
+  if (!value) throw ReadError(path, 0, fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
   return *value;
 }
 
-/// Reads the fields of one signal. The header lists a field for all signals before the next field
-/// begins.
+/// Reads the fields of one signal. The header lists a field for all signals before the next field begins.
 Signal read_signal(std::span<const std::byte> head,
                    std::size_t signals,
                    std::size_t s,
@@ -90,9 +86,7 @@ Signal read_signal(std::span<const std::byte> head,
     const std::string text = of(before, 8);
     const auto v = number(text, repairs);
     if (!v || !std::isfinite(*v))
-      throw ReadError(
-          path, 0,
-          fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label, what, text));
+      throw ReadError(path, 0, fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label, what, text));
     return *v;
   };
   signal.physical_min = value(104, "physical minimum");
@@ -101,15 +95,12 @@ Signal read_signal(std::span<const std::byte> head,
   signal.digital_max = value(128, "digital maximum");
   const double per_record = value(216, "samples in a record");
   if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
-    throw ReadError(path, 0,
-                    fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
+    throw ReadError(path, 0, fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
   signal.per_record = static_cast<std::size_t>(per_record);
   return signal;
 }
 
-Header read_header(ByteSource& source,
-                   const std::filesystem::path& path,
-                   std::vector<Repair>& repairs) {
+Header read_header(ByteSource& source, const std::filesystem::path& path, std::vector<Repair>& repairs) {
   if (source.size() < 2 * kHead)
     throw ReadError(path, 0,
                     fmt::format("the file has {} bytes, less than the header of one signal: it is "
@@ -145,8 +136,8 @@ Header read_header(ByteSource& source,
                                 signals, header.bytes, source.size()));
   if (const double said = required_number(head, 184, 8, "bytes of the header", path, repairs);
       said != static_cast<double>(header.bytes))
-    repairs.push_back({0, fmt::format("the header says it has {} bytes; with {} signals it has {}",
-                                      said, signals, header.bytes)});
+    repairs.push_back(
+        {0, fmt::format("the header says it has {} bytes; with {} signals it has {}", said, signals, header.bytes)});
   const auto rest = source.view(0, header.bytes);
   for (std::size_t s = 0; s < signals; ++s) {
     Signal signal = read_signal(rest, signals, s, path, repairs);
@@ -160,8 +151,7 @@ Header read_header(ByteSource& source,
 
 std::int32_t sample(const std::byte* p, bool bdf) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(p[i]); };
-  if (bdf)
-    return static_cast<std::int32_t>((byte(2) << 24U) | (byte(1) << 16U) | (byte(0) << 8U)) >> 8;
+  if (bdf) return static_cast<std::int32_t>((byte(2) << 24U) | (byte(1) << 16U) | (byte(0) << 8U)) >> 8;
   return static_cast<std::int16_t>(static_cast<std::uint16_t>((byte(1) << 8U) | byte(0)));
 }
 
@@ -220,20 +210,16 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
                                       fmt::join(broken, ", "))});
   for (const auto& [per_record, list] : by_rate) {
     if (per_record == best) continue;
-    repairs.push_back(
-        {0,
-         fmt::format("{} signals at {:.6g} Hz are left out, the first '{}'; those "
-                     "at {:.6g} Hz are taken",
-                     list.size(), static_cast<double>(per_record) / header.record_s,
-                     header.signals[list[0]].label, static_cast<double>(best) / header.record_s)});
+    repairs.push_back({0, fmt::format("{} signals at {:.6g} Hz are left out, the first '{}'; those "
+                                      "at {:.6g} Hz are taken",
+                                      list.size(), static_cast<double>(per_record) / header.record_s,
+                                      header.signals[list[0]].label, static_cast<double>(best) / header.record_s)});
   }
   return by_rate[best];
 }
 
 /// Returns storage for the samples: 16-bit samples stay 16 bits; a 32-bit real holds 24 bits.
-decltype(AnalogCounts::values) room_for(const Header& header,
-                                        Eigen::Index rows,
-                                        std::size_t signals) {
+decltype(AnalogCounts::values) room_for(const Header& header, Eigen::Index rows, std::size_t signals) {
   const auto columns = static_cast<Eigen::Index>(signals);
   if (header.bdf) return AnalogCounts::Columns<float>(rows, columns);
   return AnalogCounts::Columns<std::int16_t>(rows, columns);
@@ -259,8 +245,7 @@ void take_samples(const Header& header,
       counts.values);
 }
 
-/// Returns the number of records to read: the complete ones in the file, at most as many as the
-/// header states.
+/// Returns the number of records to read: the complete ones in the file, at most as many as the header states.
 std::int64_t record_count(const Header& header,
                           std::uint64_t file_bytes,
                           const std::filesystem::path& path,
@@ -268,8 +253,8 @@ std::int64_t record_count(const Header& header,
   const std::uint64_t available = file_bytes - header.bytes;
   auto records = static_cast<std::int64_t>(available / header.record_bytes);
   if (header.records >= 0 && header.records < records) {
-    repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are taken",
-                                      header.records, records, header.records)});
+    repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are taken", header.records,
+                                      records, header.records)});
     records = header.records;
   } else if (header.records != records || available % header.record_bytes != 0) {
     repairs.push_back({0, fmt::format("the header says {} records, the file has {} whole ones, "
@@ -287,9 +272,7 @@ struct Scaled {
   std::vector<bool> has_unit;
 };
 
-Scaled scaled_channels(const Header& header,
-                       const std::vector<std::size_t>& chosen,
-                       std::vector<Repair>& repairs) {
+Scaled scaled_channels(const Header& header, const std::vector<std::size_t>& chosen, std::vector<Repair>& repairs) {
   std::vector<std::string> names;
   for (const std::size_t s : chosen) {
     const std::string& label = header.signals[s].label;
@@ -301,10 +284,8 @@ Scaled scaled_channels(const Header& header,
     const Signal& signal = header.signals[chosen[c]];
     const auto unit = parse_file_unit(signal.dimension);
     const double to_si = unit ? unit->to_si : 1.0;
-    const double gain = to_si * (signal.physical_max - signal.physical_min) /
-                        (signal.digital_max - signal.digital_min);
-    scaled.scales.push_back(
-        {.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
+    const double gain = to_si * (signal.physical_max - signal.physical_min) / (signal.digital_max - signal.digital_min);
+    scaled.scales.push_back({.scale = gain, .base = to_si * signal.physical_min - gain * signal.digital_min});
     scaled.has_unit.push_back(unit.has_value());
     scaled.channels.push_back({names[c], unit ? unit->unit : Unit::dimensionless});
   }
@@ -325,11 +306,10 @@ class RecordTimes {
     if (header_.gaps) return stamped(r, onset, repairs);
     if (onset && stamps_agree_ && std::abs(*onset - zero_s_ - counted) > 0.5 * interval_s_ + 1e-6) {
       stamps_agree_ = false;
-      repairs.push_back(
-          {0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
-                          "for a record it is {:.6g} s, which is taken: compare the length of the "
-                          "recording",
-                          r + 1, *onset - zero_s_, header_.record_s, counted)});
+      repairs.push_back({0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
+                                        "for a record it is {:.6g} s, which is taken: compare the length of the "
+                                        "recording",
+                                        r + 1, *onset - zero_s_, header_.record_s, counted)});
     }
     return counted;
   }
@@ -339,18 +319,13 @@ class RecordTimes {
 
  private:
   double stamped(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
-    if (!onset)
-      throw ReadError(path_, 0,
-                      fmt::format("record {} does not say its time, as EDF+D must", r + 1));
+    if (!onset) throw ReadError(path_, 0, fmt::format("record {} does not say its time, as EDF+D must", r + 1));
     const double begin = *onset - zero_s_;
     const double expected = std::isnan(end_s_) ? begin : end_s_;
     if (begin < expected - 0.5 * interval_s_)
-      throw ReadError(
-          path_, 0,
-          fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
+      throw ReadError(path_, 0, fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
     if (begin > expected + 0.5 * interval_s_)
-      repairs.push_back(
-          {0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", expected, begin)});
+      repairs.push_back({0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", expected, begin)});
     end_s_ = begin + header_.record_s;
     return begin;
   }
@@ -384,9 +359,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   const std::vector<std::size_t> chosen = choose(header, file.repairs);
   if (chosen.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
   if (!(header.record_s > 0.0))
-    throw ReadError(
-        path, 0,
-        fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
+    throw ReadError(path, 0, fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
   Scaled scaled = scaled_channels(header, chosen, file.repairs);
   file.has_unit = std::move(scaled.has_unit);
 
@@ -398,19 +371,17 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   counts.records = RecordClock{.per_record = per_record, .interval_s = dt};
   RecordTimes times(header, dt, path);
   for (std::int64_t r = 0; r < records; ++r) {
-    const auto record =
-        source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
-                    static_cast<std::size_t>(header.record_bytes));
+    const auto record = source.view(header.bytes + static_cast<std::uint64_t>(r) * header.record_bytes,
+                                    static_cast<std::size_t>(header.record_bytes));
     const auto onset = read_record_annotations(header, record, file.events);
     counts.records->begin_s.push_back(times.begin_s(r, onset, file.repairs));
     take_samples(header, chosen, record, r * per_record, counts);
   }
   if (const double zero_s = times.zero_s(); zero_s != 0.0) {
     for (Event& event : file.events) event.time_s -= zero_s;
-    file.repairs.push_back(
-        {0, fmt::format("the first record begins {:.6g} s after the header's start of the "
-                        "recording; here its first sample is at 0 s, and so count the events",
-                        zero_s)});
+    file.repairs.push_back({0, fmt::format("the first record begins {:.6g} s after the header's start of the "
+                                           "recording; here its first sample is at 0 s, and so count the events",
+                                           zero_s)});
   }
   try {
     file.data = AnalogChannels(std::move(scaled.channels), std::move(counts));

@@ -27,16 +27,13 @@ std::string make_edf(bool bdf,
                      int said_records,
                      const std::function<int(std::size_t, int)>& digital,
                      const std::vector<std::string>& notes = {}) {
-  const auto pad = [](std::string text, std::size_t n) {
-    return text.append(n - text.size(), ' ');
-  };
+  const auto pad = [](std::string text, std::size_t n) { return text.append(n - text.size(), ' '); };
   std::string out = bdf ? "\xFF"
                           "BIOSEMI"
                         : pad("0", 8);
   out += pad("X", 80) + pad("Startdate X", 80) + "01.01.2520.00.00";
   out += pad(std::to_string(256 * (signals.size() + 1)), 8) + pad(reserved, 44);
-  out +=
-      pad(std::to_string(said_records), 8) + pad("0.5", 8) + pad(std::to_string(signals.size()), 4);
+  out += pad(std::to_string(said_records), 8) + pad("0.5", 8) + pad(std::to_string(signals.size()), 4);
   for (const auto& s : signals) out += pad(s.label, 16);
   for (const auto& s : signals) out += pad("electrode of " + s.label, 80);
   for (const auto& s : signals) out += pad(s.unit, 8);
@@ -91,9 +88,8 @@ TEST(Edf, SamplesBecomeVoltsAtTheirTimes) {
 
 TEST(Edf, BdfHolds24Bits) {
   std::vector<TestSignal> one{{"A1", "uV", -262144, 262143, -8388608, 8388607, 2}};
-  const EdfFile file = parse(make_edf(true, "24BIT", one, 2, 2, [](std::size_t, int i) {
-    return i % 2 == 0 ? -8388608 : 8388607;
-  }));
+  const EdfFile file =
+      parse(make_edf(true, "24BIT", one, 2, 2, [](std::size_t, int i) { return i % 2 == 0 ? -8388608 : 8388607; }));
   EXPECT_NEAR(file.data.series().values()(0, 0), -0.262144, 1e-12);
   EXPECT_NEAR(file.data.series().values()(1, 0), 0.262143, 1e-12);
 }
@@ -124,8 +120,7 @@ TEST(Edf, EventsAreOnTheClockOfTheSamplesWhereTheFirstRecordBeginsLater) {
   using namespace std::string_literals;
   // "Lift" is marked at the begin of the second record: sample 4 of a record of 4, at 0.5 s.
   for (const char* kind : {"EDF+C", "EDF+D"}) {
-    const std::vector<std::string> notes{"+0.390625\x14\x14\0"s,
-                                         "+0.890625\x14\x14\0+0.890625\x14Lift\x14\0"s};
+    const std::vector<std::string> notes{"+0.390625\x14\x14\0"s, "+0.890625\x14\x14\0+0.890625\x14Lift\x14\0"s};
     const EdfFile file = parse(make_edf(false, kind, signals, 2, 2, ramp, notes));
     ASSERT_EQ(file.events.size(), 1U) << kind;
     EXPECT_EQ(file.events[0].time_s, file.data.time_s()[4]) << kind;
@@ -159,8 +154,7 @@ TEST(Edf, NoBytesWhateverMakeAnythingButAReadError) {
   int read = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     std::string text = good;
-    for (int i = 0; i < 3; ++i)
-      text[random() % text.size()] = "0123456789.-, \0\x14\xFF"[random() % 17];
+    for (int i = 0; i < 3; ++i) text[random() % text.size()] = "0123456789.-, \0\x14\xFF"[random() % 17];
     try {
       static_cast<void>(parse(text));
       ++read;

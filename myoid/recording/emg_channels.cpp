@@ -4,8 +4,7 @@
 
 namespace myoid::recording {
 
-std::vector<std::string> emg_channels(const std::vector<Channel>& channels,
-                                      const std::vector<PlateSetup>& plates) {
+std::vector<std::string> emg_channels(const std::vector<Channel>& channels, const std::vector<PlateSetup>& plates) {
   std::vector<bool> of_plate(channels.size(), false);
   for (const PlateSetup& plate : plates) {
     for (const Eigen::Index column : plate.channels) {

@@ -37,10 +37,9 @@ TEST(NamedAsNoEmg, ForcesMomentsAndOtherInstrumentsAreAndMusclesAreNot) {
                            "Sensor 4: EKG 4",
                            "ECG"})
     EXPECT_TRUE(named_as_no_emg(name)) << name;
-  for (const char* name :
-       {"SOL",        "TA",          "BIC",      "Flexor carpi", "MG",       "M1",        "F8",
-        "Max",        "FDS",         "PL",       "Voltage.1",    "Soleus_R", "Mylohyoid", "EMG 3",
-        "Temporalis", "Acc. flexor", "LeftFoot", "LeftTA",       "right",    ""})
+  for (const char* name : {"SOL",        "TA",          "BIC",      "Flexor carpi", "MG",       "M1",        "F8",
+                           "Max",        "FDS",         "PL",       "Voltage.1",    "Soleus_R", "Mylohyoid", "EMG 3",
+                           "Temporalis", "Acc. flexor", "LeftFoot", "LeftTA",       "right",    ""})
     EXPECT_FALSE(named_as_no_emg(name)) << name;
 }
 

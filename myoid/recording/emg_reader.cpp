@@ -33,8 +33,7 @@ std::optional<double> voltage_in(std::string_view text) {
   std::string word;
   for (std::size_t i = 0; i <= text.size(); ++i) {
     const char c = i < text.size() ? text[i] : ' ';
-    if (c == ' ' || c == ',' || c == '(' || c == ')' || c == '[' || c == ']' || c == '\t' ||
-        c == ';' || c == '=') {
+    if (c == ' ' || c == ',' || c == '(' || c == ')' || c == '[' || c == ']' || c == '\t' || c == ';' || c == '=') {
       for (const std::string& candidate : {word, word + "s"}) {
         const auto unit = parse_unit(candidate);
         if (unit && unit->unit == Unit::volt) return unit->to_si;
@@ -50,8 +49,7 @@ std::optional<double> voltage_in(std::string_view text) {
 /// Returns the word in brackets at the end of a channel's name, and the name before it: "BIC [mv]".
 std::optional<std::pair<std::string, std::string>> unit_in_name(const std::string& label) {
   const std::size_t open = label.rfind('[');
-  if (open == std::string::npos || !label.ends_with(']') || open + 2 >= label.size())
-    return std::nullopt;
+  if (open == std::string::npos || !label.ends_with(']') || open + 2 >= label.size()) return std::nullopt;
   return std::pair(std::string(trim(std::string_view(label).substr(0, open))),
                    label.substr(open + 1, label.size() - open - 2));
 }
@@ -64,19 +62,16 @@ std::string unknown_unit(const CsvSeries& series, const std::map<std::string, st
     auto found = unit_in_name(label);
     if (const auto row = units.find(label); row != units.end()) found = {label, row->second};
     if (found)
-      return fmt::format("unit '{}' of channel {} is not known; known are V, mV, uV", found->second,
-                         found->first);
+      return fmt::format("unit '{}' of channel {} is not known; known are V, mV, uV", found->second, found->first);
   }
   return {};
 }
 
-[[noreturn]] void throw_without_unit(const std::filesystem::path& path,
-                                     const std::string& unknown) {
-  throw ReadError(
-      path, 0,
-      fmt::format("{}; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or "
-                  "kind = \"envelope\" if this is no raw EMG",
-                  unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown));
+[[noreturn]] void throw_without_unit(const std::filesystem::path& path, const std::string& unknown) {
+  throw ReadError(path, 0,
+                  fmt::format("{}; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or "
+                              "kind = \"envelope\" if this is no raw EMG",
+                              unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown));
 }
 
 TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
@@ -86,11 +81,9 @@ TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
 }
 
 /// Notes the columns that are left out because their unit is another than volt.
-void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit,
-                       std::vector<Repair>& repairs) {
+void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit, std::vector<Repair>& repairs) {
   for (const auto& [unit, names] : by_unit)
-    repairs.push_back(
-        {0, fmt::format("no EMG since in {}, left out: {}", unit, fmt::join(names, ", "))});
+    repairs.push_back({0, fmt::format("no EMG since in {}, left out: {}", unit, fmt::join(names, ", "))});
 }
 
 /// Returns columns in volts unchanged and columns without a unit times `to_volt`; columns in
@@ -120,15 +113,12 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   }
   state_other_units(other_units, repairs);
   if (!other_instruments.empty())
-    repairs.push_back(
-        {0, fmt::format("left out, because their names are no EMG's: {}", other_instruments)});
+    repairs.push_back({0, fmt::format("left out, because their names are no EMG's: {}", other_instruments)});
   if (stated && to_volt)
-    repairs.push_back(
-        {0, "columns that name their unit keep it; the unit given is for the others"});
+    repairs.push_back({0, "columns that name their unit keep it; the unit given is for the others"});
   TimeSeries chosen = with_unit(series.data.select(kept), Unit::volt, 1.0);
   Eigen::MatrixXd values = chosen.values();
-  for (std::size_t c = 0; c < factors.size(); ++c)
-    values.col(static_cast<Eigen::Index>(c)) *= factors[c];
+  for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];
   return TimeSeries(chosen.time_s(), chosen.channels(), std::move(values));
 }
 
@@ -163,18 +153,16 @@ CsvSeries channels_of_table(const std::filesystem::path& path) {
 CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only) {
   std::vector<bool> has_unit;
   Recording file = read_c3d_channels(path, has_unit);
-  if (file.analog.empty())
-    throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
+  if (file.analog.empty()) throw ReadError(path, 0, "the C3D file holds no analog channels, so no EMG");
   CsvSeries series;
   std::vector<std::string> names;
   std::size_t others = 0;
   std::set<Eigen::Index> of_plates;
-  for (const PlateSetup& plate : file.plates)
-    of_plates.insert(plate.channels.begin(), plate.channels.end());
+  for (const PlateSetup& plate : file.plates) of_plates.insert(plate.channels.begin(), plate.channels.end());
   for (std::size_t c = 0; c < has_unit.size(); ++c) {
     const Channel& channel = file.analog.channels()[c];
-    if (voltages_only && ((has_unit[c] && channel.unit != Unit::volt) ||
-                          of_plates.contains(static_cast<Eigen::Index>(c)))) {
+    if (voltages_only &&
+        ((has_unit[c] && channel.unit != Unit::volt) || of_plates.contains(static_cast<Eigen::Index>(c)))) {
       ++others;
       continue;
     }
@@ -187,8 +175,7 @@ CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only)
                     "there is no EMG");
   if (others > 0)
     file.repairs.push_back(
-        {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out",
-                        others)});
+        {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out", others)});
   series.data = file.analog.select(names);
   series.repairs = std::move(file.repairs);
   return series;
@@ -207,8 +194,7 @@ std::optional<CsvSeries> read_channels(const std::filesystem::path& path, bool v
     case FileFormat::anc: {
       AncFile file = read_anc(path);
       const auto count = static_cast<std::size_t>(file.data.channel_count());
-      return CsvSeries{std::move(file.data), std::vector<bool>(count, true),
-                       std::move(file.repairs)};
+      return CsvSeries{std::move(file.data), std::vector<bool>(count, true), std::move(file.repairs)};
     }
     case FileFormat::edf: {
       EdfFile file = read_edf(path);
@@ -265,24 +251,18 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
     factors.push_back(take ? unit->to_si : 1.0);
     if (!channel.target_muscle.empty()) file.target_muscle[channel.name] = channel.target_muscle;
   }
-  if (kept.empty())
-    throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
+  if (kept.empty()) throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
   if (others > 0)
-    series.repairs.push_back(
-        {0, fmt::format("{} channels are no EMG by the _channels.tsv; left out", others)});
-  if (!bad.empty())
-    series.repairs.push_back({0, fmt::format("channels marked as bad are left out: {}", bad)});
+    series.repairs.push_back({0, fmt::format("{} channels are no EMG by the _channels.tsv; left out", others)});
+  if (!bad.empty()) series.repairs.push_back({0, fmt::format("channels marked as bad are left out: {}", bad)});
   Eigen::MatrixXd values = series.data.select(kept).values();
-  for (std::size_t c = 0; c < factors.size(); ++c)
-    values.col(static_cast<Eigen::Index>(c)) *= factors[c];
+  for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];
   series.data = TimeSeries(series.data.time_s(), std::move(renewed), std::move(values));
   series.has_unit = std::move(has_unit);
 }
 
 /// Keeps the channels asked for and whether their units are known.
-void restrict_to(const std::vector<std::string>& wanted,
-                 const std::filesystem::path& path,
-                 CsvSeries& series) {
+void restrict_to(const std::vector<std::string>& wanted, const std::filesystem::path& path, CsvSeries& series) {
   if (wanted.empty()) return;
   std::vector<const ClockedChannels*> groups{&series};
   for (const ClockedChannels& group : series.other_clocks) groups.push_back(&group);
@@ -320,17 +300,13 @@ void state_other_clocks(CsvSeries& series) {
 std::optional<double> stated_voltage(const Storage& storage) {
   std::optional<double> stated = voltage_in(storage.title);
   for (const auto& [key, value] : storage.header) {
-    if (!stated && (equal_ignoring_case(key, "unit") || equal_ignoring_case(key, "units")))
-      stated = voltage_in(value);
+    if (!stated && (equal_ignoring_case(key, "unit") || equal_ignoring_case(key, "units"))) stated = voltage_in(value);
   }
   return stated;
 }
 
 std::string voltage_name(double to_volt) {
-  return to_volt == 1.0    ? "V"
-         : to_volt == 1e-3 ? "mV"
-         : to_volt == 1e-6 ? "uV"
-                           : fmt::format("{} V", to_volt);
+  return to_volt == 1.0 ? "V" : to_volt == 1e-3 ? "mV" : to_volt == 1e-6 ? "uV" : fmt::format("{} V", to_volt);
 }
 
 EmgFile read_emg(const std::filesystem::path& path,
@@ -353,8 +329,7 @@ EmgFile read_emg(const std::filesystem::path& path,
     restrict_to(wanted, path, *table);
     if (wanted.empty()) state_other_clocks(*table);
     file.repairs = std::move(table->repairs);
-    series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0)
-                           : volts_of(*table, to_volt, file.repairs);
+    series = dimensionless ? with_unit(table->data, Unit::dimensionless, 1.0) : volts_of(*table, to_volt, file.repairs);
     unknown = unknown_unit(*table, {});
   } else {
     Storage storage = read_storage(path);
@@ -383,8 +358,7 @@ EmgFile read_emg(const std::filesystem::path& path,
     }
   }
   if (!series) throw_without_unit(path, unknown);
-  if (series->channel_count() == 0)
-    throw ReadError(path, 0, "there is no EMG channel beside the time");
+  if (series->channel_count() == 0) throw ReadError(path, 0, "there is no EMG channel beside the time");
   file.data = std::move(*series);
   return file;
 }

@@ -13,7 +13,7 @@
 namespace myoid::recording {
 
 struct EmgFile {
-  TimeSeries data;  ///< Volts, or dimensionless if `dimensionless` was asked for.
+  TimeSeries data;                                   ///< Volts, or dimensionless if `dimensionless` was asked for.
   std::map<std::string, std::string> target_muscle;  ///< By channel; from EMG-BIDS.
   std::vector<Repair> repairs;
   std::string unit_conflict;  ///< Empty, or a note that the given `unit` differs from the file's.

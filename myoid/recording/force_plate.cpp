@@ -20,8 +20,7 @@ std::size_t channels_of_type(int type) { return type == 3 ? 8 : 6; }
 /// One plate of the group FORCE_PLATFORM.
 class PlateParameters {
  public:
-  PlateParameters(const C3dFile& file, std::size_t plate, double to_m)
-      : file_(file), plate_(plate), to_m_(to_m) {}
+  PlateParameters(const C3dFile& file, std::size_t plate, double to_m) : file_(file), plate_(plate), to_m_(to_m) {}
 
   [[nodiscard]] std::optional<double> number(const char* name, std::size_t index) const {
     return number_at(file_.find("FORCE_PLATFORM", name), index);
@@ -61,8 +60,7 @@ class PlateParameters {
   /// Returns the channels of a plate as numbers from 1; 0 where the file names none.
   [[nodiscard]] std::vector<double> channels(std::size_t count) const {
     const C3dParameter* channel = file_.find("FORCE_PLATFORM", "CHANNEL");
-    const std::size_t stride =
-        channel != nullptr && !channel->dimensions.empty() ? channel->dimensions[0] : count;
+    const std::size_t stride = channel != nullptr && !channel->dimensions.empty() ? channel->dimensions[0] : count;
     std::vector<double> list;
     for (std::size_t c = 0; c < count; ++c)
       list.push_back(c < stride ? number_at(channel, stride * plate_ + c).value_or(0.0) : 0.0);
@@ -78,14 +76,11 @@ class PlateParameters {
 bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
   const Vec3 a = corners_m.col(0) - corners_m.col(1);
   const Vec3 b = corners_m.col(0) - corners_m.col(3);
-  return a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm()) && a.norm() > 0.01 &&
-         b.norm() > 0.01;
+  return a.cross(b).norm() > 1e-3 * (a.squaredNorm() + b.squaredNorm()) && a.norm() > 0.01 && b.norm() > 0.01;
 }
 
 /// Returns the origin of a plate; type 3 has the distances a, b in its first two numbers.
-Vec3 plate_origin_m(const PlateParameters& parameters,
-                    const PlateSetup& d,
-                    std::vector<Repair>& repairs) {
+Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std::vector<Repair>& repairs) {
   const auto stated = parameters.origin_m();
   if (!stated) {
     repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
@@ -104,10 +99,7 @@ Vec3 plate_origin_m(const PlateParameters& parameters,
 }
 
 /// Reads the plate's parameters; empty, with a note, if one is missing or impossible.
-std::optional<PlateSetup> describe(const C3dFile& file,
-                                   std::size_t plate,
-                                   double to_m,
-                                   std::vector<Repair>& repairs) {
+std::optional<PlateSetup> describe(const C3dFile& file, std::size_t plate, double to_m, std::vector<Repair>& repairs) {
   const auto refuse = [&](const std::string& why) {
     repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
     return std::nullopt;
@@ -126,8 +118,8 @@ std::optional<PlateSetup> describe(const C3dFile& file,
   d.origin_m = plate_origin_m(parameters, d, repairs);
   for (const double channel : parameters.channels(channels_of_type(d.type))) {
     if (!(channel >= 1.0 && channel <= static_cast<double>(file.channels.size())))
-      return refuse(fmt::format("FORCE_PLATFORM:CHANNEL names channel {}; there are {}", channel,
-                                file.channels.size()));
+      return refuse(
+          fmt::format("FORCE_PLATFORM:CHANNEL names channel {}; there are {}", channel, file.channels.size()));
     d.channels.push_back(static_cast<Eigen::Index>(channel) - 1);
   }
   if (d.type == 4) {
@@ -202,9 +194,8 @@ Wrench surface_wrench(const PlateSetup& d, const Eigen::MatrixXd& v) {
 std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& repairs) {
   std::vector<PlateSetup> plates;
   const C3dParameter* types = file.find("FORCE_PLATFORM", "TYPE");
-  const double used =
-      number_at(file.find("FORCE_PLATFORM", "USED"), 0)
-          .value_or(types == nullptr ? 0.0 : static_cast<double>(types->numbers.size()));
+  const double used = number_at(file.find("FORCE_PLATFORM", "USED"), 0)
+                          .value_or(types == nullptr ? 0.0 : static_cast<double>(types->numbers.size()));
   if (!(used >= 1.0) || file.channels.empty()) return plates;
   const auto length = parse_file_unit(file.point_unit);
   const double to_m = length && length->unit == Unit::meter ? length->to_si : 1e-3;
@@ -276,31 +267,24 @@ ForcePlate force_plate(const PlateSetup& setup,
   return plate;
 }
 
-ForcePlate force_plate(const PlateSetup& setup,
-                       const C3dFile& file,
-                       Eigen::Index first,
-                       Eigen::Index count,
-                       double least_force_n) {
+ForcePlate force_plate(
+    const PlateSetup& setup, const C3dFile& file, Eigen::Index first, Eigen::Index count, double least_force_n) {
   Eigen::VectorXd time_s(count);
-  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame +
-                       static_cast<double>(first);
-  for (Eigen::Index i = 0; i < count; ++i)
-    time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
+  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame + static_cast<double>(first);
+  for (Eigen::Index i = 0; i < count; ++i) time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
   Eigen::MatrixXd values(count, static_cast<Eigen::Index>(setup.channels.size()));
   for (std::size_t c = 0; c < setup.channels.size(); ++c) {
     const C3dChannel& channel = file.channels[static_cast<std::size_t>(setup.channels[c])];
     for (Eigen::Index i = 0; i < count; ++i)
       values(i, static_cast<Eigen::Index>(c)) =
-          channel.scale *
-          (static_cast<double>(file.analog(first + i, setup.channels[c])) - channel.offset);
+          channel.scale * (static_cast<double>(file.analog(first + i, setup.channels[c])) - channel.offset);
   }
   return force_plate(setup, std::move(time_s), std::move(values), least_force_n);
 }
 
 Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
   Eigen::MatrixXd& v = channel_values;
-  for (std::size_t c = 0; c < setup.factors.size(); ++c)
-    v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
+  for (std::size_t c = 0; c < setup.factors.size(); ++c) v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
   if (setup.type == 4) v = (v * setup.calibration.topRows<3>().transpose()).eval();
   if (setup.type == 3) {
     v.col(0) += v.col(1);
@@ -310,9 +294,7 @@ Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel
   return v.leftCols<3>() * setup.R_GP.transpose();
 }
 
-std::vector<ForcePlate> force_plates(const C3dFile& file,
-                                     std::vector<Repair>& repairs,
-                                     double least_force_n) {
+std::vector<ForcePlate> force_plates(const C3dFile& file, std::vector<Repair>& repairs, double least_force_n) {
   std::vector<ForcePlate> plates;
   for (PlateSetup& setup : plate_setups(file, repairs)) {
     turn_origin(setup, repairs);
@@ -321,9 +303,7 @@ std::vector<ForcePlate> force_plates(const C3dFile& file,
   return plates;
 }
 
-std::optional<PlateAction> action_on_person(const ForcePlate& plate,
-                                            Eigen::Index sample,
-                                            double least_force_n) {
+std::optional<PlateAction> action_on_person(const ForcePlate& plate, Eigen::Index sample, double least_force_n) {
   const Vec3 force = plate.force_n.row(sample).transpose();
   const Vec3 moment = plate.moment_nm.row(sample).transpose();
   const Vec3 point = plate.pressure_center_m.row(sample).transpose();

@@ -10,14 +10,13 @@
 
 namespace myoid::recording {
 
-/// The side of a plate on which the person is. The defaults are the C3D guide's: z of the plate
-/// points away from the person, and the channels hold the force on the person. `stand_plates` sets
-/// the true values.
+/// The side of a plate on which the person is. The defaults are the C3D guide's: z of the plate points away from the
+/// person, and the channels hold the force on the person. `stand_plates` sets the true values.
 struct PlateSide {
   Vec3 out_L = Vec3::UnitZ();  ///< Normal of the surface towards the person.
   bool is_floor = true;        ///< Within 60 degrees of horizontal; else wall or handle.
-  double turn = 1.0;  ///< 1: the channels hold the force on the person; -1: the force on the plate;
-                      ///< 0: they never change, and the plate is not used.
+  double turn = 1.0;           ///< 1: the channels hold the force on the person; -1: the force on the plate;
+                               ///< 0: they never change, and the plate is not used.
 };
 
 /// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force
@@ -70,17 +69,14 @@ inline constexpr double kLeastForce_n = 10.0;  ///< A smaller force has no cente
 /// Other types and plates with impossible corners or channels are left out with a note; a and b
 /// below 0 are taken as positive with a note. Forces in volts or without a unit are taken as N, and
 /// moments as N times POINT:UNITS, with a note. Source: the C3D user guide, force plate types.
-[[nodiscard]] std::vector<PlateSetup> plate_setups(const C3dFile& file,
-                                                   std::vector<Repair>& repairs);
+[[nodiscard]] std::vector<PlateSetup> plate_setups(const C3dFile& file, std::vector<Repair>& repairs);
 
-/// Inverts an ORIGIN that does not point from the transducer to the person's side of the surface,
-/// with a note.
+/// Inverts an ORIGIN that does not point from the transducer to the person's side of the surface, with a note.
 void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);
 
 /// Returns the force [N] in the laboratory for each row of channels in the unit as written, with
 /// the sign of the channels.
-[[nodiscard]] Eigen::MatrixX3d channel_forces(const PlateSetup& setup,
-                                              Eigen::MatrixXd channel_values);
+[[nodiscard]] Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values);
 
 /// Returns the plate over time from its channels (samples x channels) in the unit as written.
 /// `least_force_n` is the threshold of the center of pressure.
@@ -95,23 +91,20 @@ void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);
                                      Eigen::Index count,
                                      double least_force_n = kLeastForce_n);
 
-/// Returns all plates of a file over its whole time, each facing the person as the C3D guide
-/// defines.
+/// Returns all plates of a file over its whole time, each facing the person as the C3D guide defines.
 [[nodiscard]] std::vector<ForcePlate> force_plates(const C3dFile& file,
                                                    std::vector<Repair>& repairs,
                                                    double least_force_n = kLeastForce_n);
 
-/// A plate's action on the person in one sample: force, a point on its line, and the moment about
-/// the point.
+/// A plate's action on the person in one sample: force, a point on its line, and the moment about the point.
 struct PlateAction {
   Vec3 force_n, point_m, moment_nm;
 };
 
-/// Returns the action of a plate that bears the person; empty if the plate bears nothing or a
-/// channel is no number. A floor bears where the force along the normal reaches the threshold; its
-/// force acts at the center of pressure. A wall or a handle bears where the whole force reaches the
-/// threshold; if its center of pressure is outside the corners, its force acts at the middle of the
-/// surface.
+/// Returns the action of a plate that bears the person; empty if the plate bears nothing or a channel is no number. A
+/// floor bears where the force along the normal reaches the threshold; its force acts at the center of pressure. A wall
+/// or a handle bears where the whole force reaches the threshold; if its center of pressure is outside the corners, its
+/// force acts at the middle of the surface.
 [[nodiscard]] std::optional<PlateAction> action_on_person(const ForcePlate& plate,
                                                           Eigen::Index sample,
                                                           double least_force_n);

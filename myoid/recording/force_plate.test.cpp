@@ -24,14 +24,8 @@ const Vec3 kPoint(0.12, -0.07, 0.0);
 constexpr double kTwist = 4.0;
 const Vec3 kOrigin(0.002, -0.003, -0.045);  // from the transducer to the surface
 
-C3dParameter numbers(std::string name,
-                     C3dType type,
-                     std::vector<double> values,
-                     std::vector<std::uint8_t> dimensions) {
-  return {.name = std::move(name),
-          .type = type,
-          .dimensions = std::move(dimensions),
-          .numbers = std::move(values)};
+C3dParameter numbers(std::string name, C3dType type, std::vector<double> values, std::vector<std::uint8_t> dimensions) {
+  return {.name = std::move(name), .type = type, .dimensions = std::move(dimensions), .numbers = std::move(values)};
 }
 
 /// One sample of the plate whose channels hold `values`, lengths in mm.
@@ -61,12 +55,10 @@ C3dFile plate_file(int type,
       numbers("USED", C3dType::integer, {1}, {}),
       numbers("TYPE", C3dType::integer, {static_cast<double>(type)}, {1}),
       numbers("CORNERS", C3dType::real, corners, {3, 4, 1}),
-      numbers("ORIGIN", C3dType::real, {1e3 * origin_m.x(), 1e3 * origin_m.y(), 1e3 * origin_m.z()},
-              {3, 1}),
+      numbers("ORIGIN", C3dType::real, {1e3 * origin_m.x(), 1e3 * origin_m.y(), 1e3 * origin_m.z()}, {3, 1}),
       numbers("CHANNEL", C3dType::integer, channel, {wide, 1}),
   };
-  if (!calibration.empty())
-    group.parameters.push_back(numbers("CAL_MATRIX", C3dType::real, calibration, {6, 6, 1}));
+  if (!calibration.empty()) group.parameters.push_back(numbers("CAL_MATRIX", C3dType::real, calibration, {6, 6, 1}));
   file.groups = {group};
   return file;
 }
@@ -122,16 +114,15 @@ TEST(ForcePlate, Type3GivesTheLoadOfEightSensors) {
   const double dx = 7.0;
   const double dy = (m.z() + 2.0 * b * dx) / (2.0 * a);
   VectorXd v(8);
-  v << kForce.x() / 2 + dx, kForce.x() / 2 - dx, kForce.y() / 2 + dy, kForce.y() / 2 - dy,
-      f + mx - my, f + mx + my, f - mx + my, f - mx - my;
+  v << kForce.x() / 2 + dx, kForce.x() / 2 - dx, kForce.y() / 2 + dy, kForce.y() / 2 - dy, f + mx - my, f + mx + my,
+      f - mx + my, f - mx - my;
   expect_the_load(plate_file(3, v, Vec3(a, b, -0.045), std::vector<std::string>(8, "N")));
 }
 
 TEST(ForcePlate, Type4GivesTheLoadThroughItsCalibrationMatrix) {
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Identity() * 50.0;
   for (Eigen::Index i = 0; i < 6; ++i)
-    for (Eigen::Index j = 0; j < 6; ++j)
-      C(i, j) += 0.07 * static_cast<double>(i) - 0.03 * static_cast<double>(j * j);
+    for (Eigen::Index j = 0; j < 6; ++j) C(i, j) += 0.07 * static_cast<double>(i) - 0.03 * static_cast<double>(j * j);
   VectorXd w = wrench_at_transducer();
   w.tail<3>() *= 1000.0;
   const VectorXd volts = C.inverse() * w;
@@ -143,8 +134,7 @@ TEST(ForcePlate, WithoutLoadThereIsNoCenterOfPressure) {
   VectorXd v = VectorXd::Zero(6);
   v[2] = -9.0;
   std::vector<Repair> repairs;
-  const auto plates =
-      force_plates(plate_file(2, v, kOrigin, {"N", "N", "N", "Nm", "Nm", "Nm"}), repairs);
+  const auto plates = force_plates(plate_file(2, v, kOrigin, {"N", "N", "N", "Nm", "Nm", "Nm"}), repairs);
   ASSERT_EQ(plates.size(), 1U);
   EXPECT_TRUE(std::isnan(plates[0].pressure_center_m(0, 0)));
   EXPECT_EQ(plates[0].free_moment_nm(0, 2), 0.0);
@@ -191,11 +181,8 @@ TEST(ForcePlate, AgreesWithTheForcesOfAnotherProgramInARealFile) {
     if (theirs.z() < 5.0) continue;
     Vec3 ours = Vec3::Zero();  // the mean over the frame, of the plate nearest in direction
     for (const ForcePlate& plate : plates) {
-      const Vec3 mean = plate.force_n.middleRows(k * file.analog_per_frame, file.analog_per_frame)
-                            .colwise()
-                            .mean();
-      if ((mean.normalized() - theirs.normalized()).norm() <
-              (ours.normalized() - theirs.normalized()).norm() &&
+      const Vec3 mean = plate.force_n.middleRows(k * file.analog_per_frame, file.analog_per_frame).colwise().mean();
+      if ((mean.normalized() - theirs.normalized()).norm() < (ours.normalized() - theirs.normalized()).norm() &&
           mean.norm() > 100.0)
         ours = mean;
     }
@@ -206,8 +193,7 @@ TEST(ForcePlate, AgreesWithTheForcesOfAnotherProgramInARealFile) {
   ASSERT_GT(pairs.size(), 30U);
   const double mass = sum / square;
   EXPECT_NEAR(mass, 60.0, 2.0);
-  // Their data are low-pass filtered, ours are not: they differ at impacts, by 2 % of the weight
-  // rms.
+  // Their data are low-pass filtered, ours are not: they differ at impacts, by 2 % of the weight rms.
   double residual = 0.0;
   for (const auto& [ours, theirs] : pairs) residual += (ours - mass * theirs).squaredNorm();
   EXPECT_LT(std::sqrt(residual / static_cast<double>(pairs.size())), 12.0);

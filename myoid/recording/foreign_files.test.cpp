@@ -35,15 +35,12 @@ C3dFile c3d_of(Eigen::Index frames, int points, int channels) {
   for (int m = 0; m < points; ++m) file.points.col(4 * m + 3).setZero();
   if (channels > 0) {
     file.analog = C3dFile::Rows::Constant(frames, channels, 3.0F);
-    for (int c = 0; c < channels; ++c)
-      file.channels.push_back({"E" + std::to_string(c + 1), "V", 0.0, 0.5});
+    for (int c = 0; c < channels; ++c) file.channels.push_back({"E" + std::to_string(c + 1), "V", 0.0, 0.5});
   }
   return file;
 }
 
-std::vector<std::byte> changed(std::vector<std::byte> bytes,
-                               std::size_t word,
-                               std::uint16_t value) {
+std::vector<std::byte> changed(std::vector<std::byte> bytes, std::size_t word, std::uint16_t value) {
   bytes[2 * (word - 1)] = static_cast<std::byte>(value & 0xFFU);
   bytes[2 * (word - 1) + 1] = static_cast<std::byte>(value >> 8U);
   return bytes;
@@ -55,11 +52,9 @@ std::vector<std::byte> with_parameter(std::vector<std::byte> bytes,
                                       const std::string& other_name) {
   for (std::size_t at = 512; at + name.size() + 2 < bytes.size(); ++at) {
     bool here = static_cast<std::size_t>(bytes[at]) == name.size();
-    for (std::size_t i = 0; here && i < name.size(); ++i)
-      here = static_cast<char>(bytes[at + 2 + i]) == name[i];
+    for (std::size_t i = 0; here && i < name.size(); ++i) here = static_cast<char>(bytes[at + 2 + i]) == name[i];
     if (!here) continue;
-    for (std::size_t i = 0; i < name.size(); ++i)
-      bytes[at + 2 + i] = static_cast<std::byte>(other_name[i]);
+    for (std::size_t i = 0; i < name.size(); ++i) bytes[at + 2 + i] = static_cast<std::byte>(other_name[i]);
     return bytes;
   }
   ADD_FAILURE() << name << " is not there";
@@ -77,8 +72,7 @@ TEST(ForeignC3d, OnlyAnalogChannelsWithoutARateOfPoints) {
   auto bytes = format_c3d(file);
   const C3dFile found = parse_c3d(bytes, "f.c3d");
   EXPECT_EQ(found.analog.rows(), 50);
-  // POINT:RATE (the first parameter of that name) and the header's rate are missing: ANALOG:RATE
-  // decides.
+  // POINT:RATE (the first parameter of that name) and the header's rate are missing: ANALOG:RATE decides.
   bytes = with_parameter(changed(changed(bytes, 11, 0), 12, 0), "RATE", "NONE");
   const C3dFile rated = parse_c3d(bytes, "f.c3d");
   EXPECT_DOUBLE_EQ(rated.analog_rate_hz(), 100.0);
@@ -97,8 +91,7 @@ TEST(ForeignC3d, MoreThan65535FramesWhateverTheHeaderSays) {
 
 TEST(ForeignC3d, WithoutTheScaleParameterTheHeaderDecides) {
   for (const bool integer : {false, true}) {
-    const auto bytes = with_parameter(format_c3d(c3d_of(10, 2, 1), {C3dProcessor::intel, integer}),
-                                      "SCALE", "SCXLE");
+    const auto bytes = with_parameter(format_c3d(c3d_of(10, 2, 1), {C3dProcessor::intel, integer}), "SCALE", "SCXLE");
     const C3dFile file = parse_c3d(bytes, "f.c3d");
     EXPECT_EQ(file.integer, integer);
     EXPECT_FLOAT_EQ(file.points(3, 4), 8.0F);
@@ -106,8 +99,7 @@ TEST(ForeignC3d, WithoutTheScaleParameterTheHeaderDecides) {
 }
 
 TEST(ForeignC3d, WithoutAScaleInTheHeaderTheParameterDecides) {
-  const auto bytes =
-      changed(changed(format_c3d(c3d_of(10, 2, 1), {C3dProcessor::intel, true}), 7, 0), 8, 0);
+  const auto bytes = changed(changed(format_c3d(c3d_of(10, 2, 1), {C3dProcessor::intel, true}), 7, 0), 8, 0);
   const C3dFile file = parse_c3d(bytes, "f.c3d");
   EXPECT_FLOAT_EQ(file.points(3, 4), 8.0F);
   EXPECT_THAT(test::repair_lines(file.repairs), HasSubstr("POINT:SCALE"));
@@ -149,10 +141,9 @@ TEST(ForeignTrc, BlankCellsAtTheEndOfARowAreGaps) {
 }
 
 TEST(ForeignTrc, WithAByteOrderMarkAndWindowsLineEnds) {
-  std::string text =
-      "\xEF\xBB\xBF" + std::string(kTrcHead) +
-      "Frame#\tTime\tA\t\t\tB\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n"
-      "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.01\t1\t2\t3\t4\t5\t6\n3\t0.02\t1\t2\t3\t4\t5\t6\n";
+  std::string text = "\xEF\xBB\xBF" + std::string(kTrcHead) +
+                     "Frame#\tTime\tA\t\t\tB\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n"
+                     "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.01\t1\t2\t3\t4\t5\t6\n3\t0.02\t1\t2\t3\t4\t5\t6\n";
   std::string windows;
   for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
   const TrcFile file = parse_trc(windows, "f.trc");
@@ -168,8 +159,7 @@ TEST(ForeignTrc, WithoutTheColumnOfFramesItIsRefusedWithTheLine) {
     static_cast<void>(parse_trc(text, "f.trc"));
     ADD_FAILURE() << "read";
   } catch (const ReadError& error) {
-    EXPECT_THAT(std::string(error.what()),
-                HasSubstr("f.trc:4: expected the second column to be 'Time'"));
+    EXPECT_THAT(std::string(error.what()), HasSubstr("f.trc:4: expected the second column to be 'Time'"));
   }
 }
 

@@ -69,8 +69,7 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
     for (int a = 0; a < 3; ++a)
       channels.push_back({fmt::format("ground_force_{}_p{}", plate.number, axes[a]), Unit::meter});
     for (int a = 0; a < 3; ++a)
-      channels.push_back(
-          {fmt::format("ground_torque_{}_{}", plate.number, axes[a]), Unit::newton_meter});
+      channels.push_back({fmt::format("ground_torque_{}_{}", plate.number, axes[a]), Unit::newton_meter});
     auto block = values.middleCols(static_cast<Eigen::Index>(9 * k), 9);
     Eigen::Index unloaded = 0;
     Eigen::Index broken = 0;
@@ -89,16 +88,15 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
     }
     bridge(block.middleCols(3, 3), R * plate.p_GP_m);
     if (broken > 0)
-      repairs.push_back({0, fmt::format("force plate {}: {} samples are no numbers; taken as 0",
-                                        plate.number, broken)});
-    if (unloaded == samples) {
-      repairs.push_back({0, fmt::format("force plate {} is never loaded with {} N", plate.number,
-                                        options.least_force_n)});
-    } else if (unloaded > 0) {
       repairs.push_back(
-          {0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
-                          "0",
-                          plate.number, unloaded, samples, options.least_force_n)});
+          {0, fmt::format("force plate {}: {} samples are no numbers; taken as 0", plate.number, broken)});
+    if (unloaded == samples) {
+      repairs.push_back(
+          {0, fmt::format("force plate {} is never loaded with {} N", plate.number, options.least_force_n)});
+    } else if (unloaded > 0) {
+      repairs.push_back({0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
+                                        "0",
+                                        plate.number, unloaded, samples, options.least_force_n)});
     }
   }
   return {plates[0].time_s, std::move(channels), std::move(values)};
@@ -108,8 +106,7 @@ std::string format_external_loads(const std::string& name,
                                   const std::vector<int>& plate_numbers,
                                   const std::vector<std::string>& bodies,
                                   const std::string& data_file) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40000\">\n";
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"40000\">\n";
   text += fmt::format("\t<ExternalLoads name=\"{}\">\n\t\t<objects>\n", escaped(name));
   for (std::size_t k = 0; k < plate_numbers.size() && k < bodies.size(); ++k) {
     if (bodies[k].empty()) continue;
@@ -123,8 +120,7 @@ std::string format_external_loads(const std::string& name,
     text += fmt::format("\t\t\t\t<torque_identifier>ground_torque_{}_</torque_identifier>\n", n);
     text += "\t\t\t</ExternalForce>\n";
   }
-  text += fmt::format("\t\t</objects>\n\t\t<groups />\n\t\t<datafile>{}</datafile>\n",
-                      escaped(data_file));
+  text += fmt::format("\t\t</objects>\n\t\t<groups />\n\t\t<datafile>{}</datafile>\n", escaped(data_file));
   text += "\t</ExternalLoads>\n</OpenSimDocument>\n";
   return text;
 }

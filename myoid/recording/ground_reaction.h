@@ -11,12 +11,11 @@
 namespace myoid::recording {
 
 struct GroundReactionOptions {
-  Mat3 R_YG = Mat3::Identity();  ///< Turns the laboratory to the model's ground, whose y points up.
+  Mat3 R_YG = Mat3::Identity();          ///< Turns the laboratory to the model's ground, whose y points up.
   double least_force_n = kLeastForce_n;  ///< Force and torque are 0 below it.
 };
 
-/// Returns force plates in the form of OpenSim's external loads, on the analog clock. Plate k has
-/// the columns
+/// Returns force plates in the form of OpenSim's external loads, on the analog clock. Plate k has the columns
 ///
 ///   ground_force_k_vx vy vz [N]   ground_force_k_px py pz [m]   ground_torque_k_x y z [N m]
 ///

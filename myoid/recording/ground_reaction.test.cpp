@@ -63,12 +63,10 @@ TEST(GroundReaction, AHandleThatIsPulledAlongItsSurfaceActsAtItsMiddle) {
 }
 
 TEST(GroundReaction, TheLoadsFileNamesTheColumns) {
-  const std::string text =
-      format_external_loads("walk", {1, 2}, {"calcn_r", "toes & heel"}, "walk_grf.mot");
+  const std::string text = format_external_loads("walk", {1, 2}, {"calcn_r", "toes & heel"}, "walk_grf.mot");
   for (const char* part :
        {"<applied_to_body>calcn_r<", "toes &amp; heel", "<force_identifier>ground_force_2_v<",
-        "<point_identifier>ground_force_1_p<", "<torque_identifier>ground_torque_1_<",
-        "<datafile>walk_grf.mot<"})
+        "<point_identifier>ground_force_1_p<", "<torque_identifier>ground_torque_1_<", "<datafile>walk_grf.mot<"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 

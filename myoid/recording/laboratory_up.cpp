@@ -15,9 +15,9 @@
 namespace myoid::recording {
 namespace {
 
-constexpr double kFloor = 0.5;  ///< Cosine of 60 degrees: a steeper plate is a wall.
-constexpr double kFaces = 0.8;  ///< Cosine of 37 degrees: a ramp still shows which axis is up.
-constexpr double kAlong = 0.5;  ///< Cosine of 60 degrees: a person's mean force is less oblique.
+constexpr double kFloor = 0.5;        ///< Cosine of 60 degrees: a steeper plate is a wall.
+constexpr double kFaces = 0.8;        ///< Cosine of 37 degrees: a ramp still shows which axis is up.
+constexpr double kAlong = 0.5;        ///< Cosine of 60 degrees: a person's mean force is less oblique.
 constexpr double kOutweighs = 3.0;    ///< Least ratio of the floor's load to a wall's.
 constexpr double kClearly = 0.95;     ///< Share of the markers on one side.
 constexpr Eigen::Index kSeveral = 8;  ///< Fewer markers are no person.
@@ -66,8 +66,7 @@ std::vector<Vec3> axes_of(const C3dParameter* parameter) {
 /// The evidence of one recording and the conclusion from it.
 class Evidence {
  public:
-  Evidence(const Recording& recording, const std::vector<PlateLoad>& loads)
-      : recording_(recording), loads_(loads) {}
+  Evidence(const Recording& recording, const std::vector<PlateLoad>& loads) : recording_(recording), loads_(loads) {}
 
   [[nodiscard]] LaboratoryUp up() const {
     const std::optional<Vec3>& screen = recording_.screen_up_L;
@@ -78,8 +77,8 @@ class Evidence {
     std::string because = (screen ? screen_text() + "; " : "") + plates_text(axis);
     const double side = side_of_markers(axis);
     if (side < 0.0 && screen)
-      contradict(screen_text(), fmt::format("the markers are on the other side of plate {}",
-                                            number(floor_plate(axis))));
+      contradict(screen_text(),
+                 fmt::format("the markers are on the other side of plate {}", number(floor_plate(axis))));
     if (side < 0.0) axis = -axis;
     if (side != 0.0) because += "; the markers are on that side of the plates";
     return {axis, because};
@@ -112,14 +111,13 @@ class Evidence {
   /// Throws unless some plate is a floor for the axis that the screen names. An axis that comes
   /// from the plates always has one.
   void require_floor(const Vec3& axis) const {
-    const bool any = std::any_of(loads_.begin(), loads_.end(),
-                                 [&](const PlateLoad& load) { return is_floor(load, axis); });
+    const bool any =
+        std::any_of(loads_.begin(), loads_.end(), [&](const PlateLoad& load) { return is_floor(load, axis); });
     if (any || !recording_.screen_up_L) return;
-    contradict(screen_text(),
-               fmt::format("by FORCE_PLATFORM:CORNERS the surface of {} faces {}",
-                           loads_.size() == 1 ? fmt::format("plate {}", number(0))
-                                              : fmt::format("all {} plates", loads_.size()),
-                           facing(0)));
+    contradict(screen_text(), fmt::format("by FORCE_PLATFORM:CORNERS the surface of {} faces {}",
+                                          loads_.size() == 1 ? fmt::format("plate {}", number(0))
+                                                             : fmt::format("all {} plates", loads_.size()),
+                                          facing(0)));
   }
 
   /// Returns the load [N] of the plates that face each axis.
@@ -134,8 +132,7 @@ class Evidence {
 
   [[nodiscard]] Vec3 axis_of_plates() const {
     const std::array<double, 3> sum = loads_by_axis();
-    const auto best =
-        static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+    const auto best = static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
     if (sum[best] > 0.0) {
       for (std::size_t a = 0; a < 3; ++a) {
         if (a != best && kOutweighs * sum[a] > sum[best])
@@ -163,16 +160,14 @@ class Evidence {
         contradict(fmt::format("plate {} faces {}", number(0), first),
                    fmt::format("plate {} faces {}, and neither is loaded", number(k), facing(k)));
       if (loads_[k].normal_L.cwiseAbs().maxCoeff() < kFaces)
-        contradict(fmt::format("plate {} stands obliquely", number(k)),
-                   "nothing else in the file tells");
+        contradict(fmt::format("plate {} stands obliquely", number(k)), "nothing else in the file tells");
     }
     return *axis_vector(first);
   }
 
   [[nodiscard]] std::string plate_facing(std::size_t axis) const {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      if (loads_[k].loaded() &&
-          std::abs(loads_[k].normal_L[static_cast<Eigen::Index>(axis)]) >= kFaces)
+      if (loads_[k].loaded() && std::abs(loads_[k].normal_L[static_cast<Eigen::Index>(axis)]) >= kFaces)
         return fmt::format("plate {}", number(k));
     }
     return "a plate";
@@ -194,12 +189,11 @@ class Evidence {
     if (numbers.empty() || normal >= kAlong * sum.norm()) return;
     Eigen::Index along = 0;
     sum.cwiseAbs().maxCoeff(&along);
-    contradict(fmt::format("by FORCE_PLATFORM:CORNERS the surface of plate {} faces {}",
-                           numbers.front(), axis_name(axis)),
-               fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the "
-                           "corners or FORCE_PLATFORM:CHANNEL in another order?)",
-                           std::string(1, "xyz"[along]),
-                           std::acos(std::min(1.0, normal / sum.norm())) / kDegree));
+    contradict(
+        fmt::format("by FORCE_PLATFORM:CORNERS the surface of plate {} faces {}", numbers.front(), axis_name(axis)),
+        fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the "
+                    "corners or FORCE_PLATFORM:CHANNEL in another order?)",
+                    std::string(1, "xyz"[along]), std::acos(std::min(1.0, normal / sum.norm())) / kDegree));
   }
 
   [[nodiscard]] std::string plates_text(const Vec3& axis) const {
@@ -211,11 +205,10 @@ class Evidence {
       most_n = std::max(most_n, std::abs(loads_[k].along_n));
     }
     if (numbers.empty()) return "the plates push along it";
-    return fmt::format("plate{} {} {} it{}", numbers.size() == 1 ? "" : "s",
-                       fmt::join(numbers, ", "), numbers.size() == 1 ? "faces" : "face",
-                       most_n > 0.0 ? fmt::format(" and bear{} {:.0f} N along it",
-                                                  numbers.size() == 1 ? "s" : "", most_n)
-                                    : "");
+    return fmt::format(
+        "plate{} {} {} it{}", numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "),
+        numbers.size() == 1 ? "faces" : "face",
+        most_n > 0.0 ? fmt::format(" and bear{} {:.0f} N along it", numbers.size() == 1 ? "s" : "", most_n) : "");
   }
 
   [[nodiscard]] double side_of_markers(const Vec3& axis) const {
@@ -305,9 +298,7 @@ double markers_side(const MarkerSeries& markers, const Vec3& from_m, const Vec3&
   return 0.0;
 }
 
-bool is_floor(const PlateLoad& load, const Vec3& up_L) {
-  return std::abs(load.normal_L.dot(up_L)) >= kFloor;
-}
+bool is_floor(const PlateLoad& load, const Vec3& up_L) { return std::abs(load.normal_L.dot(up_L)) >= kFloor; }
 
 LaboratoryUp laboratory_up(const Recording& recording, const std::vector<PlateLoad>& loads) {
   return Evidence(recording, loads).up();

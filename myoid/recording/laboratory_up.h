@@ -40,31 +40,25 @@ struct PlateLoad {
   Vec3 normal_L = Vec3::UnitZ();  ///< z of the plate.
   Vec3 push_n = Vec3::Zero();     ///< Weighted mean force, with the sign of the channels.
   double along_n = 0.0;           ///< Part of `push_n` along the normal.
-  double rms_n = 0.0;      ///< RMS of the normal force over all samples; 0 below the threshold.
-  double largest_n = 0.0;  ///< Largest size of the whole force.
+  double rms_n = 0.0;             ///< RMS of the normal force over all samples; 0 below the threshold.
+  double largest_n = 0.0;         ///< Largest size of the whole force.
   /// The normal force [N] if the force is the same in every sample: the plate is unplugged or was
   /// never zeroed. The other sizes are then 0.
   std::optional<double> constant_n;
   [[nodiscard]] bool loaded() const { return rms_n > 0.0; }
 };
-[[nodiscard]] PlateLoad plate_load(const Recording& recording,
-                                   const PlateSetup& setup,
-                                   double least_force_n);
+[[nodiscard]] PlateLoad plate_load(const Recording& recording, const PlateSetup& setup, double least_force_n);
 
 /// Returns +1 or -1 if at least eight markers are clearly on one side of a point along a direction:
 /// 95 % of their positions, with a median distance of 0.3 m; else 0.
-[[nodiscard]] double markers_side(const MarkerSeries& markers,
-                                  const Vec3& from_m,
-                                  const Vec3& along);
+[[nodiscard]] double markers_side(const MarkerSeries& markers, const Vec3& from_m, const Vec3& along);
 
 /// Returns true for a plate within 60 degrees of horizontal, on which a person stands.
 [[nodiscard]] bool is_floor(const PlateLoad& load, const Vec3& up_L);
 
-/// Finds the upward axis from the file alone. The evidence is POINT:Y_SCREEN, the normals of the
-/// plates weighted with their normal load, the direction of that load, and the side of the floor's
-/// plates on which the markers are. Throws InvalidInput where two of these contradict each other,
-/// naming both.
-[[nodiscard]] LaboratoryUp laboratory_up(const Recording& recording,
-                                         const std::vector<PlateLoad>& loads);
+/// Finds the upward axis from the file alone. The evidence is POINT:Y_SCREEN, the normals of the plates weighted with
+/// their normal load, the direction of that load, and the side of the floor's plates on which the markers are. Throws
+/// InvalidInput where two of these contradict each other, naming both.
+[[nodiscard]] LaboratoryUp laboratory_up(const Recording& recording, const std::vector<PlateLoad>& loads);
 
 }  // namespace myoid::recording

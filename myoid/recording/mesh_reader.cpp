@@ -50,9 +50,7 @@ class Words {
     return p;
   }
 
-  [[noreturn]] void fail(const std::string& message) const {
-    throw ReadError(path_, line_, message);
-  }
+  [[noreturn]] void fail(const std::string& message) const { throw ReadError(path_, line_, message); }
 
  private:
   std::string_view text_;
@@ -67,8 +65,7 @@ std::size_t line_of(std::string_view text, std::size_t at) {
 }
 
 void add_fan(const std::vector<int>& polygon, TriangleMesh& mesh) {
-  for (std::size_t k = 2; k < polygon.size(); ++k)
-    mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  for (std::size_t k = 2; k < polygon.size(); ++k) mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
 }
 
 /// An XML element: its place, the text of its tag, its content.
@@ -86,18 +83,15 @@ struct Element {
   }
 };
 
-/// Returns the next element of this name at or after `from`; these files never nest an element in
-/// one of the same name.
+/// Returns the next element of this name at or after `from`; these files never nest an element in one of the same name.
 Element find_element(std::string_view text, std::string_view name, std::size_t from) {
   Element element;
   const std::string open = fmt::format("<{}", name);
-  for (std::size_t at = text.find(open, from); at != std::string_view::npos;
-       at = text.find(open, at + 1)) {
+  for (std::size_t at = text.find(open, from); at != std::string_view::npos; at = text.find(open, at + 1)) {
     const std::size_t end = text.find('>', at);
     if (end == std::string_view::npos) return element;
     const char follows = text[at + open.size()];
-    if (follows != '>' && follows != '/' && kBlank.find(follows) == std::string_view::npos)
-      continue;
+    if (follows != '>' && follows != '/' && kBlank.find(follows) == std::string_view::npos) continue;
     element.at = at;
     element.tag = text.substr(at, end - at);
     if (text[end - 1] == '/') return element;
@@ -118,18 +112,16 @@ std::vector<double> data_array(std::string_view whole,
   for (Element array = find_element(part, "DataArray", 0); array.exists();
        array = find_element(part, "DataArray", array.at + 1)) {
     if (!name.empty() && array.attribute("Name") != name) continue;
-    const std::size_t line =
-        line_of(whole, static_cast<std::size_t>(array.tag.data() - whole.data()));
+    const std::size_t line = line_of(whole, static_cast<std::size_t>(array.tag.data() - whole.data()));
     if (array.attribute("format") != "ascii") {
-      throw ReadError(path, line,
-                      fmt::format("the data are '{}', expected 'ascii': save the mesh as ASCII",
-                                  array.attribute("format")));
+      throw ReadError(
+          path, line,
+          fmt::format("the data are '{}', expected 'ascii': save the mesh as ASCII", array.attribute("format")));
     }
     Words words(array.content, path, line);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const auto value = parse_number(word);
-      if (!value || !std::isfinite(*value))
-        words.fail(fmt::format("expected a number, found '{}'", word));
+      if (!value || !std::isfinite(*value)) words.fail(fmt::format("expected a number, found '{}'", word));
       numbers.push_back(*value);
     }
     break;
@@ -150,12 +142,9 @@ TriangleMesh parse_vtp(std::string_view text, const std::filesystem::path& path)
     const auto corners = data_array(text, cells.content, "connectivity", path);
     std::size_t begin = 0;
     for (const double offset : data_array(text, cells.content, "offsets", path)) {
-      const bool there =
-          offset >= static_cast<double>(begin) && offset <= static_cast<double>(corners.size());
+      const bool there = offset >= static_cast<double>(begin) && offset <= static_cast<double>(corners.size());
       const std::size_t end = there ? static_cast<std::size_t>(offset) : 0;
-      if (!there)
-        throw ReadError(path, 0,
-                        fmt::format("<{}>: offset {} is beyond its corners", kind, offset));
+      if (!there) throw ReadError(path, 0, fmt::format("<{}>: offset {} is beyond its corners", kind, offset));
       std::vector<int> polygon;
       for (std::size_t k = begin; k < end; ++k) {
         if (!(std::abs(corners[k]) < 2e9))
@@ -168,8 +157,7 @@ TriangleMesh parse_vtp(std::string_view text, const std::filesystem::path& path)
       } else {
         for (std::size_t k = 2; k < polygon.size(); ++k) {
           const bool odd = k % 2 == 1;
-          mesh.triangles.push_back(
-              {polygon[k - (odd ? 1 : 2)], polygon[k - (odd ? 2 : 1)], polygon[k]});
+          mesh.triangles.push_back({polygon[k - (odd ? 1 : 2)], polygon[k - (odd ? 2 : 1)], polygon[k]});
         }
       }
     }
@@ -182,8 +170,7 @@ class Corners {
  public:
   explicit Corners(TriangleMesh& mesh) : mesh_(mesh) {}
   int index_of(const Vec3& p) {
-    const auto [it, is_new] =
-        known_.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(mesh_.vertices.size()));
+    const auto [it, is_new] = known_.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(mesh_.vertices.size()));
     if (is_new) mesh_.vertices.push_back(p);
     return it->second;
   }
@@ -198,14 +185,12 @@ constexpr std::size_t kStlTriangle = 50;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    word |= std::uint32_t{static_cast<unsigned char>(bytes[at + k])} << (8 * k);
+  for (std::size_t k = 0; k < 4; ++k) word |= std::uint32_t{static_cast<unsigned char>(bytes[at + k])} << (8 * k);
   return word;
 }
 
 bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kStlHeader &&
-         bytes.size() == kStlHeader + kStlTriangle * std::size_t{word_at(bytes, 80)};
+  return bytes.size() >= kStlHeader && bytes.size() == kStlHeader + kStlTriangle * std::size_t{word_at(bytes, 80)};
 }
 
 TriangleMesh parse_binary_stl(std::string_view bytes) {
@@ -234,8 +219,7 @@ TriangleMesh parse_text_stl(std::string_view text, const std::filesystem::path& 
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (word == "vertex") polygon.push_back(corners.index_of(words.point()));
     if (word != "endloop") continue;
-    if (polygon.size() != 3)
-      words.fail(fmt::format("expected a facet of 3 vertices, found {}", polygon.size()));
+    if (polygon.size() != 3) words.fail(fmt::format("expected a facet of 3 vertices, found {}", polygon.size()));
     add_fan(polygon, mesh);
     polygon.clear();
   }
@@ -260,9 +244,8 @@ TriangleMesh parse_obj(std::string_view text, const std::filesystem::path& path)
       const auto index = parse_number(word.substr(0, word.find('/')));
       if (!index || !(std::abs(*index) < 2e9))
         words.fail(fmt::format("expected the number of a vertex, found '{}'", word));
-      polygon.push_back(*index > 0.0
-                            ? static_cast<int>(*index) - 1
-                            : static_cast<int>(mesh.vertices.size()) + static_cast<int>(*index));
+      polygon.push_back(*index > 0.0 ? static_cast<int>(*index) - 1
+                                     : static_cast<int>(mesh.vertices.size()) + static_cast<int>(*index));
     }
     add_fan(polygon, mesh);
   }
@@ -282,15 +265,13 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::filesystem::path& pat
     mesh = parse_obj(bytes, path);
   } else {
     throw ReadError(path, 0,
-                    fmt::format("expected a mesh in .vtp, .stl or .obj, found '{}'",
-                                path.extension().string()));
+                    fmt::format("expected a mesh in .vtp, .stl or .obj, found '{}'", path.extension().string()));
   }
   const auto count = static_cast<int>(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles) {
     for (const int corner : triangle) {
       if (corner < 0 || corner >= count)
-        throw ReadError(path, 0,
-                        fmt::format("a triangle has the vertex {} of {}", corner + 1, count));
+        throw ReadError(path, 0, fmt::format("a triangle has the vertex {} of {}", corner + 1, count));
     }
   }
   for (const Vec3& p : mesh.vertices)
@@ -304,8 +285,7 @@ TriangleMesh simplified(const TriangleMesh& mesh, double cell) {
   std::vector<int> counts;
   std::vector<int> moved_to;
   for (const Vec3& p : mesh.vertices) {
-    const std::array<long, 3> key{std::lround(std::floor(p.x() / cell)),
-                                  std::lround(std::floor(p.y() / cell)),
+    const std::array<long, 3> key{std::lround(std::floor(p.x() / cell)), std::lround(std::floor(p.y() / cell)),
                                   std::lround(std::floor(p.z() / cell))};
     const auto [it, is_new] = cells.try_emplace(key, static_cast<int>(result.vertices.size()));
     if (is_new) {
@@ -320,16 +300,13 @@ TriangleMesh simplified(const TriangleMesh& mesh, double cell) {
   for (std::size_t i = 0; i < counts.size(); ++i) result.vertices[i] /= counts[i];
   for (const auto& triangle : mesh.triangles) {
     std::array<int, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = moved_to[static_cast<std::size_t>(triangle[k])];
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = moved_to[static_cast<std::size_t>(triangle[k])];
     if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
       result.triangles.push_back(corners);
   }
   return result;
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
-  return parse_mesh(read_bytes(path), path);
-}
+TriangleMesh read_mesh(const std::filesystem::path& path) { return parse_mesh(read_bytes(path), path); }
 
 }  // namespace myoid::recording

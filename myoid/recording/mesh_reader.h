@@ -12,15 +12,13 @@ namespace myoid::recording {
 /// A surface of triangles, in the file's unit.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
-  std::vector<std::array<int, 3>>
-      triangles;  ///< Indices of vertices, counterclockwise seen from outside.
+  std::vector<std::array<int, 3>> triangles;  ///< Indices of vertices, counterclockwise seen from outside.
 };
 
-/// Reads the mesh files that OpenSim models name: .vtp (VTK's XML PolyData, ASCII), .stl (ASCII and
-/// binary) and .obj. Polygons become fans of triangles, strips are split, vertices that several
-/// triangles of an .stl repeat become one. Throws ReadError, with the line if known, for other
-/// extensions, encodings of .vtp other than ASCII, indices that do not exist and numbers that
-/// cannot be read.
+/// Reads the mesh files that OpenSim models name: .vtp (VTK's XML PolyData, ASCII), .stl (ASCII and binary) and .obj.
+/// Polygons become fans of triangles, strips are split, vertices that several triangles of an .stl repeat become one.
+/// Throws ReadError, with the line if known, for other extensions, encodings of .vtp other than ASCII, indices that do
+/// not exist and numbers that cannot be read.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
 [[nodiscard]] TriangleMesh parse_mesh(std::string_view bytes, const std::filesystem::path& path);
 

@@ -11,8 +11,7 @@
 namespace myoid::recording {
 namespace {
 
-/// Six times the signed volume inside: positive if the triangles turn outward, and that of the
-/// solid.
+/// Six times the signed volume inside: positive if the triangles turn outward, and that of the solid.
 double volume_of(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const auto& t : mesh.triangles) {
@@ -136,16 +135,15 @@ TEST(MeshReader, SimplifiesWithinTheCellsDiagonalAndKeepsTheSolid) {
     for (int k = 0; k < columns; ++k) {
       const double a = M_PI * i / rows;
       const double b = 2.0 * M_PI * k / columns;
-      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + ' ' +
-              std::to_string(std::sin(a) * std::sin(b)) + ' ' + std::to_string(std::cos(a)) + '\n';
+      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + ' ' + std::to_string(std::sin(a) * std::sin(b)) + ' ' +
+              std::to_string(std::cos(a)) + '\n';
     }
   }
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k < columns; ++k) {
       const int next = (k + 1) % columns;
       text += "f";
-      for (const int v :
-           {i * columns + k, (i + 1) * columns + k, (i + 1) * columns + next, i * columns + next})
+      for (const int v : {i * columns + k, (i + 1) * columns + k, (i + 1) * columns + next, i * columns + next})
         text += ' ' + std::to_string(v + 1);
       text += '\n';
     }

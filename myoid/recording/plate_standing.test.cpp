@@ -55,9 +55,8 @@ void expect_the_load(const TimeSeries& grf, const Mat3& R_YZ) {
 }
 
 std::string words(const PlateCase& c, char up) {
-  return "type " + std::to_string(c.type) + ", up " + up + ", first corner " +
-         std::to_string(c.first_corner) + (c.reversed ? ", reversed" : "") +
-         (c.on_plate ? ", on the plate" : "") + ", screen '" + c.screen + "'";
+  return "type " + std::to_string(c.type) + ", up " + up + ", first corner " + std::to_string(c.first_corner) +
+         (c.reversed ? ", reversed" : "") + (c.on_plate ? ", on the plate" : "") + ", screen '" + c.screen + "'";
 }
 
 TEST(StandPlates, GiveTheForceOnThePersonInEveryLaboratoryTypeAndOrderOfCorners) {
@@ -98,8 +97,7 @@ TEST(StandPlates, AnUpThatPointsAgainstAnAxisComesFromTheScreenOrTheMarkers) {
     ASSERT_EQ(axis_name(*found.up_L), "-z") << screen;
     std::vector<Repair> notes;
     const Mat3 R_YL = rotation_to_y_up(*found.up_L);
-    expect_the_load(ground_reaction(recording.force_plates(), {.R_YG = R_YL}, notes),
-                    R_YL * c.R_LZ);
+    expect_the_load(ground_reaction(recording.force_plates(), {.R_YG = R_YL}, notes), R_YL * c.R_LZ);
   }
 }
 
@@ -112,8 +110,7 @@ TEST(StandPlates, RefusesAFileThatContradictsItselfAndNamesBoth) {
   other_screen.screen = "+Y";
   EXPECT_THAT(refusal(other_screen),
               AllOf(HasSubstr("POINT:Y_SCREEN says that y points up"),
-                    HasSubstr("by FORCE_PLATFORM:CORNERS the surface of plate 1 faces z"),
-                    HasSubstr("--up")));
+                    HasSubstr("by FORCE_PLATFORM:CORNERS the surface of plate 1 faces z"), HasSubstr("--up")));
   PlateCase below;
   below.screen = "-Z";
   below.marker_Z_m = {0.4, 1.2, 1.0};
@@ -124,9 +121,8 @@ TEST(StandPlates, RefusesAFileThatContradictsItselfAndNamesBoth) {
     PlateCase exchanged;
     exchanged.screen = screen;
     exchanged.channel_order = {3, 2, 1};
-    EXPECT_THAT(refusal(exchanged),
-                AllOf(HasSubstr("the surface of plate 1 faces z"),
-                      HasSubstr("its mean force runs along"), HasSubstr("degrees from the normal")))
+    EXPECT_THAT(refusal(exchanged), AllOf(HasSubstr("the surface of plate 1 faces z"),
+                                          HasSubstr("its mean force runs along"), HasSubstr("degrees from the normal")))
         << screen;
   }
 }
@@ -155,9 +151,7 @@ TEST(StandPlates, AFloorInclinedBy25DegreesIsStillAFloor) {
   const ForcePlate plate = recording.force_plate(recording.plates[0]);
   EXPECT_TRUE(plate.side.is_floor);
   for (Eigen::Index i = 0; i < 1010; i += 101)
-    EXPECT_LT((plate.force_n.row(i).transpose() -
-               c.R_LZ * PlateLoad::force_n(0.001 * static_cast<double>(i)))
-                  .norm(),
+    EXPECT_LT((plate.force_n.row(i).transpose() - c.R_LZ * PlateLoad::force_n(0.001 * static_cast<double>(i))).norm(),
               1e-4);
 }
 
@@ -195,12 +189,11 @@ Recording floor_and(const Mat3& R_LP, const Vec3& middle_m, const Vec3& force_n,
   }
   std::vector<double> origin = file.groups[0].parameters[3].numbers;
   origin.insert(origin.end(), {0, 0, 0});
-  file.groups[0].parameters = {test::c3d_numbers("USED", C3dType::integer, {}, {2}),
-                               test::c3d_numbers("TYPE", C3dType::integer, {2}, {2, 2}),
-                               test::c3d_numbers("CORNERS", C3dType::real, {3, 4, 2}, corners),
-                               test::c3d_numbers("ORIGIN", C3dType::real, {3, 2}, origin),
-                               test::c3d_numbers("CHANNEL", C3dType::integer, {6, 2},
-                                                 {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})};
+  file.groups[0].parameters = {
+      test::c3d_numbers("USED", C3dType::integer, {}, {2}), test::c3d_numbers("TYPE", C3dType::integer, {2}, {2, 2}),
+      test::c3d_numbers("CORNERS", C3dType::real, {3, 4, 2}, corners),
+      test::c3d_numbers("ORIGIN", C3dType::real, {3, 2}, origin),
+      test::c3d_numbers("CHANNEL", C3dType::integer, {6, 2}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})};
   return from_disk(file);
 }
 
@@ -228,8 +221,7 @@ TEST(StandPlates, AWallHasTheSignOfTheFloorWhetherItPushesOrPulls) {
       // Without a moment about the middle, the force acts there, whatever its direction.
       EXPECT_LT((grf.values().block<1, 3>(500, 12).transpose() - Vec3(1.0, 1.2, 1.0)).norm(), 1e-6);
       EXPECT_EQ(grf.values().block(100, 9, 1, 3).norm(), 0.0);
-      EXPECT_THAT(notes_of(recording),
-                  HasSubstr("force plate 2 is a wall or a handle, 90 degrees"));
+      EXPECT_THAT(notes_of(recording), HasSubstr("force plate 2 is a wall or a handle, 90 degrees"));
     }
   }
 }
@@ -271,17 +263,15 @@ TEST(RotationToYUp, BringsEitherDirectionOfEachAxisToY) {
 TEST(StandPlates, OfPublicRecordingsPushThePersonUpWithTheWeightOfAPerson) {
   const auto folder = test::data_folder() / "c3d";
   MYOID_REQUIRE_DATA(folder);
-  for (const char* name :
-       {"sample01/Eb015pi.c3d", "sample01/Eb015vr.c3d", "sample09/PlugInC3D.c3d",
-        "others/FunctionalWalk.c3d", "others/Gait.c3d", "others/parameterOverflow.c3d"}) {
+  for (const char* name : {"sample01/Eb015pi.c3d", "sample01/Eb015vr.c3d", "sample09/PlugInC3D.c3d",
+                           "others/FunctionalWalk.c3d", "others/Gait.c3d", "others/parameterOverflow.c3d"}) {
     Recording recording = read_recording(folder / name);
     const LaboratoryUp up = stand_plates(recording, std::nullopt);
     ASSERT_TRUE(up.up_L) << name;
     EXPECT_EQ(axis_name(*up.up_L), "z") << name;
     for (const ForcePlate& plate : recording.force_plates()) {
       if (plate.force_n.isZero(0.0)) {  // 1448 N in every sample
-        EXPECT_EQ(std::string(name) + std::to_string(plate.number),
-                  "others/parameterOverflow.c3d3");
+        EXPECT_EQ(std::string(name) + std::to_string(plate.number), "others/parameterOverflow.c3d3");
         continue;
       }
       const Eigen::VectorXd vertical = plate.force_n.col(2);

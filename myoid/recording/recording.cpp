@@ -42,8 +42,7 @@ Recording read_text_table(const std::filesystem::path& path) {
   if (!markers || nexus_section(TableText(text), "Devices", path)) {
     CsvSeries file = parse_emg_table(text, path);
     recording.analog = std::move(file.data);
-    for (ClockedChannels& group : file.other_clocks)
-      recording.other_clocks.emplace_back(std::move(group.data));
+    for (ClockedChannels& group : file.other_clocks) recording.other_clocks.emplace_back(std::move(group.data));
     recording.events = std::move(file.events);
     recording.repairs.insert(recording.repairs.end(), file.repairs.begin(), file.repairs.end());
   }
@@ -119,8 +118,7 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   throw ReadError(
       path, 0,
       fmt::format("markers are read from {}, not from '{}'; export the recording as one of these",
-                  endings_text([](const FormatEntry& entry) { return entry.markers; }),
-                  extension_of(path)));
+                  endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path)));
 }
 
 std::vector<const AnalogChannels*> Recording::clocks() const {
@@ -178,10 +176,8 @@ Recording read_recording(const std::filesystem::path& path) {
     }
   }
   throw ReadError(path, 0,
-                  fmt::format("recordings of kind '{}' are not known; known are {}",
-                              extension_of(path), endings_text([](const FormatEntry& entry) {
-                                return is_recording(entry.format);
-                              })));
+                  fmt::format("recordings of kind '{}' are not known; known are {}", extension_of(path),
+                              endings_text([](const FormatEntry& entry) { return is_recording(entry.format); })));
 }
 
 }  // namespace myoid::recording

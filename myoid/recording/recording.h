@@ -23,8 +23,7 @@ namespace myoid::recording {
 /// frame. Parts that the file lacks are empty.
 struct Recording {
   MarkerSeries markers;
-  AnalogChannels
-      analog;  ///< EMG and all other channels; a channel of unknown unit is dimensionless.
+  AnalogChannels analog;  ///< EMG and all other channels; a channel of unknown unit is dimensionless.
   std::vector<AnalogChannels> other_clocks;  ///< Channels with clocks of their own.
   std::vector<PlateSetup> plates;
   std::optional<Vec3> screen_up_L;  ///< The upward axis by POINT:Y_SCREEN of a .c3d file.
@@ -34,8 +33,7 @@ struct Recording {
   /// Returns `analog` and each of `other_clocks`.
   [[nodiscard]] std::vector<const AnalogChannels*> clocks() const;
 
-  /// Returns a plate over time. It takes 13 doubles a sample: process the plates of a large file
-  /// one by one.
+  /// Returns a plate over time. It takes 13 doubles a sample: process the plates of a large file one by one.
   [[nodiscard]] ForcePlate force_plate(const PlateSetup& plate) const;
   [[nodiscard]] std::vector<ForcePlate> force_plates() const;
 };

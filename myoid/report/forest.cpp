@@ -20,8 +20,7 @@ constexpr double k95 = 1.96;
 double percent(double z) { return 50.0 + 50.0 * std::clamp(z, -kEnd, kEnd) / kEnd; }
 
 std::string number(const ForestRow& row, double value) {
-  return row.lower && row.upper ? format_rounded(value, *row.upper - *row.lower)
-                                : format_value(value);
+  return row.lower && row.upper ? format_rounded(value, *row.upper - *row.lower) : format_value(value);
 }
 
 std::string interval(const ForestRow& row) {
@@ -35,15 +34,12 @@ std::string prior(const ForestRow& row) {
 }
 
 std::string bar(const ForestRow& row) {
-  const std::string sentence =
-      fmt::format("{} {}: {} {}, 95 % interval {}, literature {}, {}", row.owner, row.name,
-                  number(row, row.estimate), row.unit, interval(row), prior(row), row.verdict);
-  std::string svg =
-      fmt::format("<svg class=\"bar\" width=\"100%\" height=\"22\" role=\"img\"><title>{}</title>",
-                  escape_xml(typographic(sentence)));
+  const std::string sentence = fmt::format("{} {}: {} {}, 95 % interval {}, literature {}, {}", row.owner, row.name,
+                                           number(row, row.estimate), row.unit, interval(row), prior(row), row.verdict);
+  std::string svg = fmt::format("<svg class=\"bar\" width=\"100%\" height=\"22\" role=\"img\"><title>{}</title>",
+                                escape_xml(typographic(sentence)));
   if (!row.prior_mean || !row.prior_sd || !(*row.prior_sd > 0.0))
-    return svg +
-           "<text x=\"50%\" y=\"15\" text-anchor=\"middle\" class=\"none\">no prior</text></svg>";
+    return svg + "<text x=\"50%\" y=\"15\" text-anchor=\"middle\" class=\"none\">no prior</text></svg>";
   const auto z = [&](double x) { return (x - *row.prior_mean) / *row.prior_sd; };
   svg += fmt::format(
       "<rect x=\"{:.2f}%\" width=\"{:.2f}%\" y=\"3\" height=\"16\" class=\"prior\"/>"
@@ -61,8 +57,8 @@ std::string bar(const ForestRow& row) {
   if (row.truth)
     svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"1\" y2=\"21\" class=\"truth\"/>",
                        percent(z(*row.truth)));
-  return svg + fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}</svg></svg>",
-                           percent(z(row.estimate)), verdict_shape(row.badge));
+  return svg + fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}</svg></svg>", percent(z(row.estimate)),
+                           verdict_shape(row.badge));
 }
 
 std::string scale() {
@@ -85,8 +81,8 @@ std::string row_html(const ForestRow& row, bool first) {
       "<td><span class=\"badge {}\">{}</span></td></tr>\n",
       first ? " class=\"first\"" : "", escape_xml(row.verdict), escape_xml(typographic(row.why)),
       typeset(spelled(row.owner)), typeset(row.name), bar(row), number(row, row.estimate),
-      row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), prior(row),
-      name(row.badge), typeset(row.verdict));
+      row.unit.empty() ? "" : " " + escape_xml(row.unit), interval(row), prior(row), name(row.badge),
+      typeset(row.verdict));
 }
 
 /// Returns the advice on a number of this verdict.
@@ -111,11 +107,10 @@ std::string legend(const std::vector<ForestRow>& rows) {
   std::vector<std::string> seen;
   for (const Badge badge : {Badge::good, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
     for (const ForestRow& row : rows) {
-      if (row.badge != badge || std::find(seen.begin(), seen.end(), row.verdict) != seen.end())
-        continue;
+      if (row.badge != badge || std::find(seen.begin(), seen.end(), row.verdict) != seen.end()) continue;
       seen.push_back(row.verdict);
-      text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge),
-                          typeset(row.verdict), typeset(meaning(badge)));
+      text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge), typeset(row.verdict),
+                          typeset(meaning(badge)));
     }
   }
   text +=
@@ -130,11 +125,10 @@ std::string legend(const std::vector<ForestRow>& rows) {
 
 std::string forest_html(const std::vector<ForestRow>& rows) {
   if (rows.empty()) return "";
-  std::string text =
-      "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
-      "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
-      "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
-      "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
+  std::string text = "<figure id=\"forest\" class=\"forest\">\n" + legend(rows) +
+                     "<table><thead><tr><th>muscle</th><th>number</th><th class=\"bar\">" + scale() +
+                     "</th><th>estimate</th><th class=\"wide-only\">95 % interval</th>"
+                     "<th class=\"wide-only\">literature</th><th>verdict</th></tr></thead>\n<tbody>\n";
   const auto add = [&](bool beside) {
     const std::string* owner = nullptr;
     for (const ForestRow& row : rows) {
@@ -168,30 +162,26 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
 std::string light_html(const std::vector<Gate>& gates) {
   if (gates.empty()) return "";
   const auto count = [&](GateStatus status) {
-    return std::count_if(gates.begin(), gates.end(),
-                         [&](const Gate& gate) { return gate.status == status; });
+    return std::count_if(gates.begin(), gates.end(), [&](const Gate& gate) { return gate.status == status; });
   };
   const auto failed = count(GateStatus::fail);
   const auto warned = count(GateStatus::warn);
   const auto asked = failed + warned + count(GateStatus::pass);
-  const GateStatus worst = failed > 0   ? GateStatus::fail
-                           : warned > 0 ? GateStatus::warn
-                                        : GateStatus::pass;
+  const GateStatus worst = failed > 0 ? GateStatus::fail : warned > 0 ? GateStatus::warn : GateStatus::pass;
   std::string questions;
   for (const Gate& gate : gates)
     if (gate.status == worst && worst != GateStatus::pass)
-      questions += fmt::format("<li>{}{}</li>", typeset(gate.name),
-                               gate.value.empty() ? "" : ": " + typeset(gate.value));
+      questions +=
+          fmt::format("<li>{}{}</li>", typeset(gate.name), gate.value.empty() ? "" : ": " + typeset(gate.value));
   const char* head = failed > 0   ? "Do not use the numbers"
                      : warned > 0 ? "Use the numbers with caution"
                                   : "The recording passed every question";
   // Octagon, triangle and circle: the light is readable without its color.
-  const char* shape =
-      failed > 0   ? "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" "
-                     "d=\"M13 13L27 27M27 13L13 27\"/>"
-      : warned > 0 ? "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>"
-                   : "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" "
-                     "d=\"M11 20L18 27L29 13\"/>";
+  const char* shape = failed > 0   ? "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" "
+                                     "d=\"M13 13L27 27M27 13L13 27\"/>"
+                      : warned > 0 ? "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>"
+                                   : "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" "
+                                     "d=\"M11 20L18 27L29 13\"/>";
   return fmt::format(
       "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
       "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} of {} questions about the recording and "

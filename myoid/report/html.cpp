@@ -133,15 +133,14 @@ std::string gates_html(std::vector<Gate> gates) {
         "<tr><td><span class=\"badge "
         "{}\">{}</span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "</tr>\n",
-        name(gate.status), word(gate.status), typeset(gate.name), typeset(gate.value),
-        typeset(gate.threshold), typeset(gate.why));
+        name(gate.status), word(gate.status), typeset(gate.name), typeset(gate.value), typeset(gate.threshold),
+        typeset(gate.why));
   }
   return text + "</tbody></table></div>\n";
 }
 
 std::string table_html(const Table& table) {
-  std::string text =
-      fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
+  std::string text = fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
   if (!table.caption.empty()) {
     text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
   }
@@ -154,21 +153,17 @@ std::string table_html(const Table& table) {
   for (const std::vector<Cell>& row : table.rows) {
     text += "<tr>";
     for (const Cell& cell : row) {
-      const std::string hint =
-          cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
+      const std::string hint = cell.hint.empty() ? "" : fmt::format(" title=\"{}\"", escape_xml(cell.hint));
       if (!cell.hint.empty()) {
         // The first two cells name a row: muscle and parameter.
-        const std::string row_name =
-            row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
+        const std::string row_name = row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
         const std::string line = fmt::format("{}: {}", row_name, cell.hint);
         if (std::find(hints.begin(), hints.end(), line) == hints.end()) hints.push_back(line);
       }
-      const std::string inner = cell.badge == Badge::none
-                                    ? typeset(cell.text)
-                                    : fmt::format("<span class=\"badge {}\">{}</span>",
-                                                  name(cell.badge), typeset(cell.text));
-      text += fmt::format("<td{}{}>{}</td>",
-                          cell.text.size() <= kShortCell ? " class=\"short\"" : "", hint, inner);
+      const std::string inner = cell.badge == Badge::none ? typeset(cell.text)
+                                                          : fmt::format("<span class=\"badge {}\">{}</span>",
+                                                                        name(cell.badge), typeset(cell.text));
+      text += fmt::format("<td{}{}>{}</td>", cell.text.size() <= kShortCell ? " class=\"short\"" : "", hint, inner);
     }
     text += "</tr>\n";
   }
@@ -196,8 +191,7 @@ std::string reading_html(const Figure& figure) {
 Figure on_page(Figure figure) {
   const auto most = static_cast<std::size_t>(figure.most_on_page);
   if (most > 0 && figure.panels.size() > most) {
-    figure.caption +=
-        fmt::format(" The first {} of {} panels; the files hold all.", most, figure.panels.size());
+    figure.caption += fmt::format(" The first {} of {} panels; the files hold all.", most, figure.panels.size());
     figure.panels.resize(most);
   }
   return figure;
@@ -210,13 +204,13 @@ std::string figure_html(const Figure& whole) {
       "<figure id=\"{0}\"{1}>\n{2}<figcaption><b>{3}.</b> {4}</figcaption>\n{5}"
       "<p class=\"save\"><a href=\"figures/{0}.csv\">CSV</a> <a href=\"figures/{0}.svg\">SVG</a>"
       "</p>\n</figure>\n",
-      id, figure.in_workbench ? " class=\"in-workbench\"" : "", svg_plot(figure),
-      typeset(figure.title), typeset(figure.caption), reading_html(figure));
+      id, figure.in_workbench ? " class=\"in-workbench\"" : "", svg_plot(figure), typeset(figure.title),
+      typeset(figure.caption), reading_html(figure));
 }
 
 std::string section_html(const Section& section) {
-  std::string text = fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escape_xml(section.id),
-                                 typeset(section.heading));
+  std::string text =
+      fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escape_xml(section.id), typeset(section.heading));
   for (const std::string& paragraph : section.paragraphs) {
     text += fmt::format("<p>{}</p>\n", typeset(paragraph));
   }
@@ -229,12 +223,10 @@ std::string section_html(const Section& section) {
 
 /// Returns the scripts of the workbench: its values, its scenes and the program that shows them.
 std::string scripts_html(const Report& report, const Workbench& workbench) {
-  std::string text =
-      fmt::format("<script type=\"application/json\" id=\"workbench-data\">{}</script>\n",
-                  workbench_json(workbench, report));
+  std::string text = fmt::format("<script type=\"application/json\" id=\"workbench-data\">{}</script>\n",
+                                 workbench_json(workbench, report));
   if (!workbench.scenes.scenes.empty())
-    text += fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n",
-                        scenes_json(workbench.scenes));
+    text += fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n", scenes_json(workbench.scenes));
   return text + fmt::format("<script>{}</script>\n", viewer_bundle().script);
 }
 
@@ -245,9 +237,8 @@ std::string head_html(const Report& report, bool live) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{}</title>\n{}<style>{}{}</style>\n</head>\n",
       escape_xml(report.title),
-      live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license)
-           : "",
-      kStyle, live ? bundle.report : "");
+      live ? fmt::format("<!-- The script below contains three.js:\n\n{}-->\n", bundle.license) : "", kStyle,
+      live ? bundle.report : "");
 }
 
 }  // namespace
@@ -267,8 +258,7 @@ std::string html(const Report& report, const Workbench* workbench) {
   }
   text += light_html(report.gates);
   for (const Link& link : report.links) {
-    text +=
-        fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
+    text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
   }
   text += "</header>\n<nav class=\"contents\">";
   if (!report.forest.empty()) text += "<a href=\"#numbers\">All numbers</a>";
@@ -279,12 +269,11 @@ std::string html(const Report& report, const Workbench* workbench) {
   }
   text += "</nav>\n<main>\n";
   if (!report.forest.empty())
-    text += "<section>\n<h2 id=\"numbers\">All numbers</h2>\n" + forest_html(report.forest) +
-            "</section>\n";
+    text += "<section>\n<h2 id=\"numbers\">All numbers</h2>\n" + forest_html(report.forest) + "</section>\n";
   if (live) text += "<section id=\"workbench\" class=\"workbench\" hidden></section>\n";
   if (!report.gates.empty()) {
-    text += "<section>\n<h2 id=\"quality\">Quality of the data and of the fit</h2>\n" +
-            gates_html(report.gates) + "</section>\n";
+    text += "<section>\n<h2 id=\"quality\">Quality of the data and of the fit</h2>\n" + gates_html(report.gates) +
+            "</section>\n";
   }
   for (const Section& section : report.sections) text += section_html(section);
   if (!report.assumptions.empty()) {
@@ -299,8 +288,8 @@ std::string html(const Report& report, const Workbench* workbench) {
         "<section>\n<h2 id=\"provenance\">Where this comes from</h2>\n<div class=\"wide\">"
         "<table><tbody>\n";
     for (const ProvenanceRow& row : report.provenance) {
-      text += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape_xml(row.what),
-                          escape_xml(row.value));
+      text +=
+          fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape_xml(row.what), escape_xml(row.value));
     }
     text += "</tbody></table></div>\n</section>\n";
   }

@@ -34,11 +34,8 @@ Json table_json(const Table& table) {
     }
     rows.push_back(cells);
   }
-  return {{"id", table.id},
-          {"title", table.title},
-          {"caption", table.caption},
-          {"columns", table.columns},
-          {"rows", rows}};
+  return {
+      {"id", table.id}, {"title", table.title}, {"caption", table.caption}, {"columns", table.columns}, {"rows", rows}};
 }
 
 }  // namespace
@@ -73,8 +70,7 @@ std::string report_json(const Report& report) {
                      {"sections", sections},
                      {"assumptions", report.assumptions},
                      {"provenance", provenance}};
-  // Invalid UTF-8 (in a file name, for instance) is shown with a replacement character, not
-  // refused.
+  // Invalid UTF-8 (in a file name, for instance) is shown with a replacement character, not refused.
   return json_text(json) + '\n';
 }
 

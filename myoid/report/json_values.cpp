@@ -20,8 +20,8 @@ ordered_json provenance_json(const Provenance& provenance) {
   object["inputs"] = ordered_json::array();
   for (const InputFile& file : provenance.inputs)
     object["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-  object["options"] = provenance.options_json.empty() ? ordered_json::object()
-                                                      : parse_ordered_json(provenance.options_json);
+  object["options"] =
+      provenance.options_json.empty() ? ordered_json::object() : parse_ordered_json(provenance.options_json);
   return object;
 }
 

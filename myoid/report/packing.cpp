@@ -18,17 +18,14 @@ void append(std::vector<std::uint8_t>& bytes, Unsigned number) {
 }  // namespace
 
 std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = (group << 8U) | (k < count ? std::uint32_t{bytes[i + k]} : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? kDigits[(group >> (18U - 6U * k)) & 63U] : '=';
+    for (std::size_t k = 0; k < 3; ++k) group = (group << 8U) | (k < count ? std::uint32_t{bytes[i + k]} : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[(group >> (18U - 6U * k)) & 63U] : '=';
   }
   return text;
 }
@@ -73,8 +70,7 @@ void pack(const PackingBox& box, const Vec3& point, std::vector<std::uint16_t>& 
   const bool known = point.allFinite();
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double steps = known ? std::round((point[k] - box.origin[k]) / box.step) : 0.0;
-    numbers.push_back(known ? static_cast<std::uint16_t>(std::clamp(steps, 0.0, kSteps))
-                            : kPackedMissing);
+    numbers.push_back(known ? static_cast<std::uint16_t>(std::clamp(steps, 0.0, kSteps)) : kPackedMissing);
   }
 }
 
@@ -95,8 +91,7 @@ PackedNumbers packed(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
   }
   const double range = result.upper - result.lower;
   for (const double x : numbers) {
-    result.codes.push_back(std::isfinite(x) ? pack(x - result.lower, range > 0.0 ? range : 1.0)
-                                            : kPackedMissing);
+    result.codes.push_back(std::isfinite(x) ? pack(x - result.lower, range > 0.0 ? range : 1.0) : kPackedMissing);
   }
   return result;
 }

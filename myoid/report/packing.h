@@ -40,8 +40,7 @@ struct PackedNumbers {
 };
 /// Packs the numbers; one that is not finite becomes kPackedMissing.
 [[nodiscard]] PackedNumbers packed(const Eigen::Ref<const Eigen::VectorXd>& numbers);
-/// Packs a value of 0 .. top in 65534 steps; a value beyond becomes the nearest end, NaN
-/// kPackedMissing.
+/// Packs a value of 0 .. top in 65534 steps; a value beyond becomes the nearest end, NaN kPackedMissing.
 [[nodiscard]] std::uint16_t pack(double value, double top);
 
 }  // namespace myoid::report

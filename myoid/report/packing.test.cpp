@@ -68,8 +68,7 @@ TEST(Packing, KeepsRotationsToATenthOfAMillimeterAtAMeter) {
     pack(R, n);
     ASSERT_EQ(n.size(), 4U);
     Eigen::Quaterniond q;
-    q.coeffs() << n[0] / 32767.0 - 1.0, n[1] / 32767.0 - 1.0, n[2] / 32767.0 - 1.0,
-        n[3] / 32767.0 - 1.0;
+    q.coeffs() << n[0] / 32767.0 - 1.0, n[1] / 32767.0 - 1.0, n[2] / 32767.0 - 1.0, n[3] / 32767.0 - 1.0;
     // Four components off by at most 1.53e-5 each: twice their norm, 6e-5.
     EXPECT_LT((q.normalized().toRotationMatrix() - R).norm(), 1e-4) << angle;
   }

@@ -16,13 +16,11 @@ namespace {
 void check_id(const std::string& id, std::string_view kind, std::set<std::string>& used) {
   bool plain = !id.empty();
   for (const char c : id) {
-    plain = plain &&
-            (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.');
+    plain = plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.');
   }
   if (!plain || id.front() == '.') {
     throw InvalidInput(fmt::format(
-        "the {} id \"{}\" becomes the name of a file: expected letters, digits, '_', '-' or '.'",
-        kind, id));
+        "the {} id \"{}\" becomes the name of a file: expected letters, digits, '_', '-' or '.'", kind, id));
   }
   if (!used.insert(id).second) {
     throw InvalidInput(fmt::format("two {}s have the id \"{}\"", kind, id));
@@ -34,11 +32,10 @@ void check_series(const Series& series, const std::string& figure) {
   const auto wrong = [&](const std::vector<double>& values, bool may_be_empty) {
     return values.size() != n && !(may_be_empty && values.empty());
   };
-  if (wrong(series.y, false) || wrong(series.y_lower, true) ||
-      wrong(series.y_upper, series.role != Role::band)) {
-    throw InvalidInput(fmt::format(
-        "figure \"{}\", series \"{}\": {} x, {} y, {} y_lower and {} y_upper; expected one length",
-        figure, series.name, n, series.y.size(), series.y_lower.size(), series.y_upper.size()));
+  if (wrong(series.y, false) || wrong(series.y_lower, true) || wrong(series.y_upper, series.role != Role::band)) {
+    throw InvalidInput(
+        fmt::format("figure \"{}\", series \"{}\": {} x, {} y, {} y_lower and {} y_upper; expected one length", figure,
+                    series.name, n, series.y.size(), series.y_lower.size(), series.y_upper.size()));
   }
 }
 
@@ -54,8 +51,8 @@ void validate(const Report& report) {
       check_id(table.id, "table", tables);
       for (const std::vector<Cell>& row : table.rows) {
         if (row.size() != table.columns.size() || row.empty()) {
-          throw InvalidInput(fmt::format("table \"{}\": a row of {} cells under {} columns",
-                                         table.id, row.size(), table.columns.size()));
+          throw InvalidInput(fmt::format("table \"{}\": a row of {} cells under {} columns", table.id, row.size(),
+                                         table.columns.size()));
         }
       }
     }
@@ -63,8 +60,8 @@ void validate(const Report& report) {
       check_id(grid.id, "table", tables);
       for (const StripRow& row : grid.rows) {
         if (row.cells.size() != grid.columns.size())
-          throw InvalidInput(fmt::format("strip plot \"{}\": a row of {} cells under {} columns",
-                                         grid.id, row.cells.size(), grid.columns.size()));
+          throw InvalidInput(fmt::format("strip plot \"{}\": a row of {} cells under {} columns", grid.id,
+                                         row.cells.size(), grid.columns.size()));
       }
     }
     for (const Figure& figure : section.figures) {
@@ -98,8 +95,8 @@ std::string format_value(double value, int digits) {
 std::string format_rounded(double value, double width) {
   const double size = std::abs(value);
   width = std::abs(width);
-  if (!std::isfinite(value) || !std::isfinite(width) || !(width > 0.0) ||
-      (size > 0.0 && size < 1e-4 && width < 1e-4) || size >= 1e6)
+  if (!std::isfinite(value) || !std::isfinite(width) || !(width > 0.0) || (size > 0.0 && size < 1e-4 && width < 1e-4) ||
+      size >= 1e6)
     return format_value(value);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9);
   std::string text = fmt::format("{:.{}f}", value, decimals);

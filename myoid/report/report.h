@@ -30,8 +30,7 @@ struct Series {
   std::vector<double> x;
   std::vector<double> y;
   Role role = Role::reference;
-  std::vector<double>
-      y_lower;  ///< points: lower end of the error bar. band: empty, y is the lower edge.
+  std::vector<double> y_lower;  ///< points: lower end of the error bar. band: empty, y is the lower edge.
   std::vector<double> y_upper;  ///< band: upper edge. points: upper end of the error bar.
 };
 
@@ -61,8 +60,7 @@ struct Figure {
   int most_on_page = 0;  ///< The page draws the first panels only; 0: all. The files have all.
   std::string bad{};     ///< How the figure looks if something is wrong; one or two sentences.
   std::string act{};     ///< Advice to the reader.
-  /// True if the workbench shows this figure: the page then shows the drawing in print and without
-  /// script only.
+  /// True if the workbench shows this figure: the page then shows the drawing in print and without script only.
   bool in_workbench = false;
 };
 
@@ -104,9 +102,9 @@ struct ForestRow {
   std::optional<double> prior_mean, prior_sd;  ///< Without both of them the row has no bar.
   std::optional<double> truth;                 ///< In a virtual recording.
   std::string verdict;                         ///< "identified"
-  Badge badge = Badge::none;  ///< Badge of the verdict; determines color and shape.
-  std::string why;            ///< The reason of the verdict, a sentence.
-  bool beside = false;        ///< A number of an electrode or a joint, below the muscles' numbers.
+  Badge badge = Badge::none;                   ///< Badge of the verdict; determines color and shape.
+  std::string why;                             ///< The reason of the verdict, a sentence.
+  bool beside = false;                         ///< A number of an electrode or a joint, below the muscles' numbers.
 };
 
 /// A number of one person in a strip plot. Without a value the cell is empty.
@@ -190,10 +188,7 @@ void validate(const Report& report);
 /// "0.140" beside a width of 0.017. Zeros at the end are kept, so that a column can be compared.
 [[nodiscard]] std::string format_rounded(double value, double width);
 
-/// Formats an interval, "0.1363 to 0.1371": both ends with the decimals that show two digits of the
-/// width.
-[[nodiscard]] std::string format_interval(double lower,
-                                          double upper,
-                                          std::string_view between = " to ");
+/// Formats an interval, "0.1363 to 0.1371": both ends with the decimals that show two digits of the width.
+[[nodiscard]] std::string format_interval(double lower, double upper, std::string_view between = " to ");
 
 }  // namespace myoid::report

@@ -34,15 +34,14 @@ Report small_report() {
   report.links = {{"The model, moving", "motion.html"}};
   report.gates = {{"Markers fit", GateStatus::pass, "3 mm", "below 10 mm", "Go on."},
                   {"EMG reaches its maximum", GateStatus::fail, "40 %", "above 80 %", "Beware."}};
-  report.sections.push_back(
-      {.id = "parameters",
-       .heading = "Parameters",
-       .paragraphs = {"Text."},
-       .tables = {{.id = "t1",
-                   .title = "Table I",
-                   .columns = {"muscle", "l0, m"},
-                   .rows = {{{"BIC"}, {"0.12", Badge::good, "well determined"}}}}},
-       .figures = {{.id = "f1", .title = "Forces", .caption = "C", .panels = {panel}}}});
+  report.sections.push_back({.id = "parameters",
+                             .heading = "Parameters",
+                             .paragraphs = {"Text."},
+                             .tables = {{.id = "t1",
+                                         .title = "Table I",
+                                         .columns = {"muscle", "l0, m"},
+                                         .rows = {{{"BIC"}, {"0.12", Badge::good, "well determined"}}}}},
+                             .figures = {{.id = "f1", .title = "Forces", .caption = "C", .panels = {panel}}}});
   report.assumptions = {"A rigid tendon."};
   report.provenance = {{"version", "0.1"}};
   return report;
@@ -93,8 +92,7 @@ TEST(Report, FigureNumbersAreAllThere) {
             "panel,series,role,x,y\n\"BIC, slow\",reference,reference,0,2\n"
             "\"BIC, slow\",reference,reference,1,\n");
   figure.comments = {"How it was made:", "  1. twice"};
-  EXPECT_EQ(figure_csv(figure).substr(0, 54),
-            "# How it was made:\n#   1. twice\npanel,series,role,x,y\n");
+  EXPECT_EQ(figure_csv(figure).substr(0, 54), "# How it was made:\n#   1. twice\npanel,series,role,x,y\n");
 }
 
 TEST(Report, WritesEveryFileOfTheFolder) {
@@ -102,8 +100,7 @@ TEST(Report, WritesEveryFileOfTheFolder) {
   const test::TemporaryFolder folder;
   const fs::path directory = folder / "report_test";
   write_report(small_report(), directory);
-  for (const char* file :
-       {"report.html", "report.json", "figures/f1.svg", "figures/f1.csv", "tables/t1.csv"}) {
+  for (const char* file : {"report.html", "report.json", "figures/f1.svg", "figures/f1.csv", "tables/t1.csv"}) {
     EXPECT_TRUE(fs::exists(directory / file)) << file;
   }
 }

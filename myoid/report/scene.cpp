@@ -16,14 +16,10 @@ void require(bool holds, const std::string& what) {
 void validate_model(const Scene& scene) {
   const auto count = static_cast<int>(scene.bodies.size());
   require(count > 0, "there is no ground");
-  const auto exists = [&](const ScenePoint& p) {
-    return p.body >= 0 && p.body < count && p.position_m.allFinite();
-  };
-  for (const SceneMarker& m : scene.markers)
-    require(exists(m.point), fmt::format("marker '{}' is on no body", m.name));
+  const auto exists = [&](const ScenePoint& p) { return p.body >= 0 && p.body < count && p.position_m.allFinite(); };
+  for (const SceneMarker& m : scene.markers) require(exists(m.point), fmt::format("marker '{}' is on no body", m.name));
   for (const SceneSurface& s : scene.surfaces)
-    require(s.body >= 0 && s.body < count && s.size_m.allFinite(),
-            fmt::format("surface '{}' is on no body", s.name));
+    require(s.body >= 0 && s.body < count && s.size_m.allFinite(), fmt::format("surface '{}' is on no body", s.name));
   for (const SceneMuscle& m : scene.muscles) {
     require(std::all_of(m.points.begin(), m.points.end(), exists),
             fmt::format("a point of muscle '{}' is on no body", m.name));
@@ -57,25 +53,22 @@ void validate_frames(const Scene& scene) {
               scene.coordinate_values.cols() == static_cast<Eigen::Index>(scene.coordinates.size()),
           "expected values of frames x coordinates");
   for (const int m : scene.moving_muscles) {
-    require(m >= 0 && m < static_cast<int>(scene.muscles.size()),
-            fmt::format("there is no muscle number {}", m));
+    require(m >= 0 && m < static_cast<int>(scene.muscles.size()), fmt::format("there is no muscle number {}", m));
   }
   for (const SceneValues& v : scene.values) {
-    require(v.value.rows() == frames &&
-                v.value.cols() == static_cast<Eigen::Index>(scene.muscles.size()) && v.top > 0.0,
-            fmt::format("expected '{}' of frames x muscles, top above 0", v.name));
+    require(
+        v.value.rows() == frames && v.value.cols() == static_cast<Eigen::Index>(scene.muscles.size()) && v.top > 0.0,
+        fmt::format("expected '{}' of frames x muscles, top above 0", v.name));
   }
   for (const SceneLoad& load : scene.loads) {
-    require(load.point_m.rows() == frames && load.point_m.cols() == 3 &&
-                load.force_n.rows() == frames && load.force_n.cols() == 3 &&
-                load.force_n.allFinite(),
+    require(load.point_m.rows() == frames && load.point_m.cols() == 3 && load.force_n.rows() == frames &&
+                load.force_n.cols() == 3 && load.force_n.allFinite(),
             fmt::format("expected points and forces of '{}' in every frame", load.name));
   }
-  require(
-      scene.measured_markers.empty() ||
-          (scene.measured_m.rows() == frames &&
-           scene.measured_m.cols() == 3 * static_cast<Eigen::Index>(scene.measured_markers.size())),
-      "expected positions of frames x measured markers");
+  require(scene.measured_markers.empty() ||
+              (scene.measured_m.rows() == frames &&
+               scene.measured_m.cols() == 3 * static_cast<Eigen::Index>(scene.measured_markers.size())),
+          "expected positions of frames x measured markers");
   for (std::size_t f = 0; f < n; ++f) validate_frame(scene, f);
 }
 

@@ -88,12 +88,11 @@ struct Scene {
   std::vector<SceneMuscle> muscles = {};
   std::vector<SceneCoordinate> coordinates = {};
 
-  Eigen::VectorXd time_s{};                   ///< One per frame.
-  std::vector<std::vector<Pose>> poses = {};  ///< Frames x bodies, in ground.
-  Eigen::MatrixXd coordinate_values{};        ///< Frames x coordinates, in the units shown.
-  std::vector<int> moving_muscles = {};       ///< Muscles with a line per frame.
-  std::vector<std::vector<std::vector<Vec3>>> lines_m =
-      {};  ///< Frames x moving muscles, in ground.
+  Eigen::VectorXd time_s{};                                  ///< One per frame.
+  std::vector<std::vector<Pose>> poses = {};                 ///< Frames x bodies, in ground.
+  Eigen::MatrixXd coordinate_values{};                       ///< Frames x coordinates, in the units shown.
+  std::vector<int> moving_muscles = {};                      ///< Muscles with a line per frame.
+  std::vector<std::vector<std::vector<Vec3>>> lines_m = {};  ///< Frames x moving muscles, in ground.
   std::vector<SceneValues> values = {};
   std::vector<std::string> measured_markers = {};
   Eigen::MatrixXd measured_m{};  ///< Frames x 3 measured markers, in ground; NaN: not seen.

@@ -41,8 +41,7 @@ TEST(Scene, WhoseNumbersDisagreeIsRefusedByName) {
       validate(scene);
       FAIL() << text;
     } catch (const InvalidInput& error) {
-      EXPECT_THAT(error.what(),
-                  testing::AllOf(testing::HasSubstr(text), testing::HasSubstr("flex <slow>")));
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr(text), testing::HasSubstr("flex <slow>")));
     }
   }
 }

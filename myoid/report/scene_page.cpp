@@ -51,8 +51,7 @@ ordered_json model_json(const Scene& scene) {
                  {"coordinates", ordered_json::array()}};
   for (const SceneBody& body : scene.bodies) {
     ordered_json sticks = ordered_json::array();
-    for (const auto& [from, to] : body.sticks_m)
-      sticks.push_back({vector_json(from), vector_json(to)});
+    for (const auto& [from, to] : body.sticks_m) sticks.push_back({vector_json(from), vector_json(to)});
     j["bodies"].push_back({{"name", body.name},
                            {"mass", body.mass_kg},
                            {"center", vector_json(body.mass_center_m)},
@@ -73,11 +72,9 @@ ordered_json model_json(const Scene& scene) {
   for (const SceneMuscle& muscle : scene.muscles) {
     ordered_json points = ordered_json::array();
     for (const ScenePoint& point : muscle.points) points.push_back(point_json(point));
-    j["muscles"].push_back(
-        {{"name", muscle.name}, {"strength", muscle.max_isometric_force_n}, {"points", points}});
+    j["muscles"].push_back({{"name", muscle.name}, {"strength", muscle.max_isometric_force_n}, {"points", points}});
   }
-  for (const SceneCoordinate& c : scene.coordinates)
-    j["coordinates"].push_back({{"name", c.name}, {"unit", c.unit}});
+  for (const SceneCoordinate& c : scene.coordinates) j["coordinates"].push_back({{"name", c.name}, {"unit", c.unit}});
   return j;
 }
 
@@ -93,8 +90,7 @@ std::vector<Vec3> points_of(const Scene& scene) {
       points.emplace_back(scene.measured_m.block<1, 3>(f, m).transpose());
   }
   for (const SceneLoad& load : scene.loads)
-    for (Eigen::Index f = 0; f < load.point_m.rows(); ++f)
-      points.emplace_back(load.point_m.row(f).transpose());
+    for (Eigen::Index f = 0; f < load.point_m.rows(); ++f) points.emplace_back(load.point_m.row(f).transpose());
   return points;
 }
 
@@ -107,20 +103,15 @@ ordered_json lines_json(const Scene& scene, const PackingBox& box) {
       for (const Vec3& p : line) pack(box, p, points);
     }
   }
-  return {
-      {"muscles", scene.moving_muscles}, {"counts", base64(counts)}, {"points", base64(points)}};
+  return {{"muscles", scene.moving_muscles}, {"counts", base64(counts)}, {"points", base64(points)}};
 }
 
 ordered_json values_json(const SceneValues& values) {
   std::vector<std::uint16_t> numbers;
   numbers.reserve(static_cast<std::size_t>(values.value.size()));
   for (Eigen::Index f = 0; f < values.value.rows(); ++f)
-    for (Eigen::Index m = 0; m < values.value.cols(); ++m)
-      numbers.push_back(pack(values.value(f, m), values.top));
-  return {{"name", values.name},
-          {"unit", values.unit},
-          {"top", values.top},
-          {"numbers", base64(numbers)}};
+    for (Eigen::Index m = 0; m < values.value.cols(); ++m) numbers.push_back(pack(values.value(f, m), values.top));
+  return {{"name", values.name}, {"unit", values.unit}, {"top", values.top}, {"numbers", base64(numbers)}};
 }
 
 ordered_json measured_json(const Scene& scene, const PackingBox& box) {

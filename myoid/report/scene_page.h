@@ -7,10 +7,9 @@
 
 namespace myoid::report {
 
-/// Returns scenes of one or several models as one HTML file that works offline: the viewer with a
-/// choice of the scene, and the scenes as JSON with their arrays in base64 (packing.h). Calls
-/// `validate`. Throws InvalidInput without a scene, for a mesh that is not there or has corners
-/// without vertices, or if the program was built without three.js.
+/// Returns scenes of one or several models as one HTML file that works offline: the viewer with a choice of the scene,
+/// and the scenes as JSON with their arrays in base64 (packing.h). Calls `validate`. Throws InvalidInput without a
+/// scene, for a mesh that is not there or has corners without vertices, or if the program was built without three.js.
 struct ScenePage {
   std::string title;
   std::string subtitle;

@@ -14,9 +14,7 @@
 namespace myoid::report {
 namespace {
 
-bool is_told(const StripCell& cell) {
-  return cell.value && (cell.badge == Badge::good || cell.badge == Badge::weak);
-}
+bool is_told(const StripCell& cell) { return cell.value && (cell.badge == Badge::good || cell.badge == Badge::weak); }
 
 /// Widens a range so that it holds x.
 void hold(StripScale& scale, double x) {
@@ -29,15 +27,13 @@ double percent(const StripScale& scale, double x) {
 }
 
 std::string value_text(const StripCell& cell) {
-  return cell.lower && cell.upper ? format_rounded(*cell.value, *cell.upper - *cell.lower)
-                                  : format_value(*cell.value);
+  return cell.lower && cell.upper ? format_rounded(*cell.value, *cell.upper - *cell.lower) : format_value(*cell.value);
 }
 
 std::string sentence(const StripRow& row, const StripColumn& column, const StripCell& cell) {
   std::string text = fmt::format("{}, {}: {}", row.person, column.name, value_text(cell));
   if (!column.unit.empty()) text += ' ' + column.unit;
-  if (cell.lower && cell.upper)
-    text += fmt::format(", 95 % interval {}", format_interval(*cell.lower, *cell.upper));
+  if (cell.lower && cell.upper) text += fmt::format(", 95 % interval {}", format_interval(*cell.lower, *cell.upper));
   if (cell.truth) text += fmt::format(", truth {}", format_value(*cell.truth));
   if (!cell.verdict.empty()) text += ", " + spelled(cell.verdict);
   if (cell.outlier) text += ", far from the other persons";
@@ -47,32 +43,27 @@ std::string sentence(const StripRow& row, const StripColumn& column, const Strip
 std::string background(const StripColumn& column, const StripScale& scale) {
   std::string svg;
   if (column.spread_low && column.spread_high)
-    svg += fmt::format(
-        "<rect x=\"{:.2f}%\" width=\"{:.2f}%\" y=\"0\" height=\"20\" class=\"spread\"/>",
-        percent(scale, *column.spread_low),
-        percent(scale, *column.spread_high) - percent(scale, *column.spread_low));
+    svg += fmt::format("<rect x=\"{:.2f}%\" width=\"{:.2f}%\" y=\"0\" height=\"20\" class=\"spread\"/>",
+                       percent(scale, *column.spread_low),
+                       percent(scale, *column.spread_high) - percent(scale, *column.spread_low));
   if (column.middle)
-    svg +=
-        fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"20\" class=\"middle\"/>",
-                    percent(scale, *column.middle));
+    svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"20\" class=\"middle\"/>",
+                       percent(scale, *column.middle));
   return svg;
 }
 
 std::string interval_drawing(const StripCell& cell, const StripScale& scale) {
   if (!cell.lower || !cell.upper) return "";
   const std::string_view color = verdict_color(cell.badge);
-  std::string svg = fmt::format(
-      "<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"10\" y2=\"10\" stroke=\"{}\" stroke-width=\"2\"/>",
-      percent(scale, *cell.lower), percent(scale, *cell.upper), color);
+  std::string svg =
+      fmt::format("<line x1=\"{:.2f}%\" x2=\"{:.2f}%\" y1=\"10\" y2=\"10\" stroke=\"{}\" stroke-width=\"2\"/>",
+                  percent(scale, *cell.lower), percent(scale, *cell.upper), color);
   if (*cell.lower < scale.lower) svg += beyond_arrow(-1, color);
   if (*cell.upper > scale.upper) svg += beyond_arrow(1, color);
   return svg;
 }
 
-std::string cell_html(const StripRow& row,
-                      const StripColumn& column,
-                      const StripCell& cell,
-                      const StripScale& scale) {
+std::string cell_html(const StripRow& row, const StripColumn& column, const StripCell& cell, const StripScale& scale) {
   std::string svg = "<td><svg class=\"strip\" role=\"img\">";
   if (!cell.value)
     return svg + fmt::format("<title>{}, {}: none</title>{}</svg></td>", escape_xml(row.person),
@@ -84,16 +75,14 @@ std::string cell_html(const StripRow& row,
   if (cell.truth)
     svg += fmt::format("<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"1\" y2=\"19\" class=\"truth\"/>",
                        percent(scale, *cell.truth));
-  return svg +
-         fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}{}</svg></g></svg></td>",
-                     percent(scale, *cell.value), verdict_shape(cell.badge),
-                     cell.outlier ? "<circle r=\"9\" class=\"ring\"/>" : "");
+  return svg + fmt::format("<svg x=\"{:.2f}%\" y=\"50%\" overflow=\"visible\">{}{}</svg></g></svg></td>",
+                           percent(scale, *cell.value), verdict_shape(cell.badge),
+                           cell.outlier ? "<circle r=\"9\" class=\"ring\"/>" : "");
 }
 
 std::string head_html(const StripColumn& column, const StripScale& scale) {
   const double width = scale.upper - scale.lower;
-  return fmt::format("<th>{}{}<small><span>{}</span><span>{}</span></small></th>",
-                     typeset(spelled(column.name)),
+  return fmt::format("<th>{}{}<small><span>{}</span><span>{}</span></small></th>", typeset(spelled(column.name)),
                      column.unit.empty() ? "" : " [" + escape_xml(column.unit) + "]",
                      format_rounded(scale.lower, width), format_rounded(scale.upper, width));
 }
@@ -110,8 +99,7 @@ std::string legend(const StripGrid& grid) {
         truths = truths || cell.truth;
       }
     }
-    if (!verdict.empty())
-      text += fmt::format("<span>{} {}</span> ", verdict_mark(badge), typeset(spelled(verdict)));
+    if (!verdict.empty()) text += fmt::format("<span>{} {}</span> ", verdict_mark(badge), typeset(spelled(verdict)));
   }
   if (outliers)
     text +=
@@ -124,8 +112,8 @@ std::string legend(const StripGrid& grid) {
 }  // namespace
 
 StripScale strip_scale(const StripGrid& grid, std::size_t column) {
-  const bool any = std::any_of(grid.rows.begin(), grid.rows.end(),
-                               [&](const StripRow& row) { return is_told(row.cells[column]); });
+  const bool any =
+      std::any_of(grid.rows.begin(), grid.rows.end(), [&](const StripRow& row) { return is_told(row.cells[column]); });
   const auto counts = [&](const StripCell& cell) { return any ? is_told(cell) : !!cell.value; };
   constexpr double kMost = std::numeric_limits<double>::max();
   StripScale values{kMost, -kMost};
@@ -158,8 +146,8 @@ StripScale strip_scale(const StripGrid& grid, std::size_t column) {
 }
 
 std::string strip_grid_html(const StripGrid& grid) {
-  std::string text = fmt::format("<figure id=\"{}\" class=\"grid\">\n<h3>{}</h3>\n{}",
-                                 escape_xml(grid.id), typeset(grid.title), legend(grid));
+  std::string text = fmt::format("<figure id=\"{}\" class=\"grid\">\n<h3>{}</h3>\n{}", escape_xml(grid.id),
+                                 typeset(grid.title), legend(grid));
   text += "<table><thead><tr><th>person</th>";
   std::vector<StripScale> scales;
   for (std::size_t c = 0; c < grid.columns.size(); ++c) {
@@ -169,9 +157,9 @@ std::string strip_grid_html(const StripGrid& grid) {
   text += "</tr></thead>\n<tbody>\n";
   for (const StripRow& row : grid.rows) {
     const std::string name = escape_xml(row.person);
-    text += row.page.empty() ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
-                             : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>",
-                                           name, escape_xml(row.page));
+    text += row.page.empty()
+                ? fmt::format("<tr><td title=\"{0}\">{0}</td>", name)
+                : fmt::format("<tr><td title=\"{0}\"><a href=\"{1}\">{0}</a></td>", name, escape_xml(row.page));
     for (std::size_t c = 0; c < grid.columns.size(); ++c)
       text += cell_html(row, grid.columns[c], row.cells[c], scales[c]);
     text += "</tr>\n";
@@ -186,23 +174,19 @@ std::string strip_grid_csv(const StripGrid& grid) {
   Table table{.id = grid.id,
               .title = {},
               .caption = {},
-              .columns = {"person", "number", "unit", "value", "lower", "upper", "truth", "verdict",
-                          "outlier"},
+              .columns = {"person", "number", "unit", "value", "lower", "upper", "truth", "verdict", "outlier"},
               .rows = {}};
   const auto number = [](const std::optional<double>& x) {
     return Cell{.text = x ? fmt::format("{}", *x) : "", .badge = Badge::none, .hint = {}};
   };
-  const auto word = [](std::string text) {
-    return Cell{.text = std::move(text), .badge = Badge::none, .hint = {}};
-  };
+  const auto word = [](std::string text) { return Cell{.text = std::move(text), .badge = Badge::none, .hint = {}}; };
   for (const StripRow& row : grid.rows) {
     for (std::size_t c = 0; c < grid.columns.size(); ++c) {
       const StripCell& cell = row.cells[c];
       if (!cell.value) continue;
-      table.rows.push_back({word(row.person), word(grid.columns[c].name),
-                            word(grid.columns[c].unit), number(cell.value), number(cell.lower),
-                            number(cell.upper), number(cell.truth), word(cell.verdict),
-                            word(cell.outlier ? "yes" : "no")});
+      table.rows.push_back({word(row.person), word(grid.columns[c].name), word(grid.columns[c].unit),
+                            number(cell.value), number(cell.lower), number(cell.upper), number(cell.truth),
+                            word(cell.verdict), word(cell.outlier ? "yes" : "no")});
     }
   }
   return table_csv(table);

@@ -15,9 +15,8 @@ struct StripScale {
 /// Values whose badge is neither `good` nor `weak` count only if there are no others.
 [[nodiscard]] StripScale strip_scale(const StripGrid& grid, std::size_t column);
 
-/// Returns strip plots as an HTML table: each person's mark with the 95 % interval on the column's
-/// scale, behind it line and field of the column. A red ring marks an outlier. Ends beyond the
-/// scale become arrows.
+/// Returns strip plots as an HTML table: each person's mark with the 95 % interval on the column's scale, behind it
+/// line and field of the column. A red ring marks an outlier. Ends beyond the scale become arrows.
 [[nodiscard]] std::string strip_grid_html(const StripGrid& grid);
 
 /// Returns the numbers, a row each: person, number, unit, value, lower, upper, truth, verdict,

@@ -8,8 +8,7 @@
 namespace myoid::report {
 namespace {
 
-/// Appends a number of tenths in as few characters as it has; a minus parts it from a number
-/// before.
+/// Appends a number of tenths in as few characters as it has; a minus parts it from a number before.
 void append(std::string& text, long tenths) {
   const bool first = text.empty() || text.back() == 'M' || text.back() == 'l';
   if (tenths < 0) {

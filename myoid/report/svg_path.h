@@ -4,9 +4,8 @@
 
 namespace myoid::report {
 
-/// The data of an SVG path, to a tenth of a unit. A point is written as its difference from the
-/// point before. Both positions are rounded first, so that no error adds up. A point in the same
-/// tenth as the point before is left out.
+/// The data of an SVG path, to a tenth of a unit. A point is written as its difference from the point before. Both
+/// positions are rounded first, so that no error adds up. A point in the same tenth as the point before is left out.
 class SvgPath {
  public:
   void move(double x, double y);  ///< Begins a curve, in absolute numbers.

@@ -111,8 +111,7 @@ Range range_of(const Panel& panel, bool horizontal) {
 
 std::string axis_title(const Axis& axis) {
   if (axis.unit.empty()) return axis.label;
-  return axis.label.empty() ? fmt::format("[{}]", axis.unit)
-                            : fmt::format("{} [{}]", axis.label, axis.unit);
+  return axis.label.empty() ? fmt::format("[{}]", axis.unit) : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
 std::string text(double x,
@@ -121,9 +120,8 @@ std::string text(double x,
                  std::string_view anchor = "middle",
                  double size = 11.0,
                  std::string_view more = "") {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" {}>{}</text>\n", x, y,
-      size, anchor, more, escape_xml(typographic(content)));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, size,
+                     anchor, more, escape_xml(typographic(content)));
 }
 
 /// One panel, in a frame at (left, top) of the given size.
@@ -151,18 +149,13 @@ class PanelDrawing {
       }
     }
     svg += "</g>\n";
-    svg +=
-        text(left_ + 0.5 * width_, top_ - 7.0, panel_.title, "middle", 12.0, "font-weight=\"600\"");
+    svg += text(left_ + 0.5 * width_, top_ - 7.0, panel_.title, "middle", 12.0, "font-weight=\"600\"");
     return svg;
   }
 
  private:
-  [[nodiscard]] double px(double x) const {
-    return left_ + width_ * (x - x_.lower) / (x_.upper - x_.lower);
-  }
-  [[nodiscard]] double py(double y) const {
-    return top_ + height_ * (1.0 - (y - y_.lower) / (y_.upper - y_.lower));
-  }
+  [[nodiscard]] double px(double x) const { return left_ + width_ * (x - x_.lower) / (x_.upper - x_.lower); }
+  [[nodiscard]] double py(double y) const { return top_ + height_ * (1.0 - (y - y_.lower) / (y_.upper - y_.lower)); }
 
   [[nodiscard]] std::string axes() const {
     std::string svg;
@@ -214,8 +207,7 @@ class PanelDrawing {
       }
     }
     const Style style = style_of(series.role);
-    const std::string dash =
-        *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
+    const std::string dash = *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
     return fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
         "stroke-linejoin=\"round\"{}/>\n",
@@ -227,8 +219,7 @@ class PanelDrawing {
     SvgPath path;
     std::size_t k = 0;
     const auto good = [&](std::size_t i) {
-      return std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
-             std::isfinite(series.y_upper[i]);
+      return std::isfinite(series.x[i]) && std::isfinite(series.y[i]) && std::isfinite(series.y_upper[i]);
     };
     while (k < series.y.size()) {
       if (!good(k)) {
@@ -251,13 +242,12 @@ class PanelDrawing {
         path.line(px(series.x[i]), py(low));
         upper_edge.emplace_back(px(series.x[i]), py(high));
       }
-      for (auto at = upper_edge.rbegin(); at != upper_edge.rend(); ++at)
-        path.line(at->first, at->second);
+      for (auto at = upper_edge.rbegin(); at != upper_edge.rend(); ++at) path.line(at->first, at->second);
       path.close();
       k = end;
     }
-    return fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.16\" stroke=\"none\"/>\n",
-                       path.text(), style_of(series.role).color);
+    return fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.16\" stroke=\"none\"/>\n", path.text(),
+                       style_of(series.role).color);
   }
 
   [[nodiscard]] std::string points(const Series& series) const {
@@ -270,11 +260,11 @@ class PanelDrawing {
         svg += fmt::format(
             "<path d=\"M{0:.1f} {1:.1f}L{0:.1f} {2:.1f}M{3:.1f} {1:.1f}H{4:.1f}M{3:.1f} {2:.1f}"
             "H{4:.1f}\" stroke=\"{5}\" stroke-width=\"{6}\" fill=\"none\"/>\n",
-            px(series.x[k]), py(series.y_lower[k]), py(series.y_upper[k]), px(series.x[k]) - 3.0,
-            px(series.x[k]) + 3.0, style.color, style.width);
+            px(series.x[k]), py(series.y_lower[k]), py(series.y_upper[k]), px(series.x[k]) - 3.0, px(series.x[k]) + 3.0,
+            style.color, style.width);
       }
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n",
-                         px(series.x[k]), py(series.y[k]), bars ? 3.0 : 2.0, style.color);
+      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", px(series.x[k]),
+                         py(series.y[k]), bars ? 3.0 : 2.0, style.color);
     }
     return svg;
   }
@@ -307,9 +297,7 @@ std::vector<LegendEntry> legend_of(const Figure& figure) {
   return entries;
 }
 
-double entry_width(const LegendEntry& entry) {
-  return 44.0 + 6.2 * static_cast<double>(entry.name.size());
-}
+double entry_width(const LegendEntry& entry) { return 44.0 + 6.2 * static_cast<double>(entry.name.size()); }
 
 std::string legend_mark(Role role, double x, double y) {
   const Style style = style_of(role);
@@ -320,11 +308,9 @@ std::string legend_mark(Role role, double x, double y) {
         x, y - 8.0, style.color);
   }
   if (role == Role::points) {
-    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x + 12.0,
-                       y - 4.0, style.color);
+    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x + 12.0, y - 4.0, style.color);
   }
-  const std::string dash =
-      *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
+  const std::string dash = *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
   return fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
       "stroke-width=\"{}\"{}/>\n",
@@ -440,8 +426,8 @@ std::string svg_plot(const Figure& figure) {
     const double left = static_cast<double>(k % columns) * cell_width + kLeft;
     const double top = head + static_cast<double>(k / columns) * cell_height + kTop;
     // Clip names are unique in a page of several figures.
-    svg += PanelDrawing(figure.panels[k], left, top, plot_width, plot_height)
-               .draw(fmt::format("{}-clip{}", figure.id, k));
+    svg +=
+        PanelDrawing(figure.panels[k], left, top, plot_width, plot_height).draw(fmt::format("{}-clip{}", figure.id, k));
   }
   return svg + "</svg>\n";
 }

@@ -9,13 +9,11 @@ namespace myoid::report {
 namespace {
 
 std::string csv_cell(std::string_view text) {
-  return text.find_first_of(",\"\n\r") == std::string_view::npos ? std::string(text)
-                                                                 : csv_quoted(text);
+  return text.find_first_of(",\"\n\r") == std::string_view::npos ? std::string(text) : csv_quoted(text);
 }
 
 std::string csv_number(const std::vector<double>& values, std::size_t k) {
-  return k < values.size() && std::isfinite(values[k]) ? fmt::format("{}", values[k])
-                                                       : std::string();
+  return k < values.size() && std::isfinite(values[k]) ? fmt::format("{}", values[k]) : std::string();
 }
 
 }  // namespace
@@ -62,8 +60,8 @@ std::string figure_csv(const Figure& figure) {
   text += bounds ? "panel,series,role,x,y,y_lower,y_upper\n" : "panel,series,role,x,y\n";
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
-      const std::string head = csv_cell(panel.title) + ',' + csv_cell(series.name) + ',' +
-                               std::string(name(series.role));
+      const std::string head =
+          csv_cell(panel.title) + ',' + csv_cell(series.name) + ',' + std::string(name(series.role));
       for (std::size_t k = 0; k < series.x.size(); ++k) {
         text += head + ',' + csv_number(series.x, k) + ',' + csv_number(series.y, k);
         if (bounds) {

@@ -52,9 +52,8 @@ std::string verdict_mark(Badge badge) {
 }
 
 std::string beyond_arrow(int side, std::string_view color) {
-  return fmt::format(
-      "<svg x=\"{}%\" y=\"50%\" overflow=\"visible\"><path d=\"M{}\" fill=\"{}\"/></svg>",
-      side < 0 ? 0 : 100, side < 0 ? "0 0L8 -4V4Z" : "0 0L-8 -4V4Z", color);
+  return fmt::format("<svg x=\"{}%\" y=\"50%\" overflow=\"visible\"><path d=\"M{}\" fill=\"{}\"/></svg>",
+                     side < 0 ? 0 : 100, side < 0 ? "0 0L8 -4V4Z" : "0 0L-8 -4V4Z", color);
 }
 
 }  // namespace myoid::report

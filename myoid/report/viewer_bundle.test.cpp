@@ -14,8 +14,7 @@ using testing::Not;
 TEST(ViewerBundle, HoldsScriptStyleAndTheLicenseOfWhatIsInIt) {
   if (!has_viewer()) GTEST_SKIP() << "built without three.js or esbuild";
   const ViewerBundle bundle = viewer_bundle();
-  EXPECT_THAT(std::string(bundle.license),
-              testing::AllOf(HasSubstr("MIT License"), HasSubstr("three.js authors")));
+  EXPECT_THAT(std::string(bundle.license), testing::AllOf(HasSubstr("MIT License"), HasSubstr("three.js authors")));
   EXPECT_THAT(std::string(bundle.style), HasSubstr("canvas"));
   EXPECT_GT(bundle.script.size(), 100'000U);  // three.js is in it
   EXPECT_LT(bundle.script.size(), 700'000U);  // and nothing else of that size

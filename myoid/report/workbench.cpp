@@ -22,8 +22,7 @@ ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 ordered_json packed_json(const std::vector<double>& values) {
-  return packed_json(
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  return packed_json(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
 
 /// Returns an even clock as start, step and count, any other as 32-bit numbers.
@@ -46,10 +45,8 @@ ordered_json plot_json(const TimePlot& plot) {
                  {"file", plot.file},
                  {"lines", ordered_json::array()}};
   for (const TimeLine& line : plot.lines) {
-    j["lines"].push_back({{"name", line.name},
-                          {"role", name(line.role)},
-                          {"clock", line.clock},
-                          {"value", packed_json(line.value)}});
+    j["lines"].push_back(
+        {{"name", line.name}, {"role", name(line.role)}, {"clock", line.clock}, {"value", packed_json(line.value)}});
     if (line.upper.size() > 0) j["lines"].back()["upper"] = packed_json(line.upper);
   }
   return j;
@@ -65,34 +62,30 @@ ordered_json drive_json(const MuscleDrive& drive) {
 }
 
 ordered_json trial_json(const WorkbenchTrial& trial) {
-  ordered_json j{{"name", trial.name},
-                 {"use", trial.use},
-                 {"scene", trial.scene},
-                 {"badge", name(trial.badge)},
-                 {"remarks", trial.remarks},
-                 {"clocks", ordered_json::array()},
-                 {"plots", ordered_json::array()},
-                 {"carpet",
-                  {{"begin", trial.carpet_when.begin_s},
-                   {"end", trial.carpet_when.end_s},
-                   {"rows", ordered_json::array()}}},
-                 {"marks", ordered_json::array()},
-                 {"drives", ordered_json::array()}};
+  ordered_json j{
+      {"name", trial.name},
+      {"use", trial.use},
+      {"scene", trial.scene},
+      {"badge", name(trial.badge)},
+      {"remarks", trial.remarks},
+      {"clocks", ordered_json::array()},
+      {"plots", ordered_json::array()},
+      {"carpet",
+       {{"begin", trial.carpet_when.begin_s}, {"end", trial.carpet_when.end_s}, {"rows", ordered_json::array()}}},
+      {"marks", ordered_json::array()},
+      {"drives", ordered_json::array()}};
   for (const Eigen::VectorXd& clock : trial.clocks) j["clocks"].push_back(clock_json(clock));
   for (const TimePlot& plot : trial.plots) j["plots"].push_back(plot_json(plot));
   for (const CarpetRow& row : trial.carpet) {
-    j["carpet"]["rows"].push_back({{"name", row.name},
-                                   {"kind", row.kind},
-                                   {"unit", row.unit},
-                                   {"value", packed_json(row.value)}});
+    j["carpet"]["rows"].push_back(
+        {{"name", row.name}, {"kind", row.kind}, {"unit", row.unit}, {"value", packed_json(row.value)}});
   }
   for (const TrialMark& mark : trial.marks) {
-    j["marks"].push_back(
-        {{"about", mark.about},
-         {"begin", mark.timed ? ordered_json(mark.when.begin_s) : ordered_json(nullptr)},
-         {"end", mark.timed ? ordered_json(mark.when.end_s) : ordered_json(nullptr)},
-         {"badge", name(mark.badge)},
-         {"text", mark.text}});
+    j["marks"].push_back({{"about", mark.about},
+                          {"begin", mark.timed ? ordered_json(mark.when.begin_s) : ordered_json(nullptr)},
+                          {"end", mark.timed ? ordered_json(mark.when.end_s) : ordered_json(nullptr)},
+                          {"badge", name(mark.badge)},
+                          {"text", mark.text}});
   }
   for (const MuscleDrive& drive : trial.drives) j["drives"].push_back(drive_json(drive));
   if (!trial.video.empty()) j["video"] = {{"file", trial.video}, {"offset", trial.video_offset_s}};
@@ -135,36 +128,29 @@ ordered_json axis_json(const Axis& axis) {
 }
 
 ordered_json figure_json(const Figure& figure) {
-  ordered_json j{{"id", figure.id},
-                 {"title", figure.title},
-                 {"columns", figure.columns},
-                 {"panels", ordered_json::array()}};
+  ordered_json j{
+      {"id", figure.id}, {"title", figure.title}, {"columns", figure.columns}, {"panels", ordered_json::array()}};
   for (const Panel& panel : figure.panels) {
     ordered_json series = ordered_json::array();
     for (const Series& s : panel.series) {
-      series.push_back({{"name", s.name},
-                        {"role", name(s.role)},
-                        {"x", packed_json(s.x)},
-                        {"value", packed_json(s.y)}});
+      series.push_back(
+          {{"name", s.name}, {"role", name(s.role)}, {"x", packed_json(s.x)}, {"value", packed_json(s.y)}});
       if (!s.y_upper.empty()) series.back()["upper"] = packed_json(s.y_upper);
       if (!s.y_lower.empty()) series.back()["lower"] = packed_json(s.y_lower);
     }
-    j["panels"].push_back({{"title", panel.title},
-                           {"x", axis_json(panel.x)},
-                           {"y", axis_json(panel.y)},
-                           {"series", series}});
+    j["panels"].push_back(
+        {{"title", panel.title}, {"x", axis_json(panel.x)}, {"y", axis_json(panel.y)}, {"series", series}});
   }
   return j;
 }
 
 /// Returns true if the page can draw the figure itself: curves over numbers.
 bool is_live(const Figure& figure) {
-  return !figure.in_workbench &&
-         std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
-           return panel.x.categories.empty() && panel.y.categories.empty() &&
-                  std::none_of(panel.series.begin(), panel.series.end(),
-                               [](const Series& s) { return s.role == Role::points; });
-         });
+  return !figure.in_workbench && std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
+    return panel.x.categories.empty() && panel.y.categories.empty() &&
+           std::none_of(panel.series.begin(), panel.series.end(),
+                        [](const Series& s) { return s.role == Role::points; });
+  });
 }
 
 void require(bool condition, const WorkbenchTrial& trial, const std::string& what) {
@@ -186,16 +172,15 @@ void validate(const WorkbenchTrial& trial, const Workbench& workbench) {
       const bool known = line.clock >= 0 && line.clock < static_cast<int>(trial.clocks.size());
       const Eigen::Index n = known ? trial.clocks[static_cast<std::size_t>(line.clock)].size() : -1;
       require(line.value.size() == n && (line.upper.size() == 0 || line.upper.size() == n), trial,
-              fmt::format("plot '{}', line '{}': {} values; expected one for each of {} times",
-                          plot.title, line.name, line.value.size(), n));
+              fmt::format("plot '{}', line '{}': {} values; expected one for each of {} times", plot.title, line.name,
+                          line.value.size(), n));
     }
   }
   require(trial.drives.empty() || trial.drives.size() == workbench.muscles.size(), trial,
           "expected the inputs of every muscle, or of none");
   for (const MuscleDrive& drive : trial.drives) {
     const Eigen::Index n = trial.clocks.empty() ? -1 : trial.clocks.front().size();
-    const bool equal = drive.activation.size() == n && drive.length_m.size() == n &&
-                       drive.velocity_mps.size() == n &&
+    const bool equal = drive.activation.size() == n && drive.length_m.size() == n && drive.velocity_mps.size() == n &&
                        std::all_of(drive.moment_arm_m.begin(), drive.moment_arm_m.end(),
                                    [&](const auto& arm) { return arm.size() == n; });
     require(equal, trial, fmt::format("expected {} samples of a muscle's inputs", n));

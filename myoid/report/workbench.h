@@ -105,9 +105,8 @@ struct Workbench {
 /// rise, and numbers of scenes, clocks and muscles exist.
 void validate(const Workbench& workbench);
 
-/// Returns the workbench as JSON that may stand inside a <script> element, without its scenes; the
-/// series are packed in 16 bits (packing.h). `figures`: the numbers of the report's own figures go
-/// with it, by id.
+/// Returns the workbench as JSON that may stand inside a <script> element, without its scenes; the series are packed in
+/// 16 bits (packing.h). `figures`: the numbers of the report's own figures go with it, by id.
 [[nodiscard]] std::string workbench_json(const Workbench& workbench, const Report& report);
 
 }  // namespace myoid::report

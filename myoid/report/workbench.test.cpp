@@ -23,8 +23,7 @@ Workbench one_trial() {
   trial.clocks = {Eigen::Vector3d(0.0, 0.5, 1.0)};
   TimePlot plot{.kind = "angle", .title = "elbow", .unit = "deg"};
   plot.lines.push_back(
-      {.name = "angle",
-       .value = Eigen::Vector3d(10.0, std::numeric_limits<double>::quiet_NaN(), 30.0)});
+      {.name = "angle", .value = Eigen::Vector3d(10.0, std::numeric_limits<double>::quiet_NaN(), 30.0)});
   trial.plots.push_back(plot);
   workbench.trials.push_back(trial);
   return workbench;
@@ -44,8 +43,7 @@ std::vector<int> codes(const std::string& text) {
   }
   std::vector<int> result;
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
-    result.push_back(static_cast<unsigned char>(bytes[i]) +
-                     256 * static_cast<unsigned char>(bytes[i + 1]));
+    result.push_back(static_cast<unsigned char>(bytes[i]) + 256 * static_cast<unsigned char>(bytes[i + 1]));
   return result;
 }
 

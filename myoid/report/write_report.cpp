@@ -9,9 +9,7 @@
 
 namespace myoid::report {
 
-void write_report(const Report& report,
-                  const std::filesystem::path& directory,
-                  const Workbench* workbench) {
+void write_report(const Report& report, const std::filesystem::path& directory, const Workbench* workbench) {
   validate(report);
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {

@@ -64,8 +64,7 @@ Run read_run(const std::filesystem::path& folder) {
                                .low = number(route, "ci_low"),
                                .high = number(route, "ci_high")});
         // One unknown of several muscles is one number, in the list of its first owner.
-        const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method,
-                      e->fit_case};
+        const Key key{e->tied_to.empty() ? e->muscle : e->tied_to, e->parameter, e->method, e->fit_case};
         if (!e->tied_to.empty()) {
           run.sharers[key].push_back(e->muscle);
           continue;
@@ -74,8 +73,7 @@ Run read_run(const std::filesystem::path& folder) {
         run.estimates[key] = std::move(*e);
       }
       for (const json& trial : method.at("trials")) {
-        const MethodAndTrial key{method.at("method").get<std::string>(),
-                                 trial.at("trial").get<std::string>()};
+        const MethodAndTrial key{method.at("method").get<std::string>(), trial.at("trial").get<std::string>()};
         run.trial_order.push_back(key);
         run.rmse_nm[key] = number(trial, "rmse_nm");
       }
@@ -91,18 +89,15 @@ Run read_run(const std::filesystem::path& folder) {
 
 /// Returns true if the session's recording determines the number.
 bool told(const ParameterEstimate& e) {
-  return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error &&
-         *e.std_error > 0.0;
+  return (e.verdict == Verdict::identified || e.verdict == Verdict::weak) && e.std_error && *e.std_error > 0.0;
 }
 
-/// Returns a number's standard error between sessions of one person. Moment arms, tendons and the
-/// torque's scale have the same errors in both sessions, so their shares of the variance cancel in
-/// the difference.
+/// Returns a number's standard error between sessions of one person. Moment arms, tendons and the torque's scale have
+/// the same errors in both sessions, so their shares of the variance cancel in the difference.
 double repeat_error(const ParameterEstimate& e) {
   double own = 1.0;
   if (e.variance_shares) {
-    for (const identification::Source same :
-         {identification::Source::geometry, identification::Source::torque_scale})
+    for (const identification::Source same : {identification::Source::geometry, identification::Source::torque_scale})
       own -= (*e.variance_shares)[static_cast<std::size_t>(same)];
   }
   return *e.std_error * std::sqrt(std::max(own, 0.0));
@@ -127,22 +122,18 @@ std::optional<OfSession> given_geometry(const ParameterEstimate& e) {
 }
 
 /// Returns a number of both sessions by one route: given geometry and sensors, or the person's.
-std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first,
-                                            const ParameterEstimate& second) {
+std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first, const ParameterEstimate& second) {
   const auto one = given_geometry(first), other = given_geometry(second);
   if (one && other) return {*one, *other};
   return {{first.estimate, repeat_error(first)}, {second.estimate, repeat_error(second)}};
 }
 
-/// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier
-/// result.
+/// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
 void adjust_p_values(std::vector<ComparedParameter*> compared) {
-  std::sort(compared.begin(), compared.end(),
-            [](const auto* a, const auto* b) { return *a->p_value < *b->p_value; });
+  std::sort(compared.begin(), compared.end(), [](const auto* a, const auto* b) { return *a->p_value < *b->p_value; });
   double largest = 0.0;
   for (std::size_t k = 0; k < compared.size(); ++k) {
-    largest = std::max(
-        largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k)));
+    largest = std::max(largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k)));
     compared[k]->p_value = largest;
     compared[k]->change = largest < kLevel ? Change::differs : Change::no_change;
   }
@@ -180,8 +171,8 @@ std::string sentence(const ComparedParameter& p) {
       return fmt::format("no difference shows; one below {} {} would not have been seen",
                          report::format_value(*p.smallest_detectable, 2), symbol(p.first.unit));
     case Change::cannot_tell:
-      return fmt::format("not compared: {} in the first session, {} in the second",
-                         name(p.first.verdict), name(p.second.verdict));
+      return fmt::format("not compared: {} in the first session, {} in the second", name(p.first.verdict),
+                         name(p.second.verdict));
   }
   return {};
 }
@@ -193,12 +184,7 @@ report::Panel panel_of(const RunComparison& comparison,
                        const std::string& fit_case) {
   report::Panel panel;
   panel.title = parameter + (fit_case == "both" ? "" : ", " + fit_case);
-  report::Series first{.name = "first",
-                       .x = {},
-                       .y = {},
-                       .role = report::Role::points,
-                       .y_lower = {},
-                       .y_upper = {}};
+  report::Series first{.name = "first", .x = {}, .y = {}, .role = report::Role::points, .y_lower = {}, .y_upper = {}};
   report::Series second = first;
   second.name = "second";
   for (const ComparedParameter& p : comparison.parameters) {
@@ -242,8 +228,7 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
 std::vector<std::string> methods_of(const RunComparison& comparison) {
   std::vector<std::string> methods;
   for (const ComparedParameter& p : comparison.parameters) {
-    if (std::find(methods.begin(), methods.end(), p.first.method) == methods.end())
-      methods.push_back(p.first.method);
+    if (std::find(methods.begin(), methods.end(), p.first.method) == methods.end()) methods.push_back(p.first.method);
   }
   return methods;
 }
@@ -254,11 +239,9 @@ std::vector<ComparedTrial> compared_trials(const Run& a, const Run& b) {
     return found == run.rmse_nm.end() ? std::nullopt : found->second;
   };
   std::vector<ComparedTrial> trials;
-  for (const MethodAndTrial& key : a.trial_order)
-    trials.push_back({key.second, key.first, rmse(a, key), rmse(b, key)});
+  for (const MethodAndTrial& key : a.trial_order) trials.push_back({key.second, key.first, rmse(a, key), rmse(b, key)});
   for (const MethodAndTrial& key : b.trial_order) {
-    if (!a.rmse_nm.contains(key))
-      trials.push_back({key.second, key.first, std::nullopt, rmse(b, key)});
+    if (!a.rmse_nm.contains(key)) trials.push_back({key.second, key.first, std::nullopt, rmse(b, key)});
   }
   return trials;
 }
@@ -269,8 +252,7 @@ std::string headline(const RunComparison& comparison) {
   std::string text = fmt::format(
       "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no "
       "difference, and {} cannot be compared because a recording does not determine them.",
-      comparison.parameters.size(), count[Change::differs], count[Change::no_change],
-      count[Change::cannot_tell]);
+      comparison.parameters.size(), count[Change::differs], count[Change::no_change], count[Change::cannot_tell]);
   if (!comparison.unlike.empty())
     text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
   return text;
@@ -279,18 +261,16 @@ std::string headline(const RunComparison& comparison) {
 /// Returns table and figure of one method.
 report::Section method_section(const RunComparison& comparison, const std::string& method) {
   report::Section section{.id = "method_" + method, .heading = "Method " + method};
-  report::Table table{
-      .id = "compared_" + method,
-      .title = "Parameters",
-      .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
-      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"},
-      .rows = {}};
-  report::Figure figure{
-      .id = "intervals_" + method,
-      .title = "Both sessions",
-      .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
-      .panels = {},
-      .columns = 2};
+  report::Table table{.id = "compared_" + method,
+                      .title = "Parameters",
+                      .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
+                      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"},
+                      .rows = {}};
+  report::Figure figure{.id = "intervals_" + method,
+                        .title = "Both sessions",
+                        .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
+                        .panels = {},
+                        .columns = 2};
   std::set<std::pair<std::string, std::string>> shown;
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;
@@ -316,9 +296,7 @@ report::Section errors_section(const RunComparison& comparison) {
                        .caption = "",
                        .columns = {"trial", "method", "first [N m]", "second [N m]"},
                        .rows = {}};
-  const auto cell = [](const std::optional<double>& x) {
-    return report::Cell{x ? report::format_value(*x) : "-"};
-  };
+  const auto cell = [](const std::optional<double>& x) { return report::Cell{x ? report::format_value(*x) : "-"}; };
   for (const ComparedTrial& t : comparison.trials)
     errors.rows.push_back({{t.trial}, {t.method}, cell(t.rmse_first_nm), cell(t.rmse_second_nm)});
   report::Section trials{.id = "trials", .heading = "How well the trials are predicted"};
@@ -341,8 +319,7 @@ std::string_view name(Change change) {
   return "?";
 }
 
-RunComparison compare_runs(const std::filesystem::path& first,
-                           const std::filesystem::path& second) {
+RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second) {
   const Run a = read_run(first);
   const Run b = read_run(second);
   RunComparison comparison{.first = first, .second = second};
@@ -362,8 +339,7 @@ RunComparison compare_runs(const std::filesystem::path& first,
     }
   }
   for (const Key& key : b.order) {
-    if (!a.estimates.contains(key))
-      comparison.remarks.push_back(text_of(key) + " is in the second session only");
+    if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
   }
   for (const std::string& method : methods_of(comparison)) {
     std::vector<ComparedParameter*> of_method;
@@ -381,13 +357,11 @@ report::Report comparison_report(const RunComparison& comparison) {
   page.title = "Two sessions compared";
   page.subtitle = comparison.first.string() + " and " + comparison.second.string();
   page.headline = headline(comparison);
-  for (const std::string& method : methods_of(comparison))
-    page.sections.push_back(method_section(comparison, method));
+  for (const std::string& method : methods_of(comparison)) page.sections.push_back(method_section(comparison, method));
   page.sections.push_back(errors_section(comparison));
-  page.assumptions = {
-      "The two sessions are independent; where both used the same prior, the test is cautious.",
-      "A number that a session calls prior_dominated, not_identifiable or non_physical is not "
-      "compared."};
+  page.assumptions = {"The two sessions are independent; where both used the same prior, the test is cautious.",
+                      "A number that a session calls prior_dominated, not_identifiable or non_physical is not "
+                      "compared."};
   return page;
 }
 

@@ -25,9 +25,7 @@ struct Row {
 };
 
 /// A run's folder with one method and these estimates of F_max.
-std::filesystem::path run(const std::filesystem::path& folder,
-                          const std::vector<Row>& rows,
-                          double rmse_nm) {
+std::filesystem::path run(const std::filesystem::path& folder, const std::vector<Row>& rows, double rmse_nm) {
   std::string estimates;
   for (const Row& r : rows) {
     estimates += fmt::format(
@@ -35,9 +33,9 @@ std::filesystem::path run(const std::filesystem::path& folder,
             "estimate": {}, "std_error": {}, "ci_low": {}, "ci_high": {}, "verdict": "{}", "tied_to": "{}",
             "variance_shares": {{"noise": {}, "literature": 0, "geometry": {}, "electrodes": 0,
                                  "torque_scale": {}, "model": 0}}}})",
-        estimates.empty() ? "" : ",", r.muscle, r.estimate, r.std_error,
-        r.estimate - 2 * r.std_error, r.estimate + 2 * r.std_error, r.verdict, r.tied_to,
-        1.0 - r.geometry - r.torque_scale, r.geometry, r.torque_scale);
+        estimates.empty() ? "" : ",", r.muscle, r.estimate, r.std_error, r.estimate - 2 * r.std_error,
+        r.estimate + 2 * r.std_error, r.verdict, r.tied_to, 1.0 - r.geometry - r.torque_scale, r.geometry,
+        r.torque_scale);
   }
   std::filesystem::create_directories(folder);
   recording::write_file(folder / "parameters.json",
@@ -55,8 +53,8 @@ TEST(CompareRuns, OneUnknownOfSeveralMusclesIsOneNumberAndCountsOnce) {
                             {"BRD", shared, 5, "identified", "BIC"},
                             {"TRI", own, 50, "identified"}};
   };
-  const RunComparison c = compare_runs(run(folder.path() / "one", rows(100, 900), 1.0),
-                                       run(folder.path() / "two", rows(117, 910), 1.0));
+  const RunComparison c =
+      compare_runs(run(folder.path() / "one", rows(100, 900), 1.0), run(folder.path() / "two", rows(117, 910), 1.0));
   ASSERT_EQ(c.parameters.size(), 2u);
   EXPECT_EQ(c.parameters[0].muscle, "BIC, BRA, BRD");
   // z = 17 / (5 sqrt 2) = 2.404, p = 0.0162, of two numbers, not of four.
@@ -77,20 +75,14 @@ TEST(CompareRuns, WhatErrsAlikeInBothSessionsHidesNoChange) {
 
 /// One session of a person whose moment arms the study has wrong by 10 to 15 %, and whose biceps is
 /// `stronger` times as strong as in the first session.
-std::filesystem::path session(const std::filesystem::path& folder,
-                              double stronger,
-                              std::uint64_t seed) {
-  identification::StudyData data = test::elbow_study({.trials = 4,
-                                                      .seconds = 12.0,
-                                                      .emg_cv = 0.08,
-                                                      .torque_sd_nm = 0.5,
-                                                      .with_priors = true,
-                                                      .seed = seed})
-                                       .data;
+std::filesystem::path session(const std::filesystem::path& folder, double stronger, std::uint64_t seed) {
+  identification::StudyData data =
+      test::elbow_study(
+          {.trials = 4, .seconds = 12.0, .emg_cv = 0.08, .torque_sd_nm = 0.5, .with_priors = true, .seed = seed})
+          .data;
   const Eigen::Vector4d wrong(0.87, 1.12, 0.9, 1.15);
   for (identification::TrialData& trial : data.trials) {
-    trial.torque_nm +=
-        (stronger - 1.0) * trial.moment_arm_m.col(0).cwiseProduct(trial.force_n.col(0));
+    trial.torque_nm += (stronger - 1.0) * trial.moment_arm_m.col(0).cwiseProduct(trial.force_n.col(0));
     trial.moment_arm_m *= wrong.asDiagonal();
     trial.velocity_mps *= wrong.asDiagonal();
     for (Eigen::Index k = 0; k < 4; ++k) {
@@ -113,8 +105,8 @@ std::filesystem::path session(const std::filesystem::path& folder,
 
 TEST(CompareRuns, AStrongerMuscleIsFoundWhereTheMomentArmsAreWrong) {
   const test::TemporaryFolder folder;
-  const RunComparison c = compare_runs(session(folder.path() / "one", 1.0, 11),
-                                       session(folder.path() / "two", 1.4, 12));
+  const RunComparison c =
+      compare_runs(session(folder.path() / "one", 1.0, 11), session(folder.path() / "two", 1.4, 12));
   int others = 0;
   for (const ComparedParameter& p : c.parameters) {
     if (p.first.parameter != "max_isometric_force") {
@@ -179,12 +171,11 @@ TEST(CompareRuns, SaysWhenTheTwoAreNotOfOneKind) {
   const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* model, double mass_kg) {
     std::filesystem::create_directories(folder / name);
-    recording::write_file(
-        folder / name / "parameters.json",
-        fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
+    recording::write_file(folder / name / "parameters.json",
+                          fmt::format(R"({{"provenance": {{"options": {{"subject": {{"mass_kg": {}}},
                         "model": {{"builtin": "{}", "coordinate": ["elbow_flexion"]}},
                         "muscle": [{{"name": "BIC"}}]}}}}, "methods": []}})",
-                    mass_kg, model));
+                                      mass_kg, model));
     return folder / name;
   };
   const auto first = write("a", "arm4", 60.0);
@@ -198,9 +189,8 @@ TEST(CompareRuns, SaysWhenTheEstimatorsDiffer) {
   const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* noise) {
     std::filesystem::create_directories(folder / name);
-    recording::write_file(
-        folder / name / "parameters.json",
-        fmt::format(R"({{"methods": [{{"noise": [{}], "estimates": [], "trials": []}}]}})", noise));
+    recording::write_file(folder / name / "parameters.json",
+                          fmt::format(R"({{"methods": [{{"noise": [{}], "estimates": [], "trials": []}}]}})", noise));
     return folder / name;
   };
   const auto least_squares = write("a", "");

@@ -72,32 +72,28 @@ report::StripCell& place(std::vector<report::StripGrid>& grids,
                          const std::vector<PersonChange>& changes,
                          std::size_t person,
                          const ComparedParameter& p) {
-  const std::string id =
-      "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
+  const std::string id = "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
   auto grid = std::find_if(grids.begin(), grids.end(), [&](const auto& g) { return g.id == id; });
   if (grid == grids.end()) {
-    report::StripGrid made{
-        .id = id,
-        .title = "Change of " + report::spelled(p.first.parameter) +
-                 (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
-        .caption =
-            "Second session minus first; the bar is the smallest change that these two recordings "
-            "detect, to either side. A bar that does not reach the line is a change.",
-        .columns = {},
-        .rows = {}};
+    report::StripGrid made{.id = id,
+                           .title = "Change of " + report::spelled(p.first.parameter) +
+                                    (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
+                           .caption =
+                               "Second session minus first; the bar is the smallest change that these two recordings "
+                               "detect, to either side. A bar that does not reach the line is a change.",
+                           .columns = {},
+                           .rows = {}};
     for (const PersonChange& change : changes)
       made.rows.push_back({.person = change.person, .page = change.page, .cells = {}});
     grid = grids.insert(grids.end(), std::move(made));
   }
-  auto column = std::find_if(grid->columns.begin(), grid->columns.end(),
-                             [&](const auto& c) { return c.name == p.muscle; });
+  auto column =
+      std::find_if(grid->columns.begin(), grid->columns.end(), [&](const auto& c) { return c.name == p.muscle; });
   if (column == grid->columns.end()) {
     const std::string unit(symbol(p.first.unit));
-    column = grid->columns.insert(column, {.name = p.muscle,
-                                           .unit = unit == "1" ? "" : unit,
-                                           .middle = 0.0,
-                                           .spread_low = {},
-                                           .spread_high = {}});
+    column = grid->columns.insert(
+        column,
+        {.name = p.muscle, .unit = unit == "1" ? "" : unit, .middle = 0.0, .spread_low = {}, .spread_high = {}});
     for (report::StripRow& row : grid->rows) row.cells.emplace_back();
   }
   return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];
@@ -119,14 +115,12 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
   const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
   double squares = 0.0;
   for (const double d : differences) squares += (d - mean) * (d - mean);
-  const std::string group = differences.size() < kFewestForGroup
-                                ? "-"
-                                : report::format_value(kNormal95 * std::sqrt(squares / (n - 1.0)));
-  table.rows.push_back(report::text_row(
-      {grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
-       grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),
-       report::format_value(mean), report::format_value(math::median(std::move(detectable))),
-       group}));
+  const std::string group =
+      differences.size() < kFewestForGroup ? "-" : report::format_value(kNormal95 * std::sqrt(squares / (n - 1.0)));
+  table.rows.push_back(
+      report::text_row({grid.title.substr(std::string("Change of ").size()), grid.columns[column].name,
+                        grid.columns[column].unit, fmt::format("{}", differences.size()), fmt::format("{}", differ),
+                        report::format_value(mean), report::format_value(math::median(std::move(detectable))), group}));
 }
 
 }  // namespace
@@ -140,21 +134,19 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
     for (const ComparedParameter& p : changes[i].comparison.parameters)
       if (p.first.method == method) place(section.grids, changes, i, p) = change_cell(p);
     if (!changes[i].comparison.unlike.empty())
-      section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.",
-                                               changes[i].person,
+      section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.", changes[i].person,
                                                fmt::join(changes[i].comparison.unlike, "; ")));
   }
-  report::Table table{
-      .id = "changes",
-      .title = "Changes over the persons",
-      .caption =
-          "Of persons whose two recordings tell the number. The smallest detectable change of a "
-          "person follows from the two intervals. That of the group is 1.96 standard deviations of "
-          "the differences between persons: for persons who did not change, it holds every error "
-          "of a repetition, placing the electrodes anew included.",
-      .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
-                  "smallest detectable change, median person", "of the group"},
-      .rows = {}};
+  report::Table table{.id = "changes",
+                      .title = "Changes over the persons",
+                      .caption =
+                          "Of persons whose two recordings tell the number. The smallest detectable change of a "
+                          "person follows from the two intervals. That of the group is 1.96 standard deviations of "
+                          "the differences between persons: for persons who did not change, it holds every error "
+                          "of a repetition, placing the electrodes anew included.",
+                      .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
+                                  "smallest detectable change, median person", "of the group"},
+                      .rows = {}};
   for (const report::StripGrid& grid : section.grids)
     for (std::size_t c = 0; c < grid.columns.size(); ++c) add_row(grid, c, table);
   if (!table.rows.empty()) section.tables.push_back(std::move(table));

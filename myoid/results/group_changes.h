@@ -15,12 +15,11 @@ struct PersonChange {
   RunComparison comparison;
 };
 
-/// Returns the persons' changes from the first session to the second by method torque (by the first
-/// method if torque was not asked for). Strip plots show each parameter's difference with the
-/// person's smallest detectable change to either side, and a table lists all persons. From three
-/// persons on, the table has the group's smallest detectable change, 1.96 times the standard
-/// deviation of the differences between persons. For persons who did not change, this deviation
-/// contains all errors of a repetition.
+/// Returns the persons' changes from the first session to the second by method torque (by the first method if torque
+/// was not asked for). Strip plots show each parameter's difference with the person's smallest detectable change to
+/// either side, and a table lists all persons. From three persons on, the table has the group's smallest detectable
+/// change, 1.96 times the standard deviation of the differences between persons. For persons who did not change, this
+/// deviation contains all errors of a repetition.
 [[nodiscard]] report::Section change_section(const std::vector<PersonChange>& changes);
 
 }  // namespace myoid

@@ -25,8 +25,7 @@ PersonChange person(const std::string& name, std::vector<ComparedParameter> para
 
 TEST(ChangeSection, CountsOnlyPersonsWhoseTwoRecordingsTellTheNumber) {
   const report::Section section = change_section(
-      {person("A", {compared("paper", 900.0, Change::differs),
-                    compared("torque", 80.0, Change::differs)}),
+      {person("A", {compared("paper", 900.0, Change::differs), compared("torque", 80.0, Change::differs)}),
        person("B", {compared("torque", 10.0, Change::no_change)}),
        person("C", {compared("torque", 700.0, Change::cannot_tell)}), person("D", {})});
   ASSERT_EQ(section.grids.size(), 1U);
@@ -47,8 +46,7 @@ TEST(ChangeSection, NamesPersonsWhoseSessionsAreNotOfOneKind) {
   unlike.comparison.unlike = {"the model", "the estimator"};
   const report::Section section = change_section({unlike});
   ASSERT_EQ(section.paragraphs.size(), 1U);
-  EXPECT_EQ(section.paragraphs[0],
-            "A: the sessions are not of one kind: the model; the estimator.");
+  EXPECT_EQ(section.paragraphs[0], "A: the sessions are not of one kind: the model; the estimator.");
 }
 
 }  // namespace

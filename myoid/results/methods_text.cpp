@@ -33,8 +33,7 @@ class Writer {
   /// Returns " (Lu and O'Connor 1999)".
   std::string cite(std::string_view key) {
     const std::string text(key);
-    if (std::find(text_.keys.begin(), text_.keys.end(), text) == text_.keys.end())
-      text_.keys.push_back(text);
+    if (std::find(text_.keys.begin(), text_.keys.end(), text) == text_.keys.end()) text_.keys.push_back(text);
     return fmt::format(" ({})", reference(key).cited);
   }
   MethodsText take() { return std::move(text_); }
@@ -62,16 +61,14 @@ const IdentificationResult* method_named(const StudyResult& result, std::string_
 
 std::string joints_of(const StudyResult& result) {
   std::vector<std::string> names;
-  for (const std::string& name : study_coordinates(result.source.study.model))
-    names.push_back(report::spelled(name));
+  for (const std::string& name : study_coordinates(result.source.study.model)) names.push_back(report::spelled(name));
   return listed(names);
 }
 
 void say_trials(const StudyResult& result, Writer& out) {
   std::vector<std::string> parts;
   const auto add = [&](Use use, std::string_view what) {
-    const std::size_t n =
-        count_trials(result, [&](const TrialResult& t) { return t.spec.use == use; });
+    const std::size_t n = count_trials(result, [&](const TrialResult& t) { return t.spec.use == use; });
     if (n > 0) parts.push_back(fmt::format("{} {}", n, what));
   };
   add(Use::calibration, "of movement");
@@ -80,28 +77,24 @@ void say_trials(const StudyResult& result, Writer& out) {
   add(Use::passive, "of passive movement");
   add(Use::static_pose, "of a static posture");
   add(Use::validation, "held back for validation");
-  out.say(fmt::format("Muscle parameters were identified from {}: {}.",
-                      counted(result.trials.size(), "trial"), listed(parts)));
+  out.say(fmt::format("Muscle parameters were identified from {}: {}.", counted(result.trials.size(), "trial"),
+                      listed(parts)));
   if (result.start_s || result.end_s)
     out.say(fmt::format("The time from {} to {} of each trial was used.",
                         result.start_s ? fmt::format("{:g} s", *result.start_s) : "its begin",
                         result.end_s ? fmt::format("{:g} s", *result.end_s) : "its end"));
   if (const int failed = failed_trials(result.trials); failed > 0)
-    out.say(fmt::format("{} could not be computed and took no part.",
-                        counted(static_cast<std::size_t>(failed), "trial")));
+    out.say(
+        fmt::format("{} could not be computed and took no part.", counted(static_cast<std::size_t>(failed), "trial")));
 }
 
 void say_motion(const StudyResult& result, Writer& out) {
   const Study& study = result.source.study;
   const std::string model = fmt::format(
-      "the {} {}{}",
-      study.model.file || !study.model.text.empty() ? "musculoskeletal model" : "built-in model",
-      result.source.model->name,
-      study.model.file || !study.model.text.empty() ? out.cite("delp2007") : "");
-  const std::size_t fitted =
-      count_trials(result, [](const TrialResult& t) { return t.motion.ik.has_value(); });
-  const std::size_t given =
-      count_trials(result, [](const TrialResult& t) { return t.input.motion.has_value(); });
+      "the {} {}{}", study.model.file || !study.model.text.empty() ? "musculoskeletal model" : "built-in model",
+      result.source.model->name, study.model.file || !study.model.text.empty() ? out.cite("delp2007") : "");
+  const std::size_t fitted = count_trials(result, [](const TrialResult& t) { return t.motion.ik.has_value(); });
+  const std::size_t given = count_trials(result, [](const TrialResult& t) { return t.input.motion.has_value(); });
   if (fitted > 0)
     out.say(
         fmt::format("Joint angles of {} were found from marker positions by inverse "
@@ -109,8 +102,7 @@ void say_motion(const StudyResult& result, Writer& out) {
                     "frame.",
                     model, out.cite("lu1999")));
   if (given > 0)
-    out.say(fmt::format("{} of {} were given{}.",
-                        fitted > 0 ? "Other joint angles" : "Joint angles", model,
+    out.say(fmt::format("{} of {} were given{}.", fitted > 0 ? "Other joint angles" : "Joint angles", model,
                         fitted > 0 ? fmt::format(" for {}", counted(given, "trial")) : ""));
   const auto cutoff = motion_cutoff_hz(study);
   out.say(cutoff ? fmt::format("Angles were smoothed by quintic splines{} with a cut-off frequency "
@@ -126,15 +118,12 @@ void say_torque(const StudyResult& result, Writer& out) {
     if (count_trials(result, is) > 0) from.emplace_back(what);
   };
   add([](const TrialResult& t) { return t.has_motion(); }, "the motion");
-  add([](const TrialResult& t) { return t.spec.external_torque.has_value(); },
-      "measured torques of the dynamometer");
+  add([](const TrialResult& t) { return t.spec.external_torque.has_value(); }, "measured torques of the dynamometer");
   add([](const TrialResult& t) { return t.spec.plates.has_value(); }, "forces of force plates");
   add([](const TrialResult& t) { return t.spec.load_cell.has_value(); }, "forces of a load cell");
-  add([](const TrialResult& t) { return t.spec.external_loads.has_value(); },
-      "measured external forces");
+  add([](const TrialResult& t) { return t.spec.external_loads.has_value(); }, "measured external forces");
   add([](const TrialResult& t) { return t.spec.held_mass_kg > 0.0; }, "held masses");
-  out.say(fmt::format("The torque of the muscles about {} was found by inverse dynamics{}.",
-                      joints_of(result),
+  out.say(fmt::format("The torque of the muscles about {} was found by inverse dynamics{}.", joints_of(result),
                       from.empty() ? "" : fmt::format(" from {}", listed(from))));
 }
 
@@ -161,8 +150,8 @@ std::string cede_name(const StudyResult& result) {
   const auto from_mvc = static_cast<std::size_t>(
       std::count_if(channels.begin(), channels.end(), [](const auto& n) { return n.from_mvc; }));
   if (from_mvc == 0) return "normalization to the peak EMG amplitude in the task";
-  const std::string name = isometric_mvc(result) ? "normalization to a standardized isometric MVC"
-                                                 : "normalization to MVC";
+  const std::string name =
+      isometric_mvc(result) ? "normalization to a standardized isometric MVC" : "normalization to MVC";
   if (from_mvc == channels.size()) return name;
   std::vector<std::string> others;
   for (const auto& n : channels)
@@ -183,8 +172,7 @@ void say_emg(const StudyResult& result, Writer& out) {
                     out.cite("besomi2020")));
     return;
   }
-  out.say(fmt::format("In the terms of the CEDE consensus{} this was {}.", out.cite("besomi2020"),
-                      cede_name(result)));
+  out.say(fmt::format("In the terms of the CEDE consensus{} this was {}.", out.cite("besomi2020"), cede_name(result)));
   const EmgSpec& emg = result.source.study.emg;
   if (emg.has_mvc && (emg.mvc_effort < 1.0 || emg.mvc_effort_sd > 0.0))
     out.say(
@@ -196,9 +184,8 @@ void say_emg(const StudyResult& result, Writer& out) {
 std::string delay_text(const StudyResult& result) {
   const auto& held = result.source.study.emg.delay_s;
   if (held) return fmt::format("a delay of {:g} ms", 1e3 * *held);
-  return result.source.study.identify.delay_per_channel
-             ? "a delay that was estimated for each channel"
-             : "a delay that was estimated";
+  return result.source.study.identify.delay_per_channel ? "a delay that was estimated for each channel"
+                                                        : "a delay that was estimated";
 }
 
 std::string lag_text(const StudyResult& result, EmgLag lag) {
@@ -226,11 +213,9 @@ void say_muscles(const StudyResult& result, Writer& out) {
   out.say(fmt::format(
       "{} {} a Hill-type law{}: a Gaussian force-length relation, a hyperbolic force-velocity "
       "relation for shortening and another one for lengthening, {}, and {}.",
-      names.size() == 1 ? fmt::format("The muscle {}", listed(names))
-                        : fmt::format("The muscles {}", listed(names)),
+      names.size() == 1 ? fmt::format("The muscle {}", listed(names)) : fmt::format("The muscles {}", listed(names)),
       names.size() == 1 ? "followed" : "each followed", out.cite("venture2006"),
-      spec.model_muscles ? "pennation and passive force of the model"
-                         : "without pennation and passive force",
+      spec.model_muscles ? "pennation and passive force of the model" : "without pennation and passive force",
       spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon"));
   const IdentificationResult* torque = method_named(result, "torque");
   if (torque != nullptr) out.say(lag_text(result, torque->lag));
@@ -256,8 +241,7 @@ void say_least_squares(const StudyResult& result, const IdentificationResult& to
       "least squares{}{}{}{}.",
       torque.samples_used, loss_text(options.loss),
       options.residual_cutoff_hz
-          ? fmt::format(", with measured and modelled torque low-passed at {:g} Hz",
-                        *options.residual_cutoff_hz)
+          ? fmt::format(", with measured and modelled torque low-passed at {:g} Hz", *options.residual_cutoff_hz)
           : "",
       options.priors && !torque.exact ? ", with prior distributions from the literature" : "",
       options.weights && options.correct_attenuation && !torque.exact
@@ -266,29 +250,26 @@ void say_least_squares(const StudyResult& result, const IdentificationResult& to
   if (torque.exact) return;
   std::vector<std::string> routes{
       fmt::format("a covariance that allows for correlated errors{}", out.cite("newey1987"))};
-  if (options.intervals.profile)
-    routes.push_back(fmt::format("the profile likelihood{}", out.cite("raue2009")));
+  if (options.intervals.profile) routes.push_back(fmt::format("the profile likelihood{}", out.cite("raue2009")));
   out.say(fmt::format("95 % intervals are the widest by {}{}.", listed(routes),
-                      torque.model_error > 0.0
-                          ? ", widened by the systematic error that the residuals showed"
-                          : ""));
+                      torque.model_error > 0.0 ? ", widened by the systematic error that the residuals showed" : ""));
 }
 
 void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque, Writer& out) {
-  out.say(fmt::format(
-      "All parameters were estimated from {} samples of the torque as the mean of their posterior "
-      "density about its mode, with prior distributions from the literature, integrated over "
-      "errors of moment arms, tendons, the scale of the torque, cross-talk and electrode drift. "
-      "Repetitions of a movement repeat its errors: the samples count as {:.0f} independent ones "
-      "(a coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 % "
-      "intervals are {}.",
-      torque.samples_used, torque.effective_samples,
-      spec.posterior_draws > 0
-          ? fmt::format("those of {} draws by Hamiltonian Monte Carlo", spec.posterior_draws)
-          : "those of the posterior's marginal densities, which follow the density to two standard "
-            "deviations about the mode and include the volume of the other parameters (a "
-            "simplified Laplace approximation; Rue, Martino and Chopin, J. R. Stat. Soc. B 71, "
-            "319, 2009)"));
+  out.say(
+      fmt::format("All parameters were estimated from {} samples of the torque as the mean of their posterior "
+                  "density about its mode, with prior distributions from the literature, integrated over "
+                  "errors of moment arms, tendons, the scale of the torque, cross-talk and electrode drift. "
+                  "Repetitions of a movement repeat its errors: the samples count as {:.0f} independent ones "
+                  "(a coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 % "
+                  "intervals are {}.",
+                  torque.samples_used, torque.effective_samples,
+                  spec.posterior_draws > 0
+                      ? fmt::format("those of {} draws by Hamiltonian Monte Carlo", spec.posterior_draws)
+                      : "those of the posterior's marginal densities, which follow the density to two standard "
+                        "deviations about the mode and include the volume of the other parameters (a "
+                        "simplified Laplace approximation; Rue, Martino and Chopin, J. R. Stat. Soc. B 71, "
+                        "319, 2009)"));
 }
 
 void say_fit(const StudyResult& result, Writer& out) {
@@ -308,17 +289,15 @@ void say_fit(const StudyResult& result, Writer& out) {
         "The parameters of each muscle were also fitted to its own force, as force sharing assigns "
         "it.");
   if (method_named(result, "paper") != nullptr)
-    out.say(fmt::format(
-        "{} the method as published{} was applied: each muscle alone, shortening and lengthening "
-        "apart, by Gauss-Newton steps on forces that minimize the sum of {} to the power "
-        "{:g}{}.",
-        torque != nullptr ? "For comparison" : "As the only method,", out.cite("venture2006"),
-        result.source.study.sharing.objective == forces::SharingObjective::activation
-            ? "activations"
-        : result.source.study.sharing.objective == forces::SharingObjective::force
-            ? "muscle forces"
-            : "muscle stresses",
-        result.source.study.sharing.exponent, out.cite("crowninshield1981")));
+    out.say(
+        fmt::format("{} the method as published{} was applied: each muscle alone, shortening and lengthening "
+                    "apart, by Gauss-Newton steps on forces that minimize the sum of {} to the power "
+                    "{:g}{}.",
+                    torque != nullptr ? "For comparison" : "As the only method,", out.cite("venture2006"),
+                    result.source.study.sharing.objective == forces::SharingObjective::activation ? "activations"
+                    : result.source.study.sharing.objective == forces::SharingObjective::force    ? "muscle forces"
+                                                                                                  : "muscle stresses",
+                    result.source.study.sharing.exponent, out.cite("crowninshield1981")));
 }
 
 void say_validation(const StudyResult& result, Writer& out) {
@@ -334,11 +313,9 @@ void say_validation(const StudyResult& result, Writer& out) {
   }
   if (result.source.study.phases.search && !result.fit_input.phases.empty()) {
     std::vector<std::string> kinds;
-    for (const PhaseKind kind : result.source.study.phases.exclude)
-      kinds.push_back(report::spelled(choice_name(kind)));
+    for (const PhaseKind kind : result.source.study.phases.exclude) kinds.push_back(report::spelled(choice_name(kind)));
     if (!kinds.empty())
-      out.say(fmt::format("Phases that an automatic search found to be {} were not fitted.",
-                          fmt::join(kinds, " or ")));
+      out.say(fmt::format("Phases that an automatic search found to be {} were not fitted.", fmt::join(kinds, " or ")));
   }
 }
 
@@ -399,11 +376,8 @@ report::Section methods_section(const MethodsText& text) {
                         "The same text is in `methods.txt`; `methods.bib` has the references for "
                         "BibTeX. State which ethics approval, laboratory and instruments the data "
                         "come from: the files do not say so."};
-  report::Table table{.id = "references",
-                      .title = "References",
-                      .caption = "",
-                      .columns = {"key", "reference"},
-                      .rows = {}};
+  report::Table table{
+      .id = "references", .title = "References", .caption = "", .columns = {"key", "reference"}, .rows = {}};
   const auto add = [&](const std::string& key, const std::string& text_of_reference) {
     table.rows.push_back({{.text = key, .badge = report::Badge::none, .hint = {}},
                           {.text = text_of_reference, .badge = report::Badge::none, .hint = {}}});

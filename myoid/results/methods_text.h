@@ -16,9 +16,8 @@ struct MethodsText {
   std::string version;            ///< Version of the program.
 };
 
-/// Describes the processing of this run's data: trials, motion with its cut-off, torque, EMG with
-/// its filters and the normalization in the CEDE consensus's terms, law of the muscles, estimator,
-/// intervals, validation and version.
+/// Describes the processing of this run's data: trials, motion with its cut-off, torque, EMG with its filters and the
+/// normalization in the CEDE consensus's terms, law of the muscles, estimator, intervals, validation and version.
 [[nodiscard]] MethodsText methods_text(const StudyResult& result, const Provenance& provenance);
 
 /// Returns the paragraph and the references as plain text (methods.txt).

@@ -28,8 +28,8 @@ StudyResult small_study() {
     TrialResult trial;
     trial.spec.use = use;
     trial.emg.activation = TimeSeries(t, {{"BIC", Unit::dimensionless}}, Eigen::VectorXd(0.1 * t));
-    trial.motion.joints.q = TimeSeries(t, {{"elbow_flexion", Unit::radian}},
-                                       Eigen::VectorXd((use == Use::mvc ? 0.0 : 1.5) * t));
+    trial.motion.joints.q =
+        TimeSeries(t, {{"elbow_flexion", Unit::radian}}, Eigen::VectorXd((use == Use::mvc ? 0.0 : 1.5) * t));
     trial.motion.ik.emplace();
     result.trials.push_back(std::move(trial));
   }
@@ -61,9 +61,8 @@ TEST(MethodsText, NamesTrialsFiltersEstimatorAndVersion) {
             HasSubstr("cut-off frequency of 5 Hz (-3 dB)"),
             HasSubstr("low-pass filtered (zero-lag fourth-order Butterworth filter, cut-off "
                       "frequency 4 Hz)"),
-            HasSubstr("inverse kinematics"), HasSubstr("The muscles BIC and TRI each"),
-            HasSubstr("a rigid tendon"), HasSubstr("from 321 samples"), HasSubstr("least squares"),
-            HasSubstr("Myoid 9.8.7.")));
+            HasSubstr("inverse kinematics"), HasSubstr("The muscles BIC and TRI each"), HasSubstr("a rigid tendon"),
+            HasSubstr("from 321 samples"), HasSubstr("least squares"), HasSubstr("Myoid 9.8.7.")));
 }
 
 TEST(MethodsText, ChangesWithTheStudy) {
@@ -83,17 +82,13 @@ TEST(MethodsText, ChangesWithTheStudy) {
               HasSubstr("Angles were not smoothed"));
   EXPECT_THAT(changed([](StudyResult& r) { r.source.study.identify.elastic_tendon = true; }),
               HasSubstr("elastic tendon"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.emg.delay_s = 0.05; }),
-              HasSubstr("a delay of 50 ms"));
-  EXPECT_THAT(changed([](StudyResult& r) {
-                r.source.study.identify.estimator = identification::EstimatorKind::posterior;
-              }),
-              AllOf(HasSubstr("posterior"), Not(HasSubstr("least squares,"))));
+  EXPECT_THAT(changed([](StudyResult& r) { r.source.study.emg.delay_s = 0.05; }), HasSubstr("a delay of 50 ms"));
   EXPECT_THAT(
-      changed([](StudyResult& r) { r.fit_input.options.loss = identification::Loss::huber; }),
-      HasSubstr("Huber's loss"));
-  EXPECT_THAT(changed([](StudyResult& r) { r.fit_input.options.intervals.profile = false; }),
-              Not(HasSubstr("Raue")));
+      changed([](StudyResult& r) { r.source.study.identify.estimator = identification::EstimatorKind::posterior; }),
+      AllOf(HasSubstr("posterior"), Not(HasSubstr("least squares,"))));
+  EXPECT_THAT(changed([](StudyResult& r) { r.fit_input.options.loss = identification::Loss::huber; }),
+              HasSubstr("Huber's loss"));
+  EXPECT_THAT(changed([](StudyResult& r) { r.fit_input.options.intervals.profile = false; }), Not(HasSubstr("Raue")));
   EXPECT_THAT(changed([](StudyResult& r) { r.trials[1].spec.use = Use::validation; }),
               HasSubstr("1 of movement, 1 of maximal voluntary contraction (MVC) and 1 held back"));
   EXPECT_THAT(changed([](StudyResult& r) {
@@ -113,8 +108,7 @@ TEST(MethodsText, NamesTheNormalizationAsTheConsensusDoes) {
   result.emg.normalisation[1].from_mvc = false;
   EXPECT_THAT(text_of(result), HasSubstr("normalization to MVC, and for TRI to the peak EMG"));
   result.emg.normalisation[0].from_mvc = false;
-  EXPECT_THAT(text_of(result),
-              HasSubstr("was normalization to the peak EMG amplitude in the task"));
+  EXPECT_THAT(text_of(result), HasSubstr("was normalization to the peak EMG amplitude in the task"));
   result.source.study.emg.kind = EmgKind::activation;
   EXPECT_THAT(text_of(result), HasSubstr("was not known to the program"));
 }

@@ -37,14 +37,12 @@ Eigen::MatrixXd draws_of(const IdentificationResult& fit,
     const auto f = static_cast<std::size_t>(numbers[static_cast<std::size_t>(k)].field);
     const double found = fit.values.muscles[m][f];
     draws.row(k).setConstant(found);
-    const std::optional<Eigen::Index> row =
-        identification::unknown_of(fit, muscles[m].name, fields[f]);
+    const std::optional<Eigen::Index> row = identification::unknown_of(fit, muscles[m].name, fields[f]);
     if (!row || *row >= fit.draws.rows()) continue;
     const std::string& label = fit.free_parameters[static_cast<std::size_t>(*row)];
     const std::string first = label.substr(0, label.find_first_of("+."));
     for (std::size_t owner = 0; owner < muscles.size(); ++owner)
-      if (muscles[owner].name == first)
-        draws.row(k) = found / fit.values.muscles[owner][f] * fit.draws.row(*row);
+      if (muscles[owner].name == first) draws.row(k) = found / fit.values.muscles[owner][f] * fit.draws.row(*row);
   }
   return draws;
 }
@@ -54,14 +52,11 @@ report::MovableMuscle movable(const IdentificationResult& fit,
                               std::size_t m,
                               const std::vector<std::string>& fields) {
   const identification::MuscleSetup& setup = muscles[m];
-  const identification::MuscleValues start =
-      identification::muscle_values(setup.start, setup.extras);
+  const identification::MuscleValues start = identification::muscle_values(setup.start, setup.extras);
   const identification::MuscleValues& found = fit.values.muscles[m];
-  report::MovableMuscle muscle{
-      setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
+  report::MovableMuscle muscle{setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
   std::vector<std::string> names;
-  for (const int field :
-       {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
+  for (const int field : {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
     const auto f = static_cast<std::size_t>(field);
     names.push_back(fields[f]);
     std::string verdict;
@@ -70,14 +65,13 @@ report::MovableMuscle movable(const IdentificationResult& fit,
       verdict = report::spelled(identification::name(e.verdict));
       if (e.prior_mean) muscle.literature[f] = *e.prior_mean;
     }
-    report::MovableNumber number{
-        .field = field,
-        .name = report::spelled(fields[f]),
-        .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
-        .lower = 0.5 * std::min(muscle.literature[f], found[f]),
-        .upper = 1.6 * std::max(muscle.literature[f], found[f]),
-        .sd_log = 0.0,
-        .verdict = std::move(verdict)};
+    report::MovableNumber number{.field = field,
+                                 .name = report::spelled(fields[f]),
+                                 .unit = std::string(symbol(identification::parameter_field(fields[f]).unit)),
+                                 .lower = 0.5 * std::min(muscle.literature[f], found[f]),
+                                 .upper = 1.6 * std::max(muscle.literature[f], found[f]),
+                                 .sd_log = 0.0,
+                                 .verdict = std::move(verdict)};
     muscle.numbers.push_back(std::move(number));
   }
   const Eigen::MatrixXd covariance = identification::log_covariance(fit, setup.name, names);
@@ -86,8 +80,7 @@ report::MovableMuscle movable(const IdentificationResult& fit,
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
     muscle.numbers[static_cast<std::size_t>(i)].sd_log = sd[i];
     for (Eigen::Index j = 0; j < sd.size(); ++j)
-      if (i != j && sd[i] > 0.0 && sd[j] > 0.0)
-        muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
+      if (i != j && sd[i] > 0.0 && sd[j] > 0.0) muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
   }
   if (fit.draws.size() > 0) {
     muscle.draws = draws_of(fit, muscles, m, muscle.numbers, fields);

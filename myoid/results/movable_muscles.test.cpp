@@ -62,8 +62,7 @@ TEST(MovableMuscles, HaveTheDrawsOfThePosterior) {
     setup.start.max_isometric_force_n = setup.name == "BIC" ? 600.0 : 900.0;
     fit.values.muscles.push_back(identification::muscle_values(setup.start, setup.extras));
   }
-  // BRA's strength is one and a half times BIC's in each draw, its length has its own, its width
-  // was held.
+  // BRA's strength is one and a half times BIC's in each draw, its length has its own, its width was held.
   fit.free_parameters = {"BRA.optimal_fiber_length", "BIC+BRA.max_isometric_force"};
   fit.draws = Eigen::MatrixXd(2, 3);
   fit.draws << 0.09, 0.1, 0.12, 500.0, 600.0, 800.0;

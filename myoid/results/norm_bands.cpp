@@ -14,8 +14,7 @@ bool belongs_to(const Norm& norm, const TrialResult& trial) {
   const bool part = std::any_of(trial.input.remarks.begin(), trial.input.remarks.end(),
                                 [](const Remark& r) { return r.code == RemarkCode::clock_pause; });
   const auto& named = norm.trials;
-  return !part &&
-         (named.empty() || std::find(named.begin(), named.end(), trial.spec.name) != named.end());
+  return !part && (named.empty() || std::find(named.begin(), named.end(), trial.spec.name) != named.end());
 }
 
 }  // namespace
@@ -29,12 +28,10 @@ void add_norms(const StudySource& source, const TrialResult& trial, report::Work
     shown.clocks.emplace_back(t[0] + 0.01 * norm.percent.array() * (t[t.size() - 1] - t[0]));
     for (const NormCurve& curve : norm.curves) {
       for (report::TimePlot& plot : shown.plots) {
-        if (plot.kind != (curve.torque ? "torque" : "angle") ||
-            plot.title != report::spelled(curve.coordinate))
+        if (plot.kind != (curve.torque ? "torque" : "angle") || plot.title != report::spelled(curve.coordinate))
           continue;
-        plot.lines.insert(plot.lines.begin(),
-                          {fmt::format("{}, mean ± 1 SD", norm.name), report::Role::norm, clock,
-                           curve.mean - curve.sd, curve.mean + curve.sd});
+        plot.lines.insert(plot.lines.begin(), {fmt::format("{}, mean ± 1 SD", norm.name), report::Role::norm, clock,
+                                               curve.mean - curve.sd, curve.mean + curve.sd});
       }
     }
   }

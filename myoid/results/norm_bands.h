@@ -5,9 +5,8 @@
 
 namespace myoid {
 
-/// Draws the study's norms behind the angles and torques of a trial: mean ± 1 standard deviation, 0
-/// % at the begin of its motion, 100 % at the end. A trial that is a part of a movement, cut at a
-/// pause of its clock, gets none.
+/// Draws the study's norms behind the angles and torques of a trial: mean ± 1 standard deviation, 0 % at the begin of
+/// its motion, 100 % at the end. A trial that is a part of a movement, cut at a pause of its clock, gets none.
 void add_norms(const StudySource& source, const TrialResult& trial, report::WorkbenchTrial& shown);
 
 }  // namespace myoid

@@ -34,22 +34,16 @@ std::string number_or_empty(const std::optional<double>& value) {
 /// Formats a member of an estimate as a cell of parameters.csv.
 struct CsvCell {
   std::string operator()(const std::string& text) const { return text; }
-  std::string operator()(const std::optional<double>& value) const {
-    return number_or_empty(value);
-  }
+  std::string operator()(const std::optional<double>& value) const { return number_or_empty(value); }
   std::string operator()(double value) const { return number_or_empty(value); }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(Unit unit) const { return std::string(symbol(unit)); }
-  std::string operator()(identification::Verdict verdict) const {
-    return std::string(identification::name(verdict));
-  }
+  std::string operator()(identification::Verdict verdict) const { return std::string(identification::name(verdict)); }
 };
 
 /// Converts a member of an estimate to a value of parameters.json.
 struct JsonValue {
-  ordered_json operator()(const std::optional<double>& value) const {
-    return report::number_or_null(value);
-  }
+  ordered_json operator()(const std::optional<double>& value) const { return report::number_or_null(value); }
   ordered_json operator()(double value) const { return report::number_or_null(value); }
   ordered_json operator()(bool value) const { return value; }
   ordered_json operator()(const auto& other) const { return CsvCell{}(other); }
@@ -68,15 +62,13 @@ ordered_json estimate_json(const ParameterEstimate& e) {
   if (!e.tied_to.empty()) object["tied_to"] = e.tied_to;
   ordered_json routes = ordered_json::array();
   for (const identification::RouteInterval& r : e.routes) {
-    routes.push_back({{"route", r.route},
-                      {"ci_low", report::number_or_null(r.low)},
-                      {"ci_high", report::number_or_null(r.high)}});
+    routes.push_back(
+        {{"route", r.route}, {"ci_low", report::number_or_null(r.low)}, {"ci_high", report::number_or_null(r.high)}});
   }
   object["intervals"] = routes;
   if (e.variance_shares) {
     for (std::size_t s = 0; s < identification::kSourceColumns.size(); ++s)
-      object["variance_shares"][std::string(identification::kSourceColumns[s])] =
-          (*e.variance_shares)[s];
+      object["variance_shares"][std::string(identification::kSourceColumns[s])] = (*e.variance_shares)[s];
   }
   return object;
 }
@@ -90,8 +82,7 @@ struct MoreColumns {
 MoreColumns more_columns(const std::vector<IdentificationResult>& methods) {
   MoreColumns more;
   for (const IdentificationResult& method : methods) {
-    for (const ParameterEstimate& e : method.estimates)
-      more.shares = more.shares || e.variance_shares.has_value();
+    for (const ParameterEstimate& e : method.estimates) more.shares = more.shares || e.variance_shares.has_value();
   }
   if (more.shares) more.routes.emplace_back("geometry_and_sensors_exact");
   return more;
@@ -103,12 +94,10 @@ std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind == EstimateColumn::Kind::json) continue;
     const std::string cell = cell_of(e, column, CsvCell{});
-    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? report::csv_quoted(cell)
-                                                                  : cell);
+    cells.push_back(column.kind == EstimateColumn::Kind::sentence ? report::csv_quoted(cell) : cell);
   }
   for (const std::string& route : more.routes) {
-    const auto it = std::find_if(e.routes.begin(), e.routes.end(),
-                                 [&](const auto& r) { return r.route == route; });
+    const auto it = std::find_if(e.routes.begin(), e.routes.end(), [&](const auto& r) { return r.route == route; });
     const bool known = it != e.routes.end();
     cells.push_back(known ? number_or_empty(it->low) : "");
     cells.push_back(known ? number_or_empty(it->high) : "");
@@ -135,16 +124,13 @@ ordered_json basins_json(const identification::BasinTable& table) {
   return object;
 }
 
-std::vector<double> list_of(const Eigen::VectorXd& values) {
-  return {values.data(), values.data() + values.size()};
-}
+std::vector<double> list_of(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
 
 ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
   ordered_json rows = ordered_json::array();
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
     ordered_json row = ordered_json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c)
-      row.push_back(report::number_or_null(matrix(r, c)));
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(report::number_or_null(matrix(r, c)));
     rows.push_back(row);
   }
   return rows;
@@ -187,16 +173,13 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
           {"band_rmse_nm", number(t.band.rmse_nm())},
           {"band_nrmse_range", number(t.band.nrmse_range())},
           {"band_r2", number(t.band.r2())},
-          {"covered",
-           number(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
+          {"covered", number(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}};
 }
 
 ordered_json method_json(const IdentificationResult& method) {
   // Method paper has neither noise nor delay, and predicts forces, not torque.
   const bool paper = method.method == "paper";
-  const auto unless_paper = [&](double value) {
-    return paper ? ordered_json(nullptr) : report::number_or_null(value);
-  };
+  const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : report::number_or_null(value); };
   ordered_json m;
   m["method"] = method.method;
   m["termination"] = std::string(math::name(method.termination));
@@ -222,8 +205,7 @@ ordered_json method_json(const IdentificationResult& method) {
   warnings.insert(warnings.end(), method.warnings.begin(), method.warnings.end());
   m["warnings"] = warnings;
   m["prior_distances"] = array_of(method.prior_distances, distance_json);
-  m["bootstrap"] = {{"converged", method.bootstrap_replicates},
-                    {"failed", method.bootstrap_failed}};
+  m["bootstrap"] = {{"converged", method.bootstrap_replicates}, {"failed", method.bootstrap_failed}};
   m["branch_tests"] = array_of(method.branch_tests, branch_test_json);
   m["searches"] = array_of(method.basins, basins_json);
   m["covariance"] = {{"parameters", method.free_parameters},
@@ -232,9 +214,7 @@ ordered_json method_json(const IdentificationResult& method) {
                      {"matrix", matrix_json(method.covariance)}};
   m["envelope_variance"] = list_of(method.envelope_variance);
   m["noise"] = list_of(method.noise);
-  m["trials"] = array_of(method.trials, [&](const identification::TrialFit& t) {
-    return trial_json(t, unless_paper);
-  });
+  m["trials"] = array_of(method.trials, [&](const identification::TrialFit& t) { return trial_json(t, unless_paper); });
   return m;
 }
 
@@ -242,9 +222,8 @@ ordered_json method_json(const IdentificationResult& method) {
 ordered_json fold_values(const identification::Fold& fold) {
   ordered_json values = ordered_json::array();
   for (const ParameterEstimate& e : fold.parameters)
-    values.push_back({{"muscle", e.muscle},
-                      {"parameter", e.parameter},
-                      {"estimate", report::number_or_null(e.estimate)}});
+    values.push_back(
+        {{"muscle", e.muscle}, {"parameter", e.parameter}, {"estimate", report::number_or_null(e.estimate)}});
   return values;
 }
 
@@ -270,8 +249,7 @@ ordered_json fold_json(const identification::Fold& f) {
           {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
           {"lag_s", report::number_or_null(f.lag_s)},
           {"covered", report::number_or_null(f.covered)},
-          {"unseen_effort",
-           {{"channel", f.unseen.channel}, {"ratio", report::number_or_null(f.unseen.ratio)}}},
+          {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", report::number_or_null(f.unseen.ratio)}}},
           {"converged", f.converged},
           {"emg_lag", identification::name(f.lag)},
           {"parameters", fold_values(f)}};
@@ -308,8 +286,7 @@ std::string parameters_csv(const std::vector<IdentificationResult>& methods) {
   for (const EstimateColumn& column : identification::estimate_columns()) {
     if (column.kind != EstimateColumn::Kind::json) text += std::string(column.name) + ",";
   }
-  for (const std::string& route : more.routes)
-    text += fmt::format("ci_low_{0},ci_high_{0},", route);
+  for (const std::string& route : more.routes) text += fmt::format("ci_low_{0},ci_high_{0},", route);
   text += "routes_disagree";
   for (std::size_t s = 0; more.shares && s < identification::kSourceColumns.size(); ++s)
     text += fmt::format(",variance_{}", identification::kSourceColumns[s]);
@@ -338,8 +315,7 @@ std::string fold_parameters_csv(const std::vector<identification::Fold>& folds) 
   for (const identification::Fold& fold : folds) {
     for (const ParameterEstimate& e : fold.parameters) {
       // One fit predicts all joints of a trial.
-      const std::string row =
-          fmt::format("{},{},{}", report::csv_quoted(fold.trial), e.muscle, e.parameter);
+      const std::string row = fmt::format("{},{},{}", report::csv_quoted(fold.trial), e.muscle, e.parameter);
       if (!written.insert(row).second) continue;
       text += fmt::format("{},{},{},{}\n", row, symbol(e.unit), number_or_empty(e.estimate),
                           identification::name(fold.lag));
@@ -357,8 +333,7 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
   object["methods"] = array_of(methods, method_json);
   object["segments"] = ordered_json::array();
   for (const TrialPhases& trial : context.phases) {
-    for (const Phase& phase : trial.phases)
-      object["segments"].push_back(phase_json(trial.trial, phase));
+    for (const Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
   }
   if (context.force_loop != nullptr) {
     const identification::ForceLoop& loop = *context.force_loop;
@@ -387,8 +362,7 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
                            const Provenance& provenance,
                            const ParameterContext& context,
                            const std::filesystem::path& folder) {
-  recording::write_file(folder / "parameters.json",
-                        parameters_json(methods, folds, provenance, context));
+  recording::write_file(folder / "parameters.json", parameters_json(methods, folds, provenance, context));
   recording::write_file(folder / "parameters.csv", parameters_csv(methods));
   const auto write_or_remove = [&](const char* name, bool there, const auto& text) {
     std::error_code ignored;
@@ -397,10 +371,9 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
     else
       std::filesystem::remove(folder / name, ignored);  // from an earlier run
   };
-  write_or_remove("fold_parameters.csv", !folds.empty(),
-                  [&] { return fold_parameters_csv(folds); });
-  const auto drawn = std::find_if(methods.begin(), methods.end(),
-                                  [](const auto& method) { return method.draws.size() > 0; });
+  write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
+  const auto drawn =
+      std::find_if(methods.begin(), methods.end(), [](const auto& method) { return method.draws.size() > 0; });
   write_or_remove("posterior.csv", drawn != methods.end(), [&] { return posterior_csv(*drawn); });
 }
 

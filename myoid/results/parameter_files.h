@@ -15,19 +15,16 @@
 
 namespace myoid {
 
-/// Returns the table of all estimates, one row per muscle x parameter x method x case, with the
-/// columns of docs/guide/run.md. Each number is the shortest text that reads back the same; a
-/// missing number is an empty cell.
-[[nodiscard]] std::string parameters_csv(
-    const std::vector<identification::IdentificationResult>& methods);
+/// Returns the table of all estimates, one row per muscle x parameter x method x case, with the columns of
+/// docs/guide/run.md. Each number is the shortest text that reads back the same; a missing number is an empty cell.
+[[nodiscard]] std::string parameters_csv(const std::vector<identification::IdentificationResult>& methods);
 
 /// Returns the parameters that predict each fold, one row per fold and parameter, from fits without
 /// that fold. With the held values (muscles.csv or the model) and the lag they allow a new
 /// computation of the left-out R2 (docs/theory/identification.md).
 [[nodiscard]] std::string fold_parameters_csv(const std::vector<identification::Fold>& folds);
 
-/// Returns the draws from the posterior of a method, one row each: `weight`, and every unknown in
-/// SI.
+/// Returns the draws from the posterior of a method, one row each: `weight`, and every unknown in SI.
 [[nodiscard]] std::string posterior_csv(const identification::IdentificationResult& method);
 
 /// The content of parameters.json beyond the estimates and the folds.
@@ -36,18 +33,16 @@ struct ParameterContext {
   std::vector<identification::RestingJoint> resting;
   std::string left_out = "trial";     ///< Kind of a fold: trial, condition, block, or none.
   std::optional<double> max_rate_hz;  ///< Highest rate after thinning; empty: unknown.
-  std::string
-      starting_values;  ///< Starting values from the literature, as a sentence; empty: none.
+  std::string starting_values;        ///< Starting values from the literature, as a sentence; empty: none.
   const identification::ForceLoop* force_loop = nullptr;  ///< Null: no loop.
 };
 
 /// Returns all estimates with covariance, diagnostics, folds, phases, resting torques and the end
 /// of the loop of forces and parameters.
-[[nodiscard]] std::string parameters_json(
-    const std::vector<identification::IdentificationResult>& methods,
-    const std::vector<identification::Fold>& folds,
-    const Provenance& provenance,
-    const ParameterContext& context = {});
+[[nodiscard]] std::string parameters_json(const std::vector<identification::IdentificationResult>& methods,
+                                          const std::vector<identification::Fold>& folds,
+                                          const Provenance& provenance,
+                                          const ParameterContext& context = {});
 
 /// Writes parameters.json, parameters.csv and, if there are such results, fold_parameters.csv and
 /// posterior.csv. Removes files of these names from an earlier run.

@@ -102,8 +102,7 @@ TEST(ParametersJson, ARowReadsBackTheSameInEveryColumn) {
   const auto read = identification::estimate_of_json(row);
   ASSERT_TRUE(read);
   for (const identification::EstimateColumn& column : identification::estimate_columns()) {
-    std::visit([&](const auto member) { EXPECT_EQ(*read.*member, e.*member) << column.name; },
-               column.member);
+    std::visit([&](const auto member) { EXPECT_EQ(*read.*member, e.*member) << column.name; }, column.member);
   }
   EXPECT_EQ(read->tied_to, "BRA");
   nlohmann::json without = row;
@@ -111,8 +110,7 @@ TEST(ParametersJson, ARowReadsBackTheSameInEveryColumn) {
   EXPECT_FALSE(identification::estimate_of_json(without));
   without = row;
   without.erase("verdict");
-  EXPECT_THROW(static_cast<void>(identification::estimate_of_json(without)),
-               nlohmann::json::exception);
+  EXPECT_THROW(static_cast<void>(identification::estimate_of_json(without)), nlohmann::json::exception);
 }
 
 TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
@@ -124,24 +122,19 @@ TEST(ParametersJson, MethodPaperHasNoNoiseAndNoDelay) {
   EXPECT_EQ(json.at("methods").at(0).at("emg_delay_s"), 0.05);
   EXPECT_TRUE(json.at("methods").at(1).at("emg_delay_s").is_null());
   EXPECT_TRUE(json.at("methods").at(0).at("estimates").at(0).at("std_error").is_null());
-  EXPECT_EQ(json.at("methods").at(0).at("estimates").at(0).at("intervals").at(0).at("ci_low"),
-            0.24);
+  EXPECT_EQ(json.at("methods").at(0).at("estimates").at(0).at("intervals").at(0).at("ci_low"), 0.24);
 }
 
 TEST(ParametersJson, SearchesTellWhereTheirStartsEnded) {
   identification::IdentificationResult torque = one_estimate();
   const auto none = nlohmann::json::parse(parameters_json({torque}, {}, {}));
   EXPECT_TRUE(none.at("methods").at(0).at("searches").empty());
-  torque.basins = {{.fit = "all muscles",
-                    .starts = 12,
-                    .failed = 2,
-                    .basins = {{.cost = 4.5, .starts = 9, .converged = 8, .rival = true},
-                               {.cost = 5.5,
-                                .starts = 1,
-                                .converged = 1,
-                                .distance = 1.25,
-                                .rival = true,
-                                .given = true}}}};
+  torque.basins = {
+      {.fit = "all muscles",
+       .starts = 12,
+       .failed = 2,
+       .basins = {{.cost = 4.5, .starts = 9, .converged = 8, .rival = true},
+                  {.cost = 5.5, .starts = 1, .converged = 1, .distance = 1.25, .rival = true, .given = true}}}};
   const auto json = nlohmann::json::parse(parameters_json({torque}, {}, {}));
   const auto& searches = json.at("methods").at(0).at("searches").at(0);
   EXPECT_EQ(searches.at("fit"), "all muscles");

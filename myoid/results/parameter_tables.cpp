@@ -30,9 +30,8 @@ Badge badge(Verdict verdict) { return report::verdict_badge(identification::name
 /// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
-  return e.ci_low && e.ci_high && !is_undetermined(e)
-             ? format_rounded(value, *e.ci_high - *e.ci_low)
-             : format_value(value);
+  return e.ci_low && e.ci_high && !is_undetermined(e) ? format_rounded(value, *e.ci_high - *e.ci_low)
+                                                      : format_value(value);
 }
 
 std::string unit(const ParameterEstimate& e) {
@@ -46,8 +45,7 @@ std::string interval(const ParameterEstimate& e) {
 
 std::string prior(const ParameterEstimate& e) {
   if (!e.prior_mean || !e.prior_sd) return "-";
-  return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd),
-                     format_rounded(*e.prior_sd, *e.prior_sd));
+  return fmt::format("{} ± {}", format_rounded(*e.prior_mean, *e.prior_sd), format_rounded(*e.prior_sd, *e.prior_sd));
 }
 
 Cell verdict_cell(const ParameterEstimate& e) {
@@ -56,8 +54,7 @@ Cell verdict_cell(const ParameterEstimate& e) {
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
   for (const TrueValue& t : result.source.truth) {
-    if (t.parameter == e.parameter &&
-        (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
+    if (t.parameter == e.parameter && (t.muscle == e.muscle || (e.muscle == "subject" && t.parameter == "emg_delay")))
       return t.value;
   }
   return std::nullopt;
@@ -80,8 +77,8 @@ std::string measured_at_rest(const StudyResult& result) {
     text += fmt::format(
         " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
         "It is part of every torque predicted, and the joint's numbers here come on top of it.",
-        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad),
-        torque.lowest_rad * kDegrees, torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
+        joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad), torque.lowest_rad * kDegrees,
+        torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
   }
   return text;
 }
@@ -91,15 +88,13 @@ std::string measured_at_rest(const StudyResult& result) {
 bool is_undetermined(const ParameterEstimate& e) {
   constexpr double kMeaningless = 1e3;
   // A number that is 0 by nature is compared with its usual spread between people.
-  const double usual = identification::zero_by_nature(e.parameter)
-                           ? identification::parameter_field(e.parameter).prior_sd
-                           : 1e-12;
+  const double usual =
+      identification::zero_by_nature(e.parameter) ? identification::parameter_field(e.parameter).prior_sd : 1e-12;
   const double size = std::max({std::abs(e.initial), std::abs(e.estimate), usual});
   return e.ci_low && e.ci_high && *e.ci_high - *e.ci_low > kMeaningless * size;
 }
 
-std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
-                                         std::size_t muscle_count) {
+std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std::size_t muscle_count) {
   struct Group {
     const ParameterEstimate* first;
     std::vector<std::string> owners;
@@ -122,8 +117,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
   }
   // An unknown shared by all muscles comes after the unknowns of single muscles.
   std::stable_partition(groups.begin(), groups.end(), [](const Group& group) {
-    return group.owners.size() == 1 && !identification::is_nuisance(*group.first) &&
-           group.first->muscle != "subject";
+    return group.owners.size() == 1 && !identification::is_nuisance(*group.first) && group.first->muscle != "subject";
   });
   std::vector<EstimateLine> lines;
   for (const Group& group : groups) {
@@ -136,21 +130,18 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method,
 
 std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
   const bool known = !result.source.truth.empty();
-  const std::string truth =
-      known ? " Truth: green where it lies in the interval, else yellow." : "";
-  const std::string by = method.method == "force"
-                             ? "Every muscle alone, both branches at once, against the force that "
-                               "force sharing assigned to it. "
-                             : "All muscles and both branches at once against the joint torque. ";
-  Table muscles{
-      "parameters_" + method.method,
-      fmt::format("Identified parameters (method {})", method.method),
-      by +
-          "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard "
-          "deviation." +
-          truth,
-      {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"},
-      {}};
+  const std::string truth = known ? " Truth: green where it lies in the interval, else yellow." : "";
+  const std::string by = method.method == "force" ? "Every muscle alone, both branches at once, against the force that "
+                                                    "force sharing assigned to it. "
+                                                  : "All muscles and both branches at once against the joint torque. ";
+  Table muscles{"parameters_" + method.method,
+                fmt::format("Identified parameters (method {})", method.method),
+                by +
+                    "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard "
+                    "deviation." +
+                    truth,
+                {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"},
+                {}};
   if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
   Table others{"nuisances_" + method.method,
                "Numbers of the electrodes and of the joint",
@@ -178,8 +169,7 @@ std::vector<Table> estimate_tables(const StudyResult& result, const Identificati
   return tables;
 }
 
-std::vector<report::ForestRow> forest_rows(const StudyResult& result,
-                                           const IdentificationResult& method) {
+std::vector<report::ForestRow> forest_rows(const StudyResult& result, const IdentificationResult& method) {
   std::vector<report::ForestRow> rows;
   for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
@@ -206,17 +196,15 @@ std::vector<report::ForestRow> forest_rows(const StudyResult& result,
 
 std::vector<Table> paper_tables(const IdentificationResult& method) {
   const auto empty = [](std::string id, std::string title) {
-    return Table{
-        std::move(id),
-        std::move(title),
-        "Each muscle fitted apart to the force that force sharing assigned to it, plain "
-        "Gauss-Newton, as published; intervals and verdicts are ours.",
-        {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"},
-        {}};
+    return Table{std::move(id),
+                 std::move(title),
+                 "Each muscle fitted apart to the force that force sharing assigned to it, plain "
+                 "Gauss-Newton, as published; intervals and verdicts are ours.",
+                 {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"},
+                 {}};
   };
-  std::vector<Table> tables{
-      empty("table_1_shortening", "Table I: parameters from shortening (method paper)"),
-      empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
+  std::vector<Table> tables{empty("table_1_shortening", "Table I: parameters from shortening (method paper)"),
+                            empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
   for (const ParameterEstimate& e : method.estimates) {
     tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back({{e.muscle},
                                                                {report::spelled(e.parameter)},
@@ -232,36 +220,30 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
 
 std::vector<Table> basin_tables(const IdentificationResult& method) {
   if (method.basins.empty()) return {};
-  Table table{"basins_" + method.method,
-              fmt::format("Where the searches from {} starts ended (method {})",
-                          method.basins.front().starts, method.method),
-              "The given start and points spread evenly over two standard deviations of the "
-              "priors. Distance: from the best minimum, root mean square over the unknowns, in "
-              "these standard deviations. A second minimum of equal cost is an equally good "
-              "answer.",
-              {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
-              {}};
+  Table table{
+      "basins_" + method.method,
+      fmt::format("Where the searches from {} starts ended (method {})", method.basins.front().starts, method.method),
+      "The given start and points spread evenly over two standard deviations of the "
+      "priors. Distance: from the best minimum, root mean square over the unknowns, in "
+      "these standard deviations. A second minimum of equal cost is an equally good "
+      "answer.",
+      {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
+      {}};
   for (const identification::BasinTable& searches : method.basins) {
     for (const identification::BasinRow& basin : searches.basins) {
       const bool other_answer = basin.rival && &basin != searches.basins.data();
-      table.rows.push_back({{searches.fit},
-                            {fmt::format("{:.6g}", basin.cost)},
-                            {fmt::format("{}", basin.starts)},
-                            {fmt::format("{}", basin.converged),
-                             basin.converged < basin.starts ? Badge::weak : Badge::none,
-                             {}},
-                            other_answer ? Cell{fmt::format("{:.2g}", basin.distance), Badge::weak,
-                                                "as good as the best"}
-                                         : Cell{fmt::format("{:.2g}", basin.distance)},
-                            {basin.given ? "ends here" : ""}});
+      table.rows.push_back(
+          {{searches.fit},
+           {fmt::format("{:.6g}", basin.cost)},
+           {fmt::format("{}", basin.starts)},
+           {fmt::format("{}", basin.converged), basin.converged < basin.starts ? Badge::weak : Badge::none, {}},
+           other_answer ? Cell{fmt::format("{:.2g}", basin.distance), Badge::weak, "as good as the best"}
+                        : Cell{fmt::format("{:.2g}", basin.distance)},
+           {basin.given ? "ends here" : ""}});
     }
     if (searches.failed > 0)
-      table.rows.push_back({{searches.fit},
-                            {"none found", Badge::weak, {}},
-                            {fmt::format("{}", searches.failed)},
-                            {"0"},
-                            {"–"},
-                            {""}});
+      table.rows.push_back(
+          {{searches.fit}, {"none found", Badge::weak, {}}, {fmt::format("{}", searches.failed)}, {"0"}, {"–"}, {""}});
   }
   return {table};
 }

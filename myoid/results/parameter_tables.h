@@ -17,32 +17,28 @@ struct EstimateLine {
 
 /// Returns the estimates in reading order: first the muscles' and the person's, then the nuisances
 /// (`is_nuisance`). Equal tied numbers have one line. `muscle_count` counts the study's muscles.
-[[nodiscard]] std::vector<EstimateLine> estimate_lines(
-    const identification::IdentificationResult& method, std::size_t muscle_count);
+[[nodiscard]] std::vector<EstimateLine> estimate_lines(const identification::IdentificationResult& method,
+                                                       std::size_t muscle_count);
 
-/// Returns true if the 95 % interval is a thousand times as wide as the number, or as the usual
-/// spread of a number that is 0 by nature. The fit does not bound such a number, and the interval
-/// is printed as "not determined".
+/// Returns true if the 95 % interval is a thousand times as wide as the number, or as the usual spread of a number that
+/// is 0 by nature. The fit does not bound such a number, and the interval is printed as "not determined".
 [[nodiscard]] bool is_undetermined(const identification::ParameterEstimate& e);
 
 /// Returns the tables of method torque or force: first the muscles' and the person's parameters
 /// with prior, estimate, 95 % interval, truth (of a virtual recording), verdict and
 /// reason; then, if there are any, gains and exponents of the channels and the joint's own torque.
-[[nodiscard]] std::vector<report::Table> estimate_tables(
-    const StudyResult& result, const identification::IdentificationResult& method);
+[[nodiscard]] std::vector<report::Table> estimate_tables(const StudyResult& result,
+                                                         const identification::IdentificationResult& method);
 
 /// Returns the source paper's tables I and II: shortening, lengthening.
-[[nodiscard]] std::vector<report::Table> paper_tables(
-    const identification::IdentificationResult& method);
+[[nodiscard]] std::vector<report::Table> paper_tables(const identification::IdentificationResult& method);
 
-/// Returns a table of the minima at which searches from several starts ended; none without such
-/// searches.
-[[nodiscard]] std::vector<report::Table> basin_tables(
-    const identification::IdentificationResult& method);
+/// Returns a table of the minima at which searches from several starts ended; none without such searches.
+[[nodiscard]] std::vector<report::Table> basin_tables(const identification::IdentificationResult& method);
 
 /// Returns the rows of the forest plot: the numbers of `estimate_lines`, with the truth of a
 /// virtual recording. A number that the recording leaves open has no interval.
-[[nodiscard]] std::vector<report::ForestRow> forest_rows(
-    const StudyResult& result, const identification::IdentificationResult& method);
+[[nodiscard]] std::vector<report::ForestRow> forest_rows(const StudyResult& result,
+                                                         const identification::IdentificationResult& method);
 
 }  // namespace myoid

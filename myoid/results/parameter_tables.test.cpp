@@ -23,10 +23,9 @@ ParameterEstimate estimate(std::string owner, std::string parameter, double valu
 IdentificationResult two_muscles() {
   IdentificationResult method;
   method.method = "torque";
-  method.estimates = {
-      estimate("BIC", "optimal_fiber_length", 0.14), estimate("BIC", "length_activation", 0.1),
-      estimate("TRI", "length_activation", 0.1), estimate("TRI", "optimal_fiber_length", 0.12),
-      estimate("BIC", "emg_gain", 1.0)};
+  method.estimates = {estimate("BIC", "optimal_fiber_length", 0.14), estimate("BIC", "length_activation", 0.1),
+                      estimate("TRI", "length_activation", 0.1), estimate("TRI", "optimal_fiber_length", 0.12),
+                      estimate("BIC", "emg_gain", 1.0)};
   method.estimates[2].tied_to = "BIC";
   return method;
 }
@@ -51,8 +50,7 @@ TEST(EstimateLines, KeepApartWhatIsTiedByARatio) {
 
 TEST(EstimateTables, ShowTheTruthAsWideAsTheIntervalAndWhetherItLiesInside) {
   StudyResult result;
-  result.source.truth = {{"BIC", "optimal_fiber_length", 0.145},
-                         {"TRI", "optimal_fiber_length", 0.15}};
+  result.source.truth = {{"BIC", "optimal_fiber_length", 0.145}, {"TRI", "optimal_fiber_length", 0.15}};
   result.fit_input.data.muscles.resize(2);
   const std::vector<report::Table> tables = estimate_tables(result, two_muscles());
   ASSERT_EQ(tables.size(), 2U);
@@ -117,17 +115,13 @@ TEST(EstimateTables, AreCalledByTheirMethod) {
 TEST(BasinTables, HaveARowForEachMinimumAndOneForStartsThatFoundNone) {
   IdentificationResult method = two_muscles();
   EXPECT_TRUE(basin_tables(method).empty());
-  method.basins = {{.fit = "BIC",
-                    .starts = 12,
-                    .failed = 2,
-                    .basins = {{.cost = 4.5, .starts = 8, .converged = 7, .rival = true},
-                               {.cost = 5.5,
-                                .starts = 2,
-                                .converged = 2,
-                                .distance = 1.25,
-                                .rival = true,
-                                .given = true}}},
-                   {.fit = "TRI", .starts = 12, .basins = {{.cost = 1.0, .starts = 12}}}};
+  method.basins = {
+      {.fit = "BIC",
+       .starts = 12,
+       .failed = 2,
+       .basins = {{.cost = 4.5, .starts = 8, .converged = 7, .rival = true},
+                  {.cost = 5.5, .starts = 2, .converged = 2, .distance = 1.25, .rival = true, .given = true}}},
+      {.fit = "TRI", .starts = 12, .basins = {{.cost = 1.0, .starts = 12}}}};
   const std::vector<report::Table> tables = basin_tables(method);
   ASSERT_EQ(tables.size(), 1U);
   const auto& rows = tables[0].rows;

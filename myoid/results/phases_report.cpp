@@ -11,9 +11,7 @@ using report::Badge;
 using report::Role;
 using report::to_vector;
 
-std::string percent_of(const std::optional<double>& x) {
-  return x ? fmt::format("{:.0f} %", 100.0 * *x) : "-";
-}
+std::string percent_of(const std::optional<double>& x) { return x ? fmt::format("{:.0f} %", 100.0 * *x) : "-"; }
 
 Badge badge(PhaseKind kind) {
   switch (kind) {
@@ -32,14 +30,12 @@ Badge badge(PhaseKind kind) {
 
 /// Draws measured and predicted torque over the excluded phases.
 report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) {
-  report::Panel panel{
-      .title = trial.trial,
-      .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
-      .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
-      .series = {}};
-  const auto data =
-      std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
-                   [&](const auto& t) { return t.name == trial.trial; });
+  report::Panel panel{.title = trial.trial,
+                      .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
+                      .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
+                      .series = {}};
+  const auto data = std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
+                                 [&](const auto& t) { return t.name == trial.trial; });
   if (data == result.fit_input.data.trials.end()) return panel;
   const double low = data->torque_nm.minCoeff();
   const double high = data->torque_nm.maxCoeff();
@@ -83,8 +79,7 @@ report::Section phases_section(const StudyResult& result) {
       .caption =
           "Found from change points of the torque per EMG and of the EMG's median frequency; "
           "both relative to the trial's regular phase.",
-      .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency",
-                  "fitted", "reason"},
+      .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency", "fitted", "reason"},
       .rows = {}};
   report::Figure figure{.id = "phases_torque",
                         .title = "Trials of which a phase was left out",
@@ -111,9 +106,8 @@ report::Section phases_section(const StudyResult& result) {
     }
     if (left_out) figure.panels.push_back(torque_panel(result, trial));
   }
-  section.paragraphs.push_back(
-      fmt::format("{} of {} trials are one regular phase from beginning to end.", whole,
-                  result.fit_input.phases.size()));
+  section.paragraphs.push_back(fmt::format("{} of {} trials are one regular phase from beginning to end.", whole,
+                                           result.fit_input.phases.size()));
   if (!table.rows.empty()) section.tables.push_back(std::move(table));
   if (!figure.panels.empty()) section.figures.push_back(std::move(figure));
   return section;
@@ -122,40 +116,37 @@ report::Section phases_section(const StudyResult& result) {
 report::Section informed_section(const StudyResult& result) {
   report::Section section{.id = "informed", .heading = "Back into the body"};
   if (!result.fit.informed.empty()) {
-    report::Table table{
-        .id = "informed_forces",
-        .title = "Forces with the identified muscles, informed by the EMG",
-        .caption =
-            "What the muscles found must do so that the torque is balanced, as near to the EMG "
-            "as they can; antagonists may act together. The forces themselves are in each "
-            "trial's EmgInformed_force.sto and EmgInformed_activation.sto.",
-        .columns = {"trial", "departure from the EMG (rms)", "torque no muscle carries (rms) [N m]",
-                    "frames not solved"},
-        .rows = {}};
+    report::Table table{.id = "informed_forces",
+                        .title = "Forces with the identified muscles, informed by the EMG",
+                        .caption =
+                            "What the muscles found must do so that the torque is balanced, as near to the EMG "
+                            "as they can; antagonists may act together. The forces themselves are in each "
+                            "trial's EmgInformed_force.sto and EmgInformed_activation.sto.",
+                        .columns = {"trial", "departure from the EMG (rms)", "torque no muscle carries (rms) [N m]",
+                                    "frames not solved"},
+                        .rows = {}};
     for (const identification::InformedForces& f : result.fit.informed) {
       const auto samples = static_cast<double>(f.activation.size());
       table.rows.push_back(
           {{f.trial},
            {fmt::format("{:.3f}", std::sqrt((f.activation - f.measured).squaredNorm() / samples))},
            {fmt::format("{:.2f}", std::sqrt(f.reserve_nm.squaredNorm() /
-                                            static_cast<double>(
-                                                std::max<Eigen::Index>(1, f.reserve_nm.size()))))},
+                                            static_cast<double>(std::max<Eigen::Index>(1, f.reserve_nm.size()))))},
            {fmt::format("{}", f.frames_not_solved)}});
     }
     section.tables.push_back(std::move(table));
   }
   if (result.fit.force_loop) {
     const identification::ForceLoop& loop = *result.fit.force_loop;
-    section.paragraphs.push_back(fmt::format("Forces and parameters in a loop: {} ({}).",
-                                             identification::name(loop.end), loop.message));
-    report::Table table{
-        .id = "force_loop",
-        .title = "Forces and parameters, round by round",
-        .caption =
-            "The largest relative change of a parameter, the change of the "
-            "forces, and the torque that no muscle carries.",
-        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"},
-        .rows = {}};
+    section.paragraphs.push_back(
+        fmt::format("Forces and parameters in a loop: {} ({}).", identification::name(loop.end), loop.message));
+    report::Table table{.id = "force_loop",
+                        .title = "Forces and parameters, round by round",
+                        .caption =
+                            "The largest relative change of a parameter, the change of the "
+                            "forces, and the torque that no muscle carries.",
+                        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"},
+                        .rows = {}};
     for (std::size_t k = 0; k < loop.rounds.size(); ++k) {
       const identification::ForceLoopRound& round = loop.rounds[k];
       table.rows.push_back({{fmt::format("{}", k + 1)},

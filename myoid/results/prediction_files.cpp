@@ -30,8 +30,7 @@ struct Columns {
   }
   [[nodiscard]] TimeSeries series(const Eigen::VectorXd& time_s) && {
     Eigen::MatrixXd all(time_s.size(), static_cast<Eigen::Index>(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      all.col(static_cast<Eigen::Index>(i)) = values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = values[i];
     return {time_s, std::move(channels), std::move(all)};
   }
 };
@@ -51,8 +50,7 @@ void write_prediction(const identification::TrialFit& prediction,
   Columns torque{.unit = Unit::newton_meter};
   const std::string& joint = prediction.joint;
   if (prediction.torque_fit_nm.size() > 0) {
-    if (prediction.torque_nm.size() == prediction.torque_fit_nm.size() &&
-        prediction.torque_nm.allFinite())
+    if (prediction.torque_nm.size() == prediction.torque_fit_nm.size() && prediction.torque_nm.allFinite())
       torque.add(joint + "_measured", prediction.torque_nm);
     torque.add(joint + "_predicted", prediction.torque_fit_nm);
     Band band = prediction_band(prediction.torque_fit_nm, prediction.torque_sd_nm);
@@ -69,13 +67,11 @@ void write_prediction(const identification::TrialFit& prediction,
     const auto column = static_cast<Eigen::Index>(k);
     forces.add(muscles[k], prediction.force_fit_n.col(column));
     if (prediction.force_sd_n.cols() <= column) continue;
-    Band band =
-        prediction_band(prediction.force_fit_n.col(column), prediction.force_sd_n.col(column));
+    Band band = prediction_band(prediction.force_fit_n.col(column), prediction.force_sd_n.col(column));
     forces.add(muscles[k] + "_low", band.low.cwiseMax(0.0));
     forces.add(muscles[k] + "_high", std::move(band.high));
   }
-  recording::write_storage(folder / "predicted_forces.sto",
-                           std::move(forces).series(prediction.time_s),
+  recording::write_storage(folder / "predicted_forces.sto", std::move(forces).series(prediction.time_s),
                            {.title = "Predicted forces", .comments = comments});
 }
 
@@ -106,17 +102,16 @@ void write_held_back(const identification::IdentificationResult& fit,
 }
 
 std::string predictions_csv(const std::vector<identification::TrialFit>& predictions) {
-  report::Table table{.columns = {"trial", "joint", "fitted", "samples", "rmse_nm", "nrmse_range",
-                                  "r2", "band_rmse_nm", "band_r2", "covered"}};
+  report::Table table{.columns = {"trial", "joint", "fitted", "samples", "rmse_nm", "nrmse_range", "r2", "band_rmse_nm",
+                                  "band_r2", "covered"}};
   for (const identification::TrialFit& p : predictions) {
-    const double covered =
-        identification::covered_share(p.torque_nm, p.torque_fit_nm, p.torque_sd_nm);
+    const double covered = identification::covered_share(p.torque_nm, p.torque_fit_nm, p.torque_sd_nm);
     std::vector<report::Cell> row;
     row.push_back({p.trial});
     row.push_back({p.joint});
     row.push_back({p.calibration ? "true" : "false"});
-    for (const double value : {p.score.n, p.score.rmse_nm(), p.score.nrmse_range(), p.score.r2(),
-                               p.band.rmse_nm(), p.band.r2(), covered})
+    for (const double value :
+         {p.score.n, p.score.rmse_nm(), p.score.nrmse_range(), p.score.r2(), p.band.rmse_nm(), p.band.r2(), covered})
       row.push_back({std::isfinite(value) ? recording::format_number(value) : ""});
     table.rows.push_back(std::move(row));
   }

@@ -17,9 +17,8 @@ struct Band {
 /// Returns the band; empty without a standard deviation.
 [[nodiscard]] Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd);
 
-/// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`,
-/// `_high` [N m]) and predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0
-/// [N]) of one trial.
+/// Writes predicted_torque_<joint>.sto (`<joint>_measured`, `_predicted`, and with a band `_low`, `_high` [N m]) and
+/// predicted_forces.sto (each muscle, and its `_low` and `_high`, not below 0 [N]) of one trial.
 void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
                       const std::filesystem::path& folder,

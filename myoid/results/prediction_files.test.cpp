@@ -27,8 +27,7 @@ identification::TrialFit prediction() {
 TEST(PredictionFiles, HoldTheBandsAndNoForceBelowZero) {
   const test::TemporaryFolder folder;
   write_prediction(prediction(), {"BIC"}, folder.path(), {});
-  const TimeSeries torque =
-      recording::read_storage(folder.path() / "predicted_torque_elbow_flexion.sto").data;
+  const TimeSeries torque = recording::read_storage(folder.path() / "predicted_torque_elbow_flexion.sto").data;
   EXPECT_NEAR(torque.column("elbow_flexion_high")[1], 2.0 + 1.959964 * 0.5, 1e-6);
   EXPECT_NEAR(torque.column("elbow_flexion_low")[2], 3.0 - 1.959964 * 0.5, 1e-6);
   EXPECT_EQ(torque.column("elbow_flexion_measured")[2], 9.0);

@@ -24,8 +24,7 @@ double number(const json& cell) {
 
 Eigen::VectorXd vector_of(const json& list) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values[i] = number(list.at(static_cast<std::size_t>(i)));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(static_cast<std::size_t>(i)));
   return values;
 }
 
@@ -72,21 +71,19 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
       std::vector<std::string> labels;
       for (const identification::Unknown& unknown : map.free()) labels.push_back(unknown.label);
       if (labels != fit.free_parameters || fit.solution.size() != map.size())
-        throw InvalidInput(fmt::format(
-            "{} has {} unknowns, the study {} or others: its settings are not those of the run; "
-            "run the study again",
-            path.string(), fit.free_parameters.size(), labels.size()));
+        throw InvalidInput(
+            fmt::format("{} has {} unknowns, the study {} or others: its settings are not those of the run; "
+                        "run the study again",
+                        path.string(), fit.free_parameters.size(), labels.size()));
       fit.values = map.values(fit.solution);
       fit.delay_s = fit.values.channels.front()[identification::kDelay];
       return fit;
     }
   } catch (const json::exception& error) {
     throw ReadError(path, 0,
-                    fmt::format("is no result of a run of this version: {}; run the study again",
-                                error.what()));
+                    fmt::format("is no result of a run of this version: {}; run the study again", error.what()));
   }
-  throw InvalidInput(
-      fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
+  throw InvalidInput(fmt::format("{} has no method torque; add it to method in [identify]", path.string()));
 }
 
 }  // namespace myoid

@@ -12,9 +12,8 @@ namespace myoid {
 /// (identification::TrialPredictions): `values`, `lag`, `solution`, `covariance`, `torque_sd_nm`,
 /// `envelope_variance`, `noise`. `data` and `options` are the study's. Throws ReadError for another
 /// file or an earlier version, and InvalidInput if the study has other unknowns.
-[[nodiscard]] identification::IdentificationResult read_fit(
-    const std::filesystem::path& folder,
-    const identification::StudyData& data,
-    const identification::EstimatorOptions& options);
+[[nodiscard]] identification::IdentificationResult read_fit(const std::filesystem::path& folder,
+                                                            const identification::StudyData& data,
+                                                            const identification::EstimatorOptions& options);
 
 }  // namespace myoid

@@ -16,15 +16,13 @@ namespace {
 using identification::IdentificationResult;
 
 /// A fit with numbers that no decimal text of few digits holds.
-IdentificationResult made_fit(const test::ElbowStudy& study,
-                              const identification::EstimatorOptions& options) {
+IdentificationResult made_fit(const test::ElbowStudy& study, const identification::EstimatorOptions& options) {
   const identification::ParameterMap map(study.data, options);
   IdentificationResult fit;
   fit.method = "torque";
   fit.solution = map.start() + Eigen::VectorXd::Constant(map.size(), 1.0 / 300.0);
   fit.covariance = Eigen::MatrixXd::Identity(map.size(), map.size()) / 7.0;
-  for (const identification::Unknown& unknown : map.free())
-    fit.free_parameters.push_back(unknown.label);
+  for (const identification::Unknown& unknown : map.free()) fit.free_parameters.push_back(unknown.label);
   fit.values = map.values(fit.solution);
   fit.torque_sd_nm = 1.0 / 3.0;
   fit.envelope_variance = Eigen::Vector3d(0.1, 0.2, 0.3) / 9.0;

@@ -111,8 +111,7 @@ constexpr auto kReferences = std::to_array<Reference>({
      .cited = "Woltring 1986",
      .kind = "article",
      .authors = "Woltring, H. J.",
-     .title =
-         "A Fortran package for generalized, cross-validatory spline smoothing and differentiation",
+     .title = "A Fortran package for generalized, cross-validatory spline smoothing and differentiation",
      .container = "Advances in Engineering Software",
      .year = "1986",
      .volume = "8",
@@ -123,8 +122,7 @@ constexpr auto kReferences = std::to_array<Reference>({
 
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result(text);
-  for (std::size_t at = result.find(from); at != std::string::npos;
-       at = result.find(from, at + to.size()))
+  for (std::size_t at = result.find(from); at != std::string::npos; at = result.find(from, at + to.size()))
     result.replace(at, from.size(), to);
   return result;
 }
@@ -134,10 +132,9 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
 std::span<const Reference> all_references() { return kReferences; }
 
 const Reference& reference(std::string_view key) {
-  const auto found = std::find_if(kReferences.begin(), kReferences.end(),
-                                  [&](const Reference& r) { return r.key == key; });
-  if (found == kReferences.end())
-    throw InvalidInput(fmt::format("no reference has the key '{}'", key));
+  const auto found =
+      std::find_if(kReferences.begin(), kReferences.end(), [&](const Reference& r) { return r.key == key; });
+  if (found == kReferences.end()) throw InvalidInput(fmt::format("no reference has the key '{}'", key));
   return *found;
 }
 

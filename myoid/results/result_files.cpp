@@ -33,8 +33,8 @@ using nlohmann::ordered_json;
 TimeSeries identified_forces(const StudyResult& result,
                              const identification::TrialData& data,
                              const IdentificationResult& method) {
-  const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
-                                [&](const auto& t) { return t.trial == data.name; });
+  const auto fit =
+      std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
   std::vector<Channel> channels;
   const auto muscles = static_cast<Eigen::Index>(result.fit_input.data.muscles.size());
   Eigen::MatrixXd values(data.time_s.size(), 3 * muscles);
@@ -63,8 +63,7 @@ void write_informed_forces(const StudyResult& result,
     in_newtons.push_back({name + "_reserve", Unit::newton_meter});
   Eigen::MatrixXd values(forces.force_n.rows(), forces.force_n.cols() + forces.reserve_nm.cols());
   values << forces.force_n, forces.reserve_nm;
-  recording::write_storage(folder / "EmgInformed_force.sto",
-                           {forces.time_s, std::move(in_newtons), std::move(values)},
+  recording::write_storage(folder / "EmgInformed_force.sto", {forces.time_s, std::move(in_newtons), std::move(values)},
                            {.title = "Forces informed by the EMG", .comments = comments});
   recording::write_storage(folder / "EmgInformed_activation.sto",
                            {forces.time_s, std::move(activations), forces.activation},
@@ -80,22 +79,18 @@ void write_identified_model(const StudyResult& result, const std::filesystem::pa
     if (method.method != "torque") continue;
     std::vector<IdentifiedMuscle> muscles;
     for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
-      IdentifiedMuscle muscle{result.fit_input.data.muscles[m].name,
-                              result.fit_input.data.muscles[m].start,
-                              method.muscles[m],
-                              {}};
+      IdentifiedMuscle muscle{
+          result.fit_input.data.muscles[m].name, result.fit_input.data.muscles[m].start, method.muscles[m], {}};
       for (const ParameterEstimate& e : method.estimates) {
-        const bool sure = e.verdict == identification::Verdict::identified &&
-                          (from_mvc || e.parameter != "max_isometric_force");
+        const bool sure =
+            e.verdict == identification::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
         if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
       }
       muscles.push_back(std::move(muscle));
     }
-    if (std::all_of(muscles.begin(), muscles.end(),
-                    [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
+    if (std::all_of(muscles.begin(), muscles.end(), [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
       return;
-    const std::string stem =
-        result.source.study.model.file ? result.source.study.model.file->stem().string() : "arm4";
+    const std::string stem = result.source.study.model.file ? result.source.study.model.file->stem().string() : "arm4";
     recording::write_file(folder / (stem + "_identified.osim"),
                           identified_model(result.source.study, result.source.model_text, muscles));
   }
@@ -157,8 +152,7 @@ void remove_results(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::ifstream stream(folder / "run.json");
   if (!stream) return;
-  const nlohmann::json run =
-      parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
+  const nlohmann::json run = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
   if (run.is_discarded() || !run.contains("trials")) return;
   std::error_code ignored;
   for (const nlohmann::json& trial : run["trials"]) {
@@ -186,14 +180,11 @@ void remove_results(const std::filesystem::path& folder) {
   }
 }
 
-void write_results(const StudyResult& result,
-                   const Provenance& provenance,
-                   const std::filesystem::path& folder) {
+void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
   const auto with_emg = [&](const IdentificationResult* method) {
     std::vector<std::string> lines = comments;
-    for (std::string& line : signals::header_lines(emg_chain(result, method)))
-      lines.push_back(std::move(line));
+    for (std::string& line : signals::header_lines(emg_chain(result, method))) lines.push_back(std::move(line));
     return lines;
   };
   const std::vector<std::string> of_activation = with_emg(nullptr);
@@ -205,17 +196,15 @@ void write_results(const StudyResult& result,
     if (!trial.has_motion()) continue;
     write_motion(*trial.motion.model, trial.motion.joints.q, place / "ik.mot", comments);
     if (trial.motion.ik) write_marker_errors(*trial.motion.ik, place / "ik_marker_errors.sto");
-    recording::write_storage(
-        place / "id.sto", trial.forces.generalized,
-        {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
+    recording::write_storage(place / "id.sto", trial.forces.generalized,
+                             {.title = "Inverse Dynamics Generalized Forces", .comments = comments});
     write_muscle_kinematics(trial.forces.muscles, place);
     write_shared_forces(trial.forces.shared, place);
   }
   for (const IdentificationResult& method : result.fit.methods) {
     if (method.method != "torque" && result.fit.methods.size() > 1) continue;
     for (const identification::TrialData& data : result.fit_input.data.trials) {
-      recording::write_storage(folder / data.name / "identified_forces.sto",
-                               identified_forces(result, data, method),
+      recording::write_storage(folder / data.name / "identified_forces.sto", identified_forces(result, data, method),
                                {.title = "Forces", .comments = with_emg(&method)});
     }
   }
@@ -225,8 +214,7 @@ void write_results(const StudyResult& result,
     write_informed_forces(result, forces, folder / forces.trial,
                           with_emg(torque == result.fit.methods.end() ? nullptr : &*torque));
   write_identified_model(result, folder);
-  write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result),
-                        folder);
+  write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result), folder);
   const MethodsText methods = methods_text(result, provenance);
   recording::write_file(folder / "methods.txt", methods_file(methods));
   recording::write_file(folder / "methods.bib", methods_bibtex(methods));

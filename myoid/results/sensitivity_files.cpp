@@ -12,13 +12,11 @@ void write_sensitivities(const simulation::Sensitivities& s,
                          const std::filesystem::path& folder) {
   std::vector<Channel> channels;
   for (const std::string& name : s.parameters) channels.push_back({name, Unit::dimensionless});
-  const auto write = [&](const std::string& file, const Eigen::MatrixXd& values,
-                         const std::string& what) {
-    recording::write_storage(folder / "sensitivities" / (file + ".sto"),
-                             {s.time_s, channels, values},
-                             {.title = fmt::format("d({})/d(parameter), SI", what),
-                              .comments = {fmt::format("{} {}: {}", provenance.program,
-                                                       provenance.version, provenance.command)}});
+  const auto write = [&](const std::string& file, const Eigen::MatrixXd& values, const std::string& what) {
+    recording::write_storage(
+        folder / "sensitivities" / (file + ".sto"), {s.time_s, channels, values},
+        {.title = fmt::format("d({})/d(parameter), SI", what),
+         .comments = {fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command)}});
   };
   write("angle", s.angle, "elbow flexion");
   write("speed", s.speed, "its speed");

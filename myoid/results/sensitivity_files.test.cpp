@@ -20,18 +20,17 @@ TEST(SensitivityFiles, HaveAColumnPerParameterAndAFilePerQuantity) {
     input.excitation.push_back(simulation::constant(0.1));
   }
   const std::vector<std::string> names = {"BIC.max_isometric_force", "arm_inertia", "start_angle"};
-  const simulation::Sensitivities s = simulation::simulate_sensitivities(
-      arm, input, {.q = {1.0}}, {.end_s = 0.1, .output_rate_hz = 100.0}, names);
+  const simulation::Sensitivities s =
+      simulation::simulate_sensitivities(arm, input, {.q = {1.0}}, {.end_s = 0.1, .output_rate_hz = 100.0}, names);
   write_sensitivities(s, muscles, {.options_json = "{}"}, folder.path());
-  for (const char* file : {"angle", "speed", "acceleration", "torque", "device", "BIC_activation",
-                           "TRI_fiber_length", "BRD_tendon_force"}) {
+  for (const char* file : {"angle", "speed", "acceleration", "torque", "device", "BIC_activation", "TRI_fiber_length",
+                           "BRD_tendon_force"}) {
     const recording::Storage read =
         recording::read_storage(folder.path() / "sensitivities" / (std::string(file) + ".sto"));
     EXPECT_EQ(read.data.sample_count(), 11) << file;
     EXPECT_EQ(read.data.channel_count(), 3) << file;
   }
-  const recording::Storage angle =
-      recording::read_storage(folder.path() / "sensitivities/angle.sto");
+  const recording::Storage angle = recording::read_storage(folder.path() / "sensitivities/angle.sto");
   EXPECT_EQ(angle.data.column("start_angle")[0], 1.0);
   EXPECT_EQ(angle.data.column("arm_inertia")[10], s.angle(10, 1));
 }

@@ -28,18 +28,11 @@ std::vector<double> numbers(const Eigen::Ref<const Eigen::VectorXd>& v, double s
   return result;
 }
 
-std::size_t coordinate_count(const Simulation& s) {
-  return static_cast<std::size_t>(s.motion.channel_count()) / 3;
-}
-std::string coordinate_name(const Simulation& s, std::size_t k) {
-  return s.motion.channels()[3 * k].name;
-}
+std::size_t coordinate_count(const Simulation& s) { return static_cast<std::size_t>(s.motion.channel_count()) / 3; }
+std::string coordinate_name(const Simulation& s, std::size_t k) { return s.motion.channels()[3 * k].name; }
 
 /// Returns columns first, first + stride, ... under names without `ending`.
-TimeSeries every(const TimeSeries& series,
-                 Eigen::Index first,
-                 Eigen::Index stride,
-                 std::string_view ending) {
+TimeSeries every(const TimeSeries& series, Eigen::Index first, Eigen::Index stride, std::string_view ending) {
   std::vector<Channel> channels;
   Eigen::MatrixXd values(series.sample_count(), series.channel_count() / stride);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
@@ -53,8 +46,7 @@ TimeSeries every(const TimeSeries& series,
 
 TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
   std::vector<Channel> channels;
-  Eigen::MatrixXd values(q.sample_count(),
-                         q.channel_count() + static_cast<Eigen::Index>(held.size()));
+  Eigen::MatrixXd values(q.sample_count(), q.channel_count() + static_cast<Eigen::Index>(held.size()));
   Eigen::Index column = 0;
   for (const auto& [name, value] : held) {
     channels.push_back({name, Unit::radian});
@@ -73,8 +65,7 @@ TimeSeries torques(const Simulation& s) {
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto c = static_cast<std::size_t>(k);
     const Unit unit = s.torque.channels()[5 * c].unit;
-    const std::string name =
-        coordinate_name(s, c) + (unit == Unit::newton_meter ? "_moment" : "_force");
+    const std::string name = coordinate_name(s, c) + (unit == Unit::newton_meter ? "_moment" : "_force");
     for (const char* what : {"", "_muscles", "_gravity", "_joint", "_external", "_device"})
       channels.push_back({name + what, unit});
     const auto& parts = s.torque.values().middleCols(5 * k, 5);
@@ -127,8 +118,8 @@ void add(report::Panel& target,
                            .role = role});
 }
 
-constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified,
-                                   report::Role::literature, report::Role::truth};
+constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified, report::Role::literature,
+                                   report::Role::truth};
 
 /// Adds one panel per quantity, of at most four muscles: colors and dashes tell the roles apart.
 void add_muscles(report::Panel& target, const TimeSeries& series, double scale = 1.0) {
@@ -151,8 +142,8 @@ report::Figure curves_figure() {
                          .x = {.label = "fiber velocity / v_max", .unit = ""},
                          .y = {.label = "f_v", .unit = "", .lower = 0.0, .upper = 1.4},
                          .series = {}};
-  const muscle::VelocityHyperbola<double> law{
-      muscle::kPaperCurvature, muscle::kPaperCurvatureProduct, muscle::kPaperPlateau};
+  const muscle::VelocityHyperbola<double> law{muscle::kPaperCurvature, muscle::kPaperCurvatureProduct,
+                                              muscle::kPaperPlateau};
   report::Series curve{.name = "", .role = report::Role::reference};
   for (int k = -120; k <= 120; ++k) {
     curve.x.push_back(0.01 * k);
@@ -168,8 +159,8 @@ report::Figure curves_figure() {
     report::Series line{.name = std::string(m.name), .role = kRoles[role++]};
     for (int k = 40; k <= 160; ++k) {
       line.x.push_back(0.01 * k);
-      line.y.push_back(muscle::force_length(0.01 * k * m.optimal_fiber_length_m,
-                                            m.optimal_fiber_length_m, m.force_length_width_m));
+      line.y.push_back(
+          muscle::force_length(0.01 * k * m.optimal_fiber_length_m, m.optimal_fiber_length_m, m.force_length_width_m));
     }
     length.series.push_back(std::move(line));
   }
@@ -177,8 +168,7 @@ report::Figure curves_figure() {
   return figure;
 }
 
-/// Simulates flexors and extensor in turn, half a second each, so that the elbow flexes and
-/// extends.
+/// Simulates flexors and extensor in turn, half a second each, so that the elbow flexes and extends.
 Simulation paper_movement() {
   simulation::ArmSetup setup;
   setup.horizontal = true;
@@ -213,8 +203,7 @@ report::Figure movement_figure(const Simulation& s) {
     const auto c = static_cast<Eigen::Index>(k);
     const auto& column = s.motion.values().col(3 * c);
     const bool moves = column.maxCoeff() - column.minCoeff() > 1e-6;
-    if (s.motion.channels()[3 * k].unit != Unit::radian || (!moves && coordinate_count(s) > 1))
-      continue;
+    if (s.motion.channels()[3 * k].unit != Unit::radian || (!moves && coordinate_count(s) > 1)) continue;
     const std::string name = coordinate_count(s) == 1 ? "" : coordinate_name(s, k);
     add(angle, s.motion, 3 * c, name, kRoles[shown], 1.0 / kDegree);
     add(speed, s.motion, 3 * c + 1, name, kRoles[shown], 1.0 / kDegree);
@@ -227,9 +216,8 @@ report::Figure movement_figure(const Simulation& s) {
   add_muscles(length, s.fiber_length, 100.0);
   report::Panel velocity = panel("Fiber velocity", "velocity", "cm/s");
   add_muscles(velocity, s.fiber_velocity, 100.0);
-  figure.panels = {std::move(excitation), std::move(activation), std::move(angle),
-                   std::move(speed),      std::move(torque),     std::move(force),
-                   std::move(length),     std::move(velocity)};
+  figure.panels = {std::move(excitation), std::move(activation), std::move(angle),  std::move(speed),
+                   std::move(torque),     std::move(force),      std::move(length), std::move(velocity)};
   std::erase_if(figure.panels, [](const report::Panel& p) { return p.series.empty(); });
   return figure;
 }
@@ -252,8 +240,7 @@ void write_figure(const report::Figure& figure, const std::filesystem::path& fol
 std::string simulation_json(const Simulation& s, const Provenance& provenance) {
   using nlohmann::ordered_json;
   ordered_json inputs = ordered_json::array();
-  for (const InputFile& file : provenance.inputs)
-    inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  for (const InputFile& file : provenance.inputs) inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
   ordered_json json = {{"program", provenance.program},
                        {"version", provenance.version},
                        {"command", provenance.command},
@@ -270,9 +257,8 @@ std::string simulation_json(const Simulation& s, const Provenance& provenance) {
                        {"jumps_passed", s.jumps_passed}};
   if (s.energy.sample_count() > 1) {
     const simulation::EnergyBalance balance = simulation::energy_balance(s);
-    json["energy"] = {{"turned_over_j", balance.turned_over_j},
-                      {"worst_relative_gap", balance.worst},
-                      {"where", balance.where}};
+    json["energy"] = {
+        {"turned_over_j", balance.turned_over_j}, {"worst_relative_gap", balance.worst}, {"where", balance.where}};
   }
   return json_text(json) + "\n";
 }
@@ -286,8 +272,7 @@ void write_simulation(const Simulation& s,
       fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command)};
   const auto write = [&](const std::string& file, const TimeSeries& series, std::string title) {
     if (series.channel_count() == 0) return;
-    recording::write_storage(folder / file, series,
-                             {.title = std::move(title), .comments = comments});
+    recording::write_storage(folder / file, series, {.title = std::move(title), .comments = comments});
   };
   write_motion(body, with_held(every(s.motion, 0, 3, ""), held), folder / "motion.mot", comments);
   write("speeds.sto", every(s.motion, 1, 3, "_speed"), "Speeds");
@@ -297,8 +282,7 @@ void write_simulation(const Simulation& s,
   write("forces.sto", s.tendon_force, "TendonForces");
   write("fiber_forces.sto", s.fiber_force, "FiberForces");
   write("MuscleAnalysis_Length.sto", s.musculotendon_length, "Length");
-  write("MuscleAnalysis_MuscleTendonVelocity.sto", s.musculotendon_velocity,
-        "MuscleTendonVelocity");
+  write("MuscleAnalysis_MuscleTendonVelocity.sto", s.musculotendon_velocity, "MuscleTendonVelocity");
   write("MuscleAnalysis_FiberLength.sto", s.fiber_length, "FiberLength");
   write("MuscleAnalysis_FiberVelocity.sto", s.fiber_velocity, "FiberVelocity");
   write("MuscleAnalysis_TendonLength.sto", s.tendon_length, "TendonLength");

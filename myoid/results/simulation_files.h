@@ -15,20 +15,17 @@ namespace myoid {
 /// Coordinates outside the simulation, with their values [rad | m].
 using HeldCoordinates = std::vector<std::pair<std::string, double>>;
 
-/// Writes motion.mot, speeds.sto, accelerations.sto, excitation.sto, activation.sto, forces.sto,
-/// fiber_forces.sto, MuscleAnalysis_*.sto, torques.sto, states.sto, energy.sto if there are
-/// energies, and simulation.json, each whole or not at all. docs/guide/simulate.md describes their
-/// contents.
+/// Writes motion.mot, speeds.sto, accelerations.sto, excitation.sto, activation.sto, forces.sto, fiber_forces.sto,
+/// MuscleAnalysis_*.sto, torques.sto, states.sto, energy.sto if there are energies, and simulation.json, each whole or
+/// not at all. docs/guide/simulate.md describes their contents.
 void write_simulation(const simulation::Simulation& simulation,
                       const model::BodyModel& body,
                       const HeldCoordinates& held,
                       const Provenance& provenance,
                       const std::filesystem::path& folder);
 
-/// Returns the end of the simulation, statistics and the balance of energies as JSON with
-/// provenance.
-[[nodiscard]] std::string simulation_json(const simulation::Simulation& simulation,
-                                          const Provenance& provenance);
+/// Returns the end of the simulation, statistics and the balance of energies as JSON with provenance.
+[[nodiscard]] std::string simulation_json(const simulation::Simulation& simulation, const Provenance& provenance);
 
 /// Returns figures of excitation, activation, angles, torques, forces and fiber lengths over time.
 [[nodiscard]] report::Figure movement_figure(const simulation::Simulation& simulation);

@@ -22,8 +22,7 @@ simulation::Simulation slow_movement(double seconds, double rate_hz) {
   simulation::ArmSetup setup;
   setup.laws.mode = muscle::TendonMode::equilibrium;
   simulation::SimulationInput input;
-  for (int i = 0; i < 4; ++i)
-    input.excitation.push_back({{0.0, 0.5 * seconds, seconds}, {0.03, 0.05, 0.03}});
+  for (int i = 0; i < 4; ++i) input.excitation.push_back({{0.0, 0.5 * seconds, seconds}, {0.03, 0.05, 0.03}});
   return simulation::simulate(simulation::make_arm(setup), input, {.q = {0.8}},
                               {.end_s = seconds, .output_rate_hz = rate_hz, .energy = true});
 }
@@ -37,8 +36,7 @@ TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorque) {
   const recording::Storage file = recording::read_storage(folder.path() / "motion.mot");
   EXPECT_TRUE(file.in_degrees);
   const TimeSeries q = recording::to_si(file, [](const std::string&) { return true; });
-  const TimeSeries torque =
-      dynamics::inverse_dynamics(body, kinematics::joint_motion(body, q).motion);
+  const TimeSeries torque = dynamics::inverse_dynamics(body, kinematics::joint_motion(body, q).motion);
   const Eigen::VectorXd id = torque.column("elbow_flexion_moment");
   const recording::Storage written = recording::read_storage(folder.path() / "torques.sto");
   const Eigen::VectorXd truth = written.data.column("elbow_flexion_moment");
@@ -46,10 +44,9 @@ TEST(SimulationFiles, InverseDynamicsOfTheMotionFileIsTheTorque) {
   // Second differences at 1 kHz of angles good to 1e-9 rad: 0.07 kg m^2 * 4e-9 * 1e6 = 3e-4 N m;
   // the ends, where the spline knows nothing, apart.
   for (Eigen::Index k = 50; k < id.size() - 50; ++k) EXPECT_NEAR(id[k], truth[k], 1e-3) << k;
-  const Eigen::VectorXd parts = written.data.column("elbow_flexion_moment_muscles") +
-                                written.data.column("elbow_flexion_moment_joint") +
-                                written.data.column("elbow_flexion_moment_external") +
-                                written.data.column("elbow_flexion_moment_device");
+  const Eigen::VectorXd parts =
+      written.data.column("elbow_flexion_moment_muscles") + written.data.column("elbow_flexion_moment_joint") +
+      written.data.column("elbow_flexion_moment_external") + written.data.column("elbow_flexion_moment_device");
   EXPECT_LT((truth - parts).cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -59,10 +56,9 @@ TEST(SimulationFiles, EveryFileIsThereAndSaysWhatItHolds) {
   const simulation::Simulation s = slow_movement(0.2, 100.0);
   write_simulation(s, body, {}, {.command = "myoid simulate", .options_json = "{}"}, folder.path());
   for (const char* file :
-       {"motion.mot", "speeds.sto", "accelerations.sto", "excitation.sto", "activation.sto",
-        "forces.sto", "fiber_forces.sto", "MuscleAnalysis_Length.sto",
-        "MuscleAnalysis_MuscleTendonVelocity.sto", "MuscleAnalysis_FiberLength.sto",
-        "MuscleAnalysis_FiberVelocity.sto", "MuscleAnalysis_TendonLength.sto",
+       {"motion.mot", "speeds.sto", "accelerations.sto", "excitation.sto", "activation.sto", "forces.sto",
+        "fiber_forces.sto", "MuscleAnalysis_Length.sto", "MuscleAnalysis_MuscleTendonVelocity.sto",
+        "MuscleAnalysis_FiberLength.sto", "MuscleAnalysis_FiberVelocity.sto", "MuscleAnalysis_TendonLength.sto",
         "MuscleAnalysis_MomentArm_elbow_flexion.sto", "torques.sto", "states.sto", "energy.sto"}) {
     EXPECT_EQ(recording::read_storage(folder.path() / file).data.sample_count(), 21) << file;
   }
@@ -85,8 +81,7 @@ TEST(PaperFigures, AreTheCurvesAndAMovementThereAndBack) {
   const double highest = *std::max_element(angle.begin(), angle.end());
   EXPECT_GT(highest, angle.front() + 30.0);  // degrees of flexion, within the elbow's range
   EXPECT_LT(highest, 140.0);
-  EXPECT_LT(*std::min_element(angle.begin() + static_cast<long>(angle.size()) / 3, angle.end()),
-            highest - 30.0);
+  EXPECT_LT(*std::min_element(angle.begin() + static_cast<long>(angle.size()) / 3, angle.end()), highest - 30.0);
 }
 
 }  // namespace

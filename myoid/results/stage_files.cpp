@@ -12,9 +12,8 @@
 namespace myoid {
 namespace {
 
-/// Returns marker errors without gaps, which other tools do not read. A distance of 0 for a missing
-/// marker would be wrong: frames without any marker are left out, then the columns of markers that
-/// are missing in a frame.
+/// Returns marker errors without gaps, which other tools do not read. A distance of 0 for a missing marker would be
+/// wrong: frames without any marker are left out, then the columns of markers that are missing in a frame.
 TimeSeries without_gaps(const TimeSeries& series) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index r = 0; r < series.sample_count(); ++r) {
@@ -29,13 +28,11 @@ TimeSeries without_gaps(const TimeSeries& series) {
   Eigen::VectorXd time(static_cast<Eigen::Index>(rows.size()));
   Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
   std::vector<Channel> channels;
-  for (const Eigen::Index c : columns)
-    channels.push_back(series.channels()[static_cast<std::size_t>(c)]);
+  for (const Eigen::Index c : columns) channels.push_back(series.channels()[static_cast<std::size_t>(c)]);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     time[static_cast<Eigen::Index>(i)] = series.time_s()[rows[i]];
     for (std::size_t k = 0; k < columns.size(); ++k)
-      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          series.values()(rows[i], columns[k]);
+      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = series.values()(rows[i], columns[k]);
   }
   return {std::move(time), std::move(channels), std::move(values)};
 }
@@ -50,23 +47,19 @@ void write_motion(const model::BodyModel& model,
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c &&
-        model.coordinates[static_cast<std::size_t>(*c)].motion != model::MotionType::rotational)
+    if (c && model.coordinates[static_cast<std::size_t>(*c)].motion != model::MotionType::rotational)
       channel.unit = Unit::meter;
   }
-  recording::write_storage(
-      path, {q.time_s(), std::move(channels), q.values()},
-      {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});
+  recording::write_storage(path, {q.time_s(), std::move(channels), q.values()},
+                           {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});
 }
 
 void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path) {
   recording::write_storage(path, without_gaps(ik.errors), {.title = "Model Marker Errors from IK"});
 }
 
-void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
-                             const std::filesystem::path& folder) {
-  recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length,
-                           {.title = "Length"});
+void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles, const std::filesystem::path& folder) {
+  recording::write_storage(folder / "MuscleAnalysis_Length.sto", muscles.length, {.title = "Length"});
   recording::write_storage(folder / "MuscleAnalysis_MuscleTendonVelocity.sto", muscles.velocity,
                            {.title = "MuscleTendonVelocity"});
   for (const auto& [coordinate, arms] : muscles.moment_arm) {
@@ -78,8 +71,7 @@ void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
 void write_shared_forces(const forces::MuscleForces& shared, const std::filesystem::path& folder) {
   const auto with_reserves = [&](const TimeSeries& muscles) {
     std::vector<Channel> channels = muscles.channels();
-    Eigen::MatrixXd values(muscles.sample_count(),
-                           muscles.channel_count() + shared.reserve.channel_count());
+    Eigen::MatrixXd values(muscles.sample_count(), muscles.channel_count() + shared.reserve.channel_count());
     values << muscles.values(), shared.reserve.values();
     for (const Channel& channel : shared.reserve.channels()) channels.push_back(channel);
     return TimeSeries(muscles.time_s(), std::move(channels), std::move(values));
@@ -92,8 +84,7 @@ void write_shared_forces(const forces::MuscleForces& shared, const std::filesyst
   for (std::size_t i = 0; i < shared.status.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     status += fmt::format("{},{},{}\n", recording::format_number(shared.force.time_s()[row]),
-                          forces::name(shared.status[i]),
-                          recording::format_number(shared.kkt_residual[row]));
+                          forces::name(shared.status[i]), recording::format_number(shared.kkt_residual[row]));
   }
   recording::write_file(folder / "StaticOptimization_status.csv", status);
 }

@@ -18,14 +18,11 @@ void write_motion(const model::BodyModel& model,
                   const std::filesystem::path& path,
                   const std::vector<std::string>& comments);
 
-/// Writes ik_marker_errors.sto: frames with at least one marker, and markers that are in all of
-/// these frames.
+/// Writes ik_marker_errors.sto: frames with at least one marker, and markers that are in all of these frames.
 void write_marker_errors(const kinematics::IkResult& ik, const std::filesystem::path& path);
 
-/// Writes MuscleAnalysis_Length.sto, _MuscleTendonVelocity.sto and a _MomentArm_ file for each
-/// coordinate.
-void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles,
-                             const std::filesystem::path& folder);
+/// Writes MuscleAnalysis_Length.sto, _MuscleTendonVelocity.sto and a _MomentArm_ file for each coordinate.
+void write_muscle_kinematics(const kinematics::MuscleKinematics& muscles, const std::filesystem::path& folder);
 
 /// Writes StaticOptimization_force.sto with the reserves, _activation.sto and _status.csv, the end
 /// of each frame's search.

@@ -22,8 +22,8 @@ using report::Role;
 using report::to_vector;
 
 /// Returns the literature's parameters with the true ones substituted; empty without a truth.
-std::optional<muscle::HillParameters<double>> true_muscle(
-    const StudyResult& result, const identification::MuscleSetup& setup) {
+std::optional<muscle::HillParameters<double>> true_muscle(const StudyResult& result,
+                                                          const identification::MuscleSetup& setup) {
   std::optional<muscle::HillParameters<double>> muscle;
   for (const TrueValue& t : result.source.truth) {
     if (t.muscle != setup.name) continue;
@@ -48,12 +48,8 @@ struct MuscleVersions {
   Eigen::MatrixXd log_covariance;
 };
 
-report::Series sampled(std::string name,
-                       Role role,
-                       double from,
-                       double to,
-                       const Curve& curve,
-                       const HillParameters<double>& muscle) {
+report::Series sampled(
+    std::string name, Role role, double from, double to, const Curve& curve, const HillParameters<double>& muscle) {
   report::Series series{std::move(name), {}, {}, role, {}, {}};
   for (int i = 0; i <= 160; ++i) {
     const double x = from + (to - from) * i / 160.0;
@@ -85,10 +81,8 @@ report::Series band_of(const MuscleVersions& of, double from, double to, const C
 }
 
 /// Adds the curve of every version of the muscle between two abscissas.
-void add_curves(
-    Panel& panel, const MuscleVersions& of, double from, double to, const Curve& curve) {
-  if (of.log_covariance.diagonal().sum() > 0.0)
-    panel.series.push_back(band_of(of, from, to, curve));
+void add_curves(Panel& panel, const MuscleVersions& of, double from, double to, const Curve& curve) {
+  if (of.log_covariance.diagonal().sum() > 0.0) panel.series.push_back(band_of(of, from, to, curve));
   panel.series.push_back(sampled("literature", Role::literature, from, to, curve, of.literature));
   panel.series.push_back(sampled("identified", Role::identified, from, to, curve, of.identified));
   if (of.truth) panel.series.push_back(sampled("truth", Role::truth, from, to, curve, *of.truth));
@@ -106,16 +100,14 @@ VisitedRange visited(const identification::StudyData& data, std::size_t m) {
   for (const auto& trial : data.trials) {
     range.low_m = std::min(range.low_m, trial.length_m.col(c).minCoeff() - slack_m);
     range.high_m = std::max(range.high_m, trial.length_m.col(c).maxCoeff() - slack_m);
-    range.fastest_mps =
-        std::max(range.fastest_mps, trial.velocity_mps.col(c).cwiseAbs().maxCoeff());
+    range.fastest_mps = std::max(range.fastest_mps, trial.velocity_mps.col(c).cwiseAbs().maxCoeff());
   }
   return range;
 }
 
 Panel length_panel(const MuscleVersions& of, const VisitedRange& range) {
   Panel panel{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
-  panel.series.push_back(
-      {"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::range, {}, {1.0, 1.0}});
+  panel.series.push_back({"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::range, {}, {1.0, 1.0}});
   const double l0 = of.literature.optimal_fiber_length_m;
   const double span = 1.6 * of.literature.force_length_width_m;
   add_curves(panel, of, l0 - span, l0 + span, [](double x, const auto& muscle) {
@@ -131,12 +123,8 @@ Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
               {}};
   double highest = std::max(of.literature.eccentric_plateau, of.identified.eccentric_plateau);
   if (of.truth) highest = std::max(highest, of.truth->eccentric_plateau);
-  panel.series.push_back({"visited",
-                          {-range.fastest_mps, range.fastest_mps},
-                          {0.0, 0.0},
-                          Role::range,
-                          {},
-                          {highest, highest}});
+  panel.series.push_back(
+      {"visited", {-range.fastest_mps, range.fastest_mps}, {0.0, 0.0}, Role::range, {}, {highest, highest}});
   const double v = of.literature.max_shortening_speed_mps;
   add_curves(panel, of, -v, v, [](double x, const auto& muscle) {
     return muscle::force_velocity(muscle.velocity_law(), x / muscle.max_shortening_speed_mps).value;
@@ -150,11 +138,10 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
   const auto& setup = result.fit_input.data.muscles[m];
   std::vector<std::string> names;
   for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
-  const MuscleVersions of{
-      .literature = setup.start,
-      .identified = method.muscles[m],
-      .truth = true_muscle(result, setup),
-      .log_covariance = identification::log_covariance(method, setup.name, names)};
+  const MuscleVersions of{.literature = setup.start,
+                          .identified = method.muscles[m],
+                          .truth = true_muscle(result, setup),
+                          .log_covariance = identification::log_covariance(method, setup.name, names)};
   const VisitedRange range = visited(result.fit_input.data, m);
   Figure figure{"curves_" + setup.name,
                 fmt::format("{}: force-length and force-velocity relations", setup.name),
@@ -187,18 +174,10 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
     const auto column = static_cast<Eigen::Index>(c);
     const std::vector<double> t = to_vector(raw.time_s());
     Panel left{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"EMG", "mV", {}, {}, {}}, {}};
-    left.series.push_back({"raw, mean removed",
-                           t,
-                           to_vector(1e3 * raw.values().col(column)),
-                           Role::reference,
-                           {},
-                           {}});
-    Panel right{
-        raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
-    right.series.push_back(
-        {"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
-    right.series.push_back(
-        {"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
+    left.series.push_back({"raw, mean removed", t, to_vector(1e3 * raw.values().col(column)), Role::reference, {}, {}});
+    Panel right{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
+    right.series.push_back({"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
+    right.series.push_back({"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
     figure.panels.push_back(left);
     figure.panels.push_back(right);
   }
@@ -208,35 +187,30 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
 Figure force_figure(const StudyResult& result,
                     const identification::TrialData& data,
                     const IdentificationResult& method) {
-  const auto fit = std::find_if(method.trials.begin(), method.trials.end(),
-                                [&](const auto& t) { return t.trial == data.name; });
-  Figure figure{
-      fmt::format("forces_{}_{}", method.method, data.name),
-      fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
-      "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's "
-      "parameters with the measured EMG. Orange dashed: identified parameters.",
-      {},
-      2};
+  const auto fit =
+      std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
+  Figure figure{fmt::format("forces_{}_{}", method.method, data.name),
+                fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
+                "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's "
+                "parameters with the measured EMG. Orange dashed: identified parameters.",
+                {},
+                2};
   figure.in_workbench = true;
   const std::vector<double> t = to_vector(data.time_s);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(m);
     const Eigen::VectorXd error = fit->force_fit_n.col(c) - data.force_n.col(c);
     const bool finite = error.allFinite();
-    Panel panel{
-        finite ? fmt::format("{}: identified against shared {:.0f} N rms",
-                             result.fit_input.data.muscles[m].name,
-                             std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
-               : result.fit_input.data.muscles[m].name,
-        {"time", "s", {}, {}, {}},
-        {"force", "N", {}, {}, {}},
-        {}};
+    Panel panel{finite
+                    ? fmt::format("{}: identified against shared {:.0f} N rms", result.fit_input.data.muscles[m].name,
+                                  std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
+                    : result.fit_input.data.muscles[m].name,
+                {"time", "s", {}, {}, {}},
+                {"force", "N", {}, {}, {}},
+                {}};
     panel.series.push_back({"shared", t, to_vector(data.force_n.col(c)), Role::reference, {}, {}});
-    panel.series.push_back(
-        {"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature, {}, {}});
-    if (finite)
-      panel.series.push_back(
-          {"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified, {}, {}});
+    panel.series.push_back({"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature, {}, {}});
+    if (finite) panel.series.push_back({"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified, {}, {}});
     figure.panels.push_back(std::move(panel));
   }
   return figure;

@@ -18,8 +18,7 @@ namespace myoid {
 
 /// Returns the source paper's figure 6: EMG raw, rectified and filtered, of a trial with EMG. The
 /// figure's table begins with `chain`, the steps from EMG to envelope.
-[[nodiscard]] report::Figure emg_figure(const TrialResult& trial,
-                                        const std::vector<std::string>& chain);
+[[nodiscard]] report::Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chain);
 
 /// Returns the source paper's figures 8-10: force of every muscle over one trial, in N.
 [[nodiscard]] report::Figure force_figure(const StudyResult& result,

@@ -44,13 +44,12 @@ std::vector<std::string> assumptions(const StudyResult& result) {
                      : "The tendon is taken as rigid: fiber length = musculotendon length - tendon "
                        "slack length. Optimal fiber length and tendon slack length then act only "
                        "together; the slack length is held.");
-  list.push_back(fmt::format(
-      "{}; the muscles are effective ones that stand for all heads lumped into them.",
-      result.source.study.identify.model_muscles
-          ? "Pennation and passive muscle force come from the model"
-          : "Pennation and passive muscle force are neglected, as in the source paper"));
-  const bool freed = std::any_of(
-      result.fit.methods.begin(), result.fit.methods.end(), [](const IdentificationResult& method) {
+  list.push_back(fmt::format("{}; the muscles are effective ones that stand for all heads lumped into them.",
+                             result.source.study.identify.model_muscles
+                                 ? "Pennation and passive muscle force come from the model"
+                                 : "Pennation and passive muscle force are neglected, as in the source paper"));
+  const bool freed =
+      std::any_of(result.fit.methods.begin(), result.fit.methods.end(), [](const IdentificationResult& method) {
         return std::any_of(method.estimates.begin(), method.estimates.end(),
                            [](const auto& e) { return e.parameter == "max_shortening_speed"; });
       });
@@ -71,17 +70,15 @@ std::vector<std::string> assumptions(const StudyResult& result) {
     list.push_back("Body mass is not given: 73 kg is assumed for the built-in arm's inertia.");
   for (const signals::WhiteningFilter& filter : result.emg.whitening.filters) {
     if (filter.reason.empty())
-      list.push_back(fmt::format("EMG channel {}: statistical bandwidth {:.0f} Hz, {} {:.0f} Hz.",
-                                 filter.channel, filter.bandwidth_before_hz,
-                                 result.emg.whitening.applied ? "whitened" : "whitened it would be",
-                                 filter.bandwidth_after_hz));
+      list.push_back(fmt::format(
+          "EMG channel {}: statistical bandwidth {:.0f} Hz, {} {:.0f} Hz.", filter.channel, filter.bandwidth_before_hz,
+          result.emg.whitening.applied ? "whitened" : "whitened it would be", filter.bandwidth_after_hz));
   }
   const signals::EmgChain chain = emg_chain(result, nullptr);
   if (!chain.steps.empty()) list.push_back(fmt::format("EMG: {}.", fmt::join(chain.steps, "; ")));
   const Study& study = result.source.study;
   list.push_back(meaning_of_strength(study, from_maximal_effort(study.emg)));
-  for (const std::string& text : result.source.model->unsupported)
-    list.push_back("Model: " + text + ".");
+  for (const std::string& text : result.source.model->unsupported) list.push_back("Model: " + text + ".");
   return list;
 }
 
@@ -89,26 +86,23 @@ std::vector<std::string> assumptions(const StudyResult& result) {
 std::string identified_numbers(const IdentificationResult& fit) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const ParameterEstimate& e : fit.estimates) {
-    if (identification::is_nuisance(e) || !e.tied_to.empty() || e.verdict != Verdict::identified)
-      continue;
-    auto of = std::find_if(owners.begin(), owners.end(),
-                           [&](const auto& entry) { return entry.first == e.parameter; });
+    if (identification::is_nuisance(e) || !e.tied_to.empty() || e.verdict != Verdict::identified) continue;
+    auto of = std::find_if(owners.begin(), owners.end(), [&](const auto& entry) { return entry.first == e.parameter; });
     if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
     of->second.push_back(e.muscle);
   }
   std::vector<std::string> parts;
   for (const auto& [parameter, muscles] : owners)
-    parts.push_back(fmt::format(
-        "{} of {}", report::spelled(parameter),
-        muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
+    parts.push_back(
+        fmt::format("{} of {}", report::spelled(parameter),
+                    muscles.front() == "subject" ? "the person" : fmt::format("{}", fmt::join(muscles, ", "))));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string headline(const StudyResult& result) {
   const IdentificationResult* best = method_of(result, "torque");
   if (best == nullptr) best = method_of(result, "force");
-  if (best == nullptr)
-    return "Parameters by the source paper's method, each with an interval and a verdict.";
+  if (best == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
   int total = 0, sure = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty()) continue;
@@ -116,14 +110,11 @@ std::string headline(const StudyResult& result) {
     if (e.verdict == Verdict::identified) ++sure;
     if (e.verdict == Verdict::weak) ++weak;
   }
-  std::string text =
-      sure == 0
-          ? fmt::format("This recording identifies none of {} parameters with certainty", total)
-          : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
-                        identified_numbers(*best));
+  std::string text = sure == 0 ? fmt::format("This recording identifies none of {} parameters with certainty", total)
+                               : fmt::format("This recording identifies {} of {} parameters: {}", sure, total,
+                                             identified_numbers(*best));
   text += ".";
-  if (weak > 0)
-    text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
+  if (weak > 0) text += fmt::format(" {} {} known with a wide interval.", weak, weak == 1 ? "is" : "are");
   if (!result.folds.empty()) {
     std::vector<double> ours, theirs;
     for (const identification::Fold& f : result.folds) {
@@ -139,19 +130,17 @@ std::string headline(const StudyResult& result) {
   return text;
 }
 
-std::vector<Table> tables_with_basins(std::vector<Table> tables,
-                                      const IdentificationResult& method) {
+std::vector<Table> tables_with_basins(std::vector<Table> tables, const IdentificationResult& method) {
   for (Table& table : basin_tables(method)) tables.push_back(std::move(table));
   return tables;
 }
 
 std::string subtitle(const StudyResult& result) {
   std::vector<std::string> joints;
-  for (const std::string& name : study_coordinates(result.source.study.model))
-    joints.push_back(report::spelled(name));
+  for (const std::string& name : study_coordinates(result.source.study.model)) joints.push_back(report::spelled(name));
   return fmt::format("{} trial{}; joint coordinate{} {}; model {}", result.trials.size(),
-                     result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "",
-                     fmt::join(joints, ", "), result.source.model->name);
+                     result.trials.size() == 1 ? "" : "s", joints.size() > 1 ? "s" : "", fmt::join(joints, ", "),
+                     result.source.model->name);
 }
 
 Section parameters_section(const StudyResult& result, const IdentificationResult& torque) {
@@ -166,8 +155,7 @@ Section parameters_section(const StudyResult& result, const IdentificationResult
   const std::string lag = identification::lag_remark(torque);
   if (!lag.empty()) section.paragraphs.push_back(lag);
   if (!torque.collinear.empty())
-    section.paragraphs.push_back(
-        fmt::format("Hardly told apart: {}.", fmt::join(torque.collinear, "; ")));
+    section.paragraphs.push_back(fmt::format("Hardly told apart: {}.", fmt::join(torque.collinear, "; ")));
   section.tables = tables_with_basins(estimate_tables(result, torque), torque);
   for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m)
     section.figures.push_back(muscle_curves(result, torque, m));
@@ -196,22 +184,20 @@ Section paper_section(const IdentificationResult& paper) {
 Section forces_section(const StudyResult& result, const IdentificationResult& method) {
   Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
   const auto& trials = result.fit_input.data.trials;
-  const auto most =
-      std::max_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) {
-        const auto range = [](const identification::TrialData& d) {
-          return (d.length_m.colwise().maxCoeff() - d.length_m.colwise().minCoeff()).maxCoeff();
-        };
-        return std::lround(100.0 * range(a)) < std::lround(100.0 * range(b));
-      });
+  const auto most = std::max_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) {
+    const auto range = [](const identification::TrialData& d) {
+      return (d.length_m.colwise().maxCoeff() - d.length_m.colwise().minCoeff()).maxCoeff();
+    };
+    return std::lround(100.0 * range(a)) < std::lround(100.0 * range(b));
+  });
   if (most != trials.end()) forces.figures.push_back(force_figure(result, *most, method));
   return forces;
 }
 
 /// Returns the EMG of the first calibration trial that has EMG; empty if none has.
 std::optional<Section> emg_section(const StudyResult& result) {
-  const auto task = std::find_if(
-      result.trials.begin(), result.trials.end(),
-      [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
+  const auto task = std::find_if(result.trials.begin(), result.trials.end(),
+                                 [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task == result.trials.end()) return std::nullopt;
   Section section{"emg", "EMG", {}, {}, {}, {}};
   section.figures.push_back(emg_figure(*task, signals::header_lines(emg_chain(result, nullptr))));
@@ -222,8 +208,7 @@ Section trials_section(const StudyResult& result) {
   Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
   std::vector<std::string>& notes = trials.paragraphs;
   for (const TrialResult& t : result.trials) {
-    for (const std::string& note : sentences(t.remarks))
-      notes.push_back(fmt::format("{}: {}", t.spec.name, note));
+    for (const std::string& note : sentences(t.remarks)) notes.push_back(fmt::format("{}: {}", t.spec.name, note));
   }
   if (notes.size() > 12) {
     notes.resize(12);
@@ -232,15 +217,11 @@ Section trials_section(const StudyResult& result) {
   return trials;
 }
 
-std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result,
-                                                   const Provenance& provenance) {
-  std::vector<report::ProvenanceRow> rows{
-      {"program", fmt::format("{} {}", provenance.program, provenance.version)},
-      {"command", provenance.command}};
-  for (const InputFile& file : provenance.inputs)
-    rows.push_back({file.path, "sha256 " + file.sha256});
-  for (const StageTime& t : result.times)
-    rows.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
+std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, const Provenance& provenance) {
+  std::vector<report::ProvenanceRow> rows{{"program", fmt::format("{} {}", provenance.program, provenance.version)},
+                                          {"command", provenance.command}};
+  for (const InputFile& file : provenance.inputs) rows.push_back({file.path, "sha256 " + file.sha256});
+  for (const StageTime& t : result.times) rows.push_back({"time: " + t.stage, fmt::format("{:.2f} s", t.seconds)});
   rows.push_back({"options", provenance.options_json});
   return rows;
 }
@@ -267,11 +248,9 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
   if (result.next) sections.push_back(next_recording_section(*result.next));
   if (paper != nullptr) sections.push_back(paper_section(*paper));
-  if (const auto* shown = torque != nullptr ? torque : paper)
-    sections.push_back(forces_section(result, *shown));
+  if (const auto* shown = torque != nullptr ? torque : paper) sections.push_back(forces_section(result, *shown));
   if (auto emg = emg_section(result)) sections.push_back(std::move(*emg));
-  if (!result.fit.informed.empty() || result.fit.force_loop)
-    sections.push_back(informed_section(result));
+  if (!result.fit.informed.empty() || result.fit.force_loop) sections.push_back(informed_section(result));
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
   sections.push_back(methods_section(methods_text(result, provenance)));

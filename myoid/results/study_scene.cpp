@@ -22,8 +22,7 @@ TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
     const auto column = emg.find(study.muscles[g].emg);
     if (!column) continue;
     for (const int m : groups[g].members) {
-      channels.push_back(
-          {trial.motion.model->muscles[static_cast<std::size_t>(m)].name, Unit::dimensionless});
+      channels.push_back({trial.motion.model->muscles[static_cast<std::size_t>(m)].name, Unit::dimensionless});
       columns.push_back(*column);
     }
   }
@@ -52,9 +51,7 @@ void add_loads(const TrialResult& trial, report::Scene& scene) {
       const Pose frame = pose(load.point_frame);
       shown.force_n.row(f) = force.transpose();
       shown.point_m.row(f) =
-          (load.point ? Vec3(frame.p + frame.R * load.point->at(loads.data_time_s(t)))
-                      : pose(load.body).p)
-              .transpose();
+          (load.point ? Vec3(frame.p + frame.R * load.point->at(loads.data_time_s(t))) : pose(load.body).p).transpose();
     }
     if (shown.point_m.array().isFinite().any()) scene.loads.push_back(std::move(shown));
   }
@@ -65,12 +62,10 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
   input.name = trial.spec.name;
   input.q = trial.motion.joints.q;
   if (trial.input.markers) input.markers = &*trial.input.markers;
-  if (!trial.forces.shared.force.empty())
-    input.colorings.push_back({"force", "N", trial.forces.shared.force});
+  if (!trial.forces.shared.force.empty()) input.colorings.push_back({"force", "N", trial.forces.shared.force});
   if (!trial.emg.activation.empty()) {
     TimeSeries activation = muscle_activation(study, trial);
-    if (activation.channel_count() > 0)
-      input.colorings.push_back({"EMG activation", "", std::move(activation)});
+    if (activation.channel_count() > 0) input.colorings.push_back({"EMG activation", "", std::move(activation)});
   }
   report::Scene scene = model_scene(*trial.motion.model, input, {.most_frames = most_frames});
   add_loads(trial, scene);
@@ -82,14 +77,11 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
 report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
   const auto moving = [](const TrialResult& trial) { return trial.has_motion(); };
   const auto count = std::count_if(result.trials.begin(), result.trials.end(), moving);
-  report::ScenePage page{
-      .title = result.source.study.subject.name,
-      .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
-  const int each =
-      std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));
+  report::ScenePage page{.title = result.source.study.subject.name,
+                         .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
+  const int each = std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));
   for (const TrialResult& trial : result.trials)
-    if (moving(trial))
-      page.scenes.push_back(trial_scene(result.source.study, trial, std::min(1500, each)));
+    if (moving(trial)) page.scenes.push_back(trial_scene(result.source.study, trial, std::min(1500, each)));
   if (result.source.study.model.file && !page.scenes.empty())
     add_meshes(load_meshes(result.source.model_text, *result.source.study.model.file), page);
   return page;

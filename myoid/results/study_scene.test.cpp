@@ -15,16 +15,14 @@ namespace {
 TrialResult flexing(const std::string& name) {
   TrialResult trial;
   trial.spec.name = name;
-  trial.motion.model =
-      std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
+  trial.motion.model = std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : trial.motion.model->coordinates)
-    channels.push_back({c.name, Unit::radian});
+  for (const model::Coordinate& c : trial.motion.model->coordinates) channels.push_back({c.name, Unit::radian});
   Eigen::MatrixXd q = trial.motion.model->default_q().transpose().replicate(101, 1);
   q.col(trial.motion.model->coordinate_index("elbow_flexion")).setLinSpaced(0.0, 1.5);
   trial.motion.joints.q = TimeSeries(Eigen::VectorXd::LinSpaced(101, 0.0, 1.0), channels, q);
-  trial.emg.activation = TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}},
-                                    Eigen::Vector2d(0.2, 0.6));
+  trial.emg.activation =
+      TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"Biceps", Unit::dimensionless}}, Eigen::Vector2d(0.2, 0.6));
   recording::MarkerSeries markers;
   markers.time_s = Eigen::Vector2d(0.0, 1.0);
   markers.names = {trial.motion.model->markers[0].name};
@@ -65,17 +63,14 @@ TEST(StudyScenes, ShowAMeasuredForceWhereItActsWhileItActs) {
   dynamics::ExternalForce force{.name = "plate 1", .body = 1};
   force.force = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.0, 500.0, 10.0)};
   force.point = dynamics::LoadColumns{.splines = {}, .constant = Vec3(0.1, 0.0, 0.2)};
-  result.trials[0].input.loads =
-      dynamics::ExternalLoads{.forces = {force}, .start_s = 0.5, .end_s = 1.0};
+  result.trials[0].input.loads = dynamics::ExternalLoads{.forces = {force}, .start_s = 0.5, .end_s = 1.0};
   const report::Scene scene = study_scenes(result).scenes[0];
   EXPECT_NO_THROW(report::validate(scene));
   ASSERT_EQ(scene.loads.size(), 1U);
   EXPECT_TRUE(std::isnan(scene.loads[0].point_m(0, 0)));  // before the file begins
   EXPECT_EQ(scene.loads[0].force_n.row(0).norm(), 0.0);
-  EXPECT_NEAR((scene.loads[0].point_m.row(50) - Eigen::RowVector3d(0.1, 0.0, 0.2)).norm(), 0.0,
-              1e-12);
-  EXPECT_NEAR((scene.loads[0].force_n.row(50) - Eigen::RowVector3d(0.0, 500.0, 10.0)).norm(), 0.0,
-              1e-12);
+  EXPECT_NEAR((scene.loads[0].point_m.row(50) - Eigen::RowVector3d(0.1, 0.0, 0.2)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((scene.loads[0].force_n.row(50) - Eigen::RowVector3d(0.0, 500.0, 10.0)).norm(), 0.0, 1e-12);
 }
 
 TEST(StudyScenes, ShareTheFramesAmongManyTrials) {

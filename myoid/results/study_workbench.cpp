@@ -56,8 +56,7 @@ class TrialPlots {
 
   int whole_clock(const Eigen::VectorXd& time_s) {
     for (std::size_t k = 0; k < trial_.clocks.size(); ++k)
-      if (trial_.clocks[k].size() == time_s.size() && trial_.clocks[k] == time_s)
-        return static_cast<int>(k);
+      if (trial_.clocks[k].size() == time_s.size() && trial_.clocks[k] == time_s) return static_cast<int>(k);
     trial_.clocks.push_back(time_s);
     return static_cast<int>(trial_.clocks.size()) - 1;
   }
@@ -91,8 +90,7 @@ class TrialPlots {
 /// Returns the index of the stretch, of `columns` equal ones, that contains a time.
 Eigen::Index column_of(double time_s, const Stretch& when, Eigen::Index columns) {
   const double share = (time_s - when.begin_s) / std::max(1e-9, when.end_s - when.begin_s);
-  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(columns)),
-                                  0, columns - 1);
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(columns)), 0, columns - 1);
 }
 
 /// Returns the greatest value in each stretch; NaN if values are missing.
@@ -122,8 +120,7 @@ void add_angles(const StudyResult& result, const TrialResult& trial, TrialPlots&
     plots.add({.kind = "angle",
                .title = report::spelled(name),
                .unit = "deg",
-               .lines = {plots.line("angle", Role::reference, q.time_s(),
-                                    q.values().col(*column) / kDegree)},
+               .lines = {plots.line("angle", Role::reference, q.time_s(), q.values().col(*column) / kDegree)},
                .file = trial.spec.name + "/ik.mot"});
   }
 }
@@ -149,8 +146,7 @@ const identification::Fold* fold_of(const StudyResult& result,
                                     const std::string& joint,
                                     Eigen::Index samples) {
   for (const identification::Fold& fold : result.folds)
-    if (fold.trial == trial && fold.joint == joint && fold.predicted_nm.size() == samples)
-      return &fold;
+    if (fold.trial == trial && fold.joint == joint && fold.predicted_nm.size() == samples) return &fold;
   return nullptr;
 }
 
@@ -175,23 +171,19 @@ void add_torques(const StudyResult& result,
       const Eigen::VectorXd& t = fitted->time_s;
       plot.lines.push_back(plots.line("measured", Role::reference, t, fitted->torque_nm));
       if (fitted->literature_torque_nm.size() == t.size())
-        plot.lines.push_back(
-            plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
+        plot.lines.push_back(plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
       if (fitted->torque_fit_nm.size() == t.size())
         plot.lines.push_back(plots.line("identified", Role::identified, t, fitted->torque_fit_nm));
       const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size());
-      const Band band = fold != nullptr
-                            ? prediction_band(fold->predicted_nm, fold->predicted_sd_nm)
-                            : prediction_band(fitted->torque_fit_nm, fitted->torque_sd_nm);
-      if (fold != nullptr)
-        plot.lines.push_back(plots.line("left out", Role::unseen, t, fold->predicted_nm));
+      const Band band = fold != nullptr ? prediction_band(fold->predicted_nm, fold->predicted_sd_nm)
+                                        : prediction_band(fitted->torque_fit_nm, fitted->torque_sd_nm);
+      if (fold != nullptr) plot.lines.push_back(plots.line("left out", Role::unseen, t, fold->predicted_nm));
       if (band.low.size() == t.size())
         plot.lines.insert(plot.lines.begin(), plots.band("95 % band", t, band.low, band.high));
-    } else if (trial.has_motion() &&
-               static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
+    } else if (trial.has_motion() && static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
       const TimeSeries& torque = trial.forces.muscle_torque;
-      plot.lines.push_back(plots.line("measured", Role::reference, torque.time_s(),
-                                      torque.values().col(static_cast<Eigen::Index>(j))));
+      plot.lines.push_back(
+          plots.line("measured", Role::reference, torque.time_s(), torque.values().col(static_cast<Eigen::Index>(j))));
     }
     plots.add(std::move(plot));
   }
@@ -206,29 +198,25 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
     const Eigen::Index columns = std::min(kRawColumns, raw.sample_count());
     const Stretch when{t[0], t[t.size() - 1]};
     const double width = (when.end_s - when.begin_s) / static_cast<double>(columns);
-    const int clock = plots.whole_clock(
-        Eigen::VectorXd::LinSpaced(columns, when.begin_s + 0.5 * width, when.end_s - 0.5 * width));
+    const int clock =
+        plots.whole_clock(Eigen::VectorXd::LinSpaced(columns, when.begin_s + 0.5 * width, when.end_s - 0.5 * width));
     for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
       const Eigen::VectorXd mv = 1e3 * raw.values().col(c);
-      plots.add({.kind = "emg",
-                 .title = raw.channels()[static_cast<std::size_t>(c)].name,
-                 .unit = "mV",
-                 .lines = {{"raw", Role::raw, clock, -greatest(t, -mv, when, columns),
-                            greatest(t, mv, when, columns)},
-                           plots.line("envelope", Role::identified, envelope.time_s(),
-                                      1e3 * envelope.values().col(c))}});
+      plots.add(
+          {.kind = "emg",
+           .title = raw.channels()[static_cast<std::size_t>(c)].name,
+           .unit = "mV",
+           .lines = {{"raw", Role::raw, clock, -greatest(t, -mv, when, columns), greatest(t, mv, when, columns)},
+                     plots.line("envelope", Role::identified, envelope.time_s(), 1e3 * envelope.values().col(c))}});
     }
   }
   const TimeSeries& activation = trial.emg.activation;
   if (activation.empty()) return;
-  TimePlot plot{.kind = "activation",
-                .title = "activation by EMG",
-                .unit = "",
-                .file = trial.spec.name + "/activation.sto"};
+  TimePlot plot{
+      .kind = "activation", .title = "activation by EMG", .unit = "", .file = trial.spec.name + "/activation.sto"};
   for (Eigen::Index c = 0; c < activation.channel_count(); ++c)
-    plot.lines.push_back(plots.line(activation.channels()[static_cast<std::size_t>(c)].name,
-                                    Role::reference, activation.time_s(),
-                                    activation.values().col(c)));
+    plot.lines.push_back(plots.line(activation.channels()[static_cast<std::size_t>(c)].name, Role::reference,
+                                    activation.time_s(), activation.values().col(c)));
   plots.add(std::move(plot));
 }
 
@@ -247,11 +235,9 @@ void add_fitted_forces(const StudyResult& result,
     if (data.force_n.cols() > c)
       plot.lines.push_back(plots.line("shared", Role::reference, data.time_s, data.force_n.col(c)));
     if (fit.literature_force_n.cols() > c)
-      plot.lines.push_back(
-          plots.line("literature", Role::literature, data.time_s, fit.literature_force_n.col(c)));
+      plot.lines.push_back(plots.line("literature", Role::literature, data.time_s, fit.literature_force_n.col(c)));
     if (fit.force_fit_n.cols() > c && fit.force_fit_n.col(c).allFinite())
-      plot.lines.push_back(
-          plots.line("identified", Role::identified, data.time_s, fit.force_fit_n.col(c)));
+      plot.lines.push_back(plots.line("identified", Role::identified, data.time_s, fit.force_fit_n.col(c)));
     plots.add(std::move(plot));
   }
 }
@@ -267,12 +253,11 @@ void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
   });
   if (order.size() > kMostForces) order.resize(kMostForces);
   for (const Eigen::Index c : order) {
-    plots.add(
-        {.kind = "force",
-         .title = force.channels()[static_cast<std::size_t>(c)].name,
-         .unit = "N",
-         .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
-         .file = trial.spec.name + "/StaticOptimization_force.sto"});
+    plots.add({.kind = "force",
+               .title = force.channels()[static_cast<std::size_t>(c)].name,
+               .unit = "N",
+               .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
+               .file = trial.spec.name + "/StaticOptimization_force.sto"});
   }
 }
 
@@ -285,17 +270,15 @@ void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
     if (series->empty()) continue;
     const auto& t = series->time_s();
     const Stretch own{t[0], t[t.size() - 1]};
-    shown.carpet_when = any ? Stretch{std::min(shown.carpet_when.begin_s, own.begin_s),
-                                      std::max(shown.carpet_when.end_s, own.end_s)}
-                            : own;
+    shown.carpet_when =
+        any ? Stretch{std::min(shown.carpet_when.begin_s, own.begin_s), std::max(shown.carpet_when.end_s, own.end_s)}
+            : own;
     any = true;
   }
-  const auto add = [&](const TimeSeries& of, Eigen::Index c, const char* kind, const char* unit,
-                       double scale) {
+  const auto add = [&](const TimeSeries& of, Eigen::Index c, const char* kind, const char* unit, double scale) {
     const Eigen::Index columns = std::min(kCarpetColumns, of.sample_count());
-    shown.carpet.push_back(
-        {of.channels()[static_cast<std::size_t>(c)].name, kind, unit,
-         greatest(of.time_s(), scale * of.values().col(c), shown.carpet_when, columns)});
+    shown.carpet.push_back({of.channels()[static_cast<std::size_t>(c)].name, kind, unit,
+                            greatest(of.time_s(), scale * of.values().col(c), shown.carpet_when, columns)});
   };
   for (Eigen::Index c = 0; c < emg.channel_count(); ++c) add(emg, c, "EMG", "", 1.0);
   for (Eigen::Index c = 3; c < errors.channel_count(); ++c) add(errors, c, "marker", "mm", 1e3);
@@ -317,10 +300,10 @@ void add_remarks(const StudyResult& result,
   for (const OutlyingFold& fold : outlying) {
     if (fold.trial != trial.spec.name) continue;
     worse(Badge::bad);
-    shown.remarks.push_back(fmt::format(
-        "Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its "
-        "files, labels, held mass and clock.",
-        fold.rms_nm, fold.usual_rms_nm));
+    shown.remarks.push_back(
+        fmt::format("Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its "
+                    "files, labels, held mass and clock.",
+                    fold.rms_nm, fold.usual_rms_nm));
   }
   for (std::string& text : sentences(trial.remarks, Severity::warning)) {
     worse(Badge::weak);
@@ -339,9 +322,8 @@ void add_remarks(const StudyResult& result,
   if (fit == nullptr) return;
   for (const identification::TrialFit& t : fit->trials) {
     if (t.trial != trial.spec.name || t.torque_fit_nm.size() == 0) continue;
-    shown.remarks.push_back(
-        fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", report::spelled(t.joint),
-                    t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
+    shown.remarks.push_back(fmt::format("{}: torque {} within {:.2f} N m rms (R² {:.2f}).", report::spelled(t.joint),
+                                        t.calibration ? "described" : "predicted", t.score.rmse_nm(), t.score.r2()));
   }
   for (const identification::Fold& fold : result.folds) {
     if (fold.trial == trial.spec.name)
@@ -367,11 +349,9 @@ void add_drives(const StudyResult& result,
                               plots.thinned(data.length_m.col(c)),
                               plots.thinned(data.velocity_mps.col(c)),
                               {}};
-    if (data.moment_arm_m.cols() > c)
-      drive.moment_arm_m.push_back(plots.thinned(data.moment_arm_m.col(c)));
+    if (data.moment_arm_m.cols() > c) drive.moment_arm_m.push_back(plots.thinned(data.moment_arm_m.col(c)));
     for (const identification::JointData& joint : data.more_joints)
-      if (joint.moment_arm_m.cols() > c)
-        drive.moment_arm_m.push_back(plots.thinned(joint.moment_arm_m.col(c)));
+      if (joint.moment_arm_m.cols() > c) drive.moment_arm_m.push_back(plots.thinned(joint.moment_arm_m.col(c)));
     shown.drives.push_back(std::move(drive));
   }
 }
@@ -384,8 +364,7 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   WorkbenchTrial shown{.name = trial.spec.name, .use = std::string(choice_name(trial.spec.use))};
   TrialPlots plots(shown, most);
   const auto& all = result.fit_input.data.trials;
-  const auto data = std::find_if(all.begin(), all.end(),
-                                 [&](const auto& d) { return d.name == trial.spec.name; });
+  const auto data = std::find_if(all.begin(), all.end(), [&](const auto& d) { return d.name == trial.spec.name; });
   const identification::TrialFit* fitted = nullptr;
   if (fit != nullptr && data != all.end()) {
     plots.clock(data->time_s);
@@ -407,8 +386,7 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   return shown;
 }
 
-/// Returns the path from `folder`. A browser takes the parts of a path literally and follows no
-/// links.
+/// Returns the path from `folder`. A browser takes the parts of a path literally and follows no links.
 std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
   const auto whole = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal();
@@ -425,8 +403,7 @@ report::Workbench study_workbench(const StudyResult& result, const std::filesyst
   if (fit != nullptr && fit->values.muscles.size() != muscles.size()) fit = nullptr;
   if (fit != nullptr) add_movable_muscles(*fit, muscles, workbench);
   const Eigen::Index most = std::max(
-      kLeastSamples,
-      kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
+      kLeastSamples, kMostSamples / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(result.trials.size())));
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   int scene = 0;
   for (const TrialResult& trial : result.trials) {

@@ -24,17 +24,14 @@ StudyResult one_trial() {
   result.source.study.model.coordinate = "elbow_flexion";
   TrialResult trial;
   trial.spec.name = "slow";
-  trial.motion.model =
-      std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
+  trial.motion.model = std::make_shared<const model::BodyModel>(model::parse_osim(model::arm4_osim(), "arm4.osim"));
   std::vector<Channel> channels;
-  for (const model::Coordinate& c : trial.motion.model->coordinates)
-    channels.push_back({c.name, Unit::radian});
+  for (const model::Coordinate& c : trial.motion.model->coordinates) channels.push_back({c.name, Unit::radian});
   Eigen::MatrixXd q = trial.motion.model->default_q().transpose().replicate(4001, 1);
   q.col(trial.motion.model->coordinate_index("elbow_flexion")).setLinSpaced(0.0, 0.5 * kPi);
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(4001, 0.0, 4.0);
   trial.motion.joints.q = TimeSeries(t, channels, q);
-  trial.forces.muscle_torque =
-      TimeSeries(t, {{"elbow_flexion", Unit::newton_meter}}, Eigen::VectorXd(3.0 * t));
+  trial.forces.muscle_torque = TimeSeries(t, {{"elbow_flexion", Unit::newton_meter}}, Eigen::VectorXd(3.0 * t));
   trial.emg.activation = TimeSeries(t, {{"BIC", Unit::dimensionless}}, Eigen::VectorXd(0.1 * t));
   Remark hum{.code = RemarkCode::emg_hum, .about = "BIC", .when = Stretch{1.0, 2.0}, .says = "hum"};
   trial.faults = {hum};
@@ -83,12 +80,10 @@ TEST(StudyWorkbench, MarksAFaultOnItsChannelAndOnTheTrial) {
 TEST(StudyWorkbench, AWarningAboutTheFilesMarksTheTrialAndANoteDoesNot) {
   StudyResult result = one_trial();
   result.trials[0].faults.clear();
-  result.trials[0].remarks = {
-      {.code = RemarkCode::reading, .severity = Severity::note, .says = "times were counted"}};
+  result.trials[0].remarks = {{.code = RemarkCode::reading, .severity = Severity::note, .says = "times were counted"}};
   EXPECT_EQ(study_workbench(result, "results").trials[0].badge, report::Badge::good);
-  result.trials[0].remarks.push_back({.code = RemarkCode::body_unsupported,
-                                      .severity = Severity::warning,
-                                      .says = "nothing carries the body"});
+  result.trials[0].remarks.push_back(
+      {.code = RemarkCode::body_unsupported, .severity = Severity::warning, .says = "nothing carries the body"});
   const report::WorkbenchTrial trial = study_workbench(result, "results").trials[0];
   EXPECT_EQ(trial.badge, report::Badge::weak);
   EXPECT_THAT(trial.remarks, testing::ElementsAre(testing::HasSubstr("nothing carries the body")));

@@ -26,23 +26,17 @@ using report::to_vector;
 
 /// Returns predicted values as a curve, with a gap at the beginning, where the recording lacks the
 /// earlier EMG that the delay needs.
-std::vector<double> after_delay(const Eigen::VectorXd& predicted,
-                                const Eigen::VectorXd& time_s,
-                                double delay_s) {
+std::vector<double> after_delay(const Eigen::VectorXd& predicted, const Eigen::VectorXd& time_s, double delay_s) {
   std::vector<double> curve = to_vector(predicted);
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s)
-      curve[i] = std::numeric_limits<double>::quiet_NaN();
+    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s) curve[i] = std::numeric_limits<double>::quiet_NaN();
   }
   return curve;
 }
 
 /// Returns the name of the trial, and of the joint if there are several.
-std::string title_of(const StudyResult& result,
-                     const std::string& trial,
-                     const std::string& joint) {
-  return result.source.study.model.more_coordinates.empty() ? trial
-                                                            : fmt::format("{}, {}", trial, joint);
+std::string title_of(const StudyResult& result, const std::string& trial, const std::string& joint) {
+  return result.source.study.model.more_coordinates.empty() ? trial : fmt::format("{}, {}", trial, joint);
 }
 
 /// Draws measured, literature's and identified torque, and the band about the last.
@@ -63,35 +57,31 @@ Panel torque_panel(std::string title,
                             {},
                             after_delay(band.high, time_s, delay_s)});
   panel.series.push_back({"inverse dynamics", t, to_vector(measured_nm), Role::reference, {}, {}});
-  panel.series.push_back(
-      {"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature, {}, {}});
-  panel.series.push_back(
-      {"identified", t, after_delay(identified_nm, time_s, delay_s), Role::identified, {}, {}});
+  panel.series.push_back({"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature, {}, {}});
+  panel.series.push_back({"identified", t, after_delay(identified_nm, time_s, delay_s), Role::identified, {}, {}});
   return panel;
 }
 
 Figure folds_figure(const StudyResult& result, double delay_s) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
-  Figure figure{
-      "torque_held_out",
-      fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
-      fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. "
-                  "Grey dotted: literature's muscles with one best gain.",
-                  left_out),
-      {},
-      2};
+  Figure figure{"torque_held_out",
+                fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
+                fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. "
+                            "Grey dotted: literature's muscles with one best gain.",
+                            left_out),
+                {},
+                2};
   figure.in_workbench = choice_name(result.source.study.identify.folds) == "trial";
   figure.most_on_page = 6;
   figure.caption += " The worst predicted come first.";
   std::vector<const identification::Fold*> folds;
   for (const identification::Fold& f : result.folds) folds.push_back(&f);
-  std::stable_sort(folds.begin(), folds.end(), [](const auto* a, const auto* b) {
-    return a->identified.r2() < b->identified.r2();
-  });
+  std::stable_sort(folds.begin(), folds.end(),
+                   [](const auto* a, const auto* b) { return a->identified.r2() < b->identified.r2(); });
   for (const identification::Fold* f : folds) {
-    figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()),
-        f->time_s, f->measured_nm, f->literature_nm, f->predicted_nm, f->predicted_sd_nm, delay_s));
+    figure.panels.push_back(
+        torque_panel(fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()), f->time_s,
+                     f->measured_nm, f->literature_nm, f->predicted_nm, f->predicted_sd_nm, delay_s));
   }
   return figure;
 }
@@ -114,33 +104,30 @@ std::string share_text(double share) {
 
 Table folds_table(const StudyResult& result) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
-  Table table{
-      "leave_one_trial_out",
-      fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
-      fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
-          "NRMSE is RMSE over the range. The prediction is that of a fit without this part "
-          "(fold_parameters.csv); in band: share of the samples within the prediction's 95 % band; "
-          "smoothed, it is low-passed where the noise of its EMG does "
-          "least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
-          "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
-          "Baselines, "
-          "RMSE in N m and R2 in "
-          "brackets: the literature's parameters with the one gain that fits the others best; "
-          "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
-          "torque.",
-      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
-       "R2 below 1.5 Hz", "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper",
-       "constant"},
-      {}};
+  Table table{"leave_one_trial_out",
+              fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
+              fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
+                  "NRMSE is RMSE over the range. The prediction is that of a fit without this part "
+                  "(fold_parameters.csv); in band: share of the samples within the prediction's 95 % band; "
+                  "smoothed, it is low-passed where the noise of its EMG does "
+                  "least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
+                  "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
+                  "Baselines, "
+                  "RMSE in N m and R2 in "
+                  "brackets: the literature's parameters with the one gain that fits the others best; "
+                  "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
+                  "torque.",
+              {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
+               "R2 below 1.5 Hz", "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper", "constant"},
+              {}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
-    const bool stands_out = std::any_of(
-        outlying.begin(), outlying.end(),
-        [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
+    const bool stands_out = std::any_of(outlying.begin(), outlying.end(), [&](const OutlyingFold& o) {
+      return o.trial == f.trial && o.joint == f.joint;
+    });
     const std::string title = title_of(result, f.trial, f.joint);
     table.rows.push_back(
-        {stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"}
-                    : Cell{title},
+        {stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
          {fmt::format("{:.2f}", f.identified.rmse_nm())},
          {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range())},
          {fmt::format("{:.3f}", f.identified.r2()),
@@ -160,32 +147,27 @@ Table folds_table(const StudyResult& result) {
 }
 
 /// Returns the table of held-back validation trials.
-Table held_back_table(const StudyResult& result,
-                      const identification::IdentificationResult& method) {
+Table held_back_table(const StudyResult& result, const identification::IdentificationResult& method) {
   Table table{"validation_trials",
               "Trials held back for validation",
               "Joint torque predicted with the muscles identified on the calibration trials.",
-              {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
-               "R2 below 1.5 Hz", "in band"},
+              {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"},
               {}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    table.rows.push_back(
-        {{title_of(result, t.trial, t.joint)},
-         {fmt::format("{:.2f}", t.score.rmse_nm())},
-         {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
-         {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
-         {smoothed_text(smoothed_score(t), t.smooth_hz)},
-         {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
-         {fmt::format("{:.3f}", t.band.r2())},
-         {share_text(
-             identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}});
+    table.rows.push_back({{title_of(result, t.trial, t.joint)},
+                          {fmt::format("{:.2f}", t.score.rmse_nm())},
+                          {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
+                          {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
+                          {smoothed_text(smoothed_score(t), t.smooth_hz)},
+                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
+                          {fmt::format("{:.3f}", t.band.r2())},
+                          {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}});
   }
   return table;
 }
 
-Figure held_back_figure(const StudyResult& result,
-                        const identification::IdentificationResult& method) {
+Figure held_back_figure(const StudyResult& result, const identification::IdentificationResult& method) {
   Figure figure{"torque_validation",
                 "Joint torque predicted for the trials held back",
                 "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration "
@@ -196,16 +178,15 @@ Figure held_back_figure(const StudyResult& result,
   figure.most_on_page = 6;
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    figure.panels.push_back(torque_panel(
-        fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.score.r2()), t.time_s,
-        t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, t.torque_sd_nm, method.delay_s));
+    figure.panels.push_back(torque_panel(fmt::format("{}: R2 {:.2f}", title_of(result, t.trial, t.joint), t.score.r2()),
+                                         t.time_s, t.torque_nm, t.literature_torque_nm, t.torque_fit_nm, t.torque_sd_nm,
+                                         method.delay_s));
   }
   return figure;
 }
 
 std::string range_text(const Eigen::VectorXd& values, int decimals) {
-  return fmt::format("{:.{}f} to {:.{}f}", values.minCoeff(), decimals, values.maxCoeff(),
-                     decimals);
+  return fmt::format("{:.{}f} to {:.{}f}", values.minCoeff(), decimals, values.maxCoeff(), decimals);
 }
 
 }  // namespace
@@ -216,16 +197,15 @@ std::vector<Section> validation_sections(const StudyResult& result) {
   const bool fitted = torque != result.fit.methods.end();
   std::vector<Section> sections;
   if (!result.folds.empty()) {
-    sections.push_back(
-        {"validation",
-         fmt::format("Validation on {}s left out", choice_name(result.source.study.identify.folds)),
-         {},
-         {},
-         {folds_table(result)},
-         {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
+    sections.push_back({"validation",
+                        fmt::format("Validation on {}s left out", choice_name(result.source.study.identify.folds)),
+                        {},
+                        {},
+                        {folds_table(result)},
+                        {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
   }
-  if (fitted && std::any_of(torque->trials.begin(), torque->trials.end(),
-                            [](const auto& t) { return !t.calibration; })) {
+  if (fitted &&
+      std::any_of(torque->trials.begin(), torque->trials.end(), [](const auto& t) { return !t.calibration; })) {
     sections.push_back({"validation_trials",
                         "Validation on trials held back",
                         {},
@@ -243,9 +223,8 @@ Table trials_table(const StudyResult& result) {
               "study's coordinates.",
               {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
               {}};
-  const bool clocks =
-      std::any_of(result.trials.begin(), result.trials.end(),
-                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
+  const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
+                                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
   if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
   for (const TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(choice_name(t.spec.use))}};
@@ -254,8 +233,7 @@ Table trials_table(const StudyResult& result) {
       const std::vector<std::string> coordinates = study_coordinates(result.source.study.model);
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
         angles.push_back(range_text(t.motion.joints.q.column(coordinates[j]) / kDegree, 0));
-        torques.push_back(
-            range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
+        torques.push_back(range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
       }
       const auto& clock = t.motion.joints.q.time_s();
       row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
@@ -266,12 +244,11 @@ Table trials_table(const StudyResult& result) {
       for (int k = 0; k < 4; ++k) row.push_back({"-"});
     }
     if (clocks) {
-      row.push_back(t.input.emg_clock ? Cell{signals::to_string(t.input.emg_clock->clock),
-                                             Badge::none, t.input.emg_clock->source}
-                                      : Cell{"-"});
+      row.push_back(t.input.emg_clock
+                        ? Cell{signals::to_string(t.input.emg_clock->clock), Badge::none, t.input.emg_clock->source}
+                        : Cell{"-"});
     }
-    row.push_back(t.failure().empty() ? Cell{"ok", Badge::good}
-                                      : Cell{"failed", Badge::bad, t.failure()});
+    row.push_back(t.failure().empty() ? Cell{"ok", Badge::good} : Cell{"failed", Badge::bad, t.failure()});
     table.rows.push_back(std::move(row));
   }
   return table;

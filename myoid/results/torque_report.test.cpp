@@ -20,8 +20,7 @@ StudyResult two_joints() {
   const TimeSeries q(time, {{"knee", Unit::radian}, {"ankle", Unit::radian}}, values);
   trial.motion.joints = {q, q, q};
   trial.forces.muscle_torque =
-      TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}},
-                 values / kDegree);
+      TimeSeries(time, {{"knee_moment", Unit::newton_meter}, {"ankle_moment", Unit::newton_meter}}, values / kDegree);
   result.trials.push_back(trial);
   identification::IdentificationResult torque;
   torque.method = "torque";

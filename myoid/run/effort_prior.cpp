@@ -8,9 +8,7 @@
 
 namespace myoid {
 
-bool from_maximal_effort(const EmgSpec& emg) {
-  return emg.has_mvc || emg.kind == EmgKind::activation;
-}
+bool from_maximal_effort(const EmgSpec& emg) { return emg.has_mvc || emg.kind == EmgKind::activation; }
 
 bool effort_is_unknown(const Study& study) {
   return !from_maximal_effort(study.emg) && study.identify.priors && study.identify.gain &&
@@ -66,8 +64,7 @@ void expect_any_effort(std::vector<identification::MuscleSetup>& muscles) {
     if (found == muscle.priors.end()) continue;
     Prior& prior = found->second;
     const double relative = prior.logarithmic ? prior.sd : prior.sd / prior.mean;
-    prior = {
-        .mean = prior.mean * share.mean, .sd = std::hypot(relative, share.sd), .logarithmic = true};
+    prior = {.mean = prior.mean * share.mean, .sd = std::hypot(relative, share.sd), .logarithmic = true};
   }
 }
 

@@ -57,8 +57,7 @@ TEST(ExpectAnyEffort, SpreadInNewtonsIsTakenAsARatio) {
   in_logarithms.priors["max_isometric_force"] = {.mean = 900.0, .sd = 0.2, .logarithmic = true};
   std::vector<identification::MuscleSetup> muscles{in_newtons, in_logarithms};
   expect_any_effort(muscles);
-  EXPECT_NEAR(muscles[0].priors["max_isometric_force"].sd,
-              muscles[1].priors["max_isometric_force"].sd, 1e-12);
+  EXPECT_NEAR(muscles[0].priors["max_isometric_force"].sd, muscles[1].priors["max_isometric_force"].sd, 1e-12);
 }
 
 }  // namespace

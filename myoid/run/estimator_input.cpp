@@ -26,8 +26,7 @@ identification::TrialData trial_data(const Study& study,
   data.name = trial.spec.name;
   data.calibration = use == Use::calibration || use == Use::isometric;
   data.time_s = trial.motion.joints.q.time_s();
-  kinematics::LumpedMuscles lumped =
-      kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
+  kinematics::LumpedMuscles lumped = kinematics::lumped_muscles(trial.forces.muscles, groups, study.model.coordinate);
   data.length_m = std::move(lumped.length_m);
   data.velocity_mps = std::move(lumped.velocity_mps);
   data.moment_arm_m = std::move(lumped.moment_arm_m);
@@ -47,14 +46,13 @@ identification::TrialData trial_data(const Study& study,
   data.resting_nm = resting_torque_nm(resting, data.joint, data.angle_rad);
   for (std::size_t j = 0; j < study.model.more_coordinates.size(); ++j) {
     const std::string& name = study.model.more_coordinates[j];
-    data.more_joints.push_back(
-        {.name = name,
-         .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
-         .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name),
-         .angle_rad = trial.motion.joints.q.column(name),
-         .velocity_radps = trial.motion.joints.qdot.column(name),
-         .acceleration_radps2 = trial.motion.joints.qddot.column(name),
-         .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
+    data.more_joints.push_back({.name = name,
+                                .torque_nm = trial.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j) + 1),
+                                .moment_arm_m = kinematics::lumped_moment_arm_m(trial.forces.muscles, groups, name),
+                                .angle_rad = trial.motion.joints.q.column(name),
+                                .velocity_radps = trial.motion.joints.qdot.column(name),
+                                .acceleration_radps2 = trial.motion.joints.qddot.column(name),
+                                .resting_nm = resting_torque_nm(resting, name, trial.motion.joints.q.column(name))});
   }
   data.activation = activation;
   if (trial.forces.uncarried) data.excluded = trial.forces.uncarried->stretches;
@@ -109,14 +107,13 @@ identification::EstimatorSettings estimator_settings(const Study& study) {
           .intervals = {.bootstrap = spec.bootstrap, .profile = spec.profile}};
 }
 
-identification::ActivationSource activation_source(
-    const Study& study, const std::vector<signals::ChannelNormalisation>& normalisation) {
+identification::ActivationSource activation_source(const Study& study,
+                                                   const std::vector<signals::ChannelNormalisation>& normalisation) {
   identification::ActivationSource source{.from_mvc = from_maximal_effort(study.emg),
                                           .envelope_cutoff_hz = study.emg.lowpass_hz};
   // Activation 1 is the greatest effort of the MVC trials: a share of the muscle's maximum.
   Prior effort{.mean = 1.0};
-  if (study.emg.has_mvc)
-    effort = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
+  if (study.emg.has_mvc) effort = {.mean = study.emg.mvc_effort, .sd = study.emg.mvc_effort_sd / study.emg.mvc_effort};
   if (effort_is_unknown(study)) effort = any_effort();
   for (const signals::ChannelNormalisation& n : normalisation) {
     identification::ChannelSource channel{.channel = n.channel,
@@ -129,12 +126,10 @@ identification::ActivationSource activation_source(
   return source;
 }
 
-identification::EstimatorOptions torque_options(
-    const Study& study,
-    const std::vector<signals::ChannelNormalisation>& normalisation,
-    const Progress& progress) {
-  return identification::estimator_options(estimator_settings(study),
-                                           activation_source(study, normalisation),
+identification::EstimatorOptions torque_options(const Study& study,
+                                                const std::vector<signals::ChannelNormalisation>& normalisation,
+                                                const Progress& progress) {
+  return identification::estimator_options(estimator_settings(study), activation_source(study, normalisation),
                                            {.report = nullptr, .stop = progress.stop});
 }
 

@@ -58,9 +58,7 @@ TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximu
   StudyResult result = with_one_channel();
   Study& study = result.source.study;
   study.identify.estimator = identification::EstimatorKind::posterior;
-  const auto strength_sd = [&] {
-    return data_of(result).muscles.front().priors.at("max_isometric_force").sd;
-  };
+  const auto strength_sd = [&] { return data_of(result).muscles.front().priors.at("max_isometric_force").sd; };
   const auto bounded = [&] {
     const identification::StudyData data = data_of(result);
     return std::any_of(data.rules.begin(), data.rules.end(), [](const auto& rule) {
@@ -77,8 +75,7 @@ TEST(TorqueOptions, ThePosteriorKnowsNothingOfTheEffortOfARecordingWithoutMaximu
   study.emg.has_mvc = false;
   const identification::EstimatorOptions unknown = options_of(result);
   EXPECT_NEAR(unknown.gain_prior_mean.at("BIC"), std::sqrt(0.05), 1e-12);
-  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03),
-              1e-12);
+  EXPECT_NEAR(unknown.gain_prior_sd.at("BIC"), std::hypot(-std::log(0.05) / std::sqrt(12.0), 0.03), 1e-12);
   EXPECT_EQ(unknown.unseen.effort, 0.0);
   EXPECT_EQ(strength_sd(), literature_sd);
   EXPECT_TRUE(bounded());
@@ -115,8 +112,7 @@ TEST(TorqueOptions, TheStudyAndTheCommandLineFindTheSameNumbersInTheSameData) {
   study.emg.lowpass_hz = identification::ActivationSource{}.envelope_cutoff_hz;
   study.emg.has_mvc = true;
   const identification::EstimatorOptions of_run = torque_options(study, {}, {});
-  const identification::EstimatorOptions of_identify =
-      identification::estimator_options({.max_rate_hz = 10.0}, {}, {});
+  const identification::EstimatorOptions of_identify = identification::estimator_options({.max_rate_hz = 10.0}, {}, {});
   const test::ElbowStudy elbow = test::elbow_study({.trials = 2, .seconds = 10.0, .delay_s = 0.05});
   const auto run = identification::identify_torque(elbow.data, of_run);
   const auto identify = identification::identify_torque(elbow.data, of_identify);
@@ -178,18 +174,15 @@ TEST(EstimatorData, HoldsNothingOfTheTimeWithoutEmg) {
   const Eigen::VectorXd motion_s = Eigen::VectorXd::LinSpaced(201, 0.0, 20.0);
   const Eigen::VectorXd emg_s = Eigen::VectorXd::LinSpaced(1251, 2.0, 14.5);
   TrialInput input;
-  input.motion = TimeSeries(motion_s, {{"elbow_flexion", Unit::radian}},
-                            Eigen::MatrixXd(motion_s.array().sin()));
+  input.motion = TimeSeries(motion_s, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd(motion_s.array().sin()));
   result.trials.resize(1);
   TrialResult& trial = result.trials[0];
   trial.spec = result.source.study.trials[0];
   trial.motion = trial_motion(result.source, trial.spec, input, nullptr);
   trial.forces = trial_torques(result.source, trial.spec, input, trial.motion);
   std::vector<Channel> channels;
-  for (const char* name : {"BIC", "BRA", "BRD", "TRI"})
-    channels.push_back({name, Unit::dimensionless});
-  trial.emg.activation =
-      TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
+  for (const char* name : {"BIC", "BRA", "BRD", "TRI"}) channels.push_back({name, Unit::dimensionless});
+  trial.emg.activation = TimeSeries(emg_s, channels, Eigen::MatrixXd::Constant(emg_s.size(), 4, 0.3));
   const identification::StudyData data = data_of(result);
   ASSERT_EQ(data.trials.size(), 1U);
   EXPECT_NEAR(data.trials[0].time_s[0], 2.0, 0.1);

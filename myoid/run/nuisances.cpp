@@ -53,11 +53,10 @@ std::vector<std::string> strained_channels(const identification::StudyData& data
   for (const identification::MuscleSetup& muscle : data.muscles) {
     const std::string& channel = muscle.emg_channel;
     if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
-    const bool strained =
-        std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
-          return trial.calibration && trial.activation.find(channel) &&
-                 trial.activation.column(channel).maxCoeff() >= kStrained;
-        });
+    const bool strained = std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+      return trial.calibration && trial.activation.find(channel) &&
+             trial.activation.column(channel).maxCoeff() >= kStrained;
+    });
     if (strained) channels.push_back(channel);
   }
   return channels;
@@ -65,8 +64,7 @@ std::vector<std::string> strained_channels(const identification::StudyData& data
 
 }  // namespace
 
-std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
-                                          const identification::StudyData& data) {
+std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg, const identification::StudyData& data) {
   std::vector<ParameterRule> rules{rule(beliefs::kLengthActivation)};
   rules.back().tie = true;
   if (emg.kind != EmgKind::activation && emg.has_mvc) {
@@ -78,19 +76,15 @@ std::vector<ParameterRule> nuisance_rules(const EmgSpec& emg,
   for (const TrialData& trial : data.trials) {
     if (!trial.calibration) continue;
     const Eigen::Index n = trial.time_s.size();
-    widen(trial.moment_arm_m, trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2, n,
-          joints[trial.joint]);
+    widen(trial.moment_arm_m, trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2, n, joints[trial.joint]);
     for (const JointData& more : trial.more_joints)
-      widen(more.moment_arm_m, more.angle_rad, more.velocity_radps, more.acceleration_radps2, n,
-            joints[more.name]);
+      widen(more.moment_arm_m, more.angle_rad, more.velocity_radps, more.acceleration_radps2, n, joints[more.name]);
   }
   for (const auto& [name, joint] : joints) {
-    if (!joint.motion || joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size()))
-      continue;
+    if (!joint.motion || joint.arm_m.size() != static_cast<Eigen::Index>(data.muscles.size())) continue;
     double strength_nm = 0.0;
     for (Eigen::Index k = 0; k < joint.arm_m.size(); ++k)
-      strength_nm +=
-          joint.arm_m[k] * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
+      strength_nm += joint.arm_m[k] * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
     for (const identification::Belief* belief :
          {&beliefs::kStiffnessShare, &beliefs::kOffsetShare, &beliefs::kViscosityShare}) {
       ParameterRule r = rule(*belief, strength_nm);

@@ -7,9 +7,8 @@
 
 namespace myoid {
 
-/// Returns the nuisances: unknowns beside the muscles' parameters, each with a prior about its
-/// absence. [[parameter]] tables of the study override them. A fit without nuisances would ascribe
-/// their effects to the muscles.
+/// Returns the nuisances: unknowns beside the muscles' parameters, each with a prior about its absence. [[parameter]]
+/// tables of the study override them. A fit without nuisances would ascribe their effects to the muscles.
 ///
 /// - `length_activation`, one for all muscles, 0 +- 0.1: fibers of low activation have a longer
 /// optimal length (Lloyd & Besier 2003: 15 %);
@@ -21,7 +20,7 @@ namespace myoid {
 /// motion, 0 +- 0.8 %, 0.8 % and 0.16 % (per rad, -, per rad/s) of its muscles' joint capacity, sum
 /// of largest |r| times F_max: at the elbow 1 N m/rad, 1 N m and 0.2 N m s/rad, the size of a
 /// relaxed joint's own torque (muscle::elbow_passive).
-[[nodiscard]] std::vector<identification::ParameterRule> nuisance_rules(
-    const EmgSpec& emg, const identification::StudyData& data);
+[[nodiscard]] std::vector<identification::ParameterRule> nuisance_rules(const EmgSpec& emg,
+                                                                        const identification::StudyData& data);
 
 }  // namespace myoid

@@ -33,8 +33,7 @@ TEST(NuisanceRules, SizeOfAJointsOwnTorqueGoesWithTheStrengthOfItsMuscles) {
   double strength_nm = 0.0;  // both trials have the largest arms: the same movement
   for (Eigen::Index k = 0; k < 4; ++k) {
     double arm_m = 0.0;
-    for (const TrialData& trial : data.trials)
-      arm_m = std::max(arm_m, trial.moment_arm_m.col(k).cwiseAbs().maxCoeff());
+    for (const TrialData& trial : data.trials) arm_m = std::max(arm_m, trial.moment_arm_m.col(k).cwiseAbs().maxCoeff());
     strength_nm += arm_m * data.muscles[static_cast<std::size_t>(k)].start.max_isometric_force_n;
   }
   const ParameterRule* stiffness = rule_of(rules, "joint_stiffness");
@@ -59,8 +58,7 @@ TEST(NuisanceRules, AMuscleThatNeverExertsItselfDoesNotSayHowItsEmgRises) {
   // One muscle stays below half of its maximum in all trials.
   for (TrialData& trial : data.trials) {
     Eigen::MatrixXd values = trial.activation.values();
-    for (Eigen::Index c = 0; c < values.cols(); ++c)
-      values.col(c) *= (c == 1 ? 0.45 : 0.9) / values.col(c).maxCoeff();
+    for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) *= (c == 1 ? 0.45 : 0.9) / values.col(c).maxCoeff();
     trial.activation = TimeSeries(trial.activation.time_s(), trial.activation.channels(), values);
   }
   const std::vector<ParameterRule> rules = nuisance_rules({.kind = EmgKind::raw}, data);

@@ -60,9 +60,8 @@ class Pool {
 
 /// Returns the limits of `is_wrong` in words.
 std::string when_wrong() {
-  return fmt::format(
-      "fails if the errors are larger than the torque, or than {:g} % of it at an R2 below {:g}",
-      100.0 * kGateLimits.unrelated_share, kGateLimits.unrelated);
+  return fmt::format("fails if the errors are larger than the torque, or than {:g} % of it at an R2 below {:g}",
+                     100.0 * kGateLimits.unrelated_share, kGateLimits.unrelated);
 }
 
 Gate distance_gate(const IdentificationResult& fit) {
@@ -72,27 +71,21 @@ Gate distance_gate(const IdentificationResult& fit) {
   for (const identification::PriorDistance& d : fit.prior_distances) {
     most = std::max({most, d.distance, d.farthest_distance});
     if (std::max(d.distance, d.farthest_distance) <= kFar) continue;
-    far.push_back(fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, d.farthest,
-                              d.farthest_distance));
+    far.push_back(fmt::format("{} {:.1f} ({} {:.1f})", d.muscle, d.distance, d.farthest, d.farthest_distance));
   }
-  return {
-      "Muscles within what is known of them", far.empty() ? GateStatus::pass : GateStatus::warn,
-      far.empty()
-          ? fmt::format("at most {:.1f} prior standard deviations from the literature", most)
-          : fmt::format("prior standard deviations from the literature: {}", fmt::join(far, "; ")),
-      fmt::format(
-          "every muscle's numbers, one by one and together, within {:.0f}; of the logarithm "
-          "of what cannot be negative, such as F_max and lengths",
-          kFar),
-      "Do not use the numbers of a muscle beyond before the cause is known: a label, sign, unit, "
-      "mass or geometry that is wrong, or a model too simple for the recording."};
+  return {"Muscles within what is known of them", far.empty() ? GateStatus::pass : GateStatus::warn,
+          far.empty() ? fmt::format("at most {:.1f} prior standard deviations from the literature", most)
+                      : fmt::format("prior standard deviations from the literature: {}", fmt::join(far, "; ")),
+          fmt::format("every muscle's numbers, one by one and together, within {:.0f}; of the logarithm "
+                      "of what cannot be negative, such as F_max and lengths",
+                      kFar),
+          "Do not use the numbers of a muscle beyond before the cause is known: a label, sign, unit, "
+          "mass or geometry that is wrong, or a model too simple for the recording."};
 }
 
 }  // namespace
 
-double Explained::r2() const {
-  return spread_nm > 0.0 ? 1.0 - rms_nm * rms_nm / (spread_nm * spread_nm) : 0.0;
-}
+double Explained::r2() const { return spread_nm > 0.0 ? 1.0 - rms_nm * rms_nm / (spread_nm * spread_nm) : 0.0; }
 
 bool Explained::is_wrong() const {
   return rms_nm > torque_rms_nm ||
@@ -108,8 +101,7 @@ std::string Explained::text() const {
 
 identification::Score smoothed_score(const identification::TrialFit& fit) {
   const Eigen::VectorXd smooth =
-      fit.smooth_hz > 0.0 ? identification::below(fit.time_s, fit.torque_fit_nm, fit.smooth_hz)
-                          : fit.torque_fit_nm;
+      fit.smooth_hz > 0.0 ? identification::below(fit.time_s, fit.torque_fit_nm, fit.smooth_hz) : fit.torque_fit_nm;
   return identification::score(fit.torque_nm, smooth);
 }
 
@@ -132,8 +124,7 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
   constexpr double kRobust = 1.4826;
   std::map<std::string, std::vector<const Fold*>> joints;
   for (const Fold& f : folds) {
-    if (f.identified.rmse_nm() > 0.0 && std::isfinite(f.identified.rmse_nm()))
-      joints[f.joint].push_back(&f);
+    if (f.identified.rmse_nm() > 0.0 && std::isfinite(f.identified.rmse_nm())) joints[f.joint].push_back(&f);
   }
   std::vector<OutlyingFold> found;
   for (const auto& [joint, of_joint] : joints) {
@@ -154,8 +145,7 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
       if (above <= kGateLimits.far_fold * sd || above <= std::log(kGateLimits.larger_fold) ||
           f.identified.r2() >= middle_r2)
         continue;
-      found.push_back(
-          {f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
+      found.push_back({f.trial, joint, f.identified.rmse_nm(), f.identified.r2(), std::exp(middle)});
     }
   }
   return found;
@@ -184,13 +174,11 @@ std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   // The distances have a gate of their own.
   std::vector<std::string> distances, others;
   add_distances_to(distances, fit.prior_distances);
-  std::copy_if(fit.warnings.begin(), fit.warnings.end(), std::back_inserter(others),
-               [&](const std::string& text) {
-                 return std::find(distances.begin(), distances.end(), text) == distances.end();
-               });
+  std::copy_if(fit.warnings.begin(), fit.warnings.end(), std::back_inserter(others), [&](const std::string& text) {
+    return std::find(distances.begin(), distances.end(), text) == distances.end();
+  });
   if (!others.empty())
-    gates.push_back({"Fit without reservations", GateStatus::warn,
-                     fmt::format("{}", fmt::join(others, "; ")), "none",
+    gates.push_back({"Fit without reservations", GateStatus::warn, fmt::format("{}", fmt::join(others, "; ")), "none",
                      "Every number of the fit rests on it."});
   return gates;
 }
@@ -220,18 +208,16 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
        all.is_wrong()                             ? GateStatus::fail
        : beats && all.r2() > kGateLimits.explains ? GateStatus::pass
                                                   : GateStatus::warn,
-       fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m",
-                   all.text(), std::sqrt(identified / std::max(count, 1.0)),
-                   std::sqrt(literature / std::max(count, 1.0))),
-       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; " +
-           when_wrong(),
+       fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m", all.text(),
+                   std::sqrt(identified / std::max(count, 1.0)), std::sqrt(literature / std::max(count, 1.0))),
+       "R2 above 0.5 and better than the literature's parameters, over all and in most trials; " + when_wrong(),
        std::move(hint)});
   const std::vector<OutlyingFold> outlying = outlying_folds(folds);
   if (!outlying.empty()) {
     std::vector<std::string> texts;
     for (const OutlyingFold& f : outlying)
-      texts.push_back(fmt::format("{}: {:.2f} N m rms (R2 {:.2f}), the others about {:.2f}",
-                                  f.trial, f.rms_nm, f.r2, f.usual_rms_nm));
+      texts.push_back(fmt::format("{}: {:.2f} N m rms (R2 {:.2f}), the others about {:.2f}", f.trial, f.rms_nm, f.r2,
+                                  f.usual_rms_nm));
     gates.push_back({"Trials alike", GateStatus::warn, fmt::format("{}", fmt::join(texts, "; ")),
                      "no error stands out from the others",
                      "Is a file, a label, the held mass or the clock of that trial wrong? Mend it, "

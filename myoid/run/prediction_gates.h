@@ -23,10 +23,9 @@ struct Explained {
   double torque_rms_nm = 0.0;  ///< RMS error of a prediction of 0.
 
   [[nodiscard]] double r2() const;
-  /// Returns true if a prediction of 0 has a smaller error, or if R2 is below -1 and the error at
-  /// least half of the torque. R2 below -1 means a larger error than that of an unrelated torque of
-  /// the same size. The second condition spares nearly constant torques, whose R2 is easily
-  /// negative.
+  /// Returns true if a prediction of 0 has a smaller error, or if R2 is below -1 and the error at least half of the
+  /// torque. R2 below -1 means a larger error than that of an unrelated torque of the same size. The second condition
+  /// spares nearly constant torques, whose R2 is easily negative.
   [[nodiscard]] bool is_wrong() const;
   /// Returns "R2 0.93: 0.74 N m rms below 1.5 Hz, where the torque is 4.10 rms and varies
   /// by 2.80".
@@ -37,8 +36,7 @@ struct Explained {
 [[nodiscard]] identification::Score smoothed_score(const identification::TrialFit& fit);
 
 /// Returns the explained share of the fitted trials (`calibration`), or of the held-back trials.
-[[nodiscard]] Explained explained(const identification::IdentificationResult& fit,
-                                  bool calibration);
+[[nodiscard]] Explained explained(const identification::IdentificationResult& fit, bool calibration);
 /// Returns the explained share of the trials that are left out in turn.
 [[nodiscard]] Explained explained(const std::vector<identification::Fold>& folds);
 
@@ -48,19 +46,16 @@ struct OutlyingFold {
   double rms_nm = 0.0, r2 = 0.0;
   double usual_rms_nm = 0.0;  ///< Median of the joint's folds.
 };
-/// Returns the outliers among at least five folds, by joint. The logarithm of an outlier's error
-/// exceeds the median by three robust standard deviations (1.4826 times the median absolute
-/// deviation), its error is at least 1.5 times the median, and its R2 is below the median, too,
-/// because heavier trials have larger errors.
-[[nodiscard]] std::vector<OutlyingFold> outlying_folds(
-    const std::vector<identification::Fold>& folds);
+/// Returns the outliers among at least five folds, by joint. The logarithm of an outlier's error exceeds the median by
+/// three robust standard deviations (1.4826 times the median absolute deviation), its error is at least 1.5 times the
+/// median, and its R2 is below the median, too, because heavier trials have larger errors.
+[[nodiscard]] std::vector<OutlyingFold> outlying_folds(const std::vector<identification::Fold>& folds);
 
 /// Tests whether the fit explains the torque of the fitted and of the held-back trials, and whether
 /// the muscles agree with the literature.
 [[nodiscard]] std::vector<report::Gate> fit_gates(const identification::IdentificationResult& fit);
 
-/// Tests whether the fit predicts left-out trials, better than the literature, and all of them
-/// equally well.
+/// Tests whether the fit predicts left-out trials, better than the literature, and all of them equally well.
 [[nodiscard]] std::vector<report::Gate> fold_gates(const std::vector<identification::Fold>& folds);
 
 }  // namespace myoid

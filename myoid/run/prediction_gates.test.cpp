@@ -18,22 +18,17 @@ using report::Gate;
 using report::GateStatus;
 
 /// A trial of 1000 samples about `mean_nm`, a sine of the amplitude, predicted with this error.
-identification::TrialFit trial(double mean_nm,
-                               double amplitude_nm,
-                               double error_nm,
-                               bool own = true) {
+identification::TrialFit trial(double mean_nm, double amplitude_nm, double error_nm, bool own = true) {
   identification::TrialFit fit;
   fit.calibration = own;
-  fit.torque_nm =
-      mean_nm + amplitude_nm * (Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin());
+  fit.torque_nm = mean_nm + amplitude_nm * (Eigen::VectorXd::LinSpaced(1000, 0.0, 62.8).array().sin());
   fit.torque_fit_nm = fit.torque_nm;
   fit.band = identification::score(fit.torque_nm, fit.torque_nm.array() + error_nm);
   return fit;
 }
 
 GateStatus status_of(const std::vector<Gate>& gates, std::string_view name) {
-  const auto it =
-      std::find_if(gates.begin(), gates.end(), [&](const Gate& g) { return g.name == name; });
+  const auto it = std::find_if(gates.begin(), gates.end(), [&](const Gate& g) { return g.name == name; });
   return it == gates.end() ? GateStatus::info : it->status;
 }
 
@@ -66,8 +61,7 @@ TEST(FitGates, WhatIsWorseThanAnUnrelatedTorqueFails) {
   const auto gate = [](double mean, double amplitude, double error, bool own) {
     IdentificationResult fit;
     fit.trials = {trial(mean, amplitude, error, own)};
-    return status_of(fit_gates(fit), own ? "Describes the torque it was fitted to"
-                                         : "Predicts the trials held back");
+    return status_of(fit_gates(fit), own ? "Describes the torque it was fitted to" : "Predicts the trials held back");
   };
   for (const bool own : {true, false}) {
     EXPECT_EQ(gate(2.0, 1.0, 0.3, own), GateStatus::pass);
@@ -82,8 +76,7 @@ TEST(FitGates, WhatIsWorseThanAnUnrelatedTorqueFails) {
 
 TEST(FitGates, AMuscleThatLeftTheLiteratureIsNamed) {
   IdentificationResult fit;
-  fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 2.1},
-                         {"TRI", 2.0, "force_length_width", 2.9}};
+  fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 2.1}, {"TRI", 2.0, "force_length_width", 2.9}};
   const char* name = "Muscles within what is known of them";
   EXPECT_EQ(status_of(fit_gates(fit), name), GateStatus::pass);
   fit.prior_distances[0].farthest_distance = 3.8;
@@ -117,9 +110,7 @@ Fold fold(const std::string& name, double amplitude_nm, double error_nm) {
   return f;
 }
 
-identification::Score with_rms(double rms_nm) {
-  return {.n = 1000.0, .sse = 1000.0 * rms_nm * rms_nm};
-}
+identification::Score with_rms(double rms_nm) { return {.n = 1000.0, .sse = 1000.0 * rms_nm * rms_nm}; }
 
 TEST(OutlyingFolds, OneThatIsPredictedWorseThanTheOthersIsNamed) {
   std::vector<Fold> folds;
@@ -142,15 +133,11 @@ TEST(OutlyingFolds, AHeavierTrialThatIsPredictedAsWellIsNone) {
 
 TEST(FoldGates, FailWhereTrialsLeftOutArePredictedWorseThanByAnUnrelatedTorque) {
   const char* name = "Predicts torque it has not seen";
-  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 0.5), fold("b", 3.0, 0.6)}), name),
-            GateStatus::pass);
-  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 2.5), fold("b", 3.0, 2.6)}), name),
-            GateStatus::warn);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 0.5), fold("b", 3.0, 0.6)}), name), GateStatus::pass);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 2.5), fold("b", 3.0, 2.6)}), name), GateStatus::warn);
   // Better than the literature, and yet a third of the torque only.
-  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 1.75), fold("b", 3.0, 1.75)}), name),
-            GateStatus::warn);
-  EXPECT_EQ(status_of(fold_gates({fold("a", 1.0, 1.8), fold("b", 1.0, 1.8)}), name),
-            GateStatus::fail);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 3.0, 1.75), fold("b", 3.0, 1.75)}), name), GateStatus::warn);
+  EXPECT_EQ(status_of(fold_gates({fold("a", 1.0, 1.8), fold("b", 1.0, 1.8)}), name), GateStatus::fail);
 }
 
 TEST(FoldGates, NameTheLimitThatFailedThem) {
@@ -162,10 +149,9 @@ TEST(FoldGates, NameTheLimitThatFailedThem) {
   }
   const Gate gate = fold_gates(folds)[0];
   EXPECT_EQ(gate.status, GateStatus::fail);
-  EXPECT_NE(
-      gate.threshold.find("fails if the errors are larger than the torque, or than 50 % of it "
-                          "at an R2 below -1"),
-      std::string::npos)
+  EXPECT_NE(gate.threshold.find("fails if the errors are larger than the torque, or than 50 % of it "
+                                "at an R2 below -1"),
+            std::string::npos)
       << gate.threshold;
   EXPECT_NE(gate.value.find("R2 -0.95: 0.99 N m rms below 1.5 Hz, where the torque is 0.71 rms and "
                             "varies by 0.71"),
@@ -188,8 +174,7 @@ TEST(FoldGates, SayWhichPredictionGoesBeyondTheEffortsThatWereFitted) {
   folds[1].unseen = {"biceps", 2.84};
   folds[2].unseen = {"triceps", 3.0};  // predicted well: nothing to explain
   const std::string hint = fold_gates(folds)[0].why;
-  EXPECT_NE(hint.find("beyond all that was fitted ('heavy': biceps 2.8 times)"), std::string::npos)
-      << hint;
+  EXPECT_NE(hint.find("beyond all that was fitted ('heavy': biceps 2.8 times)"), std::string::npos) << hint;
   folds[1].unseen.ratio = 1.4;
   EXPECT_EQ(fold_gates(folds)[0].why.find("beyond"), std::string::npos);
 }

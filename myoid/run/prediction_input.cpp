@@ -33,17 +33,13 @@ Study study_of_run(const RunRecord& run) {
   if (run.estimator) study.identify.estimator = *run.estimator;
   study.identify.methods = {identification::Method::torque};
   for (const auto& [name, use] : run.uses) {
-    const auto is_it = [&recorded = name](const TrialSpec& trial) {
-      return recorded.starts_with(trial.name);
-    };
+    const auto is_it = [&recorded = name](const TrialSpec& trial) { return recorded.starts_with(trial.name); };
     if (std::none_of(study.trials.begin(), study.trials.end(), is_it))
       throw InvalidInput(
-          fmt::format("{}: the trial '{}' of the run is missing; run the study again",
-                      run.study.string(), name));
+          fmt::format("{}: the trial '{}' of the run is missing; run the study again", run.study.string(), name));
   }
   for (TrialSpec& trial : study.trials)
-    trial.use =
-        use_in(run, trial.name).value_or(is_fitted(trial.use) ? Use::validation : trial.use);
+    trial.use = use_in(run, trial.name).value_or(is_fitted(trial.use) ? Use::validation : trial.use);
   return study;
 }
 
@@ -60,27 +56,23 @@ std::vector<TrialData> other_trials(const PredictionChoice& choice, PredictionIn
   Study study = read_study(choice.study);
   study.identify.methods = {identification::Method::torque};
   if (!from_maximal_effort(study.emg))
-    input.warnings.push_back(fmt::format(
-        "{}: its EMG is not relative to a maximal contraction of its own; the prediction takes the "
-        "greatest effort of both studies for the same",
-        choice.study));
-  StudyResult other = study_data(study, {.start_s = choice.start_s,
-                                         .end_s = choice.end_s,
-                                         .progress = choice.progress,
-                                         .share_forces = false});
+    input.warnings.push_back(
+        fmt::format("{}: its EMG is not relative to a maximal contraction of its own; the prediction takes the "
+                    "greatest effort of both studies for the same",
+                    choice.study));
+  StudyResult other = study_data(
+      study, {.start_s = choice.start_s, .end_s = choice.end_s, .progress = choice.progress, .share_forces = false});
   input.files.insert(input.files.end(), other.source.files.begin(), other.source.files.end());
-  const std::vector<std::string> found = muscles_of(other.fit_input),
-                                 wanted = muscles_of(input.fit);
+  const std::vector<std::string> found = muscles_of(other.fit_input), wanted = muscles_of(input.fit);
   if (found != wanted)
-    throw InvalidInput(fmt::format("{}: found the muscles {}, expected those of the run: {}",
-                                   choice.study, fmt::join(found, ", "), fmt::join(wanted, ", ")));
+    throw InvalidInput(fmt::format("{}: found the muscles {}, expected those of the run: {}", choice.study,
+                                   fmt::join(found, ", "), fmt::join(wanted, ", ")));
   for (TrialData& trial : other.fit_input.data.trials) trial.calibration = false;
   return std::move(other.fit_input.data.trials);
 }
 
 /// Returns the trials of these names; without names all trials that took no part in the fit.
-std::vector<TrialData> chosen(const std::vector<TrialData>& trials,
-                              const std::vector<std::string>& names) {
+std::vector<TrialData> chosen(const std::vector<TrialData>& trials, const std::vector<std::string>& names) {
   std::vector<TrialData> found;
   for (const TrialData& trial : trials) {
     if (names.empty() && !trial.calibration) found.push_back(trial);
@@ -90,13 +82,13 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials,
         "every trial of the study took part in the fit: name with --trials which to predict, add "
         "trials with use = \"validation\" to the study, or give another study with --study");
   for (const std::string& name : names) {
-    const auto at = std::find_if(trials.begin(), trials.end(),
-                                 [&](const TrialData& trial) { return trial.name == name; });
+    const auto at =
+        std::find_if(trials.begin(), trials.end(), [&](const TrialData& trial) { return trial.name == name; });
     if (at == trials.end()) {
       std::vector<std::string> there;
       for (const TrialData& trial : trials) there.push_back(trial.name);
-      throw InvalidInput(fmt::format("--trials: no trial '{}' has motion and EMG; there are {}",
-                                     name, fmt::join(there, ", ")));
+      throw InvalidInput(
+          fmt::format("--trials: no trial '{}' has motion and EMG; there are {}", name, fmt::join(there, ", ")));
     }
     found.push_back(*at);
   }
@@ -105,21 +97,18 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials,
 
 }  // namespace
 
-PredictionInput prediction_input(const std::filesystem::path& folder,
-                                 const PredictionChoice& choice) {
+PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice) {
   const RunRecord run = read_run_record(folder);
-  StudyResult base = study_data(study_of_run(run), {.start_s = run.start_s,
-                                                    .end_s = run.end_s,
-                                                    .progress = choice.progress,
-                                                    .share_forces = false});
+  StudyResult base =
+      study_data(study_of_run(run),
+                 {.start_s = run.start_s, .end_s = run.end_s, .progress = choice.progress, .share_forces = false});
   refuse_changed(base.source.files, run, run.study);
   PredictionInput input{.study = std::move(base.source.study),
                         .fit = std::move(base.fit_input),
                         .trials = {},
                         .files = std::move(base.source.files),
                         .warnings = {}};
-  const std::vector<TrialData> all =
-      choice.study.empty() ? input.fit.data.trials : other_trials(choice, input);
+  const std::vector<TrialData> all = choice.study.empty() ? input.fit.data.trials : other_trials(choice, input);
   input.trials = chosen(all, choice.trials);
   return input;
 }

@@ -22,8 +22,8 @@ struct PredictionChoice {
 
 /// The data of the run's fit and of the trials to predict.
 struct PredictionInput {
-  Study study;   ///< Study of the run.
-  FitInput fit;  ///< Data of the run's fit: its calibration trials.
+  Study study;                                    ///< Study of the run.
+  FitInput fit;                                   ///< Data of the run's fit: its calibration trials.
   std::vector<identification::TrialData> trials;  ///< Trials to predict.
   std::vector<InputFile> files;
   std::vector<std::string> warnings;
@@ -33,7 +33,6 @@ struct PredictionInput {
 /// their use. Trials that the study got later, and trials of another study, are held back. Throws
 /// ReadError for a folder without a run and for recordings that differ from the run's. Throws
 /// InvalidInput for unknown trials and for another study with other muscles.
-[[nodiscard]] PredictionInput prediction_input(const std::filesystem::path& folder,
-                                               const PredictionChoice& choice);
+[[nodiscard]] PredictionInput prediction_input(const std::filesystem::path& folder, const PredictionChoice& choice);
 
 }  // namespace myoid

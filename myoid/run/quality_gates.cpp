@@ -29,14 +29,12 @@ using identification::Verdict;
 using report::Gate;
 using report::GateStatus;
 
-/// Returns the range of the study's coordinate in the trial that moves it most; empty if no trial
-/// is a movement.
-std::optional<double> largest_range_deg(const Study& study,
-                                        const std::vector<TrialResult>& trials) {
+/// Returns the range of the study's coordinate in the trial that moves it most; empty if no trial is a movement.
+std::optional<double> largest_range_deg(const Study& study, const std::vector<TrialResult>& trials) {
   std::optional<double> largest;
   for (const TrialResult& t : trials) {
-    const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose ||
-                       t.spec.use == Use::isometric || t.spec.external_torque;
+    const bool still = t.spec.use == Use::mvc || t.spec.use == Use::static_pose || t.spec.use == Use::isometric ||
+                       t.spec.external_torque;
     if (!t.has_motion() || still) continue;
     const Eigen::VectorXd q = t.motion.joints.q.column(study.model.coordinate) / kDegree;
     largest = std::max(largest.value_or(0.0), q.maxCoeff() - q.minCoeff());
@@ -64,12 +62,10 @@ MissingMuscles missing_muscles(const StudyResult& result) {
     for (const TrialResult& t : result.trials) {
       const auto arms = t.forces.muscles.moment_arm.find(coordinate);
       if (!t.has_motion() || arms == t.forces.muscles.moment_arm.end()) continue;
-      strength_nm =
-          strength_nm.cwiseMax(arms->second.values().cwiseAbs().colwise().mean().transpose());
+      strength_nm = strength_nm.cwiseMax(arms->second.values().cwiseAbs().colwise().mean().transpose());
     }
     for (Eigen::Index m = 0; m < count; ++m)
-      strength_nm[m] *= result.source.model->muscles[static_cast<std::size_t>(m)]
-                            .properties.max_isometric_force_n;
+      strength_nm[m] *= result.source.model->muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
     const double all_nm = strength_nm.sum();
     double missing_nm = 0.0;
     for (Eigen::Index m = 0; m < count; ++m) {
@@ -92,16 +88,14 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
     if (!t.has_motion()) continue;
     for (const auto& [name, capacity] : capacities) {
       const auto c = static_cast<std::size_t>(result.source.model->coordinate_index(name));
-      const auto column = t.forces.muscle_torque.find(
-          dynamics::generalized_force_name(result.source.model->coordinates[c]));
+      const auto column =
+          t.forces.muscle_torque.find(dynamics::generalized_force_name(result.source.model->coordinates[c]));
       if (!column) continue;
       const double greatest = capacity.greatest_nm();
-      const std::string text =
-          too_much_torque(name, usual_peak(t.forces.muscle_torque.values().col(*column)), greatest,
-                          fmt::format("the torque in '{}'", t.spec.name));
+      const std::string text = too_much_torque(name, usual_peak(t.forces.muscle_torque.values().col(*column)), greatest,
+                                               fmt::format("the torque in '{}'", t.spec.name));
       if (text.empty()) continue;
-      return Gate{"Torques that a joint can make", GateStatus::fail, text,
-                  fmt::format("at most {:.3g} N m", greatest),
+      return Gate{"Torques that a joint can make", GateStatus::fail, text, fmt::format("at most {:.3g} N m", greatest),
                   "Masses, loads or their units are wrong, or the clock of the motion is."};
     }
   }
@@ -122,22 +116,19 @@ std::optional<Gate> support_gate(const StudyResult& result) {
     const auto weight = dynamics::unsupported_weight(*t.motion.model, t.forces.generalized);
     if (!weight) continue;
     for (const std::string& name : study_coordinates(result.source.study.model)) {
-      if (!dynamics::bears_the_body(*t.motion.model, name,
-                                    t.motion.joints.q.values().row(0).transpose(),
+      if (!dynamics::bears_the_body(*t.motion.model, name, t.motion.joints.q.values().row(0).transpose(),
                                     result.source.study.subject.mass_kg.value_or(0.0)))
         continue;
-      return Gate{
-          "Something carries the body", GateStatus::warn,
-          fmt::format("'{}': {}", t.spec.name, weight->sentence()),
-          "less than half of the weight on the joint to the ground",
-          fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
+      return Gate{"Something carries the body", GateStatus::warn,
+                  fmt::format("'{}': {}", t.spec.name, weight->sentence()),
+                  "less than half of the weight on the joint to the ground",
+                  fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
     }
   }
   return std::nullopt;
 }
 
-/// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers
-/// wrong.
+/// Returns the warnings of `check`: faults of channels, and remarks on files that may make numbers wrong.
 Gate recordings_gate(const StudyResult& result) {
   std::map<std::string, std::vector<std::string>> places;  // by kind of fault
   std::size_t grave = 0;
@@ -145,15 +136,13 @@ Gate recordings_gate(const StudyResult& result) {
     if (fault.severity != Severity::warning) continue;
     ++grave;
     std::vector<std::string>& of = places[report::spelled(name(fault.code))];
-    const std::string place =
-        fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
+    const std::string place = fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
     if (std::find(of.begin(), of.end(), place) == of.end()) of.push_back(place);
   }
   std::vector<std::string> kinds;
   for (auto& [kind, of] : places) {
     constexpr std::size_t kMost = 3;
-    const std::string more =
-        of.size() > kMost ? fmt::format(" and {} more", of.size() - kMost) : "";
+    const std::string more = of.size() > kMost ? fmt::format(" and {} more", of.size() - kMost) : "";
     if (of.size() > kMost) of.resize(kMost);
     kinds.push_back(fmt::format("{}: {}{}", kind, fmt::join(of, ", "), more));
   }
@@ -167,8 +156,8 @@ Gate recordings_gate(const StudyResult& result) {
   std::vector<std::string> found;
   if (grave > 0) found.push_back(fmt::format("{} found, {}", grave, fmt::join(kinds, "; ")));
   if (warnings > 0)
-    found.push_back(fmt::format("{} warning{} about the files of {}", warnings,
-                                warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
+    found.push_back(
+        fmt::format("{} warning{} about the files of {}", warnings, warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
   return {"Recordings without faults", found.empty() ? GateStatus::pass : GateStatus::warn,
           found.empty() ? std::string("none found") : fmt::format("{}", fmt::join(found, "; ")),
           "no gap, jump, hum, clipping, missing EMG, ... beyond the limits",
@@ -204,23 +193,21 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
   std::vector<Gate> list;
   if (!any_ik) return list;
   const int lost = unconverged + blind;
-  list.push_back(
-      {"Inverse kinematics converged",
-       lost == 0                                 ? GateStatus::pass
-       : lost > kGateLimits.lost_frames * frames ? GateStatus::fail
-                                                 : GateStatus::warn,
-       fmt::format("{} of {} frames", frames - lost, frames),
-       fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kGateLimits.lost_frames)),
-       "A frame that did not converge has no trustworthy angle."});
+  list.push_back({"Inverse kinematics converged",
+                  lost == 0                                 ? GateStatus::pass
+                  : lost > kGateLimits.lost_frames * frames ? GateStatus::fail
+                                                            : GateStatus::warn,
+                  fmt::format("{} of {} frames", frames - lost, frames),
+                  fmt::format("all frames; fails below {:.0f} %", 100.0 * (1.0 - kGateLimits.lost_frames)),
+                  "A frame that did not converge has no trustworthy angle."});
   const double rms = std::sqrt(sum_of_squares / std::max(frames_with_markers, 1.0));
-  list.push_back(
-      {"Markers fit the model",
-       rms >= 2.0 * kGateLimits.marker_error_m   ? GateStatus::fail
-       : worst_rms >= kGateLimits.marker_error_m ? GateStatus::warn
-                                                 : GateStatus::pass,
-       fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms, 1000.0 * worst_rms),
-       "every frame below 20 mm; fails at 40 mm rms",
-       "Larger errors mean wrong labels or units, or a model of another size."});
+  list.push_back({"Markers fit the model",
+                  rms >= 2.0 * kGateLimits.marker_error_m   ? GateStatus::fail
+                  : worst_rms >= kGateLimits.marker_error_m ? GateStatus::warn
+                                                            : GateStatus::pass,
+                  fmt::format("{:.1f} mm rms, {:.1f} mm in the worst frame", 1000.0 * rms, 1000.0 * worst_rms),
+                  "every frame below 20 mm; fails at 40 mm rms",
+                  "Larger errors mean wrong labels or units, or a model of another size."});
   if (!open.empty()) {
     list.push_back({"Markers determine every coordinate", GateStatus::warn,
                     fmt::format("open: {}", fmt::join(open, ", ")), "none open",
@@ -232,11 +219,9 @@ std::vector<Gate> marker_gates(const std::vector<TrialResult>& trials) {
 /// Returns the gates of the motion, from which all parameters are computed.
 std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult>& trials) {
   std::vector<Gate> list = marker_gates(trials);
-  if (const auto range = largest_range_deg(study, trials);
-      range && *range < kGateLimits.least_range_deg) {
+  if (const auto range = largest_range_deg(study, trials); range && *range < kGateLimits.least_range_deg) {
     list.push_back({"The joint moves", GateStatus::fail,
-                    fmt::format("{:.2g} degrees in the trial that moves it most", *range),
-                    "5 degrees or more",
+                    fmt::format("{:.2g} degrees in the trial that moves it most", *range), "5 degrees or more",
                     "Were radians declared as degrees, or is the coordinate another one?"});
   }
   return list;
@@ -248,8 +233,8 @@ std::vector<Gate> model_gates(const StudyResult& result) {
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
     list.push_back({"Every muscle of the joint is in the study",
                     missing.share > kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
-                    fmt::format("without {}: {:.0f} % of the joint's strength",
-                                fmt::join(missing.names, ", "), 100.0 * missing.share),
+                    fmt::format("without {}: {:.0f} % of the joint's strength", fmt::join(missing.names, ", "),
+                                100.0 * missing.share),
                     fmt::format("at most {:.0f} % missing", 100.0 * kGateLimits.missing_share),
                     "What these muscles do is laid to the others: add them, or name them in a "
                     "[[muscle]]'s osim list."});
@@ -269,10 +254,9 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
     reserves += t.forces.shared.frames_with_reserve;
   }
   std::vector<Gate> list;
-  list.push_back(
-      {"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
-       fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
-       "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
+  list.push_back({"Force sharing certified optimal", unsolved == 0 ? GateStatus::pass : GateStatus::fail,
+                  fmt::format("{} of {} frames", sharing_frames - unsolved, sharing_frames),
+                  "all frames, residual below 1e-9", "Concerns the reference forces of method paper only."});
   const double share = sharing_frames > 0 ? 100.0 * reserves / sharing_frames : 0.0;
   list.push_back({"Muscles strong enough for the torque",
                   share < kGateLimits.reserve_percent ? GateStatus::pass : GateStatus::warn,
@@ -284,25 +268,22 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
 std::vector<Gate> reference_gates(const Study& study, const EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
-  const bool mvc = std::all_of(emg.normalisation.begin(), emg.normalisation.end(),
-                               [](const auto& n) { return n.from_mvc; });
+  const bool mvc =
+      std::all_of(emg.normalisation.begin(), emg.normalisation.end(), [](const auto& n) { return n.from_mvc; });
   std::map<std::string, std::vector<std::string>> channels;  // by the trial of their largest effort
   for (const auto& n : emg.normalisation) channels[n.source_trial].push_back(n.channel);
   std::vector<std::string> sources;
-  for (const auto& [trial, names] : channels)
-    sources.push_back(fmt::format("{}: {}", trial, fmt::join(names, ", ")));
+  for (const auto& [trial, names] : channels) sources.push_back(fmt::format("{}: {}", trial, fmt::join(names, ", ")));
   return {{"EMG relative to a maximal contraction", mvc ? GateStatus::pass : GateStatus::warn,
-           fmt::format("largest effort in {}", fmt::join(sources, "; in ")),
-           "every channel from an MVC trial",
+           fmt::format("largest effort in {}", fmt::join(sources, "; in ")), "every channel from an MVC trial",
            mvc ? "F_max means the maximal force." : meaning_of_strength(study, false)}};
 }
 
 /// Tests whether the search of method torque converged, and how many parameters it determines.
 std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
-  std::vector<Gate> list{
-      {"Fit converged",
-       torque.termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
-       torque.message, "converged", "Only a converged fit is an answer."}};
+  std::vector<Gate> list{{"Fit converged",
+                          torque.termination == math::Termination::converged ? GateStatus::pass : GateStatus::fail,
+                          torque.message, "converged", "Only a converged fit is an answer."}};
   for (report::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
   const auto count = [&](Verdict v) {
     return std::count_if(torque.estimates.begin(), torque.estimates.end(), [&](const auto& e) {
@@ -313,9 +294,8 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
                   count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
                   fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
                               "non-physical",
-                              count(Verdict::identified), count(Verdict::weak),
-                              count(Verdict::prior_dominated), count(Verdict::not_identifiable),
-                              count(Verdict::non_physical)),
+                              count(Verdict::identified), count(Verdict::weak), count(Verdict::prior_dominated),
+                              count(Verdict::not_identifiable), count(Verdict::non_physical)),
                   "those you need", "Use a number only if its verdict allows it."});
   return list;
 }
@@ -325,16 +305,14 @@ Gate loop_gate(const identification::ForceLoop& loop) {
           loop.end == identification::LoopEnd::converged  ? GateStatus::pass
           : loop.end == identification::LoopEnd::diverged ? GateStatus::fail
                                                           : GateStatus::warn,
-          fmt::format("{} after {} rounds: {}", identification::name(loop.end), loop.rounds.size(),
-                      loop.message),
+          fmt::format("{} after {} rounds: {}", identification::name(loop.end), loop.rounds.size(), loop.message),
           "converged", "Concerns the loop's own numbers only; method torque does not need it."};
 }
 
 Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
   return {"Electrodes on the muscles that they are named for",
-          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail,
-          exchanged.sentence(),
+          exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
           fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
                       "they make less than half of the torque as they are (R2 0.5)",
                       100.0 * identification::beliefs::kStrengthRatio.sd),
@@ -369,8 +347,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
 
 std::vector<Remark> all_faults(const StudyResult& result) {
   std::vector<Remark> faults;
-  for (const TrialResult& t : result.trials)
-    faults.insert(faults.end(), t.faults.begin(), t.faults.end());
+  for (const TrialResult& t : result.trials) faults.insert(faults.end(), t.faults.begin(), t.faults.end());
   faults.insert(faults.end(), result.level_faults.begin(), result.level_faults.end());
   return faults;
 }
@@ -398,13 +375,12 @@ report::Section recordings_section(const StudyResult& result) {
   for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
     const Remark& f = faults[i];
     const Stretch when = f.when.value_or(Stretch{});
-    table.rows.push_back({f.severity == Severity::warning
-                              ? report::Cell{"warning", report::Badge::weak}
-                              : report::Cell{"note"},
-                          {f.where.empty() ? std::string("all") : f.where},
-                          {fmt::format("{:.5g} to {:.5g} s", when.begin_s, when.end_s)},
-                          {f.says},
-                          {f.remedy}});
+    table.rows.push_back(
+        {f.severity == Severity::warning ? report::Cell{"warning", report::Badge::weak} : report::Cell{"note"},
+         {f.where.empty() ? std::string("all") : f.where},
+         {fmt::format("{:.5g} to {:.5g} s", when.begin_s, when.end_s)},
+         {f.says},
+         {f.remedy}});
   }
   section.tables.push_back(std::move(table));
   if (faults.size() > kMost) {
@@ -415,24 +391,21 @@ report::Section recordings_section(const StudyResult& result) {
 
 bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials) {
   const std::vector<Gate> gates = motion_gates(study, trials);
-  return std::any_of(gates.begin(), gates.end(),
-                     [](const Gate& gate) { return gate.status == GateStatus::fail; });
+  return std::any_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.status == GateStatus::fail; });
 }
 
-std::vector<IdentificationResult> judged(
-    std::vector<IdentificationResult> methods,
-    const StudyValidation& validation,
-    const Study& study,
-    const std::vector<TrialResult>& trials,
-    const std::optional<identification::ExchangedElectrodes>& exchanged) {
+std::vector<IdentificationResult> judged(std::vector<IdentificationResult> methods,
+                                         const StudyValidation& validation,
+                                         const Study& study,
+                                         const std::vector<TrialResult>& trials,
+                                         const std::optional<identification::ExchangedElectrodes>& exchanged) {
   const char* reason = motion_is_unreliable(study, trials)
                            ? "The motion it rests on failed its quality gate: mend that first."
                        : exchanged ? "Two electrodes seem to be exchanged: mend that first."
                                    : nullptr;
   for (IdentificationResult& method : methods) {
     if (method.method == "torque")
-      method.warnings.insert(method.warnings.end(), validation.warnings.begin(),
-                             validation.warnings.end());
+      method.warnings.insert(method.warnings.end(), validation.warnings.begin(), validation.warnings.end());
     if (reason == nullptr) continue;
     for (identification::ParameterEstimate& e : method.estimates) {
       if (e.verdict != Verdict::identified) continue;

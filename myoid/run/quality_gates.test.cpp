@@ -14,8 +14,7 @@ namespace {
 using report::Gate;
 using report::GateStatus;
 
-/// One trial of 100 frames whose markers miss the model by `error_m`, and whose joint moves over
-/// `range_deg`.
+/// One trial of 100 frames whose markers miss the model by `error_m`, and whose joint moves over `range_deg`.
 StudyResult some_result(double error_m, int frames_not_converged, double range_deg) {
   StudyResult result;
   TrialResult trial;
@@ -26,8 +25,7 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   trial.motion.joints = {q, q, q};
   kinematics::IkResult ik;
   ik.q = q;
-  ik.errors = TimeSeries(time, {{"marker_error_RMS", Unit::meter}},
-                         Eigen::MatrixXd::Constant(100, 1, error_m));
+  ik.errors = TimeSeries(time, {{"marker_error_RMS", Unit::meter}}, Eigen::MatrixXd::Constant(100, 1, error_m));
   ik.status.assign(100, kinematics::FrameStatus::converged);
   ik.frames_not_converged = frames_not_converged;
   trial.motion.ik = ik;
@@ -35,9 +33,8 @@ StudyResult some_result(double error_m, int frames_not_converged, double range_d
   identification::IdentificationResult torque;
   torque.method = "torque";
   torque.termination = math::Termination::converged;
-  torque.estimates.push_back({.muscle = "BIC",
-                              .parameter = "max_isometric_force",
-                              .verdict = identification::Verdict::identified});
+  torque.estimates.push_back(
+      {.muscle = "BIC", .parameter = "max_isometric_force", .verdict = identification::Verdict::identified});
   result.fit.methods.push_back(torque);
   return result;
 }
@@ -46,14 +43,11 @@ std::vector<identification::IdentificationResult> judged_of(const StudyResult& r
   return judged(result.fit.methods, {}, result.source.study, result.trials, result.fit.exchanged);
 }
 
-identification::Verdict verdict_of(const StudyResult& result) {
-  return judged_of(result)[0].estimates[0].verdict;
-}
+identification::Verdict verdict_of(const StudyResult& result) { return judged_of(result)[0].estimates[0].verdict; }
 
 GateStatus status_of(const StudyResult& result, std::string_view name) {
   const std::vector<Gate> gates = quality_gates(result);
-  const auto it =
-      std::find_if(gates.begin(), gates.end(), [&](const Gate& g) { return g.name == name; });
+  const auto it = std::find_if(gates.begin(), gates.end(), [&](const Gate& g) { return g.name == name; });
   return it == gates.end() ? GateStatus::info : it->status;
 }
 
@@ -123,8 +117,8 @@ TEST(QualityGates, TheWarningsOfTheValidationGoToMethodTorque) {
   std::vector<identification::IdentificationResult> methods(2);
   methods[0].method = "paper";
   methods[1].method = "torque";
-  methods = judged(std::move(methods), {.folds = {}, .warnings = {"one trial"}},
-                   result.source.study, result.trials, {});
+  methods =
+      judged(std::move(methods), {.folds = {}, .warnings = {"one trial"}}, result.source.study, result.trials, {});
   EXPECT_TRUE(methods[0].warnings.empty());
   EXPECT_EQ(methods[1].warnings, std::vector<std::string>{"one trial"});
 }

@@ -20,28 +20,23 @@ double strength_nm(const Study& study,
                    const model::BodyModel& model,
                    const RelaxedTrial& trial,
                    const std::string& coordinate) {
-  const Eigen::MatrixXd arms =
-      kinematics::lumped_moment_arm_m(*trial.muscles, muscle_groups(study, model), coordinate);
+  const Eigen::MatrixXd arms = kinematics::lumped_moment_arm_m(*trial.muscles, muscle_groups(study, model), coordinate);
   const auto setups = muscle_setups(study, model);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < arms.cols(); ++k)
-    sum += arms.col(k).cwiseAbs().maxCoeff() *
-           setups[static_cast<std::size_t>(k)].start.max_isometric_force_n;
+    sum += arms.col(k).cwiseAbs().maxCoeff() * setups[static_cast<std::size_t>(k)].start.max_isometric_force_n;
   return sum;
 }
 
 /// Returns the reason why the torques of a passive trial exceed a relaxed joint's; empty if they do
 /// not. The weight of limb and instrument is no resistance.
-std::string too_strong(const Study& study,
-                       const model::BodyModel& model,
-                       const RelaxedTrial& trial) {
+std::string too_strong(const Study& study, const model::BodyModel& model, const RelaxedTrial& trial) {
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
     const std::string& name = coordinates[j];
     const Eigen::VectorXd torque = trial.muscle_torque->values().col(static_cast<Eigen::Index>(j));
     const double largest = torque.cwiseAbs().maxCoeff();
-    const double beside =
-        identification::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
+    const double beside = identification::beside_weight(trial.q->column(name), torque).cwiseAbs().maxCoeff();
     const double strength = strength_nm(study, model, trial, name);
     const double limit = kLimits.resting_share * strength;
     if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
@@ -49,16 +44,13 @@ std::string too_strong(const Study& study,
         "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its "
         "muscles' strength ({:.0f} N m) and {:g} N m of weight: no relaxed joint resists that "
         "much; N mm, or the instrument's offset?",
-        name, largest, beside, 100.0 * kLimits.resting_share, strength,
-        identification::kLargestWeight_nm);
+        name, largest, beside, 100.0 * kLimits.resting_share, strength, identification::kLargestWeight_nm);
   }
   return {};
 }
 
 /// Returns the reason why a passive trial does not show a relaxed joint; empty if it does.
-std::string not_at_rest(const Study& study,
-                        const model::BodyModel& model,
-                        const RelaxedTrial& trial) {
+std::string not_at_rest(const Study& study, const model::BodyModel& model, const RelaxedTrial& trial) {
   const bool mvc = study.emg.has_mvc;
   const double limit = mvc ? kLimits.relaxed : kLimits.relaxed_without_mvc;
   for (const Channel& channel : trial.activation->channels()) {
@@ -67,8 +59,8 @@ std::string not_at_rest(const Study& study,
       return fmt::format(
           "the muscles were not at rest: EMG channel '{}' is on average at {:.1f} % of {}, at most "
           "{:g} % were expected",
-          channel.name, 100.0 * mean,
-          mvc ? "the maximal contraction" : "its greatest value in the study", 100.0 * limit);
+          channel.name, 100.0 * mean, mvc ? "the maximal contraction" : "its greatest value in the study",
+          100.0 * limit);
     }
   }
   return too_strong(study, model, trial);
@@ -91,20 +83,18 @@ RestingJoints resting_joints(const Study& study,
     if (!trial.spec->external_torque && !trial.spec->load_cell) continue;
     const std::string why = not_at_rest(study, model, trial);
     if (!why.empty()) {
-      found.remarks.push_back(
-          {.code = RemarkCode::resting_torque,
-           .where = trial.spec->name,
-           .says = "the joint's resting torque is not taken from this trial: " + why});
+      found.remarks.push_back({.code = RemarkCode::resting_torque,
+                               .where = trial.spec->name,
+                               .says = "the joint's resting torque is not taken from this trial: " + why});
       continue;
     }
     relaxed.push_back(&trial);
     if (trial.activation->empty())
-      found.remarks.push_back(
-          {.code = RemarkCode::resting_torque,
-           .severity = Severity::note,
-           .where = trial.spec->name,
-           .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at "
-                   "rest"});
+      found.remarks.push_back({.code = RemarkCode::resting_torque,
+                               .severity = Severity::note,
+                               .where = trial.spec->name,
+                               .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at "
+                                       "rest"});
   }
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
@@ -127,9 +117,8 @@ RestingJoints resting_joints(const Study& study,
 Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& angle_rad) {
-  const auto found = std::find_if(joints.begin(), joints.end(), [&](const RestingJoint& joint) {
-    return joint.joint == coordinate;
-  });
+  const auto found =
+      std::find_if(joints.begin(), joints.end(), [&](const RestingJoint& joint) { return joint.joint == coordinate; });
   return found == joints.end() ? Eigen::VectorXd() : found->torque.at(angle_rad);
 }
 

@@ -34,19 +34,16 @@ struct RestingJoints {
 /// all trials together, joint by joint. The muscles must be at rest. A trial is left out, with a
 /// warning of its own, if an EMG channel is on average above 2 % of its maximal contraction (5 % of
 /// its greatest EMG if there is none), if the torque beside a weight's
-/// (`identification::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum
-/// of the largest |r| times F_max), or if the whole torque exceeds this quarter plus 25 N m of
-/// weight: no relaxed joint resists that much within its range. A trial without EMG counts as
-/// relaxed, with a note. A trial without measured torque is not used.
+/// (`identification::beside_weight`) exceeds a quarter of the capacity of the joint's muscles (sum of the largest |r|
+/// times F_max), or if the whole torque exceeds this quarter plus 25 N m of weight: no relaxed joint resists that much
+/// within its range. A trial without EMG counts as relaxed, with a note. A trial without measured torque is not used.
 [[nodiscard]] RestingJoints resting_joints(const Study& study,
                                            const model::BodyModel& model,
                                            const std::vector<RelaxedTrial>& trials);
 
-/// Returns the resting torque of a coordinate at these angles, one per sample; empty if it was not
-/// measured.
-[[nodiscard]] Eigen::VectorXd resting_torque_nm(
-    const std::vector<identification::RestingJoint>& joints,
-    const std::string& coordinate,
-    const Eigen::VectorXd& angle_rad);
+/// Returns the resting torque of a coordinate at these angles, one per sample; empty if it was not measured.
+[[nodiscard]] Eigen::VectorXd resting_torque_nm(const std::vector<identification::RestingJoint>& joints,
+                                                const std::string& coordinate,
+                                                const Eigen::VectorXd& angle_rad);
 
 }  // namespace myoid

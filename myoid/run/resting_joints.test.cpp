@@ -70,8 +70,7 @@ TEST(RestingJoints, WhatTheJointOfAPersonDoesByItselfIsFound) {
   ASSERT_GT(std::abs(truth.joint_torque_nm) + std::abs(truth.joint_stiffness_nm_per_rad), 0.5);
   for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
     const double q = angle_deg * kDegree;
-    EXPECT_NEAR(result.resting[0].torque.at(q),
-                truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.3)
+    EXPECT_NEAR(result.resting[0].torque.at(q), truth.joint_torque_nm - truth.joint_stiffness_nm_per_rad * q, 0.3)
         << angle_deg;
   }
   for (const std::string& warning : sentences(result.trials[2].remarks, Severity::warning))
@@ -116,8 +115,7 @@ TEST(RestingJoints, WithoutEmgTheStudyIsTakenAtItsWord) {
   const StudyResult result = analyse(in_memory(r.study, std::move(r.inputs)));
   ASSERT_EQ(result.resting.size(), 1U);
   EXPECT_EQ(result.resting[0].torque.coefficient_nm, known.resting[0].torque.coefficient_nm);
-  EXPECT_THAT(sentences(result.trials[0].remarks),
-              ::testing::Contains(HasSubstr("by the study's word")));
+  EXPECT_THAT(sentences(result.trials[0].remarks), ::testing::Contains(HasSubstr("by the study's word")));
 }
 
 TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
@@ -136,8 +134,7 @@ TEST(RestingJoints, TheWeightOfTheInstrumentIsPartOfIt) {
   ASSERT_EQ(result.resting.size(), 1U);
   for (const double angle_deg : {25.0, 50.0, 70.0, 90.0, 115.0}) {
     const double at = angle_deg * kDegree;
-    EXPECT_NEAR(result.resting[0].torque.at(at),
-                without.resting[0].torque.at(at) + 15.0 * std::cos(at) + 2.0, 0.2)
+    EXPECT_NEAR(result.resting[0].torque.at(at), without.resting[0].torque.at(at) + 15.0 * std::cos(at) + 2.0, 0.2)
         << angle_deg;
   }
 }
@@ -150,8 +147,7 @@ TEST(RestingJoints, ATorqueThatNoRelaxedJointHasIsNotTaken) {
   EXPECT_TRUE(result.resting.empty());
   ASSERT_FALSE(result.trials[0].remarks.empty());
   EXPECT_EQ(result.trials[0].remarks.back().severity, Severity::warning);
-  EXPECT_THAT(result.trials[0].remarks.back().says,
-              HasSubstr("more than 25 % of its muscles' strength"));
+  EXPECT_THAT(result.trials[0].remarks.back().says, HasSubstr("more than 25 % of its muscles' strength"));
 }
 
 TEST(RestingJoints, WithoutAMeasuredTorqueNothingIsKnown) {

@@ -41,8 +41,7 @@ class Stages {
       };
     const auto begin = std::chrono::steady_clock::now();
     auto found = work(of_stage);
-    times_.push_back(
-        {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
+    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()});
     return found;
   }
   [[nodiscard]] std::vector<StageTime> times() && { return std::move(times_); }
@@ -55,21 +54,17 @@ class Stages {
 /// Returns the findings. Throws InvalidInput if the sign of every dynamometer is reversed, or a
 /// trial's EMG is in another unit than the maximal contraction.
 RecordingFindings findings_of(const StudyInputs& inputs, const StudyActivation& activation) {
-  RecordingFindings found =
-      recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
+  RecordingFindings found = recording_findings(inputs.source.study, *inputs.source.model, inputs.trials, activation);
   for (const Remark& f : found.levels) {
     if (f.severity == Severity::error) throw InvalidInput(sentence(f));
   }
   for (const Remark& f : found.dynamometers) {
-    if (f.severity == Severity::error)
-      throw InvalidInput(fmt::format("{} (trial '{}')", sentence(f), f.where));
+    if (f.severity == Severity::error) throw InvalidInput(fmt::format("{} (trial '{}')", sentence(f), f.where));
   }
   return found;
 }
 
-std::vector<TrialMotion> motion_of(const StudyInputs& inputs,
-                                   const RunOptions& options,
-                                   const Progress& progress) {
+std::vector<TrialMotion> motion_of(const StudyInputs& inputs, const RunOptions& options, const Progress& progress) {
   std::optional<StageStore> store;
   if (options.store) store.emplace(*options.store);
   std::vector<TrialMotion> motion = study_motion(inputs, store ? &*store : nullptr, progress);
@@ -101,8 +96,7 @@ std::vector<TrialResult> joined(const Study& study,
     trial.faults = findings.of_trials[i];
     std::vector<Remark>& remarks = trial.remarks;
     remarks = trial.input.remarks;
-    std::copy_if(findings.dynamometers.begin(), findings.dynamometers.end(),
-                 std::back_inserter(remarks),
+    std::copy_if(findings.dynamometers.begin(), findings.dynamometers.end(), std::back_inserter(remarks),
                  [&](const Remark& remark) { return remark.where == trial.spec.name; });
     if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
     add_notes(trial.motion.notes, remarks);
@@ -129,8 +123,7 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
   if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
   options.progress.stop = progress.stop;
   if (const IdentificationResult* torque = torque_of(fit)) {
-    if (torque->termination != math::Termination::converged || !torque->covariance.allFinite())
-      return std::nullopt;
+    if (torque->termination != math::Termination::converged || !torque->covariance.allFinite()) return std::nullopt;
     options.earlier = earlier_run(*torque);
   }
   return design_study(study, *source.model, options);
@@ -146,20 +139,17 @@ StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& st
 StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
   StudySource& source = inputs.source;
   const Study& study = source.study;
-  StudyActivation activation = stages.run("activation", 0.15, 0.25, [&](const Progress&) {
-    return study_activation(study, emg_of(inputs.trials));
-  });
-  RecordingFindings recordings = stages.run(
-      "recordings", 0.25, 0.3, [&](const Progress&) { return findings_of(inputs, activation); });
-  std::vector<TrialMotion> motion = stages.run("motion", 0.3, 0.5, [&](const Progress& progress) {
-    return motion_of(inputs, options, progress);
-  });
+  StudyActivation activation = stages.run(
+      "activation", 0.15, 0.25, [&](const Progress&) { return study_activation(study, emg_of(inputs.trials)); });
+  RecordingFindings recordings =
+      stages.run("recordings", 0.25, 0.3, [&](const Progress&) { return findings_of(inputs, activation); });
+  std::vector<TrialMotion> motion =
+      stages.run("motion", 0.3, 0.5, [&](const Progress& progress) { return motion_of(inputs, options, progress); });
   StudyForces forces = stages.run("forces", 0.5, 0.7, [&](const Progress& progress) {
     return study_forces(inputs, activation, motion, options.share_forces, progress);
   });
-  std::vector<TrialResult> trials =
-      joined(study, std::move(inputs.trials), std::move(activation.trials), std::move(motion),
-             std::move(forces.trials), recordings);
+  std::vector<TrialResult> trials = joined(study, std::move(inputs.trials), std::move(activation.trials),
+                                           std::move(motion), std::move(forces.trials), recordings);
   FitInput input = stages.run("data", 0.7, 0.72, [&](const Progress& progress) {
     return fit_input(fit_source(source, trials, forces.resting, activation.scale), progress);
   });
@@ -181,23 +171,19 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
 void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& stages) {
   const Study& study = result.source.study;
   const FitInput& input = result.fit_input;
-  StudyFit fit = stages.run("fit", 0.72, 0.8, [&](const Progress& progress) {
-    return study_fit(study, input, progress);
-  });
+  StudyFit fit =
+      stages.run("fit", 0.72, 0.8, [&](const Progress& progress) { return study_fit(study, input, progress); });
   if (options.inform_forces) fit.informed = informed_forces(input, fit.methods);
   if (study.identify.force_loop)
-    fit.force_loop = stages.run("forces and parameters", 0.8, 0.85,
-                                [&](const Progress&) { return force_loop(input); });
+    fit.force_loop = stages.run("forces and parameters", 0.8, 0.85, [&](const Progress&) { return force_loop(input); });
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
-      return study_validation(fit_source(result.source, result.trials, result.resting, result.emg),
-                              input, progress);
+      return study_validation(fit_source(result.source, result.trials, result.resting, result.emg), input, progress);
     });
   if (study.identify.next_movements > 0 && wants_torque(study))
-    result.next = stages.run("next recording", 0.95, 1.0, [&](const Progress& progress) {
-      return next_recording(result.source, fit, progress);
-    });
+    result.next = stages.run("next recording", 0.95, 1.0,
+                             [&](const Progress& progress) { return next_recording(result.source, fit, progress); });
   fit.methods = judged(std::move(fit.methods), validation, study, result.trials, fit.exchanged);
   result.fit = std::move(fit);
   result.folds = std::move(validation.folds);

@@ -20,8 +20,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> store;
 };
 
-/// Runs all stages after reading, on inputs that need not come from files (`in_memory`). Otherwise
-/// as `run_study`.
+/// Runs all stages after reading, on inputs that need not come from files (`in_memory`). Otherwise as `run_study`.
 [[nodiscard]] StudyResult analyse(StudyInputs inputs, const RunOptions& options = {});
 
 /// Runs the stages up to the data of the fit, which a prediction by an earlier fit needs. `fit`,

@@ -31,8 +31,7 @@ struct ExactRun {
   StudyResult result;
 
   ExactRun() {
-    const auto protocol =
-        twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
+    const auto protocol = twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
     twin::write_virtual_recording(twin::make_virtual_recording(protocol, 3), folder / "recording");
     Study study = read_study(folder / "recording/study.toml");
     study.identify.cross_validate = false;
@@ -82,11 +81,10 @@ TEST(WriteResults, LeavesTheFilesThatArePromised) {
   const auto out = run.folder / "results";
   write_results(run.result, {}, out);
   const std::string trial = run.result.fit_input.data.trials.front().name;
-  for (const std::string name :
-       {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
-        "MuscleAnalysis_MuscleTendonVelocity.sto", "MuscleAnalysis_MomentArm_elbow_flexion.sto",
-        "StaticOptimization_force.sto", "StaticOptimization_activation.sto", "activation.sto",
-        "identified_forces.sto"}) {
+  for (const std::string name : {"ik.mot", "ik_marker_errors.sto", "id.sto", "MuscleAnalysis_Length.sto",
+                                 "MuscleAnalysis_MuscleTendonVelocity.sto",
+                                 "MuscleAnalysis_MomentArm_elbow_flexion.sto", "StaticOptimization_force.sto",
+                                 "StaticOptimization_activation.sto", "activation.sto", "identified_forces.sto"}) {
     EXPECT_GT(recording::read_storage(out / trial / name).data.sample_count(), 10) << name;
   }
   const recording::CsvTable table = recording::read_csv_table(out / "parameters.csv");
@@ -131,12 +129,10 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
   }
   StudyResult one = none;
   for (auto& e : one.fit.methods[1].estimates) {
-    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length")
-      e.verdict = identification::Verdict::identified;
+    if (e.muscle == "BIC" && e.parameter == "optimal_fiber_length") e.verdict = identification::Verdict::identified;
   }
   write_results(one, {}, out);
-  EXPECT_TRUE(std::filesystem::exists(
-      out / (one.source.study.model.file->stem().string() + "_identified.osim")));
+  EXPECT_TRUE(std::filesystem::exists(out / (one.source.study.model.file->stem().string() + "_identified.osim")));
   write_results(none, {}, run.folder / "none");
   EXPECT_TRUE(std::filesystem::exists(run.folder / "none" / "parameters.csv"));
   for (const auto& entry : std::filesystem::directory_iterator(run.folder / "none"))
@@ -145,16 +141,13 @@ TEST(WriteResults, AnIdentifiedModelIsThereOnlyIfSomethingWasIdentified) {
 
 TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   const StudyResult& result = ExactRun::get().result;
-  IdentifiedMuscle muscle{"BIC",
-                          result.fit_input.data.muscles[0].start,
-                          result.fit_input.data.muscles[0].start,
-                          {"max_isometric_force"}};
-  EXPECT_EQ(identified_model(result.source.study, result.source.model_text,
-                             {{"BIC", muscle.start, muscle.identified, {}}}),
-            result.source.model_text);
+  IdentifiedMuscle muscle{
+      "BIC", result.fit_input.data.muscles[0].start, result.fit_input.data.muscles[0].start, {"max_isometric_force"}};
+  EXPECT_EQ(
+      identified_model(result.source.study, result.source.model_text, {{"BIC", muscle.start, muscle.identified, {}}}),
+      result.source.model_text);
   muscle.identified.max_isometric_force_n *= 2.0;
-  const std::string changed =
-      identified_model(result.source.study, result.source.model_text, {muscle});
+  const std::string changed = identified_model(result.source.study, result.source.model_text, {muscle});
   pugi::xml_document before;
   pugi::xml_document after;
   ASSERT_TRUE(before.load_string(result.source.model_text.c_str()));
@@ -163,8 +156,7 @@ TEST(IdentifiedModel, DiffersFromTheInputOnlyInIdentifiedNumbers) {
   EXPECT_DOUBLE_EQ(after.select_node(path).node().text().as_double(),
                    2.0 * before.select_node(path).node().text().as_double());
   const char* other = "//*[@name='TRI']/max_isometric_force";
-  EXPECT_EQ(std::string(after.select_node(other).node().text().get()),
-            before.select_node(other).node().text().get());
+  EXPECT_EQ(std::string(after.select_node(other).node().text().get()), before.select_node(other).node().text().get());
 }
 
 TEST(RunStudy, TheReportHasMethodForceAndWhereSearchesEnded) {
@@ -178,9 +170,8 @@ TEST(RunStudy, TheReportHasMethodForceAndWhereSearchesEnded) {
   result.fit.methods = {force};
   const report::Report report = study_report(result, {});
   EXPECT_EQ(report.headline.find("source paper"), std::string::npos) << report.headline;
-  const auto section =
-      std::find_if(report.sections.begin(), report.sections.end(),
-                   [](const report::Section& s) { return s.id == "force_method"; });
+  const auto section = std::find_if(report.sections.begin(), report.sections.end(),
+                                    [](const report::Section& s) { return s.id == "force_method"; });
   ASSERT_NE(section, report.sections.end());
   EXPECT_EQ(section->tables.front().id, "parameters_force");
   EXPECT_EQ(section->tables.back().id, "basins_force");
@@ -194,8 +185,7 @@ TEST(StudyReport, HasGatesTablesAndFiguresThatFitTogether) {
   for (const report::Section& section : report.sections) {
     for (const report::Table& table : section.tables) tables.push_back(table.id);
   }
-  for (const std::string wanted :
-       {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
+  for (const std::string wanted : {"parameters_torque", "table_1_shortening", "table_2_lengthening", "trials"}) {
     EXPECT_NE(std::find(tables.begin(), tables.end(), wanted), tables.end()) << wanted;
   }
 }
@@ -211,15 +201,13 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
   const auto number = [&](const std::vector<std::string>& changed, const std::string& property) {
     muscle.changed = changed;
     pugi::xml_document document;
-    EXPECT_TRUE(document.load_string(
-        identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
+    EXPECT_TRUE(
+        document.load_string(identified_model(result.source.study, result.source.model_text, {muscle}).c_str()));
     return document.select_node(("//*[@name='BIC']/" + property).c_str()).node().text().as_double();
   };
-  const std::vector<std::string> all{"optimal_fiber_length", "force_length_width",
-                                     "concentric_curvature", "eccentric_plateau",
-                                     "max_isometric_force"};
-  for (const auto& [property, needed] :
-       std::vector<std::pair<std::string, std::vector<std::string>>>{
+  const std::vector<std::string> all{"optimal_fiber_length", "force_length_width", "concentric_curvature",
+                                     "eccentric_plateau", "max_isometric_force"};
+  for (const auto& [property, needed] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {"KshapeActive", {"optimal_fiber_length", "force_length_width"}},
            {"optimal_fiber_length", {"optimal_fiber_length"}},
            {"Af", {"concentric_curvature"}},
@@ -233,16 +221,14 @@ TEST(IdentifiedModel, AWidthIsWrittenOnlyWhereWidthAndLengthAreBothIdentified) {
       EXPECT_EQ(number(others, property), before) << property << " without " << left_out;
     }
   }
-  const double ratio =
-      muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+  const double ratio = muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
   EXPECT_NEAR(number(all, "KshapeActive"), ratio * ratio, 1e-12);
 }
 
 TEST(WriteResults, ALoopThatDivergedFailsAGateAndStandsInTheJson) {
   StudyResult result = ExactRun::get().result;
-  result.fit.force_loop = identification::ForceLoop{.end = identification::LoopEnd::diverged,
-                                                    .message = "the changes grow: do not use it",
-                                                    .rounds = {{}, {}}};
+  result.fit.force_loop = identification::ForceLoop{
+      .end = identification::LoopEnd::diverged, .message = "the changes grow: do not use it", .rounds = {{}, {}}};
   bool failed = false;
   for (const report::Gate& gate : quality_gates(result)) {
     if (gate.name == "Forces and parameters agree in their loop")

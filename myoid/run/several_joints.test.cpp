@@ -47,11 +47,7 @@ struct Point {
   const char* at;
 };
 
-std::string muscle(const char* name,
-                   double force_n,
-                   double fiber_m,
-                   double slack_m,
-                   const std::vector<Point>& points) {
+std::string muscle(const char* name, double force_n, double fiber_m, double slack_m, const std::vector<Point>& points) {
   std::string path;
   for (std::size_t i = 0; i < points.size(); ++i) {
     path += fmt::format(
@@ -72,13 +68,10 @@ std::string leg_osim() {
   return R"(<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="leg">
     <gravity>0 -9.80665 0</gravity><BodySet><objects>)" +
          body("thigh", 8.0) + body("shank", 4.0) + "</objects></BodySet><JointSet><objects>" +
-         joint("hip", "/ground", "thigh", "0 0 0") +
-         joint("knee", "/bodyset/thigh", "shank", "0 -0.4 0") +
+         joint("hip", "/ground", "thigh", "0 0 0") + joint("knee", "/bodyset/thigh", "shank", "0 -0.4 0") +
          "</objects></JointSet><ForceSet><objects>" +
-         muscle("HAM", 1200.0, 0.11, 0.33,
-                {{"/ground", "-0.06 -0.02 0"}, {"/bodyset/shank", "-0.03 -0.04 0"}}) +
-         muscle("GLU", 900.0, 0.14, 0.02,
-                {{"/ground", "-0.07 0.05 0"}, {"/bodyset/thigh", "-0.03 -0.12 0"}}) +
+         muscle("HAM", 1200.0, 0.11, 0.33, {{"/ground", "-0.06 -0.02 0"}, {"/bodyset/shank", "-0.03 -0.04 0"}}) +
+         muscle("GLU", 900.0, 0.14, 0.02, {{"/ground", "-0.07 0.05 0"}, {"/bodyset/thigh", "-0.03 -0.12 0"}}) +
          muscle("QUA", 2500.0, 0.10, 0.23,
                 {{"/bodyset/thigh", "0.03 -0.08 0"},
                  {"/bodyset/thigh", "0.05 -0.37 0"},
@@ -99,12 +92,8 @@ TimeSeries leg_motion(double phase) {
 TimeSeries activation(double phase) {
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(1201, 0.0, kLength_s);
   Eigen::MatrixXd a(t.size(), 3);
-  for (int m = 0; m < 3; ++m)
-    a.col(m) = 0.35 + 0.3 * ((0.9 + 0.37 * m) * t.array() + phase * (m + 1)).sin();
-  return {
-      t,
-      {{"HAM", Unit::dimensionless}, {"GLU", Unit::dimensionless}, {"QUA", Unit::dimensionless}},
-      a};
+  for (int m = 0; m < 3; ++m) a.col(m) = 0.35 + 0.3 * ((0.9 + 0.37 * m) * t.array() + phase * (m + 1)).sin();
+  return {t, {{"HAM", Unit::dimensionless}, {"GLU", Unit::dimensionless}, {"QUA", Unit::dimensionless}}, a};
 }
 
 Study leg_study(const std::string& coordinates) {
@@ -182,8 +171,7 @@ std::vector<TrialInput> exact_inputs(const Study& study) {
         for (Eigen::Index i = 0; i < outside.rows(); ++i) {
           outside(i, j) -=
               muscles.moment_arm.at(name).values()(i, m) *
-              muscle::hill_force(input.emg->values()(i, m),
-                                 muscles.length.values()(i, m) - p.tendon_slack_length_m,
+              muscle::hill_force(input.emg->values()(i, m), muscles.length.values()(i, m) - p.tendon_slack_length_m,
                                  muscles.velocity.values()(i, m), p);
         }
       }
@@ -191,8 +179,8 @@ std::vector<TrialInput> exact_inputs(const Study& study) {
     std::vector<Channel> columns;
     for (const std::string& name : study_coordinates(study.model))
       columns.push_back({name + "_moment", Unit::newton_meter});
-    input.external_torque = TimeSeries(moved.q.time_s(), columns,
-                                       outside.leftCols(static_cast<Eigen::Index>(columns.size())));
+    input.external_torque =
+        TimeSeries(moved.q.time_s(), columns, outside.leftCols(static_cast<Eigen::Index>(columns.size())));
     inputs.push_back(std::move(input));
   }
   return inputs;
@@ -259,11 +247,10 @@ TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
   const StudyResult result = analyse(in_memory(study, std::move(inputs)));
   write_results(result, {}, folder / "run");
   const TrialMotion& motion = result.trials[0].motion;
-  const forces::SharingInput shared =
-      forces::sharing_input(*motion.model, motion.joints, {"hip_angle", "knee_angle"});
+  const forces::SharingInput shared = forces::sharing_input(*motion.model, motion.joints, {"hip_angle", "knee_angle"});
   write_shared_forces(forces::share(shared, {}), folder / "so");
-  for (const char* name : {"StaticOptimization_force.sto", "StaticOptimization_activation.sto",
-                           "StaticOptimization_status.csv"}) {
+  for (const char* name :
+       {"StaticOptimization_force.sto", "StaticOptimization_activation.sto", "StaticOptimization_status.csv"}) {
     const std::string of_so = bytes_of(folder / "so" / name);
     EXPECT_GT(of_so.size(), 1000U) << name;
     EXPECT_EQ(bytes_of(folder / "run/one" / name), of_so) << name;

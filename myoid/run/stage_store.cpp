@@ -29,8 +29,7 @@ Eigen::VectorXd unpacked(const json& value) {
   const Bytes& bytes = value.get_binary();
   Eigen::VectorXd values(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
   if (values.size() > 0)
-    std::memcpy(values.data(), bytes.data(),
-                static_cast<std::size_t>(values.size()) * sizeof(double));
+    std::memcpy(values.data(), bytes.data(), static_cast<std::size_t>(values.size()) * sizeof(double));
   return values;
 }
 
@@ -56,9 +55,7 @@ TimeSeries series_from(const json& value) {
 
 }  // namespace
 
-std::filesystem::path StageStore::file(const std::string& key) const {
-  return folder_ / ("ik-" + key + ".cbor");
-}
+std::filesystem::path StageStore::file(const std::string& key) const { return folder_ / ("ik-" + key + ".cbor"); }
 
 void StageStore::mark_used(const std::string& key) {
   const std::scoped_lock lock(mutex_);
@@ -98,8 +95,7 @@ void StageStore::keep(const std::string& key, const kinematics::IkResult& result
       {"q", to_json(result.q)},
       {"errors", to_json(result.errors)},
       {"status", status},
-      {"objective",
-       packed(result.objective.data(), static_cast<Eigen::Index>(result.objective.size()))},
+      {"objective", packed(result.objective.data(), static_cast<Eigen::Index>(result.objective.size()))},
       {"frames_not_converged", result.frames_not_converged},
       {"frames_without_markers", result.frames_without_markers},
       {"undetermined", result.undetermined},
@@ -123,17 +119,13 @@ void StageStore::remove_unused() {
   for (const std::filesystem::path& path : unused) std::filesystem::remove(path, error);
 }
 
-std::string ik_key(const Study& study,
-                   std::string_view model_text,
-                   const recording::MarkerSeries& markers) {
+std::string ik_key(const Study& study, std::string_view model_text, const recording::MarkerSeries& markers) {
   const json settings = parse_json(study_json(study));
   std::string what = build_identity() + '\n' + sha256(model_text) + '\n';
-  for (const char* section : {"model", "markers", "ik"})
-    what += json_text(settings.at(section), -1) + '\n';
+  for (const char* section : {"model", "markers", "ik"}) what += json_text(settings.at(section), -1) + '\n';
   for (const std::string& name : markers.names) what += name + '\n';
   const auto add = [&what](const double* values, Eigen::Index count) {
-    what.append(reinterpret_cast<const char*>(values),
-                static_cast<std::size_t>(count) * sizeof(double));
+    what.append(reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(double));
   };
   add(markers.time_s.data(), markers.time_s.size());
   add(markers.positions_m.data(), markers.positions_m.size());

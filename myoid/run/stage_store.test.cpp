@@ -19,8 +19,7 @@ kinematics::IkResult some_result() {
   Eigen::MatrixXd errors = Eigen::MatrixXd::Constant(3, 2, 1e-3);
   errors(1, 1) = std::numeric_limits<double>::quiet_NaN();
   result.q = TimeSeries(time, {{"elbow_flexion", Unit::radian}}, q);
-  result.errors =
-      TimeSeries(time, {{"total", Unit::dimensionless}, {"wrist", Unit::meter}}, errors);
+  result.errors = TimeSeries(time, {{"total", Unit::dimensionless}, {"wrist", Unit::meter}}, errors);
   result.status = {kinematics::FrameStatus::converged, kinematics::FrameStatus::not_converged,
                    kinematics::FrameStatus::no_markers};
   result.objective = {1e-300, 2.0, 3.0};

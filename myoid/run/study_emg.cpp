@@ -15,17 +15,14 @@ namespace {
 std::string delays(const identification::IdentificationResult& method) {
   std::vector<std::string> found;
   for (const identification::ParameterEstimate& e : method.estimates) {
-    if (e.parameter == "emg_delay")
-      found.push_back(fmt::format("{} {:.1f} ms", e.muscle, 1e3 * e.estimate));
+    if (e.parameter == "emg_delay") found.push_back(fmt::format("{} {:.1f} ms", e.muscle, 1e3 * e.estimate));
   }
-  return found.empty() ? std::string("held by the study")
-                       : fmt::format("{}", fmt::join(found, ", "));
+  return found.empty() ? std::string("held by the study") : fmt::format("{}", fmt::join(found, ", "));
 }
 
 }  // namespace
 
-signals::EmgChain emg_chain(const StudyResult& result,
-                            const identification::IdentificationResult* method) {
+signals::EmgChain emg_chain(const StudyResult& result, const identification::IdentificationResult* method) {
   const EmgSpec& emg = result.source.study.emg;
   signals::EmgChain chain;
   std::vector<const signals::EmgStages*> trials;
@@ -36,24 +33,21 @@ signals::EmgChain emg_chain(const StudyResult& result,
   }
   if (!any) return chain;
   if (emg.kind == EmgKind::raw) {
-    chain = signals::envelope_chain(trials, envelope_options(result.source.study),
-                                    result.emg.whitening);
+    chain = signals::envelope_chain(trials, envelope_options(result.source.study), result.emg.whitening);
   } else {
     const char* const kind = emg.kind == EmgKind::envelope ? "EMG envelopes" : "activations";
-    chain.steps.push_back(fmt::format(
-        "{} as the files hold them; how they were made is not known to this program", kind));
+    chain.steps.push_back(
+        fmt::format("{} as the files hold them; how they were made is not known to this program", kind));
     chain.methods.push_back(fmt::format("The input was {} that were processed beforehand.", kind));
   }
   if (emg.kind != EmgKind::activation) {
-    signals::add_normalisation(result.emg.normalisation, {.window_s = emg.normalise_window_s},
-                               chain);
-    chain.steps.push_back(fmt::format("resampled to {:g} Hz where it has twice that rate or more",
-                                      kActivationRate_hz));
+    signals::add_normalisation(result.emg.normalisation, {.window_s = emg.normalise_window_s}, chain);
+    chain.steps.push_back(fmt::format("resampled to {:g} Hz where it has twice that rate or more", kActivationRate_hz));
   }
-  chain.steps.push_back(method == nullptr ? std::string("activation dynamics: none in this file")
-                                          : fmt::format("activation dynamics: {}, {} (method {})",
-                                                        identification::name(method->lag),
-                                                        delays(*method), method->method));
+  chain.steps.push_back(method == nullptr
+                            ? std::string("activation dynamics: none in this file")
+                            : fmt::format("activation dynamics: {}, {} (method {})", identification::name(method->lag),
+                                          delays(*method), method->method));
   return chain;
 }
 

@@ -15,8 +15,8 @@ StudyResult with_activation(EmgKind kind) {
   StudyResult result;
   result.source.study.emg.kind = kind;
   result.trials.resize(1);
-  result.trials[0].emg.activation = TimeSeries(
-      Eigen::Vector2d(0.0, 1.0), {{"BIC", Unit::dimensionless}}, Eigen::Vector2d(0.2, 0.6));
+  result.trials[0].emg.activation =
+      TimeSeries(Eigen::Vector2d(0.0, 1.0), {{"BIC", Unit::dimensionless}}, Eigen::Vector2d(0.2, 0.6));
   return result;
 }
 

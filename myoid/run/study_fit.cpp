@@ -37,15 +37,13 @@ StudyFit study_fit(const Study& study, const FitInput& input, const Progress& pr
   for (const identification::Method method : study.identify.methods) {
     progress.check();
     if (method == identification::Method::paper) {
-      found.methods.push_back(
-          identification::identify_paper(input.data, {.multistart = study.identify.starts,
-                                                      .muscles = study.identify.muscles,
-                                                      .shared_forces = true}));
+      found.methods.push_back(identification::identify_paper(
+          input.data, {.multistart = study.identify.starts, .muscles = study.identify.muscles, .shared_forces = true}));
     } else if (method == identification::Method::force) {
       identification::EstimatorOptions estimator = input.options;
       estimator.intervals.profile = false;
-      found.methods.push_back(identification::identify_force(
-          input.data, {.estimator = std::move(estimator), .shared_forces = true}));
+      found.methods.push_back(
+          identification::identify_force(input.data, {.estimator = std::move(estimator), .shared_forces = true}));
     } else {
       found.methods.push_back(identification::identify_torque(input.data, input.options));
       identification::look_around(input.data, input.options, found.methods.back());
@@ -54,8 +52,8 @@ StudyFit study_fit(const Study& study, const FitInput& input, const Progress& pr
   return found;
 }
 
-std::vector<identification::InformedForces> informed_forces(
-    const FitInput& input, const std::vector<IdentificationResult>& methods) {
+std::vector<identification::InformedForces> informed_forces(const FitInput& input,
+                                                            const std::vector<IdentificationResult>& methods) {
   std::vector<identification::InformedForces> found;
   for (const IdentificationResult& method : methods) {
     if (method.method != "torque") continue;
@@ -63,10 +61,8 @@ std::vector<identification::InformedForces> informed_forces(
     const std::vector<identification::TrialData>& trials = input.data.trials;
     found.resize(before + trials.size());
     oneapi::tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
-      const identification::Prediction p =
-          identification::predict(input.data, trials[i], method.values, method.lag);
-      found[before + i] =
-          identification::informed_forces(trials[i], p.activation, method.values.muscles);
+      const identification::Prediction p = identification::predict(input.data, trials[i], method.values, method.lag);
+      found[before + i] = identification::informed_forces(trials[i], p.activation, method.values.muscles);
     });
   }
   return found;
@@ -76,9 +72,9 @@ identification::ForceLoop force_loop(const FitInput& input) {
   identification::EstimatorOptions estimator = input.options;
   estimator.intervals = {};
   estimator.multistart = 0;
-  return identification::iterate_forces(
-      input.data, {.force = {.estimator = std::move(estimator), .shared_forces = true},
-                   .delay_s = identification::beliefs::kEmgDelay.value});
+  return identification::iterate_forces(input.data,
+                                        {.force = {.estimator = std::move(estimator), .shared_forces = true},
+                                         .delay_s = identification::beliefs::kEmgDelay.value});
 }
 
 }  // namespace myoid

@@ -29,9 +29,7 @@ struct StudyFit {
 [[nodiscard]] bool wants_torque(const Study& study);
 
 /// Computes the parameters by every method that the study names.
-[[nodiscard]] StudyFit study_fit(const Study& study,
-                                 const FitInput& input,
-                                 const Progress& progress);
+[[nodiscard]] StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress);
 
 /// Returns the forces informed by the EMG, for `StudyFit::informed`.
 [[nodiscard]] std::vector<identification::InformedForces> informed_forces(

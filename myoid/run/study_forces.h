@@ -20,8 +20,8 @@ namespace myoid {
 struct TrialForces {
   TimeSeries generalized;                ///< Inverse dynamics, all coordinates.
   kinematics::MuscleKinematics muscles;  ///< Paths of the model's muscles.
-  TimeSeries muscle_torque;     ///< Torque of the muscles, for the study's coordinates [N m].
-  forces::MuscleForces shared;  ///< Forces of the model's muscles.
+  TimeSeries muscle_torque;              ///< Torque of the muscles, for the study's coordinates [N m].
+  forces::MuscleForces shared;           ///< Forces of the model's muscles.
   /// Times in which torques lack a ground reaction.
   std::optional<dynamics::UncarriedTime> uncarried;
   std::vector<Remark> remarks;
@@ -40,17 +40,15 @@ struct StudyForces {
                                         const TrialInput& input,
                                         const TrialMotion& motion);
 
-/// Shares the torques of the study's joints among the model's muscles, as `myoid so` does
-/// (forces::sharing_input): with the curves of each muscle's own class and the model's passive
-/// forces. The torque of a dynamometer and the joints' resting torques (`resting`) are not shared.
-/// Notes on the sharing go to `remarks`.
-[[nodiscard]] forces::MuscleForces shared_forces(
-    const Study& study,
-    const TrialInput& input,
-    const TrialMotion& motion,
-    const kinematics::MuscleKinematics& muscles,
-    const std::vector<identification::RestingJoint>& resting,
-    std::vector<Remark>& remarks);
+/// Shares the torques of the study's joints among the model's muscles, as `myoid so` does (forces::sharing_input): with
+/// the curves of each muscle's own class and the model's passive forces. The torque of a dynamometer and the joints'
+/// resting torques (`resting`) are not shared. Notes on the sharing go to `remarks`.
+[[nodiscard]] forces::MuscleForces shared_forces(const Study& study,
+                                                 const TrialInput& input,
+                                                 const TrialMotion& motion,
+                                                 const kinematics::MuscleKinematics& muscles,
+                                                 const std::vector<identification::RestingJoint>& resting,
+                                                 std::vector<Remark>& remarks);
 
 /// Computes the torques of all trials, then the resting joints from the passive ones, then, if
 /// `share`, shared forces; trials in parallel. A trial that cannot be computed holds the failure.

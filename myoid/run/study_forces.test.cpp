@@ -27,8 +27,7 @@ struct OneTrial {
 OneTrial held_still(Study study, double mass_kg) {
   const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
   TrialInput input;
-  input.motion = TimeSeries(time_s, {{"elbow_flexion", Unit::radian}},
-                            Eigen::MatrixXd::Constant(201, 1, kAngle_rad));
+  input.motion = TimeSeries(time_s, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd::Constant(201, 1, kAngle_rad));
   study.trials[0].held_mass_kg = mass_kg;
   OneTrial one{in_memory(study, {input}), {}, {}};
   StudyActivation no_emg;
@@ -62,8 +61,8 @@ TEST(StudyForces, TheSharedForcesMakeTheTorque) {
 // The forces are those that `myoid so` writes: forces::sharing_input on the same motion.
 TEST(StudyForces, AreThoseOfMyoidSo) {
   const OneTrial one = held_still(arm_study(), 2.0);
-  const forces::MuscleForces so = forces::share(
-      forces::sharing_input(*one.motion.model, one.motion.joints, {"elbow_flexion"}), {});
+  const forces::MuscleForces so =
+      forces::share(forces::sharing_input(*one.motion.model, one.motion.joints, {"elbow_flexion"}), {});
   EXPECT_EQ(one.forces.shared.force.values(), so.force.values());
   EXPECT_EQ(one.forces.shared.activation.values(), so.activation.values());
   EXPECT_EQ(one.forces.shared.reserve.values(), so.reserve.values());
@@ -73,8 +72,7 @@ TEST(StudyForces, ATrialWithoutMotionHasNone) {
   StudyInputs inputs = in_memory(arm_study(), {TrialInput{}});
   StudyActivation no_emg;
   no_emg.trials.resize(1);
-  const StudyForces forces =
-      study_forces(inputs, no_emg, study_motion(inputs, nullptr, {}), true, {});
+  const StudyForces forces = study_forces(inputs, no_emg, study_motion(inputs, nullptr, {}), true, {});
   EXPECT_TRUE(forces.trials[0].failure.empty());
   EXPECT_TRUE(forces.trials[0].muscle_torque.empty());
 }

@@ -30,20 +30,15 @@ std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto number = recording::parse_number(table.rows[r][value]);
     if (!number)
-      throw ReadError(path, table.lines[r],
-                      fmt::format("expected a number, found '{}'", table.rows[r][value]));
+      throw ReadError(path, table.lines[r], fmt::format("expected a number, found '{}'", table.rows[r][value]));
     truth.push_back({table.rows[r][muscle], table.rows[r][parameter], *number});
   }
   return truth;
 }
 
 StudySource read_source(const Study& study) {
-  StudySource source{.study = study,
-                     .model_text = model_text(study),
-                     .model = {},
-                     .truth = {},
-                     .norms = {},
-                     .files = {}};
+  StudySource source{
+      .study = study, .model_text = model_text(study), .model = {}, .truth = {}, .norms = {}, .files = {}};
   source.model = std::make_shared<const model::BodyModel>(load_model(study, source.model_text));
   return source;
 }
@@ -54,8 +49,7 @@ StudyInputs read_inputs(const Study& study) {
   StudyInputs inputs{read_source(study), {}};
   StudySource& source = inputs.source;
   source.files.push_back({study.file.string(), sha256(recording::read_text_file(study.file))});
-  if (study.model.file)
-    source.files.push_back({study.model.file->string(), sha256(source.model_text)});
+  if (study.model.file) source.files.push_back({study.model.file->string(), sha256(source.model_text)});
   if (study.truth) source.truth = read_truth(*study.truth);
   for (const NormSpec& norm : study.norms) {
     source.norms.push_back(read_norm(norm, study));
@@ -89,8 +83,7 @@ StudyInputs read_inputs(const Study& study) {
 
 StudyInputs in_memory(const Study& study, std::vector<TrialInput> trials) {
   if (trials.size() != study.trials.size())
-    throw InvalidInput(
-        fmt::format("{} inputs are given for {} trials", trials.size(), study.trials.size()));
+    throw InvalidInput(fmt::format("{} inputs are given for {} trials", trials.size(), study.trials.size()));
   return {read_source(study), std::move(trials)};
 }
 

@@ -44,8 +44,7 @@ TEST(ReadInputs, ATrialThatPausesIsReplacedByItsPartsInTheStudyToo) {
 TEST(ReadInputs, ATrueValueThatIsNoNumberIsRefusedAtItsLine) {
   StudyWithTruth written("muscle,parameter,value\nBIC,optimal_fiber_length,long\n");
   const std::string message = message_of([&] { (void)read_inputs(written.study); });
-  EXPECT_NE(message.find("truth.csv:2: expected a number, found 'long'"), std::string::npos)
-      << message;
+  EXPECT_NE(message.find("truth.csv:2: expected a number, found 'long'"), std::string::npos) << message;
 }
 
 }  // namespace

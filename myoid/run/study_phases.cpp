@@ -40,8 +40,8 @@ TimeSeries frequency_of(const EmgScale& scale, const TrialResult& trial, double 
 }
 
 const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::string& name) {
-  const auto found = std::find_if(trials.begin(), trials.end(),
-                                  [&](const TrialResult& t) { return t.spec.name == name; });
+  const auto found =
+      std::find_if(trials.begin(), trials.end(), [&](const TrialResult& t) { return t.spec.name == name; });
   return found == trials.end() ? nullptr : &*found;
 }
 
@@ -52,8 +52,7 @@ const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::
 identification::StudyData plain_data(const FitSource& source, identification::StudyData data) {
   const Study& study = source.study;
   for (const identification::ParameterField& field : identification::parameter_fields()) {
-    if (field.scope == identification::Scope::joint || field.name == "max_isometric_force" ||
-        field.name == "emg_delay")
+    if (field.scope == identification::Scope::joint || field.name == "max_isometric_force" || field.name == "emg_delay")
       continue;
     identification::ParameterRule held;
     held.parameter = field.name;
@@ -78,15 +77,12 @@ identification::StudyData plain_data(const FitSource& source, identification::St
   std::vector<signals::TrialEnvelope> envelopes;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (uses[i] != Use::validation)
-      envelopes.push_back({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i],
-                           trials[i]->emg.stages->bandwidth_hz});
+      envelopes.push_back({trials[i]->spec.name, uses[i] == Use::mvc, &plain[i], trials[i]->emg.stages->bandwidth_hz});
   }
-  const auto normalisation =
-      signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
+  const auto normalisation = signals::find_normalisation(envelopes, {.window_s = study.emg.normalise_window_s});
   for (identification::TrialData& trial : data.trials) {
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (trials[i]->spec.name == trial.name)
-        trial.activation = signals::normalise(plain[i], normalisation);
+      if (trials[i]->spec.name == trial.name) trial.activation = signals::normalise(plain[i], normalisation);
     }
   }
   return data;
@@ -97,9 +93,8 @@ identification::StudyData plain_data(const FitSource& source, identification::St
 std::vector<TrialPhases> study_phases(const FitSource& source,
                                       const identification::StudyData& of_study,
                                       identification::EstimatorOptions options) {
-  const bool worth_a_fit =
-      std::any_of(of_study.trials.begin(), of_study.trials.end(),
-                  [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
+  const bool worth_a_fit = std::any_of(of_study.trials.begin(), of_study.trials.end(),
+                                       [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
   const identification::StudyData data = worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
@@ -116,15 +111,11 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
   const PhaseOptions how;
   std::vector<TrialPhases> all;
   for (const identification::TrialData& trial : data.trials) {
-    PhaseSignals signals{.time_s = trial.time_s,
-                         .velocity_radps = trial.velocity_radps,
-                         .torque_nm = trial.torque_nm};
+    PhaseSignals signals{.time_s = trial.time_s, .velocity_radps = trial.velocity_radps, .torque_nm = trial.torque_nm};
     if (worth_a_fit) {
-      identification::Prediction prediction =
-          identification::predict(data, trial, fit.values, options.lag);
+      identification::Prediction prediction = identification::predict(data, trial, fit.values, options.lag);
       signals.predicted_nm = std::move(prediction.torque_nm);
-      signals.effort_nm =
-          prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
+      signals.effort_nm = prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
       signals.activation = std::move(prediction.activation);
       if (const TrialResult* found = result_of(source.trials, trial.name))
         signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * how.block_s);

@@ -40,8 +40,7 @@ struct Tiring {
   void record_emg() {
     const TimeSeries& activation = trial().activation;
     const double begin_s = activation.time_s()[0];
-    const auto n = static_cast<Eigen::Index>(
-        std::lround((activation.time_s().tail(1)[0] - begin_s) * kEmgRate_hz));
+    const auto n = static_cast<Eigen::Index>(std::lround((activation.time_s().tail(1)[0] - begin_s) * kEmgRate_hz));
     const auto fresh = static_cast<Eigen::Index>(std::lround((kTired_s - begin_s) * kEmgRate_hz));
     math::Random random(11, 0);
     Eigen::MatrixXd volts(n, 4);
@@ -49,8 +48,7 @@ struct Tiring {
       Eigen::VectorXd noise(n);
       for (double& v : noise) v = 1e-4 * random.normal();
       const auto below = [&](double hz) {
-        return math::zero_phase(
-            math::design_butterworth(math::FilterBand::low_pass, 4, hz, kEmgRate_hz), noise);
+        return math::zero_phase(math::design_butterworth(math::FilterBand::low_pass, 4, hz, kEmgRate_hz), noise);
       };
       volts.col(k) << below(150.0).head(fresh), below(120.0).tail(n - fresh);
     }
@@ -65,31 +63,27 @@ struct Tiring {
     const Eigen::Index step = 10;  // of the carrier per sample of the activation
     const Eigen::Index n = step * (activation.sample_count() - 1);
     Eigen::MatrixXd volts(n, 4);
-    for (Eigen::Index i = 0; i < n; ++i)
-      volts.row(i) = (i % 2 == 0 ? 1e-4 : -1e-4) * activation.values().row(i / step);
+    for (Eigen::Index i = 0; i < n; ++i) volts.row(i) = (i % 2 == 0 ? 1e-4 : -1e-4) * activation.values().row(i / step);
     result.trials[0].emg.stages.value().filtered = TimeSeries(clock(begin_s, n), channels(), volts);
     // Ten seconds in which nobody moves: the level of rest.
     TrialResult& rest = result.trials.emplace_back();
     rest.spec.name = "rest";
     signals::EmgStages& quiet = rest.emg.stages.emplace();
-    quiet.raw = quiet.filtered =
-        TimeSeries(clock(0.0, 10000), channels(), 1e-6 * volts.topRows(10000));
+    quiet.raw = quiet.filtered = TimeSeries(clock(0.0, 10000), channels(), 1e-6 * volts.topRows(10000));
   }
   [[nodiscard]] const Phase* found(PhaseKind kind) {
     result.source.study.trials.resize(result.trials.size());
-    phases = study_phases(fit_source(result.source, result.trials, result.resting, result.emg),
-                          result.fit_input.data, {.delay_s = 0.05});
+    phases = study_phases(fit_source(result.source, result.trials, result.resting, result.emg), result.fit_input.data,
+                          {.delay_s = 0.05});
     const auto& list = phases.at(0).phases;
-    const auto it =
-        std::find_if(list.begin(), list.end(), [&](const Phase& p) { return p.kind == kind; });
+    const auto it = std::find_if(list.begin(), list.end(), [&](const Phase& p) { return p.kind == kind; });
     return it == list.end() ? nullptr : &*it;
   }
   std::vector<TrialPhases> phases;
 
  private:
   static Eigen::VectorXd clock(double begin_s, Eigen::Index n) {
-    return Eigen::VectorXd::LinSpaced(n, begin_s,
-                                      begin_s + static_cast<double>(n - 1) / kEmgRate_hz);
+    return Eigen::VectorXd::LinSpaced(n, begin_s, begin_s + static_cast<double>(n - 1) / kEmgRate_hz);
   }
   [[nodiscard]] std::vector<Channel> channels() {
     std::vector<Channel> volts = trial().activation.channels();
@@ -129,8 +123,8 @@ TEST(StudyPhases, AreFoundWithoutTheWhiteningThatHidesFatigue) {
   for (Eigen::Index i = 0; i < whitened.rows(); ++i) {
     if (tiring.trial().activation.time_s()[i] > kTired_s) whitened.row(i) *= 0.75;
   }
-  tiring.trial().activation = TimeSeries(tiring.trial().activation.time_s(),
-                                         tiring.trial().activation.channels(), whitened);
+  tiring.trial().activation =
+      TimeSeries(tiring.trial().activation.time_s(), tiring.trial().activation.channels(), whitened);
   EXPECT_EQ(tiring.found(PhaseKind::fatigued), nullptr);
   tiring.result.emg.whitening.applied = true;
   const Phase* tired = tiring.found(PhaseKind::fatigued);

@@ -25,11 +25,11 @@ struct StageTime {
 
 /// All results of a run, stage by stage. The writers of files and reports receive this struct.
 struct StudyResult {
-  std::optional<double> start_s, end_s;  ///< As in RunOptions.
-  StudySource source;                    ///< read
-  std::vector<TrialResult> trials;   ///< read, activation, motion, forces; in the study's order.
-  EmgScale emg;                      ///< activation
-  std::vector<Remark> level_faults;  ///< findings: about EMG channels, over all trials.
+  std::optional<double> start_s, end_s;               ///< As in RunOptions.
+  StudySource source;                                 ///< read
+  std::vector<TrialResult> trials;                    ///< read, activation, motion, forces; in the study's order.
+  EmgScale emg;                                       ///< activation
+  std::vector<Remark> level_faults;                   ///< findings: about EMG channels, over all trials.
   std::vector<identification::RestingJoint> resting;  ///< forces
   FitInput fit_input;                                 ///< data
   StudyFit fit;                                       ///< fit

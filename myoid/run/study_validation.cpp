@@ -19,9 +19,7 @@ Study with_uses_of(const identification::StudyData& split, Study study) {
 }
 
 /// Returns the data of a fold as if its left-out trials had been held back for validation.
-FitInput without_left_out(const FitSource& source,
-                          const identification::StudyData& split,
-                          const Progress& progress) {
+FitInput without_left_out(const FitSource& source, const identification::StudyData& split, const Progress& progress) {
   const Study study = with_uses_of(split, source.study);
   EmgOfTrials emg;
   std::vector<const TrialActivation*> known;
@@ -42,12 +40,9 @@ FitInput without_left_out(const FitSource& source,
 
 }  // namespace
 
-StudyValidation study_validation(const FitSource& source,
-                                 const FitInput& input,
-                                 const Progress& progress) {
+StudyValidation study_validation(const FitSource& source, const FitInput& input, const Progress& progress) {
   const identification::CrossValidationOptions how{.kind = source.study.identify.folds};
-  const auto fit = [&](identification::StudyData& split,
-                       identification::EstimatorOptions& options) {
+  const auto fit = [&](identification::StudyData& split, identification::EstimatorOptions& options) {
     if (how.kind != identification::FoldKind::block) {
       FitInput of_fold = without_left_out(source, split, progress);
       split = std::move(of_fold.data);
@@ -60,8 +55,7 @@ StudyValidation study_validation(const FitSource& source,
   found.folds = identification::cross_validate(input.data, fit, input.options, how);
   std::string why_not;
   (void)identification::splits(input.data, how, &why_not);
-  if (!why_not.empty())
-    found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
+  if (!why_not.empty()) found.warnings.push_back("nothing was left out of the fit to be predicted: " + why_not);
   if (std::string bad = identification::generalises_badly(found.folds); !bad.empty())
     found.warnings.push_back(std::move(bad));
   return found;

@@ -18,20 +18,16 @@ namespace myoid {
 namespace {
 
 /// Finds coordinates that are constant in a trial while the posture is known, and then holds them.
-void calibrate(const CalibrationSpec& spec,
-               const recording::MarkerSeries& markers,
-               model::BodyModel& model) {
+void calibrate(const CalibrationSpec& spec, const recording::MarkerSeries& markers, model::BodyModel& model) {
   model::BodyModel posed = model;
   for (model::Coordinate& c : posed.coordinates) c.locked = true;
   for (const std::string& name : spec.free)
     posed.coordinates[static_cast<std::size_t>(posed.coordinate_index(name))].locked = false;
-  const kinematics::IkResult pose =
-      kinematics::inverse_kinematics(posed, calibration_window(spec, markers));
+  const kinematics::IkResult pose = kinematics::inverse_kinematics(posed, calibration_window(spec, markers));
   for (const std::string& name : spec.hold) {
     Eigen::VectorXd values = pose.q.column(name);
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    model::Coordinate& c =
-        model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
+    model::Coordinate& c = model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
     c.default_value = values[values.size() / 2];
     c.locked = true;
   }
@@ -43,16 +39,13 @@ std::shared_ptr<const model::BodyModel> trial_model(const StudySource& source,
                                                     const TrialInput& input) {
   const Study& study = source.study;
   std::optional<model::BodyModel> own;
-  const auto changed = [&]() -> model::BodyModel& {
-    return own ? *own : own.emplace(*source.model);
-  };
+  const auto changed = [&]() -> model::BodyModel& { return own ? *own : own.emplace(*source.model); };
   if (input.markers) own = arm_of_markers(study, *input.markers);
   if (spec.held_mass_kg > 0.0) {
     const HeldMassSpec held = held_mass_place(study);
     own = dynamics::with_held_mass(std::move(changed()), held.body, held.p_BP_m, spec.held_mass_kg);
   }
-  if (input.markers && study.ik.calibrate)
-    calibrate(*study.ik.calibrate, *input.markers, changed());
+  if (input.markers && study.ik.calibrate) calibrate(*study.ik.calibrate, *input.markers, changed());
   return own ? std::make_shared<const model::BodyModel>(std::move(*own)) : source.model;
 }
 
@@ -78,9 +71,8 @@ void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
   const double rate = q.mean_rate_hz();
   const double wanted = options.cutoff_hz ? study.motion.rate_hz : rate;
   if (options.cutoff_hz && *options.cutoff_hz >= 0.45 * rate) {
-    motion.notes.push_back(
-        fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed",
-                    rate, *options.cutoff_hz));
+    motion.notes.push_back(fmt::format("motion at {:.0f} Hz is too slow to be smoothed at {:.3g} Hz: not smoothed",
+                                       rate, *options.cutoff_hz));
     options.cutoff_hz.reset();
   }
   const Eigen::VectorXd& clock = q.time_s();
@@ -88,8 +80,7 @@ void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
     options.time_s = signals::even_clock(clock[0], clock[clock.size() - 1], wanted);
   // Frequencies that a slower clock cannot hold are removed first, if the smoothing spline, whose
   // gain is 1 / (1 + (f/f_c)^6), leaves more than a thousandth of them at half the new rate.
-  const bool smoothed_away =
-      options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
+  const bool smoothed_away = options.cutoff_hz && std::pow(0.5 * wanted / *options.cutoff_hz, 6) >= 999.0;
   if (options.time_s && !smoothed_away && q.is_uniform()) q = signals::anti_aliased(q, wanted);
   kinematics::MotionResult result = kinematics::joint_motion(*motion.model, q, options);
   motion.joints = std::move(result.motion);
@@ -98,10 +89,7 @@ void add_joint_motion(const Study& study, TimeSeries q, TrialMotion& motion) {
 
 }  // namespace
 
-TrialMotion trial_motion(const StudySource& source,
-                         const TrialSpec& spec,
-                         const TrialInput& input,
-                         StageStore* store) {
+TrialMotion trial_motion(const StudySource& source, const TrialSpec& spec, const TrialInput& input, StageStore* store) {
   TrialMotion motion;
   motion.model = trial_model(source, spec, input);
   if (input.markers) {
@@ -114,9 +102,7 @@ TrialMotion trial_motion(const StudySource& source,
   return motion;
 }
 
-std::vector<TrialMotion> study_motion(const StudyInputs& inputs,
-                                      StageStore* store,
-                                      const Progress& progress) {
+std::vector<TrialMotion> study_motion(const StudyInputs& inputs, StageStore* store, const Progress& progress) {
   const std::vector<TrialSpec>& specs = inputs.source.study.trials;
   std::vector<TrialMotion> motions(specs.size());
   std::atomic<int> done = 0;

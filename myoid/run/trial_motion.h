@@ -20,23 +20,21 @@ struct TrialMotion {
   std::shared_ptr<const model::BodyModel> model = std::make_shared<const model::BodyModel>();
   std::optional<kinematics::IkResult> ik;  ///< For a trial with markers.
   bool ik_reused = false;                  ///< Read from an earlier run with the same input.
-  kinematics::JointMotion joints;  ///< On the clock of the analysis; empty for an MVC trial without
-                                   ///< motion.
+  kinematics::JointMotion joints;          ///< On the clock of the analysis; empty for an MVC trial without
+                                           ///< motion.
   std::vector<std::string> notes;
   std::string failure;  ///< Reason why the motion is missing; empty: none.
 };
 
-/// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of
-/// the same input from `store` and keeps new results there, unless `store` is nullptr. Throws
-/// InvalidInput if the motion cannot be computed, for example if a held mass has no point of
-/// action.
+/// Computes the motion of one trial from its markers or coordinates. Reads inverse kinematics of the same input from
+/// `store` and keeps new results there, unless `store` is nullptr. Throws InvalidInput if the motion cannot be
+/// computed, for example if a held mass has no point of action.
 [[nodiscard]] TrialMotion trial_motion(const StudySource& source,
                                        const TrialSpec& spec,
                                        const TrialInput& input,
                                        StageStore* store);
 
-/// Computes the motion of all trials, in parallel. A trial whose motion cannot be computed holds
-/// the failure.
+/// Computes the motion of all trials, in parallel. A trial whose motion cannot be computed holds the failure.
 [[nodiscard]] std::vector<TrialMotion> study_motion(const StudyInputs& inputs,
                                                     StageStore* store,
                                                     const Progress& progress);

@@ -28,8 +28,8 @@ struct OnDisk {
   [[nodiscard]] StudyInputs inputs() const {
     TrialInput input;
     const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(201, 0.0, 2.0);
-    input.motion = TimeSeries(time_s, {{"elbow_flexion", Unit::radian}},
-                              Eigen::MatrixXd(0.5 + 0.3 * time_s.array().sin()));
+    input.motion =
+        TimeSeries(time_s, {{"elbow_flexion", Unit::radian}}, Eigen::MatrixXd(0.5 + 0.3 * time_s.array().sin()));
     return in_memory(study, {input, input});
   }
 };
@@ -45,10 +45,8 @@ TEST(StudyMotion, TheModelIsReadOnceAndTrialsShareIt) {
   EXPECT_EQ(motion[0].model, inputs.source.model);
   // The held mass is the trial's own.
   EXPECT_NE(motion[1].model, inputs.source.model);
-  const auto hand =
-      static_cast<std::size_t>(inputs.source.model->find_body("forearm_hand").value());
-  EXPECT_NEAR(motion[1].model->bodies[hand].mass_kg,
-              inputs.source.model->bodies[hand].mass_kg + 2.0, 1e-12);
+  const auto hand = static_cast<std::size_t>(inputs.source.model->find_body("forearm_hand").value());
+  EXPECT_NEAR(motion[1].model->bodies[hand].mass_kg, inputs.source.model->bodies[hand].mass_kg + 2.0, 1e-12);
 }
 
 TEST(StudyMotion, AHeldMassWithoutAPlaceIsTheFailureOfItsTrial) {

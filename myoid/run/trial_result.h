@@ -24,19 +24,14 @@ struct TrialResult {
   std::vector<Remark> remarks;  ///< All stages: repairs and doubts, with file and line.
 
   /// Returns the reason why the trial could not be computed; empty otherwise.
-  [[nodiscard]] const std::string& failure() const {
-    return motion.failure.empty() ? forces.failure : motion.failure;
-  }
-  [[nodiscard]] bool has_motion() const {
-    return motion.joints.q.sample_count() > 0 && failure().empty();
-  }
+  [[nodiscard]] const std::string& failure() const { return motion.failure.empty() ? forces.failure : motion.failure; }
+  [[nodiscard]] bool has_motion() const { return motion.joints.q.sample_count() > 0 && failure().empty(); }
 };
 
 /// Returns the number of trials that could not be computed.
 [[nodiscard]] inline int failed_trials(const std::vector<TrialResult>& trials) {
-  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [](const TrialResult& trial) {
-    return !trial.failure().empty();
-  }));
+  return static_cast<int>(
+      std::count_if(trials.begin(), trials.end(), [](const TrialResult& trial) { return !trial.failure().empty(); }));
 }
 
 }  // namespace myoid

@@ -8,8 +8,8 @@ namespace {
 TEST(TrialResult, HasMotionUnlessItHasNoneOrItsComputationFailed) {
   TrialResult trial;
   EXPECT_FALSE(trial.has_motion());
-  trial.motion.joints.q = TimeSeries(Eigen::Vector2d(0.0, 0.01), {{"elbow_flexion", Unit::radian}},
-                                     Eigen::Vector2d(0.1, 0.2));
+  trial.motion.joints.q =
+      TimeSeries(Eigen::Vector2d(0.0, 0.01), {{"elbow_flexion", Unit::radian}}, Eigen::Vector2d(0.1, 0.2));
   EXPECT_TRUE(trial.has_motion());
   EXPECT_EQ(failed_trials({trial}), 0);
   TrialResult no_forces = trial;

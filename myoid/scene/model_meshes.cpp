@@ -18,24 +18,16 @@ using model::OsimReading;
 using model::OsimXml;
 
 /// Adds <attached_geometry> of a body or a frame.
-void add_attached(const OsimReading& r,
-                  pugi::xml_node owner,
-                  const FixedFrame& frame,
-                  std::vector<MeshUse>& uses) {
+void add_attached(const OsimReading& r, pugi::xml_node owner, const FixedFrame& frame, std::vector<MeshUse>& uses) {
   for (const auto mesh : owner.child("attached_geometry").children("Mesh")) {
     const std::string file = r.xml.word(mesh, "mesh_file");
     if (!file.empty() && r.xml.flag(mesh.child("Appearance"), "visible", true))
-      uses.push_back(
-          {file, frame.body, frame.X_BF, r.xml.vec3(mesh, "scale_factors", Vec3::Ones())});
+      uses.push_back({file, frame.body, frame.X_BF, r.xml.vec3(mesh, "scale_factors", Vec3::Ones())});
   }
 }
 
-/// Adds <VisibleObject> of a body in documents before 30500; its scale multiplies the scale of each
-/// part.
-void add_visible(const OsimReading& r,
-                 pugi::xml_node body,
-                 model::BodyIndex index,
-                 std::vector<MeshUse>& uses) {
+/// Adds <VisibleObject> of a body in documents before 30500; its scale multiplies the scale of each part.
+void add_visible(const OsimReading& r, pugi::xml_node body, model::BodyIndex index, std::vector<MeshUse>& uses) {
   const auto visible = body.child("VisibleObject");
   if (!visible) return;
   const auto placed = [&](pugi::xml_node node) {
@@ -56,13 +48,10 @@ void add_visible(const OsimReading& r,
     uses.push_back({file, index, pose * placed(part), scale.cwiseProduct(own)});
   }
   // Before 20000 there was only the list of names.
-  for (const std::string& file : r.xml.words(visible, "geometry_files"))
-    uses.push_back({file, index, pose, scale});
+  for (const std::string& file : r.xml.words(visible, "geometry_files")) uses.push_back({file, index, pose, scale});
 }
 
-std::optional<fs::path> find_file(const std::string& file,
-                                  const fs::path& model_folder,
-                                  const MeshOptions& options) {
+std::optional<fs::path> find_file(const std::string& file, const fs::path& model_folder, const MeshOptions& options) {
   std::vector<fs::path> places{model_folder, model_folder / "Geometry"};
   places.insert(places.end(), options.folders.begin(), options.folders.end());
   std::error_code ignored;
@@ -92,12 +81,10 @@ void simplify(const MeshOptions& options, LoadedMeshes& loaded) {
   if (before <= most) return;
   for (double cell_m = 0.001; cell_m < 1.0; cell_m *= 1.4) {
     std::vector<BodyMesh> coarse;
-    for (const BodyMesh& m : loaded.meshes)
-      coarse.push_back({m.body, recording::simplified(m.mesh, cell_m)});
+    for (const BodyMesh& m : loaded.meshes) coarse.push_back({m.body, recording::simplified(m.mesh, cell_m)});
     if (triangles_of(coarse) > most) continue;
-    loaded.notes.push_back(
-        fmt::format("The meshes are shown with {} of {} triangles, details of {:.1f} mm left out.",
-                    triangles_of(coarse), before, 1e3 * cell_m));
+    loaded.notes.push_back(fmt::format("The meshes are shown with {} of {} triangles, details of {:.1f} mm left out.",
+                                       triangles_of(coarse), before, 1e3 * cell_m));
     loaded.meshes = std::move(coarse);
     return;
   }
@@ -135,8 +122,7 @@ void add_meshes(const LoadedMeshes& loaded, report::ScenePage& page) {
   for (const BodyMesh& m : loaded.meshes) {
     const auto number = static_cast<int>(page.meshes.size());
     page.meshes.push_back({m.mesh.vertices, m.mesh.triangles});
-    for (report::Scene& scene : page.scenes)
-      scene.bodies[static_cast<std::size_t>(m.body)].meshes.push_back(number);
+    for (report::Scene& scene : page.scenes) scene.bodies[static_cast<std::size_t>(m.body)].meshes.push_back(number);
   }
   for (report::Scene& scene : page.scenes)
     scene.notes.insert(scene.notes.end(), loaded.notes.begin(), loaded.notes.end());
@@ -158,8 +144,7 @@ LoadedMeshes load_meshes(std::string_view osim, const fs::path& path, const Mesh
     }
   }
   if (!missing.empty() && (!loaded.meshes.empty() || !options.folders.empty())) {
-    loaded.notes.push_back(
-        fmt::format("{} mesh files are not there: {}.", missing.size(), fmt::join(missing, ", ")));
+    loaded.notes.push_back(fmt::format("{} mesh files are not there: {}.", missing.size(), fmt::join(missing, ", ")));
   }
   simplify(options, loaded);
   return loaded;

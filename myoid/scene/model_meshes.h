@@ -21,8 +21,7 @@ struct MeshUse {
 
 /// Returns the meshes that a model file attaches to its bodies and to frames fixed on them (Mesh of
 /// documents since 30500, DisplayGeometry before). Throws ReadError if the text is no model.
-[[nodiscard]] std::vector<MeshUse> list_meshes(std::string_view osim,
-                                               const std::filesystem::path& path);
+[[nodiscard]] std::vector<MeshUse> list_meshes(std::string_view osim, const std::filesystem::path& path);
 
 /// A body's surface, in the body [m].
 struct BodyMesh {

@@ -39,9 +39,7 @@ const std::string kOldModel = R"(<OpenSimDocument Version="20303"><Model name="m
 </objects></GeometrySet><scale_factors>3 1 1</scale_factors><transform>0 0 0 0 0 1</transform></VisibleObject>
 </Body></objects></BodySet></Model></OpenSimDocument>)";
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-}
+void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
 TEST(ModelMeshes, OfBodiesAndFramesAreListedWithPlaceAndScale) {
   const std::vector<MeshUse> uses = list_meshes(kModel, "m.osim");
@@ -94,13 +92,12 @@ TEST(ModelMeshes, OfMoreTrianglesThanAskedForAreSimplified) {
   const test::TemporaryFolder folder;
   std::string text;  // a square meter in steps of 20 mm
   for (int i = 0; i <= 50; ++i)
-    for (int k = 0; k <= 50; ++k)
-      text += "v " + std::to_string(0.02 * i) + ' ' + std::to_string(0.02 * k) + " 0\n";
+    for (int k = 0; k <= 50; ++k) text += "v " + std::to_string(0.02 * i) + ' ' + std::to_string(0.02 * k) + " 0\n";
   for (int i = 0; i < 50; ++i) {
     for (int k = 0; k < 50; ++k) {
       const int at = 51 * i + k + 1;
-      text += "f " + std::to_string(at) + ' ' + std::to_string(at + 51) + ' ' +
-              std::to_string(at + 52) + ' ' + std::to_string(at + 1) + '\n';
+      text += "f " + std::to_string(at) + ' ' + std::to_string(at + 51) + ' ' + std::to_string(at + 52) + ' ' +
+              std::to_string(at + 1) + '\n';
     }
   }
   write(folder / "plate.obj", text);
@@ -114,8 +111,7 @@ TEST(ModelMeshes, OfMoreTrianglesThanAskedForAreSimplified) {
 TEST(ModelMeshes, OfPublicModelsAreAllListed) {
   const auto folder = test::data_folder() / "opensim";
   MYOID_REQUIRE_DATA(folder);
-  for (const auto& [name, least] :
-       {std::pair{"rajagopal2016", 50U}, {"gait2392_v20302", 20U}, {"arm26_v20303", 20U}}) {
+  for (const auto& [name, least] : {std::pair{"rajagopal2016", 50U}, {"gait2392_v20302", 20U}, {"arm26_v20303", 20U}}) {
     const auto file = folder / name / "model.osim";
     const std::string text = recording::read_text_file(file);
     EXPECT_GE(list_meshes(text, file).size(), least) << name;

@@ -24,8 +24,7 @@ namespace {
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns rows of the clock that are at least 1 / rate apart, at most `most_frames`.
-std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s,
-                                        const SceneOptions& options) {
+std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s, const SceneOptions& options) {
   const Eigen::Index count = time_s.size();
   const double duration = time_s[count - 1] - time_s[0];
   double step = 1.0 / options.most_frames_per_s;
@@ -58,25 +57,20 @@ std::optional<Between> find_time(const Eigen::VectorXd& clock_s, double time_s) 
 }
 
 report::SurfaceKind kind_of(const model::WrapObject& object) {
-  if (std::holds_alternative<model::CylinderShape>(object.shape))
-    return report::SurfaceKind::cylinder;
+  if (std::holds_alternative<model::CylinderShape>(object.shape)) return report::SurfaceKind::cylinder;
   if (std::holds_alternative<model::TorusShape>(object.shape)) return report::SurfaceKind::torus;
   return report::SurfaceKind::ellipsoid;
 }
 
 Vec3 size_of(const model::WrapObject& object) {
-  if (const auto* c = std::get_if<model::CylinderShape>(&object.shape))
-    return {c->radius_m, c->radius_m, c->length_m};
-  if (const auto* t = std::get_if<model::TorusShape>(&object.shape))
-    return {t->inner_radius_m, t->outer_radius_m, 0.0};
-  if (const auto* s = std::get_if<model::SphereShape>(&object.shape))
-    return Vec3::Constant(s->radius_m);
+  if (const auto* c = std::get_if<model::CylinderShape>(&object.shape)) return {c->radius_m, c->radius_m, c->length_m};
+  if (const auto* t = std::get_if<model::TorusShape>(&object.shape)) return {t->inner_radius_m, t->outer_radius_m, 0.0};
+  if (const auto* s = std::get_if<model::SphereShape>(&object.shape)) return Vec3::Constant(s->radius_m);
   return std::get<model::EllipsoidShape>(object.shape).radii_m;
 }
 
 bool is_fixed(const model::MusclePath& path) {
-  return path.wraps.empty() &&
-         std::none_of(path.points.begin(), path.points.end(), [](const model::PathPoint& p) {
+  return path.wraps.empty() && std::none_of(path.points.begin(), path.points.end(), [](const model::PathPoint& p) {
            return p.condition.has_value() || p.moving.has_value();
          });
 }
@@ -100,15 +94,13 @@ report::Scene still_scene(const model::BodyModel& model) {
     } else {
       scene.moving_muscles.push_back(static_cast<int>(m));
     }
-    for (const model::PathWrap& wrap : muscle.path.wraps)
-      is_used[static_cast<std::size_t>(wrap.wrap_object)] = true;
+    for (const model::PathWrap& wrap : muscle.path.wraps) is_used[static_cast<std::size_t>(wrap.wrap_object)] = true;
     scene.muscles.push_back(std::move(line));
   }
   for (std::size_t w = 0; w < model.wrap_objects.size(); ++w) {
     const model::WrapObject& object = model.wrap_objects[w];
     if (is_used[w] && object.active)
-      scene.surfaces.push_back(
-          {object.name, object.body, object.X_BW, kind_of(object), size_of(object)});
+      scene.surfaces.push_back({object.name, object.body, object.X_BW, kind_of(object), size_of(object)});
   }
   for (const model::Coordinate& c : model.coordinates) {
     scene.coordinates.push_back({c.name, c.motion == model::MotionType::rotational      ? "deg"
@@ -152,14 +144,12 @@ bool belongs_to(std::string_view column, std::string_view muscle, std::string_vi
   const auto without_suffix = [&](std::string_view text) {
     for (const char mark : {'/', '.', '|'}) {
       const std::string suffix = std::string(1, mark) + std::string(quantity);
-      if (text.size() > suffix.size() && text.ends_with(suffix))
-        return text.substr(0, text.size() - suffix.size());
+      if (text.size() > suffix.size() && text.ends_with(suffix)) return text.substr(0, text.size() - suffix.size());
     }
     return text;
   };
   std::string_view name = without_suffix(column);
-  if (const std::size_t slash = name.rfind('/'); slash != std::string_view::npos)
-    name.remove_prefix(slash + 1);
+  if (const std::size_t slash = name.rfind('/'); slash != std::string_view::npos) name.remove_prefix(slash + 1);
   return name == muscle;
 }
 
@@ -169,9 +159,7 @@ double rounded_up(double value) {
   return unit * std::ceil(value / unit - 1e-9);
 }
 
-void add_coloring(const model::BodyModel& model,
-                  const MuscleColoring& coloring,
-                  report::Scene& scene) {
+void add_coloring(const model::BodyModel& model, const MuscleColoring& coloring, report::Scene& scene) {
   const auto muscles = static_cast<Eigen::Index>(model.muscles.size());
   Eigen::MatrixXd values = Eigen::MatrixXd::Constant(scene.time_s.size(), muscles, kMissing);
   std::vector<std::string> without;
@@ -195,20 +183,18 @@ void add_coloring(const model::BodyModel& model,
     }
   }
   if (without.size() == model.muscles.size()) {
-    throw InvalidInput(fmt::format(
-        "no column of the {} file is a muscle of the model; its columns "
-        "begin with '{}', the muscles with '{}'",
-        coloring.name,
-        coloring.series.channels().empty() ? "" : coloring.series.channels().front().name,
-        without.empty() ? "" : without.front()));
+    throw InvalidInput(
+        fmt::format("no column of the {} file is a muscle of the model; its columns "
+                    "begin with '{}', the muscles with '{}'",
+                    coloring.name, coloring.series.channels().empty() ? "" : coloring.series.channels().front().name,
+                    without.empty() ? "" : without.front()));
   }
   if (!without.empty()) {
     constexpr std::size_t kNamed = 6;
     const std::size_t named = std::min(kNamed, without.size());
     const std::span<const std::string> first(without.data(), named);
-    scene.notes.push_back(fmt::format("No {} is given for {} of {} muscles: {}{}.", coloring.name,
-                                      without.size(), muscles, fmt::join(first, ", "),
-                                      without.size() > named ? ", ..." : ""));
+    scene.notes.push_back(fmt::format("No {} is given for {} of {} muscles: {}{}.", coloring.name, without.size(),
+                                      muscles, fmt::join(first, ", "), without.size() > named ? ", ..." : ""));
   }
   double top = coloring.unit.empty() ? 1.0 : 0.0;
   bool any = false;
@@ -216,10 +202,8 @@ void add_coloring(const model::BodyModel& model,
     any = any || std::isfinite(v);
     if (std::isfinite(v) && !coloring.unit.empty()) top = std::max(top, v);
   }
-  if (!any)
-    scene.notes.push_back(fmt::format("The {} file has no samples at these times.", coloring.name));
-  scene.values.push_back(
-      {coloring.name, coloring.unit, top > 0.0 ? rounded_up(top) : 1.0, std::move(values)});
+  if (!any) scene.notes.push_back(fmt::format("The {} file has no samples at these times.", coloring.name));
+  scene.values.push_back({coloring.name, coloring.unit, top > 0.0 ? rounded_up(top) : 1.0, std::move(values)});
 }
 
 void add_measured(const recording::MarkerSeries& markers, report::Scene& scene) {
@@ -242,15 +226,12 @@ void add_measured(const recording::MarkerSeries& markers, report::Scene& scene) 
                     "the model: no error is drawn for them.",
                     markers.marker_count() - count, markers.marker_count()));
   }
-  if (!scene.measured_m.array().isFinite().any())
-    scene.notes.emplace_back("No marker was measured at these times.");
+  if (!scene.measured_m.array().isFinite().any()) scene.notes.emplace_back("No marker was measured at these times.");
 }
 
 }  // namespace
 
-report::Scene model_scene(const model::BodyModel& model,
-                          const SceneInput& input,
-                          const SceneOptions& options) {
+report::Scene model_scene(const model::BodyModel& model, const SceneInput& input, const SceneOptions& options) {
   report::Scene scene = still_scene(model);
   scene.name = input.name;
   Eigen::MatrixXd q = model.default_q().transpose();
@@ -265,10 +246,8 @@ report::Scene model_scene(const model::BodyModel& model,
     scene.time_s = input.q.time_s()(rows);
     if (static_cast<Eigen::Index>(rows.size()) < input.q.sample_count()) {
       scene.notes.push_back(
-          fmt::format("{} of {} samples are shown, {:.3g} of {:.3g} per second.", rows.size(),
-                      input.q.sample_count(),
-                      static_cast<double>(rows.size() - 1) /
-                          (scene.time_s[scene.time_s.size() - 1] - scene.time_s[0]),
+          fmt::format("{} of {} samples are shown, {:.3g} of {:.3g} per second.", rows.size(), input.q.sample_count(),
+                      static_cast<double>(rows.size() - 1) / (scene.time_s[scene.time_s.size() - 1] - scene.time_s[0]),
                       input.q.mean_rate_hz()));
     }
   }

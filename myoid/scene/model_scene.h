@@ -30,15 +30,13 @@ struct SceneOptions {
   int most_frames = 1500;
 };
 
-/// Returns the model along a motion, ready to be drawn. Frames beyond the options' number are left
-/// out, with a note.
+/// Returns the model along a motion, ready to be drawn. Frames beyond the options' number are left out, with a note.
 ///
-/// Bones are sticks from each body's own joint to the joints of its children (where these are in
-/// the default posture), and of a body without children to its mass center, or on to the farthest
-/// marker or muscle point in that direction. Muscles without wrap objects, moving or conditional
-/// points are given by their points; the others by a line per frame (model/path_polyline.h).
-/// Colorings and measured markers are taken at the frames' times, linearly between samples, never
-/// beyond them or across a missing sample. Throws InvalidInput if q has other channels.
+/// Bones are sticks from each body's own joint to the joints of its children (where these are in the default posture),
+/// and of a body without children to its mass center, or on to the farthest marker or muscle point in that direction.
+/// Muscles without wrap objects, moving or conditional points are given by their points; the others by a line per frame
+/// (model/path_polyline.h). Colorings and measured markers are taken at the frames' times, linearly between samples,
+/// never beyond them or across a missing sample. Throws InvalidInput if q has other channels.
 [[nodiscard]] report::Scene model_scene(const model::BodyModel& model,
                                         const SceneInput& input,
                                         const SceneOptions& options = {});

@@ -27,10 +27,8 @@ TimeSeries swing(const model::BodyModel& m, Eigen::Index count, double rate_hz) 
   for (const model::Coordinate& c : m.coordinates) channels.push_back({c.name, Unit::radian});
   Eigen::MatrixXd q(count, static_cast<Eigen::Index>(channels.size()));
   for (Eigen::Index i = 0; i < count; ++i)
-    q.row(i) =
-        m.default_q().transpose().array() + 0.4 * std::sin(3.0 * static_cast<double>(i) / rate_hz);
-  return {Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1) / rate_hz),
-          channels, q};
+    q.row(i) = m.default_q().transpose().array() + 0.4 * std::sin(3.0 * static_cast<double>(i) / rate_hz);
+  return {Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1) / rate_hz), channels, q};
 }
 
 double length_of(const std::vector<Vec3>& line) {
@@ -104,8 +102,7 @@ TEST(ModelScene, LeavesFramesOutEvenlyAndSaysSo) {
   for (Eigen::Index f = 1; f < at_50.time_s.size(); ++f)
     EXPECT_NEAR(at_50.time_s[f] - at_50.time_s[f - 1], 0.02, 1e-12);
   EXPECT_THAT(at_50.notes, Contains(HasSubstr("101 of 401 samples are shown")));
-  const report::Scene few =
-      model_scene(m, {.name = "long", .q = swing(m, 401, 200.0)}, {.most_frames = 11});
+  const report::Scene few = model_scene(m, {.name = "long", .q = swing(m, 401, 200.0)}, {.most_frames = 11});
   EXPECT_EQ(few.time_s.size(), 11);
   EXPECT_DOUBLE_EQ(few.time_s[10], 2.0);
   EXPECT_EQ(model_scene(m, {.name = "slow", .q = swing(m, 50, 25.0)}).time_s.size(), 50);
@@ -116,12 +113,10 @@ TEST(ModelScene, TakesColorsByNameAtTheFramesTimesAndNotBeyond) {
   const TimeSeries q = swing(m, 5, 10.0);  // 0 .. 0.4 s
   Eigen::MatrixXd values(3, 3);
   values << 0.0, 1.0, 2.0, 10.0, 11.0, 12.0, 20.0, 21.0, 1234.0;
-  const TimeSeries forces(
-      Eigen::Vector3d(0.1, 0.2, 0.3),
-      {{"BIC", Unit::newton}, {"/forceset/TRI/force", Unit::newton}, {"other", Unit::newton}},
-      values);
-  const report::Scene scene =
-      model_scene(m, {.name = "c", .q = q, .colorings = {{"force", "N", forces}}});
+  const TimeSeries forces(Eigen::Vector3d(0.1, 0.2, 0.3),
+                          {{"BIC", Unit::newton}, {"/forceset/TRI/force", Unit::newton}, {"other", Unit::newton}},
+                          values);
+  const report::Scene scene = model_scene(m, {.name = "c", .q = q, .colorings = {{"force", "N", forces}}});
   ASSERT_EQ(scene.values.size(), 1U);
   const Eigen::MatrixXd& v = scene.values[0].value;
   const auto column = [&](const char* name) { return m.muscle_index(name); };
@@ -135,11 +130,9 @@ TEST(ModelScene, TakesColorsByNameAtTheFramesTimesAndNotBeyond) {
 }
 
 TEST(ModelScene, RefusesColorsOfAnotherModel) {
-  const TimeSeries other(Eigen::Vector2d(0.0, 1.0), {{"soleus_r", Unit::newton}},
-                         Eigen::Vector2d(1.0, 2.0));
-  EXPECT_THROW(
-      (void)model_scene(test::built_in_arm(), {.name = "x", .colorings = {{"force", "N", other}}}),
-      InvalidInput);
+  const TimeSeries other(Eigen::Vector2d(0.0, 1.0), {{"soleus_r", Unit::newton}}, Eigen::Vector2d(1.0, 2.0));
+  EXPECT_THROW((void)model_scene(test::built_in_arm(), {.name = "x", .colorings = {{"force", "N", other}}}),
+               InvalidInput);
 }
 
 TEST(ModelScene, ShowsMeasuredMarkersWhereTheyWereSeen) {
@@ -149,8 +142,7 @@ TEST(ModelScene, ShowsMeasuredMarkersWhereTheyWereSeen) {
   markers.names = {m.markers[0].name, "unknown"};
   markers.positions_m.setConstant(3, 6, 0.5);
   markers.positions_m.block<1, 3>(1, 0).setConstant(std::nan(""));
-  const report::Scene scene =
-      model_scene(m, {.name = "m", .q = swing(m, 4, 10.0), .markers = &markers});
+  const report::Scene scene = model_scene(m, {.name = "m", .q = swing(m, 4, 10.0), .markers = &markers});
   EXPECT_NO_THROW(report::validate(scene));
   EXPECT_EQ(scene.measured_m(0, 0), 0.5);
   EXPECT_TRUE(std::isnan(scene.measured_m(1, 0)));

@@ -24,9 +24,8 @@ std::vector<double> carried_masses(const model::BodyModel& model) {
 }
 
 BodySticks to_children(const Vec3& own, std::vector<ChildJoint> children) {
-  std::stable_sort(children.begin(), children.end(), [](const ChildJoint& a, const ChildJoint& b) {
-    return a.carried_kg > b.carried_kg;
-  });
+  std::stable_sort(children.begin(), children.end(),
+                   [](const ChildJoint& a, const ChildJoint& b) { return a.carried_kg > b.carried_kg; });
   BodySticks sticks;
   const auto add = [&](const Vec3& from, const Vec3& to) {
     if (from != to) sticks.push_back({from, to});
@@ -34,9 +33,9 @@ BodySticks to_children(const Vec3& own, std::vector<ChildJoint> children) {
   std::vector<Vec3> ends;
   for (std::size_t i = 0; i < children.size(); ++i) {
     const Vec3& here = children[i].p_B;
-    const auto sibling = std::find_if(
-        children.begin(), children.begin() + static_cast<std::ptrdiff_t>(i),
-        [&](const ChildJoint& s) { return 3.0 * (here - s.p_B).norm() < (here - own).norm(); });
+    const auto sibling =
+        std::find_if(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const ChildJoint& s) { return 3.0 * (here - s.p_B).norm() < (here - own).norm(); });
     if (sibling != children.begin() + static_cast<std::ptrdiff_t>(i)) {
       add(sibling->p_B, here);
     } else {
@@ -74,8 +73,7 @@ BodySticks to_the_tip(const model::BodyModel& model, int body, const Vec3& own) 
   double reach = along.norm();
   if (!(reach > 0.0)) return {};
   const Vec3 direction = along / reach;
-  for (const Vec3& p : attached_points(model, body))
-    reach = std::max(reach, direction.dot(p - own));
+  for (const Vec3& p : attached_points(model, body)) reach = std::max(reach, direction.dot(p - own));
   return {{own, own + reach * direction}};
 }
 
@@ -89,8 +87,7 @@ std::vector<BodySticks> body_sticks(const model::BodyModel& model) {
   std::vector<Vec3> own(model.bodies.size(), Vec3::Zero());
   for (const model::Joint& joint : model.joints) {
     const Vec3 p_G = state.X_GB[at(joint.child)] * joint.X_BM.p;
-    children[at(joint.parent)].push_back(
-        {state.X_GB[at(joint.parent)].inverse() * p_G, carried_kg[at(joint.child)]});
+    children[at(joint.parent)].push_back({state.X_GB[at(joint.parent)].inverse() * p_G, carried_kg[at(joint.child)]});
     own[at(joint.child)] = joint.X_BM.p;
   }
   std::vector<BodySticks> sticks(model.bodies.size());

@@ -26,12 +26,10 @@ ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s) {
   return gaps;
 }
 
-std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                          double longest_gap_s) {
+std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s) {
   std::vector<ClockStretch> stretches;
   for (Eigen::Index i = 0; i < time_s.size(); ++i) {
-    if (i == 0 || time_s[i] - time_s[i - 1] > longest_gap_s)
-      stretches.push_back({time_s[i], time_s[i]});
+    if (i == 0 || time_s[i] - time_s[i - 1] > longest_gap_s) stretches.push_back({time_s[i], time_s[i]});
     stretches.back().end_s = time_s[i];
   }
   return stretches;
@@ -39,10 +37,9 @@ std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd
 
 std::string ClockGaps::text() const {
   if (count == 0) return "no gap";
-  if (count == 1)
-    return fmt::format("a gap from {:.6g} to {:.6g} s", longest_begin_s, longest_end_s);
-  return fmt::format("{} gaps, {:.3g} s in all, the longest from {:.6g} to {:.6g} s", count,
-                     total_s, longest_begin_s, longest_end_s);
+  if (count == 1) return fmt::format("a gap from {:.6g} to {:.6g} s", longest_begin_s, longest_end_s);
+  return fmt::format("{} gaps, {:.3g} s in all, the longest from {:.6g} to {:.6g} s", count, total_s, longest_begin_s,
+                     longest_end_s);
 }
 
 }  // namespace myoid::signals

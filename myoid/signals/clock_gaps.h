@@ -27,10 +27,9 @@ struct ClockStretch {
   double end_s = 0.0;
 };
 
-/// Returns the parts between pauses longer than `longest_gap_s`, in order; one if there is no such
-/// pause.
-[[nodiscard]] std::vector<ClockStretch> clock_stretches(
-    const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s);
+/// Returns the parts between pauses longer than `longest_gap_s`, in order; one if there is no such pause.
+[[nodiscard]] std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                                        double longest_gap_s);
 
 /// Finds the gaps of an increasing clock. A clock of fewer than three samples has none.
 [[nodiscard]] ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s);

@@ -16,8 +16,7 @@ TEST(ClockMap, ShiftsByTheOffsetAtThePivotAndByTheDriftBeyond) {
 
 TEST(ClockMap, GoesBack) {
   const ClockMap clock{.offset_s = -0.25, .drift_ppm = -3000.0, .pivot_s = 4.0};
-  for (const double t : {-3.0, 0.0, 17.5})
-    EXPECT_NEAR(clock.file_time_s(clock.study_time_s(t)), t, 1e-14 * 20.0);
+  for (const double t : {-3.0, 0.0, 17.5}) EXPECT_NEAR(clock.file_time_s(clock.study_time_s(t)), t, 1e-14 * 20.0);
 }
 
 TEST(ClockMap, OnTheStudysClockNoSampleChanges) {
@@ -32,10 +31,8 @@ TEST(ClockMap, OnTheStudysClockNoSampleChanges) {
 
 TEST(ClockMap, IsToldWithItsUncertainty) {
   EXPECT_EQ(to_string(ClockMap{.offset_s = 0.0123}), "+12.3 ms");
-  EXPECT_EQ(
-      to_string(ClockMap{
-          .offset_s = -0.0123, .drift_ppm = 48.2, .offset_sd_s = 0.0006, .drift_sd_ppm = 3.0}),
-      "-12.3 ± 0.6 ms, 48 ± 3 ppm");
+  EXPECT_EQ(to_string(ClockMap{.offset_s = -0.0123, .drift_ppm = 48.2, .offset_sd_s = 0.0006, .drift_sd_ppm = 3.0}),
+            "-12.3 ± 0.6 ms, 48 ± 3 ppm");
   EXPECT_EQ(to_string(ClockMap{.offset_s = -0.1438, .offset_sd_s = 0.2994}), "-143.8 ± 299 ms");
 }
 

@@ -33,8 +33,7 @@ constexpr int kMostRows = 1 + kMostEmg + 2 * kMostMotion;
 constexpr double kLeastSpeed_hz = 0.5;
 constexpr double kLeastMotion = 0.03;  ///< Standard deviation [rad or m]; less is no movement.
 
-/// Returns the first `most` principal components of the columns. `standardized`: every column has
-/// the same weight.
+/// Returns the first `most` principal components of the columns. `standardized`: every column has the same weight.
 Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardized) {
   x = (x.rowwise() - x.colwise().mean()).eval();
   if (standardized) {
@@ -58,8 +57,7 @@ Eigen::MatrixXd principal(Eigen::MatrixXd x, Eigen::Index most, bool standardize
 
 /// Returns position and acceleration of the motion's largest components.
 Eigen::MatrixXd demand(const Eigen::MatrixXd& motion) {
-  const auto sections =
-      math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
+  const auto sections = math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
   const Eigen::MatrixXd position = principal(motion, kMostMotion, false);
   Eigen::MatrixXd result(motion.rows(), 2 * position.cols());
   for (Eigen::Index c = 0; c < position.cols(); ++c) {
@@ -79,8 +77,7 @@ std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
   const Eigen::MatrixXd centered = motion.rowwise() - motion.colwise().mean();
   const auto n = static_cast<double>(motion.rows());
   if (std::sqrt(centered.squaredNorm() / n) < kLeastMotion) return std::nullopt;
-  const auto sections =
-      math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
+  const auto sections = math::design_butterworth(math::FilterBand::low_pass, 2, kMotionBelow_hz, kRate_hz);
   const Eigen::MatrixXd position = principal(motion, 1, false);
   if (position.cols() == 0) return std::nullopt;
   const Eigen::VectorXd q = math::zero_phase(sections, position.col(0));
@@ -92,8 +89,7 @@ std::optional<double> quickness_hz(const Eigen::MatrixXd& motion) {
 /// Sums of products of [1, x(t - d), y(t)] over one block.
 using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
-/// Returns the sums by lag -reach..reach and by block of the `usable` samples after the first
-/// `reach`.
+/// Returns the sums by lag -reach..reach and by block of the `usable` samples after the first `reach`.
 std::vector<std::vector<Moments>> moments_by_lag(const Eigen::MatrixXd& x,
                                                  const Eigen::MatrixXd& y,
                                                  Eigen::Index reach,
@@ -120,10 +116,8 @@ std::vector<std::vector<Moments>> moments_by_lag(const Eigen::MatrixXd& x,
     for (int k = 0; k < kBlocks; ++k) {
       const Eigen::Index first = first_of(k), count = first_of(k + 1) - first;
       Moments& m = blocks[static_cast<std::size_t>(k)];
-      m.topLeftCorner(nx, nx) =
-          (running.col(first - lag + count) - running.col(first - lag)).reshaped(nx, nx);
-      m.block(1, nx, nx - 1, ny) =
-          x.middleRows(first - lag, count).transpose() * y.middleRows(first, count);
+      m.topLeftCorner(nx, nx) = (running.col(first - lag + count) - running.col(first - lag)).reshaped(nx, nx);
+      m.block(1, nx, nx - 1, ny) = x.middleRows(first - lag, count).transpose() * y.middleRows(first, count);
       m.bottomLeftCorner(ny, nx) = m.topRightCorner(nx, ny).transpose();
     }
   }
@@ -189,10 +183,9 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
   if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
   if (envelopes.channel_count() == 0 || motion.channel_count() == 0) return std::nullopt;
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
-                                motion.time_s()[motion.sample_count() - 1]);
-  if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz)
-    return std::nullopt;
+  const double end_s =
+      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
+  if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz) return std::nullopt;
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
   const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), kMostEmg, true);
   const Eigen::MatrixXd path = resample(motion, clock).values();
@@ -242,49 +235,44 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
   const std::optional<ClockOffset> offset = estimate_clock_offset(envelopes, motion);
   if (!offset) return faults;
   const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s = std::min(envelopes.time_s()[envelopes.sample_count() - 1],
-                                motion.time_s()[motion.sample_count() - 1]);
+  const double end_s =
+      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
-  const bool grave = offset->lead_s - unsure_s > limits.latest_offset_s ||
-                     offset->lead_s + unsure_s < limits.earliest_offset_s;
+  const bool grave =
+      offset->lead_s - unsure_s > limits.latest_offset_s || offset->lead_s + unsure_s < limits.earliest_offset_s;
   // An offset as uncertain as the expected range says nothing.
   const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
   if (grave || tells)
-    faults.push_back(
-        {.code = RemarkCode::clock_offset,
-         .severity = grave ? Severity::warning : Severity::note,
-         .about = "EMG and motion",
-         .when = Stretch{begin_s, end_s},
-         .value = offset->lead_s,
-         .says = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
-                             1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
-                             offset->lead_s < 0.0 ? "behind" : "ahead of"),
-         .remedy =
-             grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
-                                 "started together? Shift the clock of one of them",
-                                 1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
-                   : ""});
+    faults.push_back({.code = RemarkCode::clock_offset,
+                      .severity = grave ? Severity::warning : Severity::note,
+                      .about = "EMG and motion",
+                      .when = Stretch{begin_s, end_s},
+                      .value = offset->lead_s,
+                      .says = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
+                                          1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
+                                          offset->lead_s < 0.0 ? "behind" : "ahead of"),
+                      .remedy = grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
+                                                    "started together? Shift the clock of one of them",
+                                                    1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
+                                      : ""});
   constexpr double kLongEnough_s = 30.0;
   if (end_s - begin_s < kLongEnough_s) return faults;
-  const auto first =
-      estimate_clock_offset(third(envelopes, 0, begin_s, end_s), third(motion, 0, begin_s, end_s));
-  const auto last =
-      estimate_clock_offset(third(envelopes, 2, begin_s, end_s), third(motion, 2, begin_s, end_s));
+  const auto first = estimate_clock_offset(third(envelopes, 0, begin_s, end_s), third(motion, 0, begin_s, end_s));
+  const auto last = estimate_clock_offset(third(envelopes, 2, begin_s, end_s), third(motion, 2, begin_s, end_s));
   if (!first || !last) return faults;
   const double drift_s = last->lead_s - first->lead_s;
   const double sd_s = std::hypot(first->scatter_s, last->scatter_s);
   if (std::abs(drift_s) < limits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
-  faults.push_back(
-      {.code = RemarkCode::clock_drift,
-       .severity = Severity::warning,
-       .about = "EMG and motion",
-       .when = Stretch{begin_s, end_s},
-       .value = drift_s,
-       .says = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
-                           "first third to the last",
-                           1000.0 * drift_s, 1000.0 * sd_s),
-       .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
-                 "cut the trial into shorter ones"});
+  faults.push_back({.code = RemarkCode::clock_drift,
+                    .severity = Severity::warning,
+                    .about = "EMG and motion",
+                    .when = Stretch{begin_s, end_s},
+                    .value = drift_s,
+                    .says = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
+                                        "first third to the last",
+                                        1000.0 * drift_s, 1000.0 * sd_s),
+                    .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
+                              "cut the trial into shorter ones"});
   return faults;
 }
 
@@ -302,8 +290,8 @@ std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorX
                 .about = what,
                 .when = Stretch{time_s[0], time_s[n - 1]},
                 .value = sd / mean,
-                .says = fmt::format("{}: the samples are not even, intervals of {:.3g} ± {:.2g} ms",
-                                    what, 1000.0 * mean, 1000.0 * sd),
+                .says = fmt::format("{}: the samples are not even, intervals of {:.3g} ± {:.2g} ms", what,
+                                    1000.0 * mean, 1000.0 * sd),
                 .remedy = "they are put on an even clock by interpolation"};
 }
 

@@ -14,9 +14,7 @@ namespace {
 struct Swing {
   std::uint64_t seed = 1;
   [[nodiscard]] double angle(double t) const { return sum(t, 0); }
-  [[nodiscard]] double torque(double t) const {
-    return 0.06 * sum(t, 2) + 2.0 * std::sin(angle(t));
-  }
+  [[nodiscard]] double torque(double t) const { return 0.06 * sum(t, 2) + 2.0 * std::sin(angle(t)); }
 
  private:
   [[nodiscard]] double sum(double t, int derivative) const {
@@ -26,8 +24,7 @@ struct Swing {
       const double w = 2.0 * kPi * (0.4 + 1.0 * random.uniform());
       const double phase = 2.0 * kPi * random.uniform();
       const double amplitude = 0.6 / (1.0 + 0.3 * w);
-      value += derivative == 0 ? amplitude * std::sin(w * t + phase)
-                               : -amplitude * w * w * std::sin(w * t + phase);
+      value += derivative == 0 ? amplitude * std::sin(w * t + phase) : -amplitude * w * w * std::sin(w * t + phase);
     }
     return value;
   }
@@ -74,8 +71,7 @@ TEST(ClockOffset, IsFoundWithinItsUncertainty) {
       EXPECT_LT(offset->phase_s, 0.25 / 0.4);
     }
   }
-  // Two standard deviations hold 95 % of 30; the fitted model (a linear mixture) only approximates
-  // the truth.
+  // Two standard deviations hold 95 % of 30; the fitted model (a linear mixture) only approximates the truth.
   EXPECT_LE(missed, 5);
   EXPECT_LE(silent, 3);
 }
@@ -98,8 +94,7 @@ TEST(ClockOffset, OfASlowOrATinyMovementNothingIsSaid) {
   const TimeSeries quick = motion(swing, 20.0);
   const TimeSeries slow(10.0 * quick.time_s(), quick.channels(), quick.values());
   const TimeSeries drive = effort(swing, 20.0, 0.05);
-  EXPECT_FALSE(estimate_clock_offset(
-      TimeSeries(10.0 * drive.time_s(), drive.channels(), drive.values()), slow));
+  EXPECT_FALSE(estimate_clock_offset(TimeSeries(10.0 * drive.time_s(), drive.channels(), drive.values()), slow));
   const TimeSeries tiny(quick.time_s(), quick.channels(), 0.01 * quick.values());
   EXPECT_FALSE(estimate_clock_offset(drive, tiny));
 }
@@ -118,8 +113,7 @@ TEST(ClockOffset, AClockThatRunsFastIsADrift) {
   const Swing swing{3};
   bool drift = false;
   // 0.4 % over 60 s: from the first third to the last 0.16 s.
-  for (const Remark& fault :
-       check_clock_offset(effort(swing, 60.0, 0.0, 1.004), motion(swing, 60.0))) {
+  for (const Remark& fault : check_clock_offset(effort(swing, 60.0, 0.0, 1.004), motion(swing, 60.0))) {
     if (fault.code != RemarkCode::clock_drift) continue;
     drift = true;
     EXPECT_NEAR(*fault.value, 0.16, 0.06);

@@ -22,10 +22,7 @@ struct Line {
   double rms_s = 0.0;
 };
 
-Line fit_line(const std::vector<double>& file_s,
-              const std::vector<double>& study_s,
-              double sd_s,
-              bool with_prior) {
+Line fit_line(const std::vector<double>& file_s, const std::vector<double>& study_s, double sd_s, bool with_prior) {
   const auto n = static_cast<double>(file_s.size());
   double mean_t = 0.0, mean_d = 0.0;
   for (std::size_t i = 0; i < file_s.size(); ++i) {
@@ -82,11 +79,8 @@ struct Shift {
 };
 
 /// Returns the lag in [low, high] at which y(i + lag) is most similar to x(i).
-Shift best_shift(const Eigen::VectorXd& x_raw,
-                 const Eigen::VectorXd& y,
-                 Eigen::Index first,
-                 Eigen::Index low,
-                 Eigen::Index high) {
+Shift best_shift(
+    const Eigen::VectorXd& x_raw, const Eigen::VectorXd& y, Eigen::Index first, Eigen::Index low, Eigen::Index high) {
   Shift best;
   const Eigen::VectorXd x = normalised(x_raw);
   if (x.size() == 0) return best;
@@ -106,8 +100,7 @@ Shift best_shift(const Eigen::VectorXd& x_raw,
   }
   for (std::size_t i = 1; i + 1 < values.size(); ++i) {
     if (i + 1 >= k && i <= k + 1) continue;
-    if (values[i] >= values[i - 1] && values[i] > values[i + 1])
-      best.second = std::max(best.second, values[i]);
+    if (values[i] >= values[i - 1] && values[i] > values[i + 1]) best.second = std::max(best.second, values[i]);
   }
   return best;
 }
@@ -126,8 +119,7 @@ Instants trigger_edges(const TimeSeries& series, const std::string& channel, boo
   bool armed = x[0] < lowest + 0.25 * height;
   for (Eigen::Index i = 1; i < x.size(); ++i) {
     if (armed && x[i] >= middle) {
-      // A ramp over several samples crosses where the straight line does; a step crosses in the
-      // middle.
+      // A ramp over several samples crosses where the straight line does; a step crosses in the middle.
       const double share = x[i] > x[i - 1] ? (middle - x[i - 1]) / (x[i] - x[i - 1]) : 1.0;
       const double t = series.time_s()[i - 1];
       edges.time_s.push_back(t + std::clamp(share, 0.0, 1.0) * (series.time_s()[i] - t));
@@ -147,10 +139,10 @@ ClockMap match_instants(const Instants& file, const Instants& study) {
   const std::size_t count = std::min(file.time_s.size(), study.time_s.size());
   const std::size_t ways = std::max(file.time_s.size(), study.time_s.size()) - count + 1;
   if (ways > 1 && count < 3) {
-    throw InvalidInput(fmt::format(
-        "{} instants in the one recording and {} in the other: too few to tell which belong "
-        "together; expected as many in both, or three or more in each",
-        file.time_s.size(), study.time_s.size()));
+    throw InvalidInput(
+        fmt::format("{} instants in the one recording and {} in the other: too few to tell which belong "
+                    "together; expected as many in both, or three or more in each",
+                    file.time_s.size(), study.time_s.size()));
   }
   std::optional<Line> best;
   int fits = 0;
@@ -161,17 +153,17 @@ ClockMap match_instants(const Instants& file, const Instants& study) {
     if (std::abs(line.clock.drift_ppm) > kMostDrift_ppm) continue;
     if (line.rms_s < least_rms_s) {
       least_rms_s = line.rms_s;
-      best = fit_line(part(file.time_s, file_longer ? way : 0, count),
-                      part(study.time_s, file_longer ? 0 : way, count), sd_s, true);
+      best = fit_line(part(file.time_s, file_longer ? way : 0, count), part(study.time_s, file_longer ? 0 : way, count),
+                      sd_s, true);
     }
     if (line.rms_s <= kMostSigmas * sd_s) ++fits;
   }
   if (!best || (fits == 0 && count > 2)) {
-    throw InvalidInput(fmt::format(
-        "the {} instants of the one recording and the {} of the other do not have the same "
-        "intervals{}; are they the same signal?",
-        file.time_s.size(), study.time_s.size(),
-        best ? fmt::format(" (off by {:.3g} ms rms)", 1e3 * least_rms_s) : ""));
+    throw InvalidInput(
+        fmt::format("the {} instants of the one recording and the {} of the other do not have the same "
+                    "intervals{}; are they the same signal?",
+                    file.time_s.size(), study.time_s.size(),
+                    best ? fmt::format(" (off by {:.3g} ms rms)", 1e3 * least_rms_s) : ""));
   }
   if (fits > 1)
     throw InvalidInput(
@@ -189,29 +181,26 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
   /// Share of the best correlation from which another shift counts as equally good.
   constexpr double kUnique = 0.97;
   const double begin_s = std::max(file.time_s()[0] - search_s, study.time_s()[0]);
-  const double end_s = std::min(file.time_s()[file.sample_count() - 1] + search_s,
-                                study.time_s()[study.sample_count() - 1]);
+  const double end_s =
+      std::min(file.time_s()[file.sample_count() - 1] + search_s, study.time_s()[study.sample_count() - 1]);
   if (!(end_s - begin_s >= kLeastCommon_s))
     throw InvalidInput(fmt::format("the recordings have less than {} s in common", kLeastCommon_s));
   const auto sampled = [](const TimeSeries& s, double from_s, double to_s, double rate_hz) {
     const auto n = static_cast<Eigen::Index>(std::floor((to_s - from_s) * rate_hz)) + 1;
-    const Eigen::VectorXd clock =
-        Eigen::VectorXd::LinSpaced(n, from_s, from_s + static_cast<double>(n - 1) / rate_hz);
+    const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(n, from_s, from_s + static_cast<double>(n - 1) / rate_hz);
     return Eigen::VectorXd(resample(s, clock).values().col(0));
   };
   // Every shift keeps this part of the file inside the study's recording.
   const auto keep = [&](double rate_hz, double lag_s, double reach_s) {
     const double from_s = std::max(file.time_s()[0], study.time_s()[0] - lag_s + reach_s);
-    const double to_s = std::min(file.time_s()[file.sample_count() - 1],
-                                 study.time_s()[study.sample_count() - 1] - lag_s - reach_s);
+    const double to_s =
+        std::min(file.time_s()[file.sample_count() - 1], study.time_s()[study.sample_count() - 1] - lag_s - reach_s);
     return std::pair(std::ceil(from_s * rate_hz) / rate_hz, to_s);
   };
-  const auto search = [&](double rate_hz, double from_s, double to_s, double lag_s,
-                          double reach_s) {
+  const auto search = [&](double rate_hz, double from_s, double to_s, double lag_s, double reach_s) {
     if (!(to_s - from_s > 0.5)) return Shift{};
     const Eigen::VectorXd x = sampled(file, from_s, to_s, rate_hz);
-    const Eigen::VectorXd y =
-        sampled(study, from_s + lag_s - reach_s, to_s + lag_s + reach_s, rate_hz);
+    const Eigen::VectorXd y = sampled(study, from_s + lag_s - reach_s, to_s + lag_s + reach_s, rate_hz);
     const auto reach = static_cast<Eigen::Index>(std::floor(reach_s * rate_hz));
     Shift shift = best_shift(x, y, reach, -reach, reach);
     // y begins at the study's from + lag - reach.
@@ -246,8 +235,7 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
     file_s.push_back(0.5 * (a + b));
     study_s.push_back(0.5 * (a + b) + fine.lag);
   }
-  if (file_s.size() < 3)
-    throw InvalidInput("the two signals are alike as a whole, but not in their parts");
+  if (file_s.size() < 3) throw InvalidInput("the two signals are alike as a whole, but not in their parts");
   const Line free = fit_line(file_s, study_s, 1.0, false);
   const auto n = static_cast<double>(file_s.size());
   // The residuals have n - 2 degrees of freedom; a tenth of a sample is the least.

@@ -20,9 +20,7 @@ struct Instants {
 /// Returns the times at which a channel rises (falls, with `falling`) through the middle of its
 /// range, after a visit to the quarter of the range where the edge starts. An edge lies anywhere
 /// between two samples: sd = interval / sqrt(12). Empty for a channel that does not change.
-[[nodiscard]] Instants trigger_edges(const TimeSeries& series,
-                                     const std::string& channel,
-                                     bool falling = false);
+[[nodiscard]] Instants trigger_edges(const TimeSeries& series, const std::string& channel, bool falling = false);
 
 /// Finds the file's clock from instants that both recordings hold: a straight line through their
 /// differences, with the drift's prior 0 ± kClockPrior_ppm. If one recording has more instants, the
@@ -30,14 +28,11 @@ struct Instants {
 /// none or several ways to pair them fit within 5 standard deviations, or if the drift exceeds 5 %.
 [[nodiscard]] ClockMap match_instants(const Instants& file, const Instants& study);
 
-/// Finds the file's clock from a signal that both recordings hold (one channel each, any units,
-/// equal sign). The shift with the largest correlation within `search_s` to either side is refined
-/// for four to sixteen parts of the recording, and a line as in `match_instants` goes through
-/// these. The standard deviations come from the scatter of the parts about the line. Throws
-/// InvalidInput if less than 4 s are common, the correlation is below 0.8, or another shift
+/// Finds the file's clock from a signal that both recordings hold (one channel each, any units, equal sign). The shift
+/// with the largest correlation within `search_s` to either side is refined for four to sixteen parts of the recording,
+/// and a line as in `match_instants` goes through these. The standard deviations come from the scatter of the parts
+/// about the line. Throws InvalidInput if less than 4 s are common, the correlation is below 0.8, or another shift
 /// correlates nearly as well.
-[[nodiscard]] ClockMap match_shape(const TimeSeries& file,
-                                   const TimeSeries& study,
-                                   double search_s);
+[[nodiscard]] ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double search_s);
 
 }  // namespace myoid::signals

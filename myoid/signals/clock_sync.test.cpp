@@ -12,11 +12,8 @@ namespace {
 
 /// A channel of pulses of 20 ms that begin at these times on the clock of the study, as an
 /// instrument with this clock and rate records it.
-TimeSeries pulses(const std::vector<double>& study_s,
-                  const ClockMap& clock,
-                  double rate_hz,
-                  double first_s,
-                  double last_s) {
+TimeSeries pulses(
+    const std::vector<double>& study_s, const ClockMap& clock, double rate_hz, double first_s, double last_s) {
   const auto n = static_cast<Eigen::Index>((last_s - first_s) * rate_hz) + 1;
   Eigen::VectorXd t(n), x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -71,8 +68,7 @@ TEST(TriggerEdges, DoNotCountTheNoiseOfAnEdgeTwice) {
 }
 
 TEST(TriggerEdges, OfAChannelThatNeverChangesThereAreNone) {
-  const TimeSeries s(Eigen::VectorXd::LinSpaced(9, 0.0, 8.0), {{"t", Unit::volt}},
-                     Eigen::VectorXd::Ones(9));
+  const TimeSeries s(Eigen::VectorXd::LinSpaced(9, 0.0, 8.0), {{"t", Unit::volt}}, Eigen::VectorXd::Ones(9));
   EXPECT_TRUE(trigger_edges(s, "t").time_s.empty());
 }
 
@@ -88,13 +84,11 @@ TEST(MatchInstants, FindOffsetAndDriftOfTwoClocksWithinTheirStatedErrors) {
     for (double t = 1.0 + uniform(); t < 59.0; t += 3.0 + 2.0 * uniform()) times.push_back(t);
     const TimeSeries file = pulses(times, truth, 2000.0, 0.0, 65.0);
     const TimeSeries study = pulses(times, {}, 1000.0, 0.0, 60.0);
-    const ClockMap found =
-        match_instants(trigger_edges(file, "sync"), trigger_edges(study, "sync"));
+    const ClockMap found = match_instants(trigger_edges(file, "sync"), trigger_edges(study, "sync"));
     ASSERT_TRUE(found.offset_sd_s && found.drift_sd_ppm);
     EXPECT_LT(*found.offset_sd_s, 2e-4);
     EXPECT_LT(*found.drift_sd_ppm, 8.0);
-    const double offset_error =
-        found.study_time_s(found.pivot_s) - truth.study_time_s(found.pivot_s);
+    const double offset_error = found.study_time_s(found.pivot_s) - truth.study_time_s(found.pivot_s);
     EXPECT_NEAR(found.drift_ppm, 50.0, 4.0 * *found.drift_sd_ppm);
     EXPECT_LT(std::abs(offset_error), 4.0 * *found.offset_sd_s);
     if (std::abs(offset_error) < 2.0 * *found.offset_sd_s &&
@@ -105,8 +99,7 @@ TEST(MatchInstants, FindOffsetAndDriftOfTwoClocksWithinTheirStatedErrors) {
 }
 
 TEST(MatchInstants, OneEdgeGivesTheOffsetAndLeavesTheDriftToWhatClocksAre) {
-  const ClockMap found =
-      match_instants({.time_s = {3.0}, .sd_s = 3e-4}, {.time_s = {1.2}, .sd_s = 4e-4});
+  const ClockMap found = match_instants({.time_s = {3.0}, .sd_s = 3e-4}, {.time_s = {1.2}, .sd_s = 4e-4});
   EXPECT_DOUBLE_EQ(found.study_time_s(3.0), 1.2);
   EXPECT_EQ(found.drift_ppm, 0.0);
   EXPECT_NEAR(*found.offset_sd_s, 5e-4, 1e-15);
@@ -115,8 +108,7 @@ TEST(MatchInstants, OneEdgeGivesTheOffsetAndLeavesTheDriftToWhatClocksAre) {
 
 TEST(MatchInstants, TwoEdgesCloseTogetherDoNotMakeADrift) {
   // 0.3 ms over 1 s would be 300 ppm, or 18 ms a minute later.
-  const ClockMap found =
-      match_instants({.time_s = {1.0, 2.0}, .sd_s = 3e-4}, {.time_s = {1.0, 2.0003}, .sd_s = 3e-4});
+  const ClockMap found = match_instants({.time_s = {1.0, 2.0}, .sd_s = 3e-4}, {.time_s = {1.0, 2.0003}, .sd_s = 3e-4});
   EXPECT_LT(std::abs(found.drift_ppm), 20.0);
   EXPECT_GT(*found.drift_sd_ppm, 90.0);
 }
@@ -124,11 +116,9 @@ TEST(MatchInstants, TwoEdgesCloseTogetherDoNotMakeADrift) {
 TEST(MatchInstants, EdgesThatOneRecordingMissedAreFoundByTheIntervals) {
   const std::vector<double> all{1.0, 2.3, 4.1, 4.9, 7.0, 9.6};
   const std::vector<double> some{2.3 - 0.8, 4.1 - 0.8, 4.9 - 0.8, 7.0 - 0.8};
-  const ClockMap found =
-      match_instants({.time_s = some, .sd_s = 1e-4}, {.time_s = all, .sd_s = 1e-4});
+  const ClockMap found = match_instants({.time_s = some, .sd_s = 1e-4}, {.time_s = all, .sd_s = 1e-4});
   EXPECT_NEAR(found.study_time_s(1.5), 2.3, 1e-9);
-  const ClockMap other =
-      match_instants({.time_s = all, .sd_s = 1e-4}, {.time_s = some, .sd_s = 1e-4});
+  const ClockMap other = match_instants({.time_s = all, .sd_s = 1e-4}, {.time_s = some, .sd_s = 1e-4});
   EXPECT_NEAR(other.study_time_s(2.3), 1.5, 1e-9);
 }
 
@@ -138,21 +128,18 @@ TEST(MatchInstants, RefuseWhatCannotBePaired) {
   EXPECT_THROW((void)match_instants({.time_s = {1.0, 2.5, 3.1}, .sd_s = 1e-4}, even), InvalidInput);
   EXPECT_THROW((void)match_instants({.time_s = {1.0}, .sd_s = 1e-4}, even), InvalidInput);
   EXPECT_THROW((void)match_instants({}, even), InvalidInput);
-  EXPECT_THROW((void)match_instants({.time_s = {1.0, 2.0}, .sd_s = 1e-4},
-                                    {.time_s = {1.0, 3.0}, .sd_s = 1e-4}),
+  EXPECT_THROW((void)match_instants({.time_s = {1.0, 2.0}, .sd_s = 1e-4}, {.time_s = {1.0, 3.0}, .sd_s = 1e-4}),
                InvalidInput);
 }
 
 TEST(MatchShape, FindsOffsetAndDriftOfACommonSignal) {
   for (const double offset : {-0.731, 0.0042, 0.95}) {
     const ClockMap truth{.offset_s = offset, .drift_ppm = 50.0};
-    const ClockMap found =
-        match_shape(wandering(truth, 2000.0, 0.0, 60.0), wandering({}, 100.0, 0.0, 60.0), 1.5);
+    const ClockMap found = match_shape(wandering(truth, 2000.0, 0.0, 60.0), wandering({}, 100.0, 0.0, 60.0), 1.5);
     ASSERT_TRUE(found.offset_sd_s && found.drift_sd_ppm);
     // Both recordings hold the signal exactly: the error is interpolation.
     EXPECT_LT(*found.offset_sd_s, 5e-4);
-    EXPECT_NEAR(found.study_time_s(found.pivot_s), truth.study_time_s(found.pivot_s),
-                4.0 * *found.offset_sd_s)
+    EXPECT_NEAR(found.study_time_s(found.pivot_s), truth.study_time_s(found.pivot_s), 4.0 * *found.offset_sd_s)
         << offset;
     EXPECT_NEAR(found.drift_ppm, 50.0, 4.0 * *found.drift_sd_ppm) << offset;
     EXPECT_LT(*found.drift_sd_ppm, 30.0);

@@ -17,8 +17,7 @@ constexpr const char* kTwoPasses =
 std::string lines_of(std::span<const EmgStages* const> trials) {
   std::map<std::string, std::set<double>> lines;
   for (const EmgStages* trial : trials) {
-    for (const Notch& notch : trial->notches)
-      lines[notch.channel].insert(notch.lines_hz.begin(), notch.lines_hz.end());
+    for (const Notch& notch : trial->notches) lines[notch.channel].insert(notch.lines_hz.begin(), notch.lines_hz.end());
   }
   std::string text;
   for (const auto& [channel, hz] : lines)
@@ -26,54 +25,48 @@ std::string lines_of(std::span<const EmgStages* const> trials) {
   return text;
 }
 
-void add_highpass(std::span<const EmgStages* const> trials,
-                  const EnvelopeOptions& options,
-                  EmgChain& chain) {
+void add_highpass(std::span<const EmgStages* const> trials, const EnvelopeOptions& options, EmgChain& chain) {
   chain.steps.emplace_back("mean of the trial removed");
   if (options.as_published) {
     chain.steps.emplace_back("no high-pass filter, no notch filter, as in the source paper");
     chain.methods.emplace_back("The mean was removed from the raw EMG.");
     return;
   }
-  chain.steps.push_back(fmt::format("high-pass filter {:g} Hz, -3 dB of both passes together; {}",
-                                    options.highpass_hz, kTwoPasses));
+  chain.steps.push_back(
+      fmt::format("high-pass filter {:g} Hz, -3 dB of both passes together; {}", options.highpass_hz, kTwoPasses));
   const std::string lines = lines_of(trials);
-  chain.steps.push_back(!options.notch ? "no notch filter: switched off"
-                        : lines.empty()
-                            ? "no notch filter: mains hum below a tenth of every channel's power"
-                            : fmt::format("notch filters against mains hum, 2nd order, 4 Hz wide, "
-                                          "forwards and backwards: {}",
-                                          lines));
-  chain.methods.push_back(fmt::format(
-      "Raw EMG was high-pass filtered (zero-lag fourth-order Butterworth filter, cut-off "
-      "frequency {:g} Hz){}.",
-      options.highpass_hz,
-      options.notch && !lines.empty()
-          ? fmt::format(" and notch filtered at the mains frequency and its harmonics ({})", lines)
-          : ""));
+  chain.steps.push_back(!options.notch  ? "no notch filter: switched off"
+                        : lines.empty() ? "no notch filter: mains hum below a tenth of every channel's power"
+                                        : fmt::format("notch filters against mains hum, 2nd order, 4 Hz wide, "
+                                                      "forwards and backwards: {}",
+                                                      lines));
+  chain.methods.push_back(
+      fmt::format("Raw EMG was high-pass filtered (zero-lag fourth-order Butterworth filter, cut-off "
+                  "frequency {:g} Hz){}.",
+                  options.highpass_hz,
+                  options.notch && !lines.empty()
+                      ? fmt::format(" and notch filtered at the mains frequency and its harmonics ({})", lines)
+                      : ""));
 }
 
-void add_rectification(const EnvelopeOptions& options,
-                       const Whitening& whitening,
-                       EmgChain& chain) {
-  chain.steps.push_back(
-      whitening.applied
-          ? fmt::format("whitening of all channels and trials: {}; a symmetric filter of each "
-                        "channel, +-16 ms, by the spectra of muscle and noise in the recording",
-                        whitening.reason)
-          : fmt::format("no whitening of any channel: {}", whitening.reason));
+void add_rectification(const EnvelopeOptions& options, const Whitening& whitening, EmgChain& chain) {
+  chain.steps.push_back(whitening.applied
+                            ? fmt::format("whitening of all channels and trials: {}; a symmetric filter of each "
+                                          "channel, +-16 ms, by the spectra of muscle and noise in the recording",
+                                          whitening.reason)
+                            : fmt::format("no whitening of any channel: {}", whitening.reason));
   if (options.rectify) chain.steps.emplace_back("full-wave rectification");
-  chain.steps.push_back(fmt::format(
-      "low-pass filter {:g} Hz, {}; {}; negative values set to 0", options.lowpass_hz,
-      options.as_published ? "-3 dB of one pass" : "-3 dB of both passes together", kTwoPasses));
-  chain.methods.push_back(fmt::format(
-      "The EMG {}{}low-pass filtered (zero-lag fourth-order Butterworth filter, cut-off frequency "
-      "{:g} Hz{}) to obtain the EMG envelope.",
-      whitening.applied ? "of all muscles was whitened (zero-lag filter of each channel, designed "
-                          "from the spectra of EMG and baseline noise), "
-                        : "was ",
-      options.rectify ? "full-wave rectified and " : "", options.lowpass_hz,
-      options.as_published ? " of a single pass" : ""));
+  chain.steps.push_back(fmt::format("low-pass filter {:g} Hz, {}; {}; negative values set to 0", options.lowpass_hz,
+                                    options.as_published ? "-3 dB of one pass" : "-3 dB of both passes together",
+                                    kTwoPasses));
+  chain.methods.push_back(
+      fmt::format("The EMG {}{}low-pass filtered (zero-lag fourth-order Butterworth filter, cut-off frequency "
+                  "{:g} Hz{}) to obtain the EMG envelope.",
+                  whitening.applied ? "of all muscles was whitened (zero-lag filter of each channel, designed "
+                                      "from the spectra of EMG and baseline noise), "
+                                    : "was ",
+                  options.rectify ? "full-wave rectified and " : "", options.lowpass_hz,
+                  options.as_published ? " of a single pass" : ""));
 }
 
 }  // namespace
@@ -90,24 +83,24 @@ EmgChain envelope_chain(std::span<const EmgStages* const> trials,
 void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
                        const NormalisationOptions& options,
                        EmgChain& chain) {
-  chain.steps.push_back(fmt::format(
-      "amplitude normalization over all trials and maximal contractions together: root of "
-      "(envelope squared less rest squared) over the reference; rest is the mean of the quiet "
-      "seconds, the reference that of the greatest moving means of {:g} s, less rest likewise",
-      options.window_s));
+  chain.steps.push_back(
+      fmt::format("amplitude normalization over all trials and maximal contractions together: root of "
+                  "(envelope squared less rest squared) over the reference; rest is the mean of the quiet "
+                  "seconds, the reference that of the greatest moving means of {:g} s, less rest likewise",
+                  options.window_s));
   const auto level = [](const ChannelNormalisation& n, double value) {
     const bool volts = n.unit != Unit::dimensionless;
     return fmt::format("{:.6g}{}", value, volts ? fmt::format(" {}", symbol(n.unit)) : "");
   };
   for (const ChannelNormalisation& n : normalisation) {
-    chain.steps.push_back(fmt::format(
-        "channel {}: reference {}, from {} at {:.6g} s ({}); rest {}{}", n.channel,
-        level(n, n.reference_v), n.source_trial, n.source_time_s,
-        n.from_mvc ? "maximal contraction" : "no maximal contraction: largest effort recorded",
-        level(n, n.resting_level_v), n.rests ? "" : ": the muscle does not rest in any trial"));
+    chain.steps.push_back(
+        fmt::format("channel {}: reference {}, from {} at {:.6g} s ({}); rest {}{}", n.channel, level(n, n.reference_v),
+                    n.source_trial, n.source_time_s,
+                    n.from_mvc ? "maximal contraction" : "no maximal contraction: largest effort recorded",
+                    level(n, n.resting_level_v), n.rests ? "" : ": the muscle does not rest in any trial"));
   }
-  const bool mvc = std::all_of(normalisation.begin(), normalisation.end(),
-                               [](const ChannelNormalisation& n) { return n.from_mvc; });
+  const bool mvc =
+      std::all_of(normalisation.begin(), normalisation.end(), [](const ChannelNormalisation& n) { return n.from_mvc; });
   const bool task = std::none_of(normalisation.begin(), normalisation.end(),
                                  [](const ChannelNormalisation& n) { return n.from_mvc; });
   chain.methods.push_back(fmt::format(
@@ -117,20 +110,17 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
       : task ? "its greatest amplitude"
              : "its greatest amplitude during maximal voluntary contractions (MVC) and tasks",
       options.window_s,
-      task ? "the tasks, because no maximal voluntary contraction (MVC) exceeded it"
-           : "all trials of the session"));
+      task ? "the tasks, because no maximal voluntary contraction (MVC) exceeded it" : "all trials of the session"));
 }
 
 std::vector<std::string> header_lines(const EmgChain& chain) {
   std::vector<std::string> lines;
   if (chain.steps.empty()) return lines;
   lines.emplace_back("How this EMG was processed, in this order:");
-  for (std::size_t i = 0; i < chain.steps.size(); ++i)
-    lines.push_back(fmt::format("  {}. {}", i + 1, chain.steps[i]));
+  for (std::size_t i = 0; i < chain.steps.size(); ++i) lines.push_back(fmt::format("  {}. {}", i + 1, chain.steps[i]));
   lines.emplace_back("For a methods section:");
   for (const std::string& sentence : chain.methods) lines.push_back("  " + sentence);
-  // No line may look like "key=value" to a reader of the header, or like a column to a reader of
-  // tables.
+  // No line may look like "key=value" to a reader of the header, or like a column to a reader of tables.
   for (std::string& line : lines) {
     std::replace(line.begin(), line.end(), '=', ':');
     std::replace(line.begin(), line.end(), '\t', ' ');

@@ -42,8 +42,7 @@ struct Reading {
 };
 
 Reading read_effort(Held held, const Eigen::VectorXd& emg, const EnvelopeOptions& options) {
-  const Eigen::VectorXd t =
-      Eigen::VectorXd::LinSpaced(kEdgeSamples, 0.0, (kEdgeSamples - 1) / kEdgeRate_hz);
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(kEdgeSamples, 0.0, (kEdgeSamples - 1) / kEdgeRate_hz);
   const EmgStages stages = process_emg(TimeSeries(t, {{"m", Unit::volt}}, emg), options);
   const std::vector<TrialEnvelope> trials{{"a", true, &stages.envelope, stages.bandwidth_hz}};
   const Eigen::VectorXd a = normalise(stages.envelope, find_normalisation(trials)).values().col(0);
@@ -55,8 +54,7 @@ Reading read_effort(Held held, const Eigen::VectorXd& emg, const EnvelopeOptions
 constexpr Held kHeld[] = {Held::first_seven_seconds, Held::last_seven_seconds, Held::throughout};
 
 TEST(EmgEdges, AnEffortAtTheFirstOrLastSampleReadsAsItDoesInside) {
-  // Whitened noise of 700 Hz spreads by 7 %, at an end by 10 %: of 7 s, three seeds in a thousand
-  // come to 1.3.
+  // Whitened noise of 700 Hz spreads by 7 %, at an end by 10 %: of 7 s, three seeds in a thousand come to 1.3.
   for (const Held held : kHeld) {
     for (unsigned seed = 1; seed <= kEdgeSeeds; ++seed) {
       const Reading found = read_effort(held, held_effort(held, seed), {});
@@ -84,8 +82,8 @@ TEST(EmgEdges, NotWhitenedTheEndsAreNoWorseThanTheInside) {
   for (const bool published : {false, true}) {
     for (const Held held : kHeld) {
       for (unsigned seed = 1; seed <= kEdgeSeeds; ++seed) {
-        const Reading found = read_effort(held, held_effort(held, seed),
-                                          {.whitening = false, .as_published = published});
+        const Reading found =
+            read_effort(held, held_effort(held, seed), {.whitening = false, .as_published = published});
         EXPECT_LT(found.greatest, 1.5) << static_cast<int>(held) << ' ' << seed;
         EXPECT_NEAR(found.plateau, 1.0, 0.05) << static_cast<int>(held) << ' ' << seed;
       }
@@ -98,8 +96,7 @@ TEST(EmgEdges, AnOffsetAndADriftOfTheBaselineDoNotComeBackAtTheEnds) {
   for (const Held held : kHeld) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
       Eigen::VectorXd emg = held_effort(held, seed);
-      for (Eigen::Index i = 0; i < emg.size(); ++i)
-        emg[i] += 5e-3 + 2e-3 * static_cast<double>(i) / kEdgeRate_hz;
+      for (Eigen::Index i = 0; i < emg.size(); ++i) emg[i] += 5e-3 + 2e-3 * static_cast<double>(i) / kEdgeRate_hz;
       const Reading found = read_effort(held, emg, {});
       EXPECT_LT(found.greatest, 1.3) << static_cast<int>(held) << ' ' << seed;
       EXPECT_NEAR(found.plateau, 1.0, 0.05) << static_cast<int>(held) << ' ' << seed;

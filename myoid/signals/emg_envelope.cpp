@@ -46,8 +46,7 @@ Extreme extreme_level(std::vector<double> means, double margin, double side) {
   Extreme e{.level = means.front(), .count = 0};
   double sum = 0.0;
   const auto alike = [&] {
-    return e.count < means.size() &&
-           side * means[e.count] <= side * e.level * (1.0 + side * margin);
+    return e.count < means.size() && side * means[e.count] <= side * e.level * (1.0 + side * margin);
   };
   while (alike()) {
     do sum += means[e.count++];
@@ -73,9 +72,7 @@ struct Means {
 
 /// Computes the means and sets in `n` the place of the greatest. Throws InvalidInput if no trial is
 /// as long as the window.
-Means moving_means(std::span<const TrialEnvelope> trials,
-                   double window_s,
-                   ChannelNormalisation& n) {
+Means moving_means(std::span<const TrialEnvelope> trials, double window_s, ChannelNormalisation& n) {
   Means result;
   double largest = -1.0, longest_s = 0.0;
   for (const TrialEnvelope& trial : trials) {
@@ -125,19 +122,16 @@ void take_out_hum(bool notch, EmgStages& stages) {
     const auto hum = find_hum(values.col(c), rate_hz);
     if (!hum || hum->share < QualityLimits{}.hum_share) continue;
     std::string lines;
-    for (const double line_hz : hum->lines_hz)
-      lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
-    stages.findings.push_back(fmt::format(
-        "channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
-        stages.filtered.channels()[static_cast<std::size_t>(c)].name, 100.0 * hum->share, lines,
-        notch ? "taken out by notches" : "check the reference electrode"));
+    for (const double line_hz : hum->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
+    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
+                                          stages.filtered.channels()[static_cast<std::size_t>(c)].name,
+                                          100.0 * hum->share, lines,
+                                          notch ? "taken out by notches" : "check the reference electrode"));
     if (!notch) continue;
     values.col(c) = without_hum(values.col(c), rate_hz, *hum);
-    stages.notches.push_back(
-        {stages.filtered.channels()[static_cast<std::size_t>(c)].name, hum->lines_hz});
+    stages.notches.push_back({stages.filtered.channels()[static_cast<std::size_t>(c)].name, hum->lines_hz});
   }
-  stages.filtered =
-      TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
+  stages.filtered = TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
 
 }  // namespace
@@ -155,18 +149,16 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                     "cannot be mended",
                     rate));
   }
-  stages.filtered =
-      options.as_published
-          ? stages.raw
-          : zero_phase_filter(stages.raw, math::FilterBand::high_pass, options.highpass_hz,
-                              {.order = 2, .ends = math::Ends::even});
+  stages.filtered = options.as_published
+                        ? stages.raw
+                        : zero_phase_filter(stages.raw, math::FilterBand::high_pass, options.highpass_hz,
+                                            {.order = 2, .ends = math::Ends::even});
   take_out_hum(options.notch && !options.as_published, stages);
   return stages;
 }
 
 Whitening find_whitening(std::span<const EmgStages* const> trials, const EnvelopeOptions& options) {
-  if (options.as_published)
-    return {.applied = false, .reason = "as in the source paper", .filters = {}};
+  if (options.as_published) return {.applied = false, .reason = "as in the source paper", .filters = {}};
   if (!options.rectify) return {.applied = false, .reason = "not rectified either", .filters = {}};
   std::vector<const TimeSeries*> filtered;
   for (const EmgStages* trial : trials) filtered.push_back(&trial->filtered);
@@ -183,9 +175,8 @@ void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const White
         statistical_bandwidth_hz(power_spectrum(white.values().col(c), rate, kSpectrumSegment_s));
     if (std::isfinite(bandwidth_hz)) stages.bandwidth_hz[c] = bandwidth_hz;
   }
-  stages.rectified =
-      TimeSeries(raw.time_s(), raw.channels(),
-                 options.rectify ? Eigen::MatrixXd(white.values().cwiseAbs()) : white.values());
+  stages.rectified = TimeSeries(raw.time_s(), raw.channels(),
+                                options.rectify ? Eigen::MatrixXd(white.values().cwiseAbs()) : white.values());
   const TimeSeries smooth =
       zero_phase_filter(stages.rectified, math::FilterBand::low_pass, options.lowpass_hz,
                         {.order = 2, .corrected = !options.as_published, .ends = math::Ends::even});
@@ -201,8 +192,7 @@ void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const White
   stages.envelope = TimeSeries(raw.time_s(), raw.channels(), smooth.values().cwiseMax(0.0));
 }
 
-std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw,
-                                   const EnvelopeOptions& options) {
+std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw, const EnvelopeOptions& options) {
   std::vector<EmgStages> trials;
   for (const TimeSeries* trial : raw) trials.push_back(clean_emg(*trial, options));
   std::vector<const EmgStages*> views;
@@ -228,8 +218,7 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     Means means = moving_means(trials, options.window_s, n);
     if (is_flat(means)) {
       throw InvalidInput(fmt::format(
-          "EMG channel '{}' never rises above its resting level: was the electrode connected?",
-          channel.name));
+          "EMG channel '{}' never rises above its resting level: was the electrode connected?", channel.name));
     }
     // Rectified Gaussian noise of bandwidth B, averaged over a window T, has this relative spread.
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;
@@ -237,26 +226,21 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
       return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * window_s);
     };
     const double spread = spread_over(options.window_s);
-    const double second =
-        extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
+    const double second = extreme_level(std::move(means.of_a_second), 2.0 * spread_over(kRest_s), 1.0).level;
     const double of_pauses = spread_over(kPause_s);
     const double pause = extreme_level(std::move(means.of_a_pause), 2.0 * of_pauses, 1.0).level;
     const double quiet = pause < (1.0 - kQuieter * of_pauses) * second ? pause : second;
     const Extreme greatest = extreme_level(std::move(means.of_a_window), 1.5 * spread, -1.0);
-    n.relative_sd =
-        spread /
-        std::sqrt(std::max(1.0, static_cast<double>(greatest.count) / means.samples_per_window));
+    n.relative_sd = spread / std::sqrt(std::max(1.0, static_cast<double>(greatest.count) / means.samples_per_window));
     n.rests = greatest.level > kRises * quiet;
     n.resting_level_v = n.rests ? quiet : 0.0;
-    n.reference_v =
-        std::sqrt(greatest.level * greatest.level - n.resting_level_v * n.resting_level_v);
+    n.reference_v = std::sqrt(greatest.level * greatest.level - n.resting_level_v * n.resting_level_v);
     result.push_back(std::move(n));
   }
   return result;
 }
 
-TimeSeries normalise(const TimeSeries& envelope,
-                     const std::vector<ChannelNormalisation>& normalisation) {
+TimeSeries normalise(const TimeSeries& envelope, const std::vector<ChannelNormalisation>& normalisation) {
   std::vector<Channel> channels;
   Eigen::MatrixXd values(envelope.sample_count(), static_cast<Eigen::Index>(normalisation.size()));
   for (std::size_t c = 0; c < normalisation.size(); ++c) {

@@ -38,8 +38,7 @@ struct EmgStages {
   TimeSeries envelope;           ///< Low-passed, never negative [V].
   Eigen::VectorXd bandwidth_hz;  ///< Statistical bandwidth of the signal before rectification.
   std::vector<Notch> notches;
-  std::vector<std::string>
-      findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
+  std::vector<std::string> findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
 
 /// Removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,
@@ -47,16 +46,12 @@ struct EmgStages {
 [[nodiscard]] EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
 
 /// Decides on whitening for all clean trials of one person. Throws as `decide_whitening`.
-[[nodiscard]] Whitening find_whitening(std::span<const EmgStages* const> trials,
-                                       const EnvelopeOptions& options = {});
+[[nodiscard]] Whitening find_whitening(std::span<const EmgStages* const> trials, const EnvelopeOptions& options = {});
 
-/// Whitens (if so decided), rectifies and low-passes: fills the other members. The envelope is the
-/// local mean of the rectified EMG: sqrt(2/pi) times the standard deviation for Gaussian EMG. Its
-/// relative spread is about 0.76 / sqrt(2 B T): 14 % at 6 Hz, some 9 % if whitened. Negative values
-/// from the filter's undershoot become 0.
-void add_envelope(EmgStages& stages,
-                  const EnvelopeOptions& options = {},
-                  const Whitening& whitening = {});
+/// Whitens (if so decided), rectifies and low-passes: fills the other members. The envelope is the local mean of the
+/// rectified EMG: sqrt(2/pi) times the standard deviation for Gaussian EMG. Its relative spread is about 0.76 / sqrt(2
+/// B T): 14 % at 6 Hz, some 9 % if whitened. Negative values from the filter's undershoot become 0.
+void add_envelope(EmgStages& stages, const EnvelopeOptions& options = {}, const Whitening& whitening = {});
 
 /// Runs all stages for trials of one person; one decision on whitening holds for all.
 [[nodiscard]] std::vector<EmgStages> process_emg(std::span<const TimeSeries* const> raw,
@@ -78,16 +73,14 @@ inline constexpr double kPause_s = 0.2;
 struct ChannelNormalisation {
   std::string channel;
   Unit unit = Unit::volt;  ///< Of the envelopes: dimensionless where their file states no unit.
-  /// Noise of the electrode: the mean of the study's quiet seconds, those at most two spreads of a
-  /// 1 s mean above it. The lowest of many noisy means would be 5 to 10 % below, and at rest a
-  /// hundredth of the maximum would be left. Where no second is quiet, as in walking, the pauses
-  /// (`kPause_s`) take their place. 0 if the muscle never rests.
+  /// Noise of the electrode: the mean of the study's quiet seconds, those at most two spreads of a 1 s mean above it.
+  /// The lowest of many noisy means would be 5 to 10 % below, and at rest a hundredth of the maximum would be left.
+  /// Where no second is quiet, as in walking, the pauses (`kPause_s`) take their place. 0 if the muscle never rests.
   double resting_level_v = 0.0;
   bool rests = true;  ///< False if the greatest level is below 1.5 times the quietest second, as in
                       ///< an effort sustained from the first sample to the last.
   /// sqrt(m^2 - rest^2): activation 1. m is the mean of the study's moving means that lie at most
-  /// 1.5 spreads of such a mean below m. The single greatest of many would be 5 to 10 % above a
-  /// sustained effort.
+  /// 1.5 spreads of such a mean below m. The single greatest of many would be 5 to 10 % above a sustained effort.
   double reference_v = 0.0;
   double relative_sd = 0.0;    ///< Uncertainty of the reference, from the number of windows in m.
   double bandwidth_hz = 0.0;   ///< Bandwidth of the raw EMG at the maximum; 0 if unknown.
@@ -100,17 +93,15 @@ struct NormalisationOptions {
   double window_s = 0.5;  ///< Window of the moving mean; shorter trials do not count.
 };
 
-/// Returns one entry for each channel of the first trial. All trials must have the same channels.
-/// Throws InvalidInput if a channel is missing in a trial or flat, or no trial is as long as the
-/// window.
-[[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(
-    std::span<const TrialEnvelope> trials, const NormalisationOptions& options = {});
+/// Returns one entry for each channel of the first trial. All trials must have the same channels. Throws InvalidInput
+/// if a channel is missing in a trial or flat, or no trial is as long as the window.
+[[nodiscard]] std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelope> trials,
+                                                                   const NormalisationOptions& options = {});
 
 /// Returns sqrt(envelope^2 - resting level^2) / reference, dimensionless, 0 below the resting level
 /// and unlimited above. The noise of the electrode is independent of the muscle's signal: their
 /// powers add, not their amplitudes. Subtracting the amplitude would make an activation of 0.1 read
 /// 16 % low where the noise at rest is 1.8 % of the maximum.
-[[nodiscard]] TimeSeries normalise(const TimeSeries& envelope,
-                                   const std::vector<ChannelNormalisation>& normalisation);
+[[nodiscard]] TimeSeries normalise(const TimeSeries& envelope, const std::vector<ChannelNormalisation>& normalisation);
 
 }  // namespace myoid::signals

@@ -30,8 +30,8 @@ Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   sum[0] = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
   const auto width = [&](double seconds) {
-    return std::clamp<Eigen::Index>(
-        static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1, x.size());
+    return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1,
+                                    x.size());
   };
   const Eigen::Index narrow = width(kPause_s);
   for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
@@ -54,14 +54,12 @@ using LevelsByChannel = std::map<std::string, Levels>;
 LevelsByChannel levels_of(const TrialEnvelope& trial) {
   LevelsByChannel found;
   for (Eigen::Index c = 0; c < trial.envelope->channel_count(); ++c)
-    found[trial.envelope->channels()[static_cast<std::size_t>(c)].name] =
-        levels(*trial.envelope, c);
+    found[trial.envelope->channels()[static_cast<std::size_t>(c)].name] = levels(*trial.envelope, c);
   return found;
 }
 
-/// Finds a trial whose channels all exceed the maximal contractions by more than effort can. A
-/// contraction that was not maximal leaves rest and the other channels as they are; another unit
-/// scales everything.
+/// Finds a trial whose channels all exceed the maximal contractions by more than effort can. A contraction that was not
+/// maximal leaves rest and the other channels as they are; another unit scales everything.
 std::optional<Remark> other_unit(const TrialEnvelope& trial,
                                  const LevelsByChannel& own,
                                  const LevelsByChannel& maximal,
@@ -71,23 +69,21 @@ std::optional<Remark> other_unit(const TrialEnvelope& trial,
     const auto found = own.find(channel);
     if (found == own.end()) continue;
     const Levels& here = found->second;
-    if (!(here.greatest > limits.other_unit * mvc.greatest) ||
-        !(here.least > limits.other_unit * mvc.least))
+    if (!(here.greatest > limits.other_unit * mvc.greatest) || !(here.least > limits.other_unit * mvc.least))
       return std::nullopt;
     least = std::min(least, here.greatest / mvc.greatest);
     most = std::max(most, here.greatest / mvc.greatest);
   }
   if (trial.is_mvc || !(most > 0.0)) return std::nullopt;
-  return Remark{
-      .code = RemarkCode::emg_over_reference,
-      .severity = Severity::error,
-      .about = trial.trial,
-      .value = most,
-      .says = fmt::format("the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal "
-                          "contractions in all channels, and is as much larger at rest: is it in "
-                          "another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
-                          trial.trial, least, most),
-      .remedy = "correct the unit in the files, or the numbers of that trial"};
+  return Remark{.code = RemarkCode::emg_over_reference,
+                .severity = Severity::error,
+                .about = trial.trial,
+                .value = most,
+                .says = fmt::format("the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal "
+                                    "contractions in all channels, and is as much larger at rest: is it in "
+                                    "another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
+                                    trial.trial, least, most),
+                .remedy = "correct the unit in the files, or the numbers of that trial"};
 }
 
 /// Returns the levels of the maximal contractions, each channel's from its greatest one.
@@ -108,31 +104,28 @@ Remark above_reference(const std::string& channel,
                        const std::string& movement_trial,
                        const Levels& mvc,
                        const std::string& mvc_trial) {
-  return {.code = RemarkCode::emg_over_reference,
-          .severity = Severity::warning,
-          .about = channel,
-          .when = Stretch{movement.greatest_s, movement.greatest_s},
-          .value = movement.greatest / mvc.greatest,
-          .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
-                              "{} at {:.6g} s",
-                              channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial,
-                              movement.greatest_s),
-          .remedy =
-              "the contraction was not maximal: the larger effort counts as 1, and F_max "
-              "means the force there"};
+  return {
+      .code = RemarkCode::emg_over_reference,
+      .severity = Severity::warning,
+      .about = channel,
+      .when = Stretch{movement.greatest_s, movement.greatest_s},
+      .value = movement.greatest / mvc.greatest,
+      .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
+                          "{} at {:.6g} s",
+                          channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
+      .remedy =
+          "the contraction was not maximal: the larger effort counts as 1, and F_max "
+          "means the force there"};
 }
 
 }  // namespace
 
-double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
-                    double rate_hz,
-                    double level) {
+double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples, double rate_hz, double level) {
   const auto count = (samples.array() > level).count();
   return rate_hz > 0.0 ? static_cast<double>(count) / rate_hz : 0.0;
 }
 
-std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
-                                     const QualityLimits& limits) {
+std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, const QualityLimits& limits) {
   std::vector<Remark> faults;
   std::vector<std::string> names;
   const LevelsByChannel maximal = maximal_levels(trials);
@@ -145,8 +138,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
     }
     of_trials.emplace_back(&trial, std::move(own));
     for (const Channel& channel : trial.envelope->channels()) {
-      if (std::find(names.begin(), names.end(), channel.name) == names.end())
-        names.push_back(channel.name);
+      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
     }
   }
   for (const std::string& channel : names) {
@@ -169,18 +161,16 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
     }
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
     if (peak < limits.signal_to_rest * rest) {
-      faults.push_back(
-          {.code = RemarkCode::emg_low_signal,
-           .severity = Severity::warning,
-           .about = channel,
-           .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
-           .value = peak / rest,
-           .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
-                               "trials together",
-                               channel, peak / rest),
-           .remedy =
-               "noise, or a muscle that neither rests nor works here: record a second of rest "
-               "and a strong effort, and check the electrode"});
+      faults.push_back({.code = RemarkCode::emg_low_signal,
+                        .severity = Severity::warning,
+                        .about = channel,
+                        .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
+                        .value = peak / rest,
+                        .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
+                                            "trials together",
+                                            channel, peak / rest),
+                        .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest "
+                                  "and a strong effort, and check the electrode"});
     }
     if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest)
       faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));

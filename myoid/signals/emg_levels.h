@@ -11,9 +11,7 @@ namespace myoid::signals {
 
 /// Returns the total time [s] of samples above `level`. The spike of an artefact is short; a signal
 /// in percent is above 2 as long as the muscle works.
-[[nodiscard]] double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples,
-                                  double rate_hz,
-                                  double level);
+[[nodiscard]] double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples, double rate_hz, double level);
 
 /// Checks each channel over all trials: the signal must rise from rest (largest over smallest
 /// mean of `kPause_s`), and no movement may exceed the maximal contractions. A channel that some

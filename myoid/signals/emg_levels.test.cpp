@@ -13,9 +13,7 @@ TimeSeries envelope(const std::vector<double>& levels) {
   const auto n = static_cast<Eigen::Index>(levels.size()) * 200;
   Eigen::MatrixXd x(n, 1);
   for (Eigen::Index i = 0; i < n; ++i) x(i, 0) = levels[static_cast<std::size_t>(i / 200)];
-  return {Eigen::VectorXd::LinSpaced(n, 0.0, 0.01 * static_cast<double>(n - 1)),
-          {{"BIC", Unit::volt}},
-          x};
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, 0.01 * static_cast<double>(n - 1)), {{"BIC", Unit::volt}}, x};
 }
 
 TEST(EmgLevels, AMuscleThatRestsAndWorksIsNotComplainedOf) {
@@ -39,10 +37,8 @@ TEST(EmgLevels, TwoStepsOfWalkingAreNotComplainedOf) {
   const Eigen::Index n = 240;
   Eigen::MatrixXd x(n, 1);
   for (Eigen::Index i = 0; i < n; ++i)
-    x(i, 0) = 1e-6 +
-              4e-5 * std::exp(-0.5 *
-                              std::pow((std::fmod(0.01 * static_cast<double>(i), 1.1) - 0.5) / 0.12,
-                                       2.0));
+    x(i, 0) =
+        1e-6 + 4e-5 * std::exp(-0.5 * std::pow((std::fmod(0.01 * static_cast<double>(i), 1.1) - 0.5) / 0.12, 2.0));
   const TimeSeries walk(Eigen::VectorXd::LinSpaced(n, 0.0, 2.39), {{"GAS", Unit::volt}}, x);
   const std::vector<TrialEnvelope> trials{{"walk", false, &walk}};
   EXPECT_TRUE(check_emg_levels(trials).empty());
@@ -80,8 +76,7 @@ TEST(EmgLevels, ATrialInAnotherUnitIsAnErrorAndAContractionThatWasNoneIsNot) {
   const TimeSeries one = two(envelope({1e-3, 4.5e-2, 1e-3}), 1e-3);
   for (const TimeSeries* movement : {&strong, &one}) {
     const std::vector<TrialEnvelope> pair{{"swing", false, movement}, {"mvc", true, &mvc}};
-    for (const Remark& fault : check_emg_levels(pair))
-      EXPECT_EQ(fault.severity, Severity::warning) << fault.says;
+    for (const Remark& fault : check_emg_levels(pair)) EXPECT_EQ(fault.severity, Severity::warning) << fault.says;
     EXPECT_FALSE(check_emg_levels(pair).empty());
   }
 }

@@ -70,10 +70,9 @@ class ChannelCheck {
     const bool railed = clipping(faults);
     const Run flat = longest_run(x_);
     if (!railed && seconds(flat.length) >= limits_.flat_s) {
-      add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1,
-          seconds(flat.length),
-          fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_,
-                      time_s_[flat.begin], time_s_[flat.begin + flat.length - 1]),
+      add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
+          fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
+                      time_s_[flat.begin + flat.length - 1]),
           "was the transmission lost? Cut that part off with start_s and end_s");
     }
     if (smoothed) {
@@ -94,9 +93,7 @@ class ChannelCheck {
   }
 
  private:
-  [[nodiscard]] double seconds(Eigen::Index samples) const {
-    return static_cast<double>(samples) / rate_hz_;
-  }
+  [[nodiscard]] double seconds(Eigen::Index samples) const { return static_cast<double>(samples) / rate_hz_; }
 
   void add(std::vector<Remark>& faults,
            RemarkCode code,
@@ -121,13 +118,11 @@ class ChannelCheck {
     if (most <= limits_.amplitude_v) return;
     const auto beyond = (x_.array().abs() > limits_.amplitude_v).count();
     add(faults, RemarkCode::emg_amplitude, true, at, at, most,
-        fmt::format(
-            "channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
-            "skin gives millivolts, and no amplifier more than {:g} V",
-            name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
-        2 * beyond > x_.size()
-            ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
-            : "leave out samples that are no measurement: they become the greatest effort");
+        fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
+                    "skin gives millivolts, and no amplifier more than {:g} V",
+                    name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
+        2 * beyond > x_.size() ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
+                               : "leave out samples that are no measurement: they become the greatest effort");
   }
 
   bool clipping(std::vector<Remark>& faults) const {
@@ -143,8 +138,8 @@ class ChannelCheck {
       railed = true;
       const char* side = top ? "largest" : "smallest";
       if (seconds(longest.length) >= limits_.saturated_s) {
-        add(faults, RemarkCode::emg_saturated, true, longest.begin,
-            longest.begin + longest.length - 1, seconds(longest.length),
+        add(faults, RemarkCode::emg_saturated, true, longest.begin, longest.begin + longest.length - 1,
+            seconds(longest.length),
             fmt::format("channel '{}' stays at its {} value for {:.3g} s at {:.6g} s", name_, side,
                         seconds(longest.length), time_s_[longest.begin]),
             "the amplifier was saturated: cut that part off, and check the electrode");
@@ -167,11 +162,10 @@ class ChannelCheck {
     const auto found = find_hum(emg_, rate_hz_);
     if (!found || found->share < limits_.hum_share) return;
     std::string lines;
-    for (const double line : found->lines_hz)
-      lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
+    for (const double line : found->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
     add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
-        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_,
-                    100.0 * found->share, lines),
+        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_, 100.0 * found->share,
+                    lines),
         "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference "
         "electrode");
     emg_ = without_hum(emg_, rate_hz_, *found);
@@ -187,15 +181,15 @@ class ChannelCheck {
     const double value = rms(means) / rms(emg_);
     if (value < limits_.drift_over_rms) return;
     add(faults, RemarkCode::emg_drift, !high_passed_, 0, x_.size() - 1, value,
-        fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_,
-                    1e6 * rms(means), value),
+        fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_, 1e6 * rms(means),
+                    value),
         high_passed_ ? "the high-pass takes it out; check the skin's preparation"
                      : "without a high-pass it becomes activation: set [emg] highpass_hz");
   }
 
   void artifact(std::vector<Remark>& faults) const {
-    const Eigen::VectorXd slow = filtered(filtered(x_, FilterBand::high_pass, 1.0, rate_hz_),
-                                          FilterBand::low_pass, 15.0, rate_hz_);
+    const Eigen::VectorXd slow =
+        filtered(filtered(x_, FilterBand::high_pass, 1.0, rate_hz_), FilterBand::low_pass, 15.0, rate_hz_);
     const auto width = static_cast<Eigen::Index>(kEmgWindow_s * rate_hz_);
     double loudest = 0.0;
     for (Eigen::Index i = 0; i + width <= x_.size(); i += width)
@@ -215,8 +209,7 @@ class ChannelCheck {
     add(faults, RemarkCode::emg_artifact, true, worst, worst + width - 1, value,
         fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} "
                     "s{}",
-                    name_, value, time_s_[worst],
-                    count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
+                    name_, value, time_s_[worst], count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
         "fasten the cable; what of it lies above the high-pass becomes activation there");
   }
 
@@ -257,9 +250,7 @@ double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double r
 
 }  // namespace
 
-std::vector<Remark> check_emg(const TimeSeries& raw,
-                              bool high_passed,
-                              const QualityLimits& limits) {
+std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed, const QualityLimits& limits) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
   std::vector<Remark> faults;
@@ -275,36 +266,30 @@ std::vector<Remark> check_emg(const TimeSeries& raw,
       const std::string& first = raw.channels()[a].name;
       const std::string& second = raw.channels()[b].name;
       constexpr double kSame = 0.98;
-      faults.push_back(
-          {.code = RemarkCode::emg_crosstalk,
-           .severity = Severity::warning,
-           .about = fmt::format("{}, {}", first, second),
-           .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
-           .value = value,
-           .says =
-               value > kSame
-                   ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
-                                 "{:.3f})",
-                                 first, second, value)
-                   : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common "
-                                 "(correlation {:.2f})",
-                                 first, second, 100.0 * value * value, value),
-           .remedy = value > kSame
-                         ? "was one of them plugged in twice?"
-                         : "crosstalk or a common disturbance: the muscles cannot be told "
-                           "apart to that extent"});
+      faults.push_back({.code = RemarkCode::emg_crosstalk,
+                        .severity = Severity::warning,
+                        .about = fmt::format("{}, {}", first, second),
+                        .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
+                        .value = value,
+                        .says = value > kSame
+                                    ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
+                                                  "{:.3f})",
+                                                  first, second, value)
+                                    : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common "
+                                                  "(correlation {:.2f})",
+                                                  first, second, 100.0 * value * value, value),
+                        .remedy = value > kSame ? "was one of them plugged in twice?"
+                                                : "crosstalk or a common disturbance: the muscles cannot be told "
+                                                  "apart to that extent"});
     }
   }
   return faults;
 }
 
-bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x,
-                 double rate_hz,
-                 const QualityLimits& limits) {
+bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, const QualityLimits& limits) {
   constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
   const Eigen::Index n = x.size();
-  if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff()))
-    return false;
+  if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff())) return false;
   std::vector<double> sorted(x.begin(), x.end());
   std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
   const double median = sorted[static_cast<std::size_t>(n / 2)];
@@ -315,8 +300,7 @@ bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x,
     above += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
     not_below += (x[i] >= median) != (x[i - 1] >= median) ? 1 : 0;
   }
-  return static_cast<double>(std::max(above, not_below)) * rate_hz <=
-         limits.raw_hz * static_cast<double>(n);
+  return static_cast<double>(std::max(above, not_below)) * rate_hz <= limits.raw_hz * static_cast<double>(n);
 }
 
 }  // namespace myoid::signals

@@ -39,13 +39,10 @@ TimeSeries recording(const std::vector<Eigen::VectorXd>& columns) {
     values.col(static_cast<Eigen::Index>(c)) = columns[c];
     channels.push_back({std::string(1, static_cast<char>('a' + c)), Unit::volt});
   }
-  return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz), channels,
-          values};
+  return {Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz), channels, values};
 }
 
-Eigen::ArrayXd seconds() {
-  return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz);
-}
+Eigen::ArrayXd seconds() { return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz); }
 
 /// Returns the kinds of fault found in one channel.
 std::set<RemarkCode> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
@@ -77,14 +74,12 @@ TEST(EmgQuality, AnEnvelopeIsToldFromRawEmgWhateverItsOffset) {
   // From a converter without negative numbers.
   EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(RemarkCode::emg_envelope));
   // A large drift of the baseline keeps raw EMG from crossing its median for a long time.
-  EXPECT_FALSE(
-      kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(RemarkCode::emg_envelope));
+  EXPECT_FALSE(kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(RemarkCode::emg_envelope));
 }
 
 TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
-    EXPECT_TRUE(check_emg(recording({muscle(3 * seed), muscle(3 * seed + 1), muscle(3 * seed + 2)}))
-                    .empty());
+    EXPECT_TRUE(check_emg(recording({muscle(3 * seed), muscle(3 * seed + 1), muscle(3 * seed + 2)})).empty());
 }
 
 TEST(EmgQuality, ADeadChannelIsFlatAndALostTransmissionForItsTime) {
@@ -123,8 +118,7 @@ TEST(EmgQuality, AWanderingBaselineMattersWithoutAHighPassOnly) {
 
 TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {
   Eigen::VectorXd x = muscle(1);
-  for (Eigen::Index i = 0; i < 500; ++i)
-    x[10000 + i] += 3e-3 * std::sin(2.0 * kPi * static_cast<double>(i) / 250.0);
+  for (Eigen::Index i = 0; i < 500; ++i) x[10000 + i] += 3e-3 * std::sin(2.0 * kPi * static_cast<double>(i) / 250.0);
   const auto faults = check_emg(recording({x}));
   ASSERT_EQ(faults.size(), 1U) << sentence(faults[0]);
   EXPECT_EQ(faults[0].code, RemarkCode::emg_artifact);

@@ -13,13 +13,10 @@ TimeSeries zero_phase_filter(const TimeSeries& series,
                              double cutoff_hz,
                              const FilterOptions& options) {
   if (!series.is_uniform(0.2)) {
-    throw InvalidInput(
-        "filter: the samples are not evenly spaced; resample them, or split the trial at its gap");
+    throw InvalidInput("filter: the samples are not evenly spaced; resample them, or split the trial at its gap");
   }
   const double rate = series.mean_rate_hz();
-  const double design = options.corrected
-                            ? math::two_pass_cutoff_hz(band, options.order, cutoff_hz, rate)
-                            : cutoff_hz;
+  const double design = options.corrected ? math::two_pass_cutoff_hz(band, options.order, cutoff_hz, rate) : cutoff_hz;
   const auto sections = math::design_butterworth(band, options.order, design, rate);
   Eigen::MatrixXd values(series.sample_count(), series.channel_count());
   for (Eigen::Index c = 0; c < series.channel_count(); ++c)

@@ -7,15 +7,14 @@
 namespace myoid::signals {
 
 struct FilterOptions {
-  int order = 2;          ///< Order of one pass.
-  bool corrected = true;  ///< True: the two passes together have -3 dB at the cut-off. False: each
-                          ///< pass has, as in the source paper.
+  int order = 2;                      ///< Order of one pass.
+  bool corrected = true;              ///< True: the two passes together have -3 dB at the cut-off. False: each
+                                      ///< pass has, as in the source paper.
   math::Ends ends = math::Ends::odd;  ///< `even` for EMG, raw or rectified.
 };
 
-/// Filters every channel forwards and backwards by a Butterworth filter, without delay. Throws
-/// InvalidInput if the clock is uneven, a value is not finite, or the cut-off is not below half the
-/// rate.
+/// Filters every channel forwards and backwards by a Butterworth filter, without delay. Throws InvalidInput if the
+/// clock is uneven, a value is not finite, or the cut-off is not below half the rate.
 [[nodiscard]] TimeSeries zero_phase_filter(const TimeSeries& series,
                                            math::FilterBand band,
                                            double cutoff_hz,

@@ -32,8 +32,7 @@ TimeSeries load_cell_wrench(const TimeSeries& recorded, const LoadCell& cell) {
     const Eigen::VectorXd values = rest.values().col(c);
     zero[c] = math::median({values.begin(), values.end()});
   }
-  Eigen::MatrixXd wrench =
-      cell.sign * (channels.values().rowwise() - zero) * cell.calibration.transpose();
+  Eigen::MatrixXd wrench = cell.sign * (channels.values().rowwise() - zero) * cell.calibration.transpose();
   return {channels.time_s(),
           {{"Fx", Unit::newton},
            {"Fy", Unit::newton},

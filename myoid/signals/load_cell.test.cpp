@@ -21,13 +21,11 @@ LoadCell cell() {
 TimeSeries recorded() {
   Eigen::MatrixXd v(200, 6);
   for (Eigen::Index i = 0; i < 200; ++i) {
-    for (Eigen::Index c = 0; c < 6; ++c)
-      v(i, c) = 0.1 * static_cast<double>(c + 1) + (c == 3 && i > 100 ? 1.0 : 0.0);
+    for (Eigen::Index c = 0; c < 6; ++c) v(i, c) = 0.1 * static_cast<double>(c + 1) + (c == 3 && i > 100 ? 1.0 : 0.0);
   }
   v(5, 0) = 50.0;  // a spark at rest moves no median
   std::vector<Channel> channels;
-  for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"})
-    channels.push_back({name, Unit::volt});
+  for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"}) channels.push_back({name, Unit::volt});
   return {Eigen::VectorXd::LinSpaced(200, 0.0, 1.99), channels, v};
 }
 

@@ -17,7 +17,7 @@ constexpr double kStandsOut = 8.0;
 constexpr double kHighestLine_hz = 450.0;
 constexpr double kNotchWidth_hz = 4.0;
 constexpr double kExtension_s = 1.0;  ///< The notch rings for 1 / (pi 4 Hz) = 0.08 s.
-constexpr double kHumFit_s = 0.5;  ///< The mains drift by less than a tenth of a turn in this time.
+constexpr double kHumFit_s = 0.5;     ///< The mains drift by less than a tenth of a turn in this time.
 
 /// Returns the power of a line above its neighbors; 0 if it does not stand out.
 double line_power(const PowerSpectrum& s, double line_hz) {
@@ -33,33 +33,28 @@ double line_power(const PowerSpectrum& s, double line_hz) {
   std::nth_element(neighbors.begin(), middle, neighbors.end());
   if (peak <= kStandsOut * *middle) return 0.0;
   constexpr double kHalfWidth_hz = 1.5;  // the window's main lobe
-  return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) -
-                           2.0 * kHalfWidth_hz * *middle);
+  return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) - 2.0 * kHalfWidth_hz * *middle);
 }
 
 /// Extrapolates `count` samples beyond the last one: the lines continue as sines (least squares
 /// over the last half second), the rest is mirrored. Mirroring would turn the phase of the lines,
 /// and a notch passes such a turn for a tenth of a second.
-Eigen::VectorXd beyond_the_end(const Eigen::VectorXd& x,
-                               double rate_hz,
-                               const Hum& hum,
-                               Eigen::Index count) {
+Eigen::VectorXd beyond_the_end(const Eigen::VectorXd& x, double rate_hz, const Hum& hum, Eigen::Index count) {
   const Eigen::Index n = x.size();
   const auto lines = static_cast<Eigen::Index>(hum.lines_hz.size());
   // Columns of sines at `rows` samples from `first` on.
   const auto sines = [&](Eigen::Index first, Eigen::Index rows) {
     Eigen::MatrixXd columns(rows, 2 * lines);
     for (Eigen::Index k = 0; k < lines; ++k) {
-      const Eigen::ArrayXd phase = 2.0 * kPi * hum.lines_hz[static_cast<std::size_t>(k)] / rate_hz *
-                                   Eigen::ArrayXd::LinSpaced(rows, static_cast<double>(first),
-                                                             static_cast<double>(first + rows - 1));
+      const Eigen::ArrayXd phase =
+          2.0 * kPi * hum.lines_hz[static_cast<std::size_t>(k)] / rate_hz *
+          Eigen::ArrayXd::LinSpaced(rows, static_cast<double>(first), static_cast<double>(first + rows - 1));
       columns.col(2 * k) = phase.cos();
       columns.col(2 * k + 1) = phase.sin();
     }
     return columns;
   };
-  const Eigen::Index fitted =
-      std::min(n, static_cast<Eigen::Index>(std::lround(kHumFit_s * rate_hz)));
+  const Eigen::Index fitted = std::min(n, static_cast<Eigen::Index>(std::lround(kHumFit_s * rate_hz)));
   const Eigen::VectorXd weight = math::nearest_solution(sines(n - fitted, fitted), x.tail(fitted));
   const Eigen::VectorXd rest = x.tail(count + 1) - sines(n - 1 - count, count + 1) * weight;
   return rest.head(count).reverse() + sines(n, count) * weight;
@@ -75,8 +70,7 @@ std::optional<Hum> find_hum(const Eigen::Ref<const Eigen::VectorXd>& x, double r
   std::optional<Hum> best;
   for (const double mains_hz : {50.0, 60.0}) {
     Hum hum{.mains_hz = mains_hz};
-    for (double line = mains_hz; line < std::min(kHighestLine_hz, 0.45 * rate_hz);
-         line += mains_hz) {
+    for (double line = mains_hz; line < std::min(kHighestLine_hz, 0.45 * rate_hz); line += mains_hz) {
       const double power = line_power(spectrum, line);
       if (power <= 0.0) continue;
       hum.lines_hz.push_back(line);
@@ -87,9 +81,7 @@ std::optional<Hum> find_hum(const Eigen::Ref<const Eigen::VectorXd>& x, double r
   return best;
 }
 
-Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
-                            double rate_hz,
-                            const Hum& hum) {
+Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, const Hum& hum) {
   std::vector<math::SecondOrderSection> notches;
   for (const double line_hz : hum.lines_hz) {
     const double w = 2.0 * kPi * line_hz / rate_hz;
@@ -107,8 +99,7 @@ Eigen::VectorXd without_hum(const Eigen::Ref<const Eigen::VectorXd>& x,
   const auto wanted = static_cast<Eigen::Index>(std::lround(kExtension_s * rate_hz));
   const Eigen::Index pad = std::min(n - 1, wanted);
   Eigen::VectorXd longer(n + 2 * pad);
-  longer << beyond_the_end(x.reverse(), rate_hz, hum, pad).reverse(), x,
-      beyond_the_end(x, rate_hz, hum, pad);
+  longer << beyond_the_end(x.reverse(), rate_hz, hum, pad).reverse(), x, beyond_the_end(x, rate_hz, hum, pad);
   return math::zero_phase(notches, longer, math::Ends::even).segment(pad, n);
 }
 

@@ -16,14 +16,12 @@ constexpr double kHumRate_hz = 1000.0;
 Eigen::VectorXd bursts(Eigen::Index n, std::uint64_t seed) {
   math::Random random(seed);
   Eigen::VectorXd x(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    x[i] = random.normal() * (1.0 + std::sin(0.004 * static_cast<double>(i)));
+  for (Eigen::Index i = 0; i < n; ++i) x[i] = random.normal() * (1.0 + std::sin(0.004 * static_cast<double>(i)));
   return x;
 }
 
 Eigen::VectorXd sine(Eigen::Index n, double frequency_hz, double amplitude) {
-  const Eigen::ArrayXd t =
-      Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kHumRate_hz);
+  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kHumRate_hz);
   return (amplitude * (2.0 * kPi * frequency_hz * t + 0.3).sin()).matrix();
 }
 
@@ -62,9 +60,7 @@ TEST(MainsHum, TheNotchTakesTheLineAndLeavesTheRest) {
   EXPECT_LT(left, 1.0);
   // No delay: a sine beside the notch keeps its phase.
   const Eigen::VectorXd beside = sine(40000, 120.0, 1.0);
-  EXPECT_LT(
-      (without_hum(beside, kHumRate_hz, hum) - beside).segment(cut, 36000).cwiseAbs().maxCoeff(),
-      0.01);
+  EXPECT_LT((without_hum(beside, kHumRate_hz, hum) - beside).segment(cut, 36000).cwiseAbs().maxCoeff(), 0.01);
 }
 
 }  // namespace

@@ -16,26 +16,20 @@ namespace {
 using recording::MarkerSeries;
 
 /// Returns the step that selects some hundred frames, evenly spread.
-Eigen::Index stride_of(const MarkerSeries& markers) {
-  return std::max<Eigen::Index>(1, markers.frame_count() / 100);
-}
+Eigen::Index stride_of(const MarkerSeries& markers) { return std::max<Eigen::Index>(1, markers.frame_count() / 100); }
 
-/// Returns the median over pairs of (measured distance) / (distance in the model); empty if no pair
-/// is seen.
-std::optional<double> size_ratio(const MarkerSeries& markers,
-                                 const std::vector<ExpectedSegment>& expected) {
+/// Returns the median over pairs of (measured distance) / (distance in the model); empty if no pair is seen.
+std::optional<double> size_ratio(const MarkerSeries& markers, const std::vector<ExpectedSegment>& expected) {
   std::vector<double> ratios;
   for (const ExpectedSegment& e : expected) {
     for (std::size_t i = 0; i < e.segment.markers.size(); ++i) {
       for (std::size_t k = i + 1; k < e.segment.markers.size(); ++k) {
-        const double model_m = (e.local_m.col(static_cast<Eigen::Index>(i)) -
-                                e.local_m.col(static_cast<Eigen::Index>(k)))
-                                   .norm();
+        const double model_m =
+            (e.local_m.col(static_cast<Eigen::Index>(i)) - e.local_m.col(static_cast<Eigen::Index>(k))).norm();
         std::vector<double> seen;
         for (Eigen::Index f = 0; f < markers.frame_count(); f += stride_of(markers)) {
-          const double d = (markers.position(f, e.segment.markers[i]) -
-                            markers.position(f, e.segment.markers[k]))
-                               .norm();
+          const double d =
+              (markers.position(f, e.segment.markers[i]) - markers.position(f, e.segment.markers[k])).norm();
           if (std::isfinite(d)) seen.push_back(d);
         }
         if (model_m > 1e-3 && !seen.empty()) ratios.push_back(math::upper_median(seen) / model_m);
@@ -99,11 +93,9 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const Quality
                                       static_cast<double>(markers.frame_count() - 1)
                                 : 0.0;
   for (auto it = gaps.begin(); it != gaps.end();) {
-    const auto next =
-        std::find_if(it, gaps.end(), [&](const MarkerGap& g) { return g.marker != it->marker; });
-    const auto longest = std::max_element(it, next, [](const MarkerGap& a, const MarkerGap& b) {
-      return a.end - a.begin < b.end - b.begin;
-    });
+    const auto next = std::find_if(it, gaps.end(), [&](const MarkerGap& g) { return g.marker != it->marker; });
+    const auto longest = std::max_element(
+        it, next, [](const MarkerGap& a, const MarkerGap& b) { return a.end - a.begin < b.end - b.begin; });
     Eigen::Index missing = 0;
     for (auto g = it; g != next; ++g) missing += g->end - g->begin;
     const double share = static_cast<double>(missing) / static_cast<double>(markers.frame_count());
@@ -115,8 +107,7 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const Quality
     const bool never = missing == markers.frame_count();
     faults.push_back(
         {.code = RemarkCode::marker_gap,
-         .severity = (longest_s > limits.gap_s || share > limits.missing_share) ? Severity::warning
-                                                                                : Severity::note,
+         .severity = (longest_s > limits.gap_s || share > limits.missing_share) ? Severity::warning : Severity::note,
          .about = marker,
          .when = Stretch{begin_s, end_s},
          .value = longest_s,
@@ -125,10 +116,9 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const Quality
                                      "from {:.6g} to {:.6g} s",
                                      marker, 100.0 * share, count, count == 1 ? "" : "s",
                                      count == 1 ? "" : ", the longest", begin_s, end_s),
-         .remedy = longest_s > limits.gap_s
-                       ? "where its segment's other markers do not show it either, that segment's "
-                         "pose rests on fewer markers"
-                       : ""});
+         .remedy = longest_s > limits.gap_s ? "where its segment's other markers do not show it either, that segment's "
+                                              "pose rests on fewer markers"
+                                            : ""});
     it = next;
   }
   return faults;
@@ -138,8 +128,7 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
   std::vector<Remark> faults;
   const Eigen::Index frames = markers.frame_count();
   if (frames < 6) return faults;
-  const double h =
-      (markers.time_s[frames - 1] - markers.time_s[0]) / static_cast<double>(frames - 1);
+  const double h = (markers.time_s[frames - 1] - markers.time_s[0]) / static_cast<double>(frames - 1);
   // Fourth difference of 0.2 m at 4 Hz, divided by 6.
   const double fast_m = 0.2 * std::pow(2.0 * kPi * 4.0 * h, 4) / 6.0;
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
@@ -158,8 +147,7 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
     const double limit = std::max({limits.jump_m, fast_m, 10.0 * math::upper_median(away)});
     const auto worst = std::max_element(away.begin(), away.end());
     if (*worst <= limit) continue;
-    // The neighbors of a jump depart from their path too: separate jumps are at least five frames
-    // apart.
+    // The neighbors of a jump depart from their path too: separate jumps are at least five frames apart.
     int count = 0;
     Eigen::Index last = -10;
     Eigen::Index begin = -1;
@@ -171,23 +159,21 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
     }
     const std::string& marker = markers.names[static_cast<std::size_t>(m)];
     const double worst_s = markers.time_s[at[static_cast<std::size_t>(worst - away.begin())]];
-    faults.push_back(
-        {.code = RemarkCode::marker_jump,
-         .severity = Severity::warning,
-         .about = marker,
-         .when = Stretch{markers.time_s[begin], markers.time_s[last]},
-         .value = *worst,
-         .says = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
-                             count == 1 ? std::string("once") : fmt::format("{} times", count),
-                             1000.0 * *worst, worst_s),
-         .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small "
-                   "[markers] weight"});
+    faults.push_back({.code = RemarkCode::marker_jump,
+                      .severity = Severity::warning,
+                      .about = marker,
+                      .when = Stretch{markers.time_s[begin], markers.time_s[last]},
+                      .value = *worst,
+                      .says = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
+                                          count == 1 ? std::string("once") : fmt::format("{} times", count),
+                                          1000.0 * *worst, worst_s),
+                      .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small "
+                                "[markers] weight"});
   }
   return faults;
 }
 
-std::optional<Remark> check_marker_unit(const MarkerSeries& markers,
-                                        const std::vector<ExpectedSegment>& expected) {
+std::optional<Remark> check_marker_unit(const MarkerSeries& markers, const std::vector<ExpectedSegment>& expected) {
   constexpr double kFactor = 5.0;
   double ratio = 1.0;
   std::string text;

@@ -14,9 +14,7 @@ std::vector<ExpectedSegment> expected() { return {{test::forearm(), test::forear
 TEST(MarkerQuality, OfACleanRecordingNothingIsSaid) {
   for (const double rate_hz : {30.0, 60.0, 100.0, 250.0}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      EXPECT_TRUE(
-          check_markers(test::moving_markers(600, rate_hz, 0.001, seed), expected()).empty())
-          << rate_hz;
+      EXPECT_TRUE(check_markers(test::moving_markers(600, rate_hz, 0.001, seed), expected()).empty()) << rate_hz;
     }
   }
 }
@@ -35,8 +33,7 @@ TEST(MarkerQuality, GapsAreCountedAndTheLongestIsNamed) {
   EXPECT_EQ(faults[0].severity, Severity::note);     // A: 0.05 s
   EXPECT_EQ(faults[1].severity, Severity::warning);  // C: 0.4 s
   EXPECT_NEAR(*faults[1].value, 0.4, 1e-9);
-  EXPECT_NE(faults[1].says.find("2 gaps, the longest from 2 to 2.39 s"), std::string::npos)
-      << faults[1].says;
+  EXPECT_NE(faults[1].says.find("2 gaps, the longest from 2 to 2.39 s"), std::string::npos) << faults[1].says;
 }
 
 TEST(MarkerQuality, ASpikeAndAStepAreJumpsOfTheirMarkerAtTheirTime) {
@@ -66,8 +63,7 @@ TEST(MarkerQuality, AWrongUnitIsGuessed) {
   // In a wrong unit no other check of lengths runs.
   EXPECT_EQ(check_markers(markers, expected()).size(), 1U);
   markers.positions_m *= 1e-6;
-  EXPECT_NE(check_marker_unit(markers, expected())
-                ->remedy.find("meters that are declared as millimeters"),
+  EXPECT_NE(check_marker_unit(markers, expected())->remedy.find("meters that are declared as millimeters"),
             std::string::npos);
 }
 

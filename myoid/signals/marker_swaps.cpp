@@ -44,8 +44,7 @@ struct Candidate {
 };
 
 /// Returns the pair of markers whose exchange explains this frame best; empty if none does.
-std::optional<std::pair<Eigen::Index, Eigen::Index>> crossing(const std::vector<Candidate>& off,
-                                                              double apart_m) {
+std::optional<std::pair<Eigen::Index, Eigen::Index>> crossing(const std::vector<Candidate>& off, double apart_m) {
   std::optional<std::pair<Eigen::Index, Eigen::Index>> best;
   double best_gain = 0.0;
   for (std::size_t i = 0; i < off.size(); ++i) {
@@ -78,8 +77,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
       if (markers.missing(f, m)) continue;
       const auto expected = paths[static_cast<std::size_t>(m)].expected(now_s, limits.gap_s);
       const Vec3 p = markers.position(f, m);
-      if (expected && (p - *expected).norm() > 0.5 * limits.swap_m)
-        off.push_back({m, p, *expected});
+      if (expected && (p - *expected).norm() > 0.5 * limits.swap_m) off.push_back({m, p, *expected});
     }
     bool changed = false;
     while (const auto pair = crossing(off, limits.swap_m)) {
@@ -93,8 +91,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
     }
     if (changed) since.emplace_back(f, labels);
     for (Eigen::Index m = 0; m < count; ++m) {
-      if (!markers.missing(f, m))
-        paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, limits.gap_s);
+      if (!markers.missing(f, m)) paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, limits.gap_s);
     }
   }
   if (since.size() == 1) return {};
@@ -115,8 +112,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
     for (Eigen::Index m = 0; m < count; ++m) {
       const Eigen::Index wanted = right[static_cast<std::size_t>(m)];
       if (now[static_cast<std::size_t>(m)] == wanted) continue;
-      const auto at =
-          static_cast<Eigen::Index>(std::find(now.begin(), now.end(), wanted) - now.begin());
+      const auto at = static_cast<Eigen::Index>(std::find(now.begin(), now.end(), wanted) - now.begin());
       std::swap(now[static_cast<std::size_t>(m)], now[static_cast<std::size_t>(at)]);
       swaps.push_back({m, at, since[i].first, end});
     }

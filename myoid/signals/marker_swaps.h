@@ -27,8 +27,7 @@ struct MarkerSwap {
                                                  const QualityLimits& limits = {});
 
 /// Returns the series with these swaps undone.
-[[nodiscard]] recording::MarkerSeries undo_swaps(recording::MarkerSeries markers,
-                                                 const std::vector<MarkerSwap>& swaps);
+[[nodiscard]] recording::MarkerSeries undo_swaps(recording::MarkerSeries markers, const std::vector<MarkerSwap>& swaps);
 
 /// Returns each swap as a fault for a reader.
 [[nodiscard]] std::vector<Remark> swap_faults(const recording::MarkerSeries& markers,

@@ -10,11 +10,9 @@ namespace {
 using recording::MarkerSeries;
 
 /// The labels of two markers exchanged.
-void exchange(
-    MarkerSeries& m, Eigen::Index a, Eigen::Index b, Eigen::Index begin, Eigen::Index end) {
+void exchange(MarkerSeries& m, Eigen::Index a, Eigen::Index b, Eigen::Index begin, Eigen::Index end) {
   const Eigen::MatrixXd kept = m.positions_m.block(begin, 3 * a, end - begin, 3);
-  m.positions_m.block(begin, 3 * a, end - begin, 3) =
-      m.positions_m.block(begin, 3 * b, end - begin, 3).eval();
+  m.positions_m.block(begin, 3 * a, end - begin, 3) = m.positions_m.block(begin, 3 * b, end - begin, 3).eval();
   m.positions_m.block(begin, 3 * b, end - begin, 3) = kept;
 }
 
@@ -23,8 +21,7 @@ double error_m(const MarkerSeries& a, const MarkerSeries& b) {
   double worst = 0.0;
   for (Eigen::Index f = 0; f < a.frame_count(); ++f) {
     for (Eigen::Index m = 0; m < a.marker_count(); ++m) {
-      if (!a.missing(f, m) && !b.missing(f, m))
-        worst = std::max(worst, (a.position(f, m) - b.position(f, m)).norm());
+      if (!a.missing(f, m) && !b.missing(f, m)) worst = std::max(worst, (a.position(f, m) - b.position(f, m)).norm());
     }
   }
   return worst;

@@ -27,8 +27,7 @@ std::vector<Eigen::Index> neighbors(const MarkerSeries& markers, const MarkerGap
   const auto walk = [&](Eigen::Index from, Eigen::Index step) {
     int found = 0;
     double last_s = 0.0;
-    for (Eigen::Index f = from; f >= 0 && f < markers.frame_count() && found < kNeighbors;
-         f += step) {
+    for (Eigen::Index f = from; f >= 0 && f < markers.frame_count() && found < kNeighbors; f += step) {
       const double t = markers.time_s[f];
       if (markers.missing(f, gap.marker)) continue;
       if (found > 0 && std::abs(t - last_s) < kApart_s * (1.0 - 1e-6)) continue;
@@ -172,11 +171,10 @@ MendedMarkers mend_markers(MarkerSeries markers,
     f.end_s = markers.time_s[gap.end - 1];
   }
   for (const auto& [key, f] : filled) {
-    result.repairs.push_back(
-        fmt::format("marker '{}': {} gap{} ({} frames from {:.6g} to {:.6g} s) filled {}",
-                    markers.names[static_cast<std::size_t>(key.first)], f.gaps,
-                    f.gaps == 1 ? "" : "s", f.frames, f.begin_s, f.end_s,
-                    key.second ? "by a spline" : "from its segment's other markers"));
+    result.repairs.push_back(fmt::format("marker '{}': {} gap{} ({} frames from {:.6g} to {:.6g} s) filled {}",
+                                         markers.names[static_cast<std::size_t>(key.first)], f.gaps,
+                                         f.gaps == 1 ? "" : "s", f.frames, f.begin_s, f.end_s,
+                                         key.second ? "by a spline" : "from its segment's other markers"));
   }
   return result;
 }

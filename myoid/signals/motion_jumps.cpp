@@ -28,8 +28,7 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
                               const MotionJumpLimits& limits) {
   constexpr double kUsual = 0.95;
   std::vector<double> sorted(speed.begin(), speed.end());
-  const auto at =
-      sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(speed.size()));
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(speed.size()));
   std::nth_element(sorted.begin(), at, sorted.end());
   const double usual = *at;
   const double limit = std::max(least, limits.ratio * usual);
@@ -64,9 +63,7 @@ std::string MotionJump::sentence() const {
       "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its "
       "acceleration would mean a torque that does not exist; mend the markers or angles there, or "
       "leave that time out",
-      channel,
-      unit == Unit::radian ? fmt::format("{:.0f} deg/s", speed / kDegree)
-                           : fmt::format("{:.2g} m/s", speed),
+      channel, unit == Unit::radian ? fmt::format("{:.0f} deg/s", speed / kDegree) : fmt::format("{:.2g} m/s", speed),
       time_s, count > 1 ? fmt::format(" ({} such moments)", count) : "");
 }
 

@@ -28,12 +28,11 @@ struct MotionJumpLimits {
   double for_s = 0.08;  ///< Time for which the speed stays above half of its peak.
 };
 
-/// Finds moments at which an angle [rad] or a length [m] changes too fast for too short a time. The
-/// speed |dx/dt| between samples exceeds the limit of its unit and `ratio` times its own 95 %
-/// quantile, and stays above half of that peak for less than `for_s` (joints speed up and slow down
-/// over a tenth of a second). A wrong sample, a step, and both after smoothing have this pattern;
-/// repeated fast movements raise the quantile and do not. One entry a channel, at its greatest such
-/// speed within the stretch; the quantile is that of the whole motion. Channels of other units are
+/// Finds moments at which an angle [rad] or a length [m] changes too fast for too short a time. The speed |dx/dt|
+/// between samples exceeds the limit of its unit and `ratio` times its own 95 % quantile, and stays above half of that
+/// peak for less than `for_s` (joints speed up and slow down over a tenth of a second). A wrong sample, a step, and
+/// both after smoothing have this pattern; repeated fast movements raise the quantile and do not. One entry a channel,
+/// at its greatest such speed within the stretch; the quantile is that of the whole motion. Channels of other units are
 /// skipped.
 [[nodiscard]] std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
                                                         const Stretch& within = {-1e300, 1e300},

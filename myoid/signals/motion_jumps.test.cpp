@@ -23,8 +23,7 @@ TimeSeries swing(More more, Unit unit = Unit::radian) {
 }
 
 TEST(MotionJumps, ASampleThatIsOffIsNamedWithItsTimeAndSpeed) {
-  const auto jumps = find_motion_jumps(
-      swing([](double t) { return std::abs(t - 4.0) < 1e-6 ? 8.0 * kDegree : 0.0; }));
+  const auto jumps = find_motion_jumps(swing([](double t) { return std::abs(t - 4.0) < 1e-6 ? 8.0 * kDegree : 0.0; }));
   ASSERT_EQ(jumps.size(), 1U);
   EXPECT_EQ(jumps[0].channel, "elbow");
   EXPECT_EQ(jumps[0].count, 1);
@@ -34,8 +33,7 @@ TEST(MotionJumps, ASampleThatIsOffIsNamedWithItsTimeAndSpeed) {
 }
 
 TEST(MotionJumps, AStepAndAGlitchThatWasSmoothedAreOnesToo) {
-  EXPECT_EQ(
-      find_motion_jumps(swing([](double t) { return t > 6.0 ? 10.0 * kDegree : 0.0; })).size(), 1U);
+  EXPECT_EQ(find_motion_jumps(swing([](double t) { return t > 6.0 ? 10.0 * kDegree : 0.0; })).size(), 1U);
   EXPECT_EQ(find_motion_jumps(swing([](double t) {
               return 40.0 * kDegree * std::exp(-0.5 * std::pow((t - 5.0) / 0.02, 2));
             })).size(),
@@ -44,9 +42,7 @@ TEST(MotionJumps, AStepAndAGlitchThatWasSmoothedAreOnesToo) {
 
 TEST(MotionJumps, OnlyThoseOfTheStretchAreTold) {
   const TimeSeries motion = swing([](double t) {
-    return std::abs(t - 4.0) < 1e-6   ? 8.0 * kDegree
-           : std::abs(t - 8.0) < 1e-6 ? 12.0 * kDegree
-                                      : 0.0;
+    return std::abs(t - 4.0) < 1e-6 ? 8.0 * kDegree : std::abs(t - 8.0) < 1e-6 ? 12.0 * kDegree : 0.0;
   });
   EXPECT_NEAR(find_motion_jumps(motion).at(0).time_s, 7.995, 0.006);
   EXPECT_TRUE(find_motion_jumps(motion, {5.0, 7.0}).empty());
@@ -64,8 +60,7 @@ TEST(MotionJumps, FastMovementsAreNone) {
   };
   EXPECT_TRUE(find_motion_jumps(swing(reach)).empty());
   // A channel other than angles and lengths.
-  EXPECT_TRUE(find_motion_jumps(swing([](double t) { return t > 6.0 ? 10.0 : 0.0; }, Unit::newton))
-                  .empty());
+  EXPECT_TRUE(find_motion_jumps(swing([](double t) { return t > 6.0 ? 10.0 : 0.0; }, Unit::newton)).empty());
 }
 
 }  // namespace

@@ -41,13 +41,12 @@ ThirdOrder design(double cutoff_hz, double interval_s) {
   return {w * w * w / a0, (p1 * r1 + p0 * r2) / a0, (p1 * r0 + p0 * r1) / a0, p0 * r0 / a0};
 }
 
-/// Filters once and reverses the result in time, so that two calls are a forward and a backward
-/// pass.
+/// Filters once and reverses the result in time, so that two calls are a forward and a backward pass.
 Eigen::VectorXd pass(const ThirdOrder& f, const Eigen::VectorXd& x) {
   Eigen::VectorXd y = x;
   for (Eigen::Index i = 3; i < x.size(); ++i) {
-    y[i] = f.b * (x[i] + 3.0 * x[i - 1] + 3.0 * x[i - 2] + x[i - 3]) - f.a1 * y[i - 1] -
-           f.a2 * y[i - 2] - f.a3 * y[i - 3];
+    y[i] =
+        f.b * (x[i] + 3.0 * x[i - 1] + 3.0 * x[i - 2] + x[i - 3]) - f.a1 * y[i - 1] - f.a2 * y[i - 2] - f.a3 * y[i - 3];
   }
   return y.reverse();
 }
@@ -55,11 +54,9 @@ Eigen::VectorXd pass(const ThirdOrder& f, const Eigen::VectorXd& x) {
 }  // namespace
 
 TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
-  if (!(cutoff_hz > 0.0))
-    throw InvalidInput(fmt::format("low-pass filter: found {} Hz, expected above 0", cutoff_hz));
+  if (!(cutoff_hz > 0.0)) throw InvalidInput(fmt::format("low-pass filter: found {} Hz, expected above 0", cutoff_hz));
   if (motion.sample_count() < 4) {
-    throw InvalidInput(
-        fmt::format("low-pass filter: {} samples, expected at least 4", motion.sample_count()));
+    throw InvalidInput(fmt::format("low-pass filter: {} samples, expected at least 4", motion.sample_count()));
   }
   require_finite(motion, "low-pass filter");
   const Eigen::VectorXd t = padded(motion.time_s());

@@ -54,8 +54,7 @@ TEST(OpensimLowpass, RefusesWhatItCannotFilter) {
   EXPECT_THROW((void)opensim_lowpass(sine_series(1.0, 0.01, 3), 6.0), InvalidInput);
   Eigen::VectorXd t(5);
   t << 0.0, 1e-9, 1.0, 2.0, 3.0;
-  EXPECT_THROW((void)opensim_lowpass(TimeSeries(t, {{"q", Unit::radian}}, Eigen::MatrixXd(t)), 6.0),
-               InvalidInput);
+  EXPECT_THROW((void)opensim_lowpass(TimeSeries(t, {{"q", Unit::radian}}, Eigen::MatrixXd(t)), 6.0), InvalidInput);
 }
 
 }  // namespace

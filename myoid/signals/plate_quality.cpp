@@ -29,8 +29,7 @@ void check_offset(const ForcePlate& plate,
   double least_n = kPerson_n;
   double offset_n = 0.0;
   Eigen::Index at = -1;
-  for (Eigen::Index i = 0; i + width <= normal_n.size();
-       i += std::max<Eigen::Index>(1, width / 4)) {
+  for (Eigen::Index i = 0; i + width <= normal_n.size(); i += std::max<Eigen::Index>(1, width / 4)) {
     const auto part = normal_n.segment(i, width);
     const double mean = part.mean();
     if (!(std::abs(mean) < least_n)) continue;
@@ -40,14 +39,14 @@ void check_offset(const ForcePlate& plate,
     at = i;
   }
   if (at < 0 || least_n < limits.plate_offset_n) return;
-  faults.push_back({.code = RemarkCode::plate_offset,
-                    .severity = Severity::warning,
-                    .about = channel,
-                    .when = Stretch{plate.time_s[at], plate.time_s[at + width - 1]},
-                    .value = offset_n,
-                    .says = fmt::format("{} reads {:.1f} N at {:.6g} s, when it bears least",
-                                        channel, offset_n, plate.time_s[at]),
-                    .remedy = "was it zeroed while empty? Subtract that from the file"});
+  faults.push_back(
+      {.code = RemarkCode::plate_offset,
+       .severity = Severity::warning,
+       .about = channel,
+       .when = Stretch{plate.time_s[at], plate.time_s[at + width - 1]},
+       .value = offset_n,
+       .says = fmt::format("{} reads {:.1f} N at {:.6g} s, when it bears least", channel, offset_n, plate.time_s[at]),
+       .remedy = "was it zeroed while empty? Subtract that from the file"});
 }
 
 void check_pressure(const ForcePlate& plate,
@@ -55,8 +54,7 @@ void check_pressure(const ForcePlate& plate,
                     const std::string& channel,
                     const QualityLimits& limits,
                     std::vector<Remark>& faults) {
-  const Eigen::Matrix<double, 3, 4> corners =
-      plate.R_GP.transpose() * (plate.corners_m.colwise() - plate.p_GP_m);
+  const Eigen::Matrix<double, 3, 4> corners = plate.R_GP.transpose() * (plate.corners_m.colwise() - plate.p_GP_m);
   const double half_x_m = corners.row(0).cwiseAbs().maxCoeff();
   const double half_y_m = corners.row(1).cwiseAbs().maxCoeff();
   Eigen::Index loaded = 0;
@@ -65,8 +63,7 @@ void check_pressure(const ForcePlate& plate,
   double furthest_m = 0.0;
   for (Eigen::Index i = 0; i < normal_n.size(); ++i) {
     if (!(std::abs(normal_n[i]) > limits.plate_loaded_n)) continue;
-    const Vec3 p =
-        plate.R_GP.transpose() * (plate.pressure_center_m.row(i).transpose() - plate.p_GP_m);
+    const Vec3 p = plate.R_GP.transpose() * (plate.pressure_center_m.row(i).transpose() - plate.p_GP_m);
     if (!p.allFinite()) continue;
     ++loaded;
     const double away_m = std::max(std::abs(p[0]) - half_x_m, std::abs(p[1]) - half_y_m);
@@ -76,21 +73,17 @@ void check_pressure(const ForcePlate& plate,
     furthest_m = away_m;
     worst = i;
   }
-  if (worst < 0 ||
-      static_cast<double>(outside) < limits.plate_outside_share * static_cast<double>(loaded))
-    return;
-  faults.push_back(
-      {.code = RemarkCode::plate_pressure_outside,
-       .severity = Severity::warning,
-       .about = channel,
-       .when = Stretch{plate.time_s[worst], plate.time_s[worst]},
-       .value = static_cast<double>(outside) / static_cast<double>(loaded),
-       .says =
-           fmt::format("{}: the center of pressure lies outside the plate in {:.1f} % of the "
-                       "loaded time, by up to {:.0f} mm at {:.6g} s",
-                       channel, 100.0 * static_cast<double>(outside) / static_cast<double>(loaded),
-                       1000.0 * furthest_m, plate.time_s[worst]),
-       .remedy = "check the corners, the origin and the order of the channels in the file"});
+  if (worst < 0 || static_cast<double>(outside) < limits.plate_outside_share * static_cast<double>(loaded)) return;
+  faults.push_back({.code = RemarkCode::plate_pressure_outside,
+                    .severity = Severity::warning,
+                    .about = channel,
+                    .when = Stretch{plate.time_s[worst], plate.time_s[worst]},
+                    .value = static_cast<double>(outside) / static_cast<double>(loaded),
+                    .says = fmt::format("{}: the center of pressure lies outside the plate in {:.1f} % of the "
+                                        "loaded time, by up to {:.0f} mm at {:.6g} s",
+                                        channel, 100.0 * static_cast<double>(outside) / static_cast<double>(loaded),
+                                        1000.0 * furthest_m, plate.time_s[worst]),
+                    .remedy = "check the corners, the origin and the order of the channels in the file"});
 }
 
 }  // namespace
@@ -109,10 +102,9 @@ std::vector<Remark> check_force_plate(const ForcePlate& plate, const QualityLimi
                       .about = channel,
                       .when = Stretch{plate.time_s[at], plate.time_s[at]},
                       .value = -normal_n[at],
-                      .says = fmt::format(
-                          "{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the "
-                          "force on the plate",
-                          channel, normal_n[at], plate.time_s[at]),
+                      .says = fmt::format("{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the "
+                                          "force on the plate",
+                                          channel, normal_n[at], plate.time_s[at]),
                       .remedy = "`convert` and `run` turn it round"});
   }
   check_pressure(plate, normal_n, channel, limits, faults);

@@ -29,9 +29,7 @@ recording::ForcePlate plate() {
   return p;
 }
 
-TEST(ForcePlateQuality, OfACleanPlateNothingIsSaid) {
-  EXPECT_TRUE(check_force_plate(plate()).empty());
-}
+TEST(ForcePlateQuality, OfACleanPlateNothingIsSaid) { EXPECT_TRUE(check_force_plate(plate()).empty()); }
 
 TEST(ForcePlateQuality, AnOffsetWhileEmptyIsSaid) {
   recording::ForcePlate p = plate();

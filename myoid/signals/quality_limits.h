@@ -7,8 +7,7 @@
 
 namespace myoid::signals {
 
-/// Limits beyond which a recording is at fault. docs/guide/check.md has the same table; a test
-/// compares the two.
+/// Limits beyond which a recording is at fault. docs/guide/check.md has the same table; a test compares the two.
 struct QualityLimits {
   // Markers.
   double gap_s = 0.2;           ///< Longest gap that a spline may fill.
@@ -18,22 +17,20 @@ struct QualityLimits {
   double rigid_m = 0.03;        ///< Change of a distance within a segment (skin moves 1 to 2 cm).
   double rigid_share = 0.15;    ///< Change of a distance relative to itself.
   // EMG.
-  double amplitude_v = 10.0;  ///< Skin gives 10 mV at most, converters take +-10 V.
-  double raw_hz = 30.0;  ///< Crossings of the median per second: EMG that has fewer and is never
-                         ///< negative is an envelope.
-  double flat_s = 0.25;  ///< Time without any change.
-  double flat_v = 1e-7;  ///< Rms below the noise of every amplifier.
-  double clipped_share = 1e-4;  ///< Share of the samples that are on flat tops.
-  double saturated_s = 0.02;    ///< Length of one flat top.
-  double hum_share = 0.10;      ///< Share of the power above 20 Hz in lines of the mains.
-  double signal_to_rest = 4.0;  ///< Largest over smallest rms, 12 dB.
-  double crosstalk = 0.5;       ///< Correlation of two raw channels.
-  double drift_over_rms = 2.0;  ///< Wander of the baseline below 1 Hz over the rms above 20 Hz.
-  double artifact_over_rms =
-      3.0;                      ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
-  double over_reference = 1.1;  ///< A movement's effort over that of the maximal contraction.
-  /// The same ratio in all channels, of efforts and of quietest levels, that only another unit
-  /// makes.
+  double amplitude_v = 10.0;       ///< Skin gives 10 mV at most, converters take +-10 V.
+  double raw_hz = 30.0;            ///< Crossings of the median per second: EMG that has fewer and is never
+                                   ///< negative is an envelope.
+  double flat_s = 0.25;            ///< Time without any change.
+  double flat_v = 1e-7;            ///< Rms below the noise of every amplifier.
+  double clipped_share = 1e-4;     ///< Share of the samples that are on flat tops.
+  double saturated_s = 0.02;       ///< Length of one flat top.
+  double hum_share = 0.10;         ///< Share of the power above 20 Hz in lines of the mains.
+  double signal_to_rest = 4.0;     ///< Largest over smallest rms, 12 dB.
+  double crosstalk = 0.5;          ///< Correlation of two raw channels.
+  double drift_over_rms = 2.0;     ///< Wander of the baseline below 1 Hz over the rms above 20 Hz.
+  double artifact_over_rms = 3.0;  ///< Amplitude between 1 and 15 Hz over the loudest EMG above 20 Hz.
+  double over_reference = 1.1;     ///< A movement's effort over that of the maximal contraction.
+  /// The same ratio in all channels, of efforts and of quietest levels, that only another unit makes.
   double other_unit = 10.0;
   // Clocks.
   double uneven_share = 0.05;  ///< Standard deviation of the intervals over their mean.

@@ -23,8 +23,8 @@ constexpr double kBeta = 0.1102 * (100.0 - 8.7);
 constexpr double kCutoff = 0.9;
 constexpr double kTableStep = 1e-3;  ///< In samples of the new clock; linear between.
 constexpr double kSamePhase = 1e-7;  ///< In samples of the given clock.
-constexpr double kSlower = 0.99;  ///< A clock below this share of the given rate counts as slower.
-constexpr double kUneven = 0.02;  ///< Clocks whose intervals vary by more are uneven.
+constexpr double kSlower = 0.99;     ///< A clock below this share of the given rate counts as slower.
+constexpr double kUneven = 0.02;     ///< Clocks whose intervals vary by more are uneven.
 constexpr Eigen::Index kFewest = 4;  ///< Least samples of a stretch of markers.
 
 /// Modified Bessel function of the first kind, order 0.
@@ -47,8 +47,7 @@ const std::vector<double>& kernel_table() {
     for (std::size_t i = 0; i < count; ++i) {
       const double x = static_cast<double>(i) * kTableStep;
       if (x >= kReach) break;
-      const double window =
-          bessel_i0(kBeta * std::sqrt(1.0 - (x / kReach) * (x / kReach))) / bessel_i0(kBeta);
+      const double window = bessel_i0(kBeta * std::sqrt(1.0 - (x / kReach) * (x / kReach))) / bessel_i0(kBeta);
       const double angle = kPi * kCutoff * x;
       values[i] = window * kCutoff * (x == 0.0 ? 1.0 : std::sin(angle) / angle);
     }
@@ -116,8 +115,7 @@ Eigen::MatrixXd low_passed(const TimeSeries& given, const Eigen::VectorXd& insid
       } else if (k < 0) {
         result.row(i) += w * (2.0 * x.row(0) - x.row(std::min(-k, n - 1)));
       } else {
-        result.row(i) +=
-            w * (2.0 * x.row(n - 1) - x.row(std::max(2 * (n - 1) - k, Eigen::Index{0})));
+        result.row(i) += w * (2.0 * x.row(n - 1) - x.row(std::max(2 * (n - 1) - k, Eigen::Index{0})));
       }
     }
   }
@@ -135,36 +133,29 @@ TimeSeries resample(const TimeSeries& series, const Eigen::VectorXd& time_s) {
   const Eigen::VectorXd inside =
       time_s.cwiseMax(series.time_s()[0]).cwiseMin(series.time_s()[series.sample_count() - 1]);
   const Eigen::Index count = time_s.size();
-  const double rate_hz =
-      count > 1 ? static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]) : 0.0;
-  const bool slower =
-      count > 1 && series.sample_count() > 2 && rate_hz < kSlower * series.mean_rate_hz();
-  return {time_s, series.channels(),
-          slower ? low_passed(series, inside, rate_hz) : splined(series, inside)};
+  const double rate_hz = count > 1 ? static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]) : 0.0;
+  const bool slower = count > 1 && series.sample_count() > 2 && rate_hz < kSlower * series.mean_rate_hz();
+  return {time_s, series.channels(), slower ? low_passed(series, inside, rate_hz) : splined(series, inside)};
 }
 
 Eigen::VectorXd even_clock(double start_s, double end_s, double rate_hz) {
   if (!(end_s > start_s) || !(rate_hz > 0.0)) {
-    throw InvalidInput(
-        fmt::format("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz));
+    throw InvalidInput(fmt::format("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz));
   }
-  const auto intervals =
-      static_cast<Eigen::Index>(std::max(1.0, std::round((end_s - start_s) * rate_hz)));
+  const auto intervals = static_cast<Eigen::Index>(std::max(1.0, std::round((end_s - start_s) * rate_hz)));
   return Eigen::VectorXd::LinSpaced(intervals + 1, start_s, end_s);
 }
 
-recording::MarkerSeries resample(const recording::MarkerSeries& markers,
-                                 const Eigen::VectorXd& time_s) {
+recording::MarkerSeries resample(const recording::MarkerSeries& markers, const Eigen::VectorXd& time_s) {
   recording::MarkerSeries result;
   result.names = markers.names;
   result.time_s = time_s;
-  result.positions_m = Eigen::MatrixXd::Constant(time_s.size(), markers.positions_m.cols(),
-                                                 std::numeric_limits<double>::quiet_NaN());
+  result.positions_m =
+      Eigen::MatrixXd::Constant(time_s.size(), markers.positions_m.cols(), std::numeric_limits<double>::quiet_NaN());
   const Eigen::Index n = markers.frame_count();
   const std::vector<Channel> axes{{"x", Unit::meter}, {"y", Unit::meter}, {"z", Unit::meter}};
-  const double rate_hz = time_s.size() > 1 ? static_cast<double>(time_s.size() - 1) /
-                                                 (time_s[time_s.size() - 1] - time_s[0])
-                                           : 0.0;
+  const double rate_hz =
+      time_s.size() > 1 ? static_cast<double>(time_s.size() - 1) / (time_s[time_s.size() - 1] - time_s[0]) : 0.0;
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     for (Eigen::Index first = 0; first < n;) {
       if (markers.missing(first, m)) {
@@ -183,13 +174,11 @@ recording::MarkerSeries resample(const recording::MarkerSeries& markers,
         Eigen::Index b = a;
         while (b < time_s.size() && time_s[b] <= markers.time_s[end - 1] + slack_s) ++b;
         if (b > a) {
-          const Eigen::VectorXd inside = time_s.segment(a, b - a)
-                                             .cwiseMax(markers.time_s[first])
-                                             .cwiseMin(markers.time_s[end - 1]);
-          result.positions_m.block(a, 3 * m, b - a, 3) =
-              rate_hz > 0.0 && rate_hz < kSlower * stretch.mean_rate_hz()
-                  ? low_passed(stretch, inside, rate_hz)
-                  : splined(stretch, inside);
+          const Eigen::VectorXd inside =
+              time_s.segment(a, b - a).cwiseMax(markers.time_s[first]).cwiseMin(markers.time_s[end - 1]);
+          result.positions_m.block(a, 3 * m, b - a, 3) = rate_hz > 0.0 && rate_hz < kSlower * stretch.mean_rate_hz()
+                                                             ? low_passed(stretch, inside, rate_hz)
+                                                             : splined(stretch, inside);
         }
       }
       first = end;

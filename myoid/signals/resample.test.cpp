@@ -132,11 +132,9 @@ TEST(ResampledMarkers, FollowEachMarkerAndDoNotCrossItsGaps) {
       }
     }
     const auto n = clock.size() / 4;
-    EXPECT_LT((y.positions_m.col(0) - (2.0 * kPi * clock.array()).sin().matrix())
-                  .segment(n, 2 * n)
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-4);
+    EXPECT_LT(
+        (y.positions_m.col(0) - (2.0 * kPi * clock.array()).sin().matrix()).segment(n, 2 * n).cwiseAbs().maxCoeff(),
+        1e-4);
   }
 }
 

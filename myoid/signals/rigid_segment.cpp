@@ -58,8 +58,8 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
 
 RigidFit fit_rigid(const Eigen::Matrix3Xd& local_m, const Eigen::Matrix3Xd& seen_m) {
   if (local_m.cols() < 3 || local_m.cols() != seen_m.cols()) {
-    throw InvalidInput(fmt::format("rigid fit: {} and {} points; expected as many, three or more",
-                                   local_m.cols(), seen_m.cols()));
+    throw InvalidInput(
+        fmt::format("rigid fit: {} and {} points; expected as many, three or more", local_m.cols(), seen_m.cols()));
   }
   const Vec3 from = local_m.rowwise().mean();
   const Vec3 to = seen_m.rowwise().mean();
@@ -102,12 +102,10 @@ std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
     for (std::size_t i = 0; i < segment.markers.size(); ++i) {
       for (std::size_t k = i + 1; k < segment.markers.size(); ++k) {
         Pair pair = compare(markers, segment.markers[i], segment.markers[k], limits);
-        if (static_cast<Eigen::Index>(pair.frames.size()) >= kLeastFrames)
-          pairs.push_back(std::move(pair));
+        if (static_cast<Eigen::Index>(pair.frames.size()) >= kLeastFrames) pairs.push_back(std::move(pair));
       }
     }
-    // The marker with the most departures comes first; departures that it explains are not counted
-    // again.
+    // The marker with the most departures comes first; departures that it explains are not counted again.
     while (!pairs.empty()) {
       Eigen::Index culprit = -1;
       std::size_t most = 0;
@@ -131,22 +129,18 @@ std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
         end = std::max(end, p.frames.back());
       }
       const Eigen::Index other = worst->first == culprit ? worst->second : worst->first;
-      faults.push_back(
-          {.code = RemarkCode::segment_not_rigid,
-           .severity = Severity::warning,
-           .about = partners > 1 ? marker(culprit)
-                                 : fmt::format("{}, {}", marker(culprit), marker(other)),
-           .when = Stretch{markers.time_s[begin], markers.time_s[end]},
-           .value = worst->worst_m,
-           .says =
-               fmt::format("marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by "
-                           "{:.0f} mm between {:.6g} and {:.6g} s",
-                           marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m,
-                           1000.0 * worst->worst_m, markers.time_s[begin], markers.time_s[end]),
-           .remedy = "a wrong label or a marker that came loose? Give it a small [markers] weight, "
-                     "or cut that part off"});
-      std::erase_if(pairs,
-                    [&](const Pair& p) { return p.first == culprit || p.second == culprit; });
+      faults.push_back({.code = RemarkCode::segment_not_rigid,
+                        .severity = Severity::warning,
+                        .about = partners > 1 ? marker(culprit) : fmt::format("{}, {}", marker(culprit), marker(other)),
+                        .when = Stretch{markers.time_s[begin], markers.time_s[end]},
+                        .value = worst->worst_m,
+                        .says = fmt::format("marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by "
+                                            "{:.0f} mm between {:.6g} and {:.6g} s",
+                                            marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m,
+                                            1000.0 * worst->worst_m, markers.time_s[begin], markers.time_s[end]),
+                        .remedy = "a wrong label or a marker that came loose? Give it a small [markers] weight, "
+                                  "or cut that part off"});
+      std::erase_if(pairs, [&](const Pair& p) { return p.first == culprit || p.second == culprit; });
     }
   }
   return faults;

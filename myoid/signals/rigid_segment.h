@@ -32,11 +32,9 @@ struct RigidFit {
 /// lie on a line, the turn about that line is arbitrary.
 [[nodiscard]] RigidFit fit_rigid(const Eigen::Matrix3Xd& local_m, const Eigen::Matrix3Xd& seen_m);
 
-/// Returns the places of the markers on their segment: the mean over all frames that show every one
-/// of them, each laid on the first by `fit_rigid`. Has no columns without such a frame or with
-/// fewer than three markers.
-[[nodiscard]] Eigen::Matrix3Xd mean_shape(const recording::MarkerSeries& markers,
-                                          const RigidSegment& segment);
+/// Returns the places of the markers on their segment: the mean over all frames that show every one of them, each laid
+/// on the first by `fit_rigid`. Has no columns without such a frame or with fewer than three markers.
+[[nodiscard]] Eigen::Matrix3Xd mean_shape(const recording::MarkerSeries& markers, const RigidSegment& segment);
 
 /// Checks that distances within a segment stay. Reports the markers that depart from their median
 /// distance to others of the segment for three frames or more, worst first, each once.

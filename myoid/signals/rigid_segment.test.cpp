@@ -35,8 +35,7 @@ TEST(MeanShape, HasTheDistancesOfTheSegment) {
 }
 
 TEST(RigidSegments, ThatMoveAsAWholeAreNotComplainedOf) {
-  EXPECT_TRUE(
-      check_rigid_segments(test::moving_markers(400, 100.0, 0.003), {test::forearm()}).empty());
+  EXPECT_TRUE(check_rigid_segments(test::moving_markers(400, 100.0, 0.003), {test::forearm()}).empty());
 }
 
 TEST(RigidSegments, TheMarkerThatCameLooseIsNamedOnceWithItsTime) {

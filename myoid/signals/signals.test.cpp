@@ -22,9 +22,7 @@ TimeSeries gaussian(Eigen::Index n, double sd_v, double offset_v = 0.0) {
     for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1.0p-53;
     v = offset_v + sd_v * sum;
   }
-  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz),
-          {{"m", Unit::volt}},
-          x};
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kRate_hz), {{"m", Unit::volt}}, x};
 }
 
 TEST(ProcessEmg, OfGaussianNoiseTheEnvelopeIsItsMeanAbsoluteValue) {
@@ -38,13 +36,11 @@ TEST(ProcessEmg, TheEnvelopesSpreadIsThatOfRectifiedNoiseInItsBand) {
   const EmgStages s = process_emg(gaussian(120000, 1e-4), {.highpass_hz = 1.0});
   const Eigen::VectorXd e = s.envelope.values().col(0).segment(2000, 116000);
   const double cv = std::sqrt((e.array() - e.mean()).square().mean()) / e.mean();
-  // White at 1 kHz: variance of the rectified noise times integral of the filter's power gain over
-  // half the rate.
+  // White at 1 kHz: variance of the rectified noise times integral of the filter's power gain over half the rate.
   double integral = 0.0;
   const double design = math::two_pass_cutoff_hz(math::FilterBand::low_pass, 2, 6.0, kRate_hz);
   const auto sections = math::design_butterworth(math::FilterBand::low_pass, 2, design, kRate_hz);
-  for (double f = 0.05; f < 500.0; f += 0.1)
-    integral += 0.1 * std::pow(math::gain(sections, f, kRate_hz), 4);
+  for (double f = 0.05; f < 500.0; f += 0.1) integral += 0.1 * std::pow(math::gain(sections, f, kRate_hz), 4);
   const double expected = std::sqrt((M_PI / 2.0 - 1.0) * integral / 500.0);
   EXPECT_NEAR(cv, expected, 0.08 * expected);  // some 1400 independent samples: 2 % and the tails
 }
@@ -52,17 +48,14 @@ TEST(ProcessEmg, TheEnvelopesSpreadIsThatOfRectifiedNoiseInItsBand) {
 TEST(ProcessEmg, IsProportionalToTheEmg) {
   const TimeSeries one = gaussian(4000, 1e-4);
   const TimeSeries two(one.time_s(), one.channels(), 2.0 * one.values());
-  EXPECT_LT((process_emg(two).envelope.values() - 2.0 * process_emg(one).envelope.values())
-                .cwiseAbs()
-                .maxCoeff(),
+  EXPECT_LT((process_emg(two).envelope.values() - 2.0 * process_emg(one).envelope.values()).cwiseAbs().maxCoeff(),
             1e-15);
 }
 
 TEST(ProcessEmg, NamesMainsHum) {
   TimeSeries x = gaussian(10000, 1e-5);
   Eigen::MatrixXd v = x.values();
-  for (Eigen::Index i = 0; i < v.rows(); ++i)
-    v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
+  for (Eigen::Index i = 0; i < v.rows(); ++i) v(i, 0) += 2e-5 * std::sin(2.0 * M_PI * 50.0 * x.time_s()[i]);
   const EmgStages s = process_emg({x.time_s(), x.channels(), v});
   ASSERT_EQ(s.findings.size(), 1U);
   EXPECT_NE(s.findings[0].find("50 Hz"), std::string::npos);
@@ -72,9 +65,8 @@ TEST(ProcessEmg, NamesMainsHum) {
 TEST(ProcessEmg, AnEnvelopeThatWouldBeNegativeIsSaid) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4000, 1);
   x.middleRows(2000, 30).setConstant(1e-3);  // a burst: the low-pass rings below 0 on both sides
-  const EmgStages s =
-      process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x},
-                  {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
+  const EmgStages s = process_emg({Eigen::VectorXd::LinSpaced(4000, 0.0, 3.999), {{"m", Unit::volt}}, x},
+                                  {.highpass_hz = 1.0, .lowpass_hz = 20.0, .rectify = false});
   ASSERT_EQ(s.findings.size(), 1U);
   EXPECT_NE(s.findings[0].find("undershoots"), std::string::npos);
   EXPECT_EQ(s.envelope.values().minCoeff(), 0.0);
@@ -90,8 +82,7 @@ TEST(ZeroPhaseFilter, AsPublishedItsRealCutOffIsBelowTheNominalOne) {
   Eigen::MatrixXd x(8000, 1);
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(8000, 0.0, 7.999);
   for (Eigen::Index i = 0; i < 8000; ++i) x(i, 0) = std::sin(2.0 * M_PI * 4.81 * t[i]);
-  const TimeSeries y =
-      zero_phase_filter({t, {{"x"}}, x}, math::FilterBand::low_pass, 6.0, {.corrected = false});
+  const TimeSeries y = zero_phase_filter({t, {{"x"}}, x}, math::FilterBand::low_pass, 6.0, {.corrected = false});
   const double gain = y.values().col(0).segment(2000, 4000).dot(x.col(0).segment(2000, 4000)) /
                       x.col(0).segment(2000, 4000).squaredNorm();
   EXPECT_NEAR(gain, std::sqrt(0.5), 0.003);
@@ -100,8 +91,7 @@ TEST(ZeroPhaseFilter, AsPublishedItsRealCutOffIsBelowTheNominalOne) {
 TEST(ZeroPhaseFilter, RefusesAHoleInTheClock) {
   Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
   t.tail(50).array() += 1.0;
-  EXPECT_THROW((void)zero_phase_filter({t, {{"x"}}, Eigen::MatrixXd::Zero(100, 1)},
-                                       math::FilterBand::low_pass, 6.0),
+  EXPECT_THROW((void)zero_phase_filter({t, {{"x"}}, Eigen::MatrixXd::Zero(100, 1)}, math::FilterBand::low_pass, 6.0),
                InvalidInput);
 }
 
@@ -112,9 +102,8 @@ TimeSeries steps(std::initializer_list<double> levels) {
     x.middleRows(row, 2000).setConstant(level);
     row += 2000;
   }
-  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / kRate_hz),
-          {{"m", Unit::volt}},
-          x};
+  return {
+      Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / kRate_hz), {{"m", Unit::volt}}, x};
 }
 
 TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
@@ -124,16 +113,14 @@ TEST(Normalisation, TakesTheMaximumOverTheStudyAndSaysWhereItStood) {
   const auto n = find_normalisation(trials);
   EXPECT_EQ(n[0].source_trial, "mvc");
   EXPECT_TRUE(n[0].from_mvc);
-  // Seconds that reach slightly into the effort count if chance could explain their mean: some in
-  // thousands.
+  // Seconds that reach slightly into the effort count if chance could explain their mean: some in thousands.
   EXPECT_NEAR(n[0].resting_level_v, 1e-6, 1e-9);
   // Powers add: 101^2 - 1 and 20^2 - 1, in millionths of a volt squared.
   // Windows that reach out of the effort by less than 1.5 spreads of 6 % count: 9 % of half a
   // second on one side of 1.5 s.
   EXPECT_NEAR(n[0].reference_v / (std::sqrt(10200.0) * 1e-6), 1.0, 2e-3);
   EXPECT_LT(n[0].reference_v, std::sqrt(10200.0) * 1e-6);
-  EXPECT_NEAR(normalise(task, n).values()(3000, 0), std::sqrt(399.0) * 1e-6 / n[0].reference_v,
-              1e-5);
+  EXPECT_NEAR(normalise(task, n).values()(3000, 0), std::sqrt(399.0) * 1e-6 / n[0].reference_v, 1e-5);
   EXPECT_EQ(normalise(task, n).values()(0, 0), 0.0);
 }
 
@@ -145,13 +132,9 @@ TEST(Normalisation, FindsTheActivationUnderTheNoiseOfTheElectrode) {
   std::normal_distribution<double> normal;
   const Eigen::Index n = 60000;
   Eigen::MatrixXd x(n, 1);
-  const auto amplitude = [n](Eigen::Index k) {
-    return 3 * k < n ? 0.0 : 3 * k < 2 * n ? 0.05 : 1.0;
-  };
-  for (Eigen::Index k = 0; k < n; ++k)
-    x(k, 0) = 1e-3 * (amplitude(k) * normal(engine) + 0.03 * normal(engine));
-  const TimeSeries raw(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / 1000.0),
-                       {{"m", Unit::volt}}, x);
+  const auto amplitude = [n](Eigen::Index k) { return 3 * k < n ? 0.0 : 3 * k < 2 * n ? 0.05 : 1.0; };
+  for (Eigen::Index k = 0; k < n; ++k) x(k, 0) = 1e-3 * (amplitude(k) * normal(engine) + 0.03 * normal(engine));
+  const TimeSeries raw(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / 1000.0), {{"m", Unit::volt}}, x);
   const TimeSeries envelope = process_emg(raw).envelope;
   const std::vector<TrialEnvelope> trials{{"a", true, &envelope}};
   const auto found = find_normalisation(trials, {.window_s = 10.0});
@@ -169,8 +152,7 @@ TEST(Normalisation, TheLowestOfManyNoisySecondsIsNotTaken) {
   Eigen::MatrixXd x(210000, 1);
   for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = (k < 200000 ? 3e-5 : 1e-3) * normal(engine);
   const EmgStages emg = process_emg(
-      TimeSeries(Eigen::VectorXd::LinSpaced(x.rows(), 0.0, 209.999), {{"m", Unit::volt}}, x),
-      {.whitening = false});
+      TimeSeries(Eigen::VectorXd::LinSpaced(x.rows(), 0.0, 209.999), {{"m", Unit::volt}}, x), {.whitening = false});
   const std::vector<TrialEnvelope> trials{{"a", true, &emg.envelope, emg.bandwidth_hz}};
   const auto found = find_normalisation(trials, {.window_s = 4.0});
   const double truth = emg.envelope.values().col(0).segment(1000, 198000).mean();
@@ -187,11 +169,9 @@ TEST(Normalisation, BetweenTheBurstsOfAWalkTheMuscleRests) {
   std::mt19937_64 engine(7);
   std::normal_distribution<double> normal;
   Eigen::MatrixXd x(60000, 1);
-  for (Eigen::Index k = 0; k < x.rows(); ++k)
-    x(k, 0) = (k % 1100 < 300 ? 1e-4 : 5e-6) * normal(engine);
+  for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = (k % 1100 < 300 ? 1e-4 : 5e-6) * normal(engine);
   const EmgStages emg = process_emg(
-      TimeSeries(Eigen::VectorXd::LinSpaced(x.rows(), 0.0, 59.999), {{"m", Unit::volt}}, x),
-      {.whitening = false});
+      TimeSeries(Eigen::VectorXd::LinSpaced(x.rows(), 0.0, 59.999), {{"m", Unit::volt}}, x), {.whitening = false});
   const std::vector<TrialEnvelope> trials{{"walk", false, &emg.envelope, emg.bandwidth_hz}};
   const ChannelNormalisation n = find_normalisation(trials)[0];
   EXPECT_TRUE(n.rests);
@@ -216,8 +196,8 @@ TEST(Normalisation, OfAnEffortThatIsHeldTheReferenceIsItsLevel) {
     std::normal_distribution<double> normal;
     Eigen::MatrixXd x(20000, 1);
     for (double& v : x.reshaped()) v = 1e-3 * normal(engine);
-    const EmgStages emg = process_emg(
-        TimeSeries(Eigen::VectorXd::LinSpaced(20000, 0.0, 19.999), {{"m", Unit::volt}}, x));
+    const EmgStages emg =
+        process_emg(TimeSeries(Eigen::VectorXd::LinSpaced(20000, 0.0, 19.999), {{"m", Unit::volt}}, x));
     const std::vector<TrialEnvelope> trials{{"a", true, &emg.envelope, emg.bandwidth_hz}};
     const ChannelNormalisation n = find_normalisation(trials)[0];
     // The muscle never rests, so nothing is subtracted.
@@ -237,8 +217,7 @@ TEST(Normalisation, RefusesAChannelThatNeverMoves) {
       (void)find_normalisation(trials);
       FAIL() << level;
     } catch (const InvalidInput& error) {
-      EXPECT_NE(std::string(error.what()).find("was the electrode connected?"), std::string::npos)
-          << error.what();
+      EXPECT_NE(std::string(error.what()).find("was the electrode connected?"), std::string::npos) << error.what();
     }
   }
 }

@@ -36,9 +36,7 @@ double autoregression_median_hz(double c) {
 
 TimeSeries one_channel(const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size();
-  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kSpectrumRate_hz),
-          {{"m", Unit::volt}},
-          x};
+  return {Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1) / kSpectrumRate_hz), {{"m", Unit::volt}}, x};
 }
 
 TEST(PowerSpectrum, AddsUpToTheMeanSquare) {
@@ -54,25 +52,20 @@ TEST(PowerSpectrum, AddsUpToTheMeanSquare) {
 
 TEST(StatisticalBandwidth, IsHowFastTheMeanSquareSettles) {
   // White: half the sampling rate; the spread of a bin (120 segments) makes it 1 % less.
-  EXPECT_NEAR(statistical_bandwidth_hz(power_spectrum(white_noise(60000, 3), kSpectrumRate_hz)),
-              500.0, 15.0);
-  // First-order autoregression: variance^2 over the sum of squared autocovariances c^2k, 500 (1 -
-  // c^2) / (1 + c^2).
+  EXPECT_NEAR(statistical_bandwidth_hz(power_spectrum(white_noise(60000, 3), kSpectrumRate_hz)), 500.0, 15.0);
+  // First-order autoregression: variance^2 over the sum of squared autocovariances c^2k, 500 (1 - c^2) / (1 + c^2).
   const double c = 0.7;
-  EXPECT_NEAR(
-      statistical_bandwidth_hz(power_spectrum(autoregression(60000, c, 4), kSpectrumRate_hz)),
-      500.0 * (1.0 - c * c) / (1.0 + c * c), 10.0);
+  EXPECT_NEAR(statistical_bandwidth_hz(power_spectrum(autoregression(60000, c, 4), kSpectrumRate_hz)),
+              500.0 * (1.0 - c * c) / (1.0 + c * c), 10.0);
 }
 
 TEST(PowerSpectrum, ASineHasHalfItsSquaredAmplitudeAtItsFrequency) {
   Eigen::VectorXd x(5000);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    x[i] = 5.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 50.3 * static_cast<double>(i) /
-                                kSpectrumRate_hz);
+    x[i] = 5.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 50.3 * static_cast<double>(i) / kSpectrumRate_hz);
   }
   const PowerSpectrum s = power_spectrum(x, kSpectrumRate_hz);
-  // The side lobes of the Hann window fall with the third power: beyond 5 bins less than 1e-3 is
-  // left.
+  // The side lobes of the Hann window fall with the third power: beyond 5 bins less than 1e-3 is left.
   EXPECT_NEAR(band_power(s, 45.0, 56.0), 2.0, 0.01);
   EXPECT_LT(band_power(s, 0.0, 5.0), 1e-3);
 }
@@ -100,8 +93,7 @@ TEST(MedianFrequency, HalvesTheBandOfWhiteNoise) {
   const PowerSpectrum s = power_spectrum(white_noise(120000, 3), kSpectrumRate_hz);
   EXPECT_NEAR(median_frequency_hz(s, 20.0, 400.0), 210.0, 3.0);
   EXPECT_TRUE(std::isnan(median_frequency_hz(
-      {.frequency_hz = Eigen::Vector3d(0.0, 1.0, 2.0), .density = Eigen::Vector3d::Zero()}, 0.0,
-      2.0)));
+      {.frequency_hz = Eigen::Vector3d(0.0, 1.0, 2.0), .density = Eigen::Vector3d::Zero()}, 0.0, 2.0)));
 }
 
 TEST(MedianFrequency, FollowsASpectrumThatShiftsAndLeavesOutWindowsAtRest) {
@@ -109,11 +101,9 @@ TEST(MedianFrequency, FollowsASpectrumThatShiftsAndLeavesOutWindowsAtRest) {
   x.head(10000) = autoregression(10000, 0.3, 5);
   x.segment(10000, 10000) = autoregression(10000, 0.8, 6);
   x.tail(10000) = 0.05 * white_noise(10000, 7);
-  const TimeSeries m =
-      median_frequency(one_channel(x), {.window_s = 2.0,
-                                        .low_hz = 20.0,
-                                        .high_hz = 450.0,
-                                        .resting_rms = Eigen::VectorXd::Constant(1, 0.05)});
+  const TimeSeries m = median_frequency(
+      one_channel(x),
+      {.window_s = 2.0, .low_hz = 20.0, .high_hz = 450.0, .resting_rms = Eigen::VectorXd::Constant(1, 0.05)});
   ASSERT_EQ(m.sample_count(), 15);
   EXPECT_NEAR(m.time_s()[0], 0.9995, 1e-9);
   EXPECT_EQ(m.channels()[0].unit, Unit::hertz);

@@ -59,8 +59,7 @@ Segments segments_of(std::span<const TimeSeries* const> trials, const std::strin
     }
     for (std::size_t i = 0; i + per_quiet <= power.size(); ++i) {
       double mean = 0.0;
-      for (std::size_t k = i; k < i + per_quiet; ++k)
-        mean += power[k] / static_cast<double>(per_quiet);
+      for (std::size_t k = i; k < i + per_quiet; ++k) mean += power[k] / static_cast<double>(per_quiet);
       result.quiet_power = std::min(result.quiet_power, mean);
     }
     std::move(density.begin(), density.end(), std::back_inserter(result.density));
@@ -82,8 +81,7 @@ Segments segments_of(std::span<const TimeSeries* const> trials, const std::strin
 
 /// Applies a running median, which neither a notch nor a line moves, then a running mean.
 Eigen::VectorXd smoothed(const Eigen::VectorXd& density, double bin_hz) {
-  const auto reach =
-      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(kSmooth_hz / bin_hz)));
+  const auto reach = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(kSmooth_hz / bin_hz)));
   const Eigen::Index n = density.size();
   const auto running = [&](const Eigen::VectorXd& x, const auto& of) {
     Eigen::VectorXd y(n);
@@ -93,24 +91,20 @@ Eigen::VectorXd smoothed(const Eigen::VectorXd& density, double bin_hz) {
     }
     return y;
   };
-  const Eigen::VectorXd median = running(
-      density, [](const auto& x) { return math::median(std::vector<double>(x.begin(), x.end())); });
+  const Eigen::VectorXd median =
+      running(density, [](const auto& x) { return math::median(std::vector<double>(x.begin(), x.end())); });
   return running(median, [](const auto& x) { return x.mean(); });
 }
 
 /// Returns the bandwidth of a mean square after a filter of power gain w, as an estimate of the
 /// power of a signal s in noise n.
-double bandwidth_hz(const Eigen::VectorXd& w,
-                    const Eigen::VectorXd& s,
-                    const Eigen::VectorXd& n,
-                    double bin_hz) {
+double bandwidth_hz(const Eigen::VectorXd& w, const Eigen::VectorXd& s, const Eigen::VectorXd& n, double bin_hz) {
   const double sensitivity = w.dot(s);
   const double spread = w.cwiseProduct(s + n).squaredNorm();
   return spread > 0.0 ? bin_hz * sensitivity * sensitivity / spread : 0.0;
 }
 
-/// Returns taps whose amplitude response follows the root of `gain`: the inverse Fourier sum under
-/// a Hann window.
+/// Returns taps whose amplitude response follows the root of `gain`: the inverse Fourier sum under a Hann window.
 Eigen::VectorXd taps_of(const Eigen::VectorXd& gain, double bin_hz, double rate_hz) {
   const auto count = static_cast<Eigen::Index>(std::lround(kHalfLength_s * rate_hz));
   Eigen::VectorXd half(count + 1);
@@ -119,28 +113,23 @@ Eigen::VectorXd taps_of(const Eigen::VectorXd& gain, double bin_hz, double rate_
     for (Eigen::Index k = 0; k < gain.size(); ++k) {
       const double ends = k == 0 || k + 1 == gain.size() ? 0.5 : 1.0;
       sum += ends * std::sqrt(gain[k]) *
-             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) *
-                      static_cast<double>(m) / rate_hz);
+             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) * static_cast<double>(m) / rate_hz);
     }
-    const double window = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(m) /
-                                               static_cast<double>(count + 1));
+    const double window =
+        0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(m) / static_cast<double>(count + 1));
     half[m] = window * sum;
   }
   return half;
 }
 
 /// Returns the power gain of symmetric taps at the bins.
-Eigen::VectorXd gain_of(const Eigen::VectorXd& half,
-                        Eigen::Index bins,
-                        double bin_hz,
-                        double rate_hz) {
+Eigen::VectorXd gain_of(const Eigen::VectorXd& half, Eigen::Index bins, double bin_hz, double rate_hz) {
   Eigen::VectorXd gain(bins);
   for (Eigen::Index k = 0; k < bins; ++k) {
     double sum = half[0];
     for (Eigen::Index m = 1; m < half.size(); ++m) {
       sum += 2.0 * half[m] *
-             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) *
-                      static_cast<double>(m) / rate_hz);
+             std::cos(2.0 * std::numbers::pi * bin_hz * static_cast<double>(k) * static_cast<double>(m) / rate_hz);
     }
     gain[k] = sum * sum;
   }
@@ -159,9 +148,7 @@ struct Spectra {
 
 /// Sets a signal below three times its standard error to noise: a periodogram's bin spreads by its
 /// own size, and smoothing averages some bins.
-Eigen::VectorXd significant(const Eigen::VectorXd& signal,
-                            const Eigen::VectorXd& noise,
-                            double segments) {
+Eigen::VectorXd significant(const Eigen::VectorXd& signal, const Eigen::VectorXd& noise, double segments) {
   const Eigen::VectorXd least = 3.0 / std::sqrt(segments) * (noise + signal.cwiseMax(0.0));
   return (signal.array() > least.array()).select(signal, 0.0);
 }
@@ -208,8 +195,7 @@ std::string unfit(std::span<const TimeSeries* const> trials) {
   const double rate_hz = trials.front()->mean_rate_hz();
   if (rate_hz < kSlowest_hz) return fmt::format("sampled at {:.0f} Hz", rate_hz);
   for (const TimeSeries* trial : trials) {
-    if (std::abs(trial->mean_rate_hz() - rate_hz) > 1e-3 * rate_hz)
-      return "sampled at different rates";
+    if (std::abs(trial->mean_rate_hz() - rate_hz) > 1e-3 * rate_hz) return "sampled at different rates";
   }
   return {};
 }
@@ -219,8 +205,8 @@ void set_filter(const Spectra& spectra, const Band& band, double bin_hz, Whiteni
   const Eigen::VectorXd& signal = spectra.signal;
   const Eigen::VectorXd& noise = spectra.noise;
   const Eigen::Index bins = signal.size();
-  Eigen::VectorXd gain = signal.cwiseQuotient(
-      (signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
+  Eigen::VectorXd gain =
+      signal.cwiseQuotient((signal + noise).cwiseAbs2().cwiseMax(std::numeric_limits<double>::min()));
   gain.head(band.low).setConstant(gain[band.low]);
   gain.tail(bins - band.high).setConstant(gain[band.high]);
   // The gain is limited relative to its least value, where the muscle prevails.
@@ -235,9 +221,7 @@ void set_filter(const Spectra& spectra, const Band& band, double bin_hz, Whiteni
   filter.half = half * std::sqrt(signal.sum() / real.dot(signal));
 }
 
-WhiteningFilter design_one(std::span<const TimeSeries* const> trials,
-                           const std::string& channel,
-                           double highpass_hz) {
+WhiteningFilter design_one(std::span<const TimeSeries* const> trials, const std::string& channel, double highpass_hz) {
   WhiteningFilter filter;
   filter.channel = channel;
   filter.rate_hz = trials.front()->mean_rate_hz();
@@ -272,8 +256,7 @@ std::vector<const WhiteningFilter*> voters(const std::vector<WhiteningFilter>& f
 
 }  // namespace
 
-std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const> trials,
-                                              double highpass_hz) {
+std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const> trials, double highpass_hz) {
   std::vector<WhiteningFilter> filters;
   if (trials.empty()) return filters;
   for (const Channel& channel : trials.front()->channels())
@@ -281,13 +264,9 @@ std::vector<WhiteningFilter> design_whitening(std::span<const TimeSeries* const>
   return filters;
 }
 
-Whitening decide_whitening(std::span<const TimeSeries* const> trials,
-                           double highpass_hz,
-                           std::optional<bool> wanted) {
+Whitening decide_whitening(std::span<const TimeSeries* const> trials, double highpass_hz, std::optional<bool> wanted) {
   if (!wanted.value_or(true)) return {.applied = false, .reason = "not asked for", .filters = {}};
-  Whitening result{.applied = false,
-                   .reason = "there is no EMG",
-                   .filters = design_whitening(trials, highpass_hz)};
+  Whitening result{.applied = false, .reason = "there is no EMG", .filters = design_whitening(trials, highpass_hz)};
   if (result.filters.empty()) return result;
   double log_gain = 0.0;
   const std::vector<const WhiteningFilter*> emg = voters(result.filters);
@@ -300,8 +279,7 @@ Whitening decide_whitening(std::span<const TimeSeries* const> trials,
                       "channel out, or let the recording decide",
                       filter->channel, filter->reason));
     }
-    log_gain += std::log(filter->bandwidth_after_hz / filter->bandwidth_before_hz) /
-                static_cast<double>(emg.size());
+    log_gain += std::log(filter->bandwidth_after_hz / filter->bandwidth_before_hz) / static_cast<double>(emg.size());
   }
   const double gain = std::exp(log_gain);
   result.applied = wanted.value_or(gain > kWorthIt);

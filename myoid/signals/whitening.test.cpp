@@ -16,10 +16,8 @@ constexpr double kWhitenedRate_hz = 1000.0;
 
 TimeSeries volts(const Eigen::MatrixXd& x, double rate_hz = kWhitenedRate_hz) {
   std::vector<Channel> channels;
-  for (Eigen::Index c = 0; c < x.cols(); ++c)
-    channels.push_back({"m" + std::to_string(c + 1), Unit::volt});
-  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / rate_hz),
-          channels, x};
+  for (Eigen::Index c = 0; c < x.cols(); ++c) channels.push_back({"m" + std::to_string(c + 1), Unit::volt});
+  return {Eigen::VectorXd::LinSpaced(x.rows(), 0.0, static_cast<double>(x.rows() - 1) / rate_hz), channels, x};
 }
 
 /// y_k = 1.2 y_{k-1} - 0.5 y_{k-2} + n_k: a spectrum with a hump, of unit variance.
@@ -72,15 +70,12 @@ TEST(Whitening, HasTheGainOfTheInverseSpectrumWhereTheMuscleStandsOut) {
   // |1 - 1.2 z^-1 + 0.5 z^-2| undoes the recursion.
   const auto inverse = [](double hz) {
     const double w = 2.0 * kPi * hz / kWhitenedRate_hz;
-    return std::hypot(1.0 - 1.2 * std::cos(w) + 0.5 * std::cos(2.0 * w),
-                      1.2 * std::sin(w) - 0.5 * std::sin(2.0 * w));
+    return std::hypot(1.0 - 1.2 * std::cos(w) + 0.5 * std::cos(2.0 * w), 1.2 * std::sin(w) - 0.5 * std::sin(2.0 * w));
   };
   // The spectrum of 200 segments over five bins is good to 4 %, its root to 2 %, a ratio of two to
   // 3 %; at the bottom the filter's length (33 ms) rounds it off.
   for (const double hz : {130.0, 180.0, 320.0, 400.0})
-    EXPECT_NEAR(gain(hz) / gain(250.0), inverse(hz) / inverse(250.0),
-                0.08 * inverse(hz) / inverse(250.0))
-        << hz;
+    EXPECT_NEAR(gain(hz) / gain(250.0), inverse(hz) / inverse(250.0), 0.08 * inverse(hz) / inverse(250.0)) << hz;
 }
 
 TEST(Whitening, TheEnvelopeSpreadsByTheRootOfTheBandwidthLess) {
@@ -94,16 +89,14 @@ TEST(Whitening, TheEnvelopeSpreadsByTheRootOfTheBandwidthLess) {
   EXPECT_NEAR(f.bandwidth_before_hz, 196.0, 20.0);
   EXPECT_GT(f.bandwidth_after_hz, 420.0);
   // 46 s at 12 independent values a second: each spread is good to 3 %.
-  EXPECT_NEAR(relative_spread(even.envelope.values().col(0)) /
-                  relative_spread(plain.envelope.values().col(0)),
+  EXPECT_NEAR(relative_spread(even.envelope.values().col(0)) / relative_spread(plain.envelope.values().col(0)),
               std::sqrt(f.bandwidth_before_hz / f.bandwidth_after_hz), 0.08);
   // In volts as before.
   EXPECT_NEAR(even.envelope.values().mean() / plain.envelope.values().mean(), 1.0, 0.02);
 }
 
 TEST(Whitening, DoesNotRaiseNoiseAboveTheMuscle) {
-  // Ten times fainter than the noise above 250 Hz: a filter that ignores the noise would pass it
-  // there.
+  // Ten times fainter than the noise above 250 Hz: a filter that ignores the noise would pass it there.
   const TimeSeries x = volts(effort(1.0, 0.7, 3));
   const TimeSeries* one = &x;
   const WhiteningFilter f = design_whitening(std::span(&one, 1), 20.0).front();
@@ -126,8 +119,7 @@ TEST(Whitening, AnEffortOfATenthReadsATenth) {
   const TimeSeries a = volts(low), b = volts(high);
   const TimeSeries* both[] = {&a, &b};
   const std::vector<EmgStages> stages = process_emg(both);
-  const std::vector<TrialEnvelope> trials{{"a", false, &stages[0].envelope},
-                                          {"b", true, &stages[1].envelope}};
+  const std::vector<TrialEnvelope> trials{{"a", false, &stages[0].envelope}, {"b", true, &stages[1].envelope}};
   const auto n = find_normalisation(trials, {.window_s = 20.0});
   const Eigen::VectorXd activation = normalise(stages[0].envelope, n).values().col(0);
   // 46 s: 1 %, and a bias by the root of a noisy square of half a percent.
@@ -159,8 +151,7 @@ TEST(Whitening, AnEffortThatNeverRestsHasTheInverseSpectrumToo) {
 }
 
 TEST(Whitening, IsOneAnswerForAllChannels) {
-  // The second channel is active for only 3 s, which gives no spectrum. Neither channel is
-  // whitened.
+  // The second channel is active for only 3 s, which gives no spectrum. Neither channel is whitened.
   Eigen::MatrixXd both(60000, 2);
   both.col(0) = effort(1.0, 0.01, 11);
   both.col(1) = effort(1.0, 0.01, 12);
@@ -182,8 +173,7 @@ TEST(Whitening, IsOneAnswerForAllChannels) {
   const Whitening yes = decide_whitening(std::span(&one, 1), 20.0);
   EXPECT_TRUE(yes.applied);
   const TimeSeries even = whiten(strong, yes);
-  for (const Eigen::Index c : {0, 1})
-    EXPECT_GT((even.values() - strong.values()).col(c).cwiseAbs().maxCoeff(), 0.0);
+  for (const Eigen::Index c : {0, 1}) EXPECT_GT((even.values() - strong.values()).col(c).cwiseAbs().maxCoeff(), 0.0);
 }
 
 // A switch at a spare input gives no spectrum; the muscle beside it is whitened nevertheless.
@@ -205,9 +195,8 @@ TEST(Whitening, IsNotForASpareInputToRefuse) {
 }
 
 TEST(Whitening, ShortSlowAndSilentRecordingsStayAsTheyAre) {
-  for (const TimeSeries& x :
-       {volts(effort(1.0, 0.01, 8).head(30)), volts(effort(1.0, 0.01, 8), 200.0),
-        volts(Eigen::VectorXd::Zero(20000))}) {
+  for (const TimeSeries& x : {volts(effort(1.0, 0.01, 8).head(30)), volts(effort(1.0, 0.01, 8), 200.0),
+                              volts(Eigen::VectorXd::Zero(20000))}) {
     const TimeSeries* one = &x;
     const auto filters = design_whitening(std::span(&one, 1), 20.0);
     EXPECT_FALSE(filters.front().reason.empty());

@@ -11,11 +11,10 @@
 
 namespace myoid::simulation {
 
-/// The activation that follows an excitation, as a piecewise polynomial of time. Activation does
-/// not depend on the motion, so that its equations can be solved beforehand. The excitation u is
-/// linear between its nodes; steps end at the nodes and at the law's kinks; the local error is
-/// below `kActivationTolerance`. The signal is continuous, and so is its first derivative where u
-/// does not jump. `T`: double, or ceres::Jet for derivatives by the time constants.
+/// The activation that follows an excitation, as a piecewise polynomial of time. Activation does not depend on the
+/// motion, so that its equations can be solved beforehand. The excitation u is linear between its nodes; steps end at
+/// the nodes and at the law's kinks; the local error is below `kActivationTolerance`. The signal is continuous, and so
+/// is its first derivative where u does not jump. `T`: double, or ceres::Jet for derivatives by the time constants.
 template <typename T = double>
 class ActivationSignal {
  public:
@@ -25,22 +24,19 @@ class ActivationSignal {
                    const muscle::ActivationPoint<T>& state)
       : dynamics_(dynamics), stepper_(2, options()), signs_(1), end_(start_s), state_(state) {}
 
-  /// Solves all times of `excitation`; begins in the steady state of its first value unless a state
-  /// is given.
+  /// Solves all times of `excitation`; begins in the steady state of its first value unless a state is given.
   ActivationSignal(const muscle::ActivationDynamics<T>& dynamics,
                    const Signal& excitation,
                    double start_s,
                    double end_s)
-      : ActivationSignal(
-            dynamics, start_s, muscle::settled_activation(T(value_at(excitation, start_s)))) {
+      : ActivationSignal(dynamics, start_s, muscle::settled_activation(T(value_at(excitation, start_s)))) {
     extend(excitation, end_s);
   }
 
   /// Continues to `end_s` under the excitation's part of that time.
   void extend(const Signal& excitation, double end_s) {
     const auto& t = excitation.time_s;
-    std::size_t next =
-        static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), end_) - t.begin());
+    std::size_t next = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), end_) - t.begin());
     double from = value_at(excitation, end_);
     while (end_ < end_s) {
       const bool inside = next < t.size() && t[next] < end_s;
@@ -79,8 +75,7 @@ class ActivationSignal {
       ydot[1] = d.activation;
     };
     const auto events = [&](double t, const T* y, double* g) {
-      g[0] = muscle::activation_event(plain_dynamics(), excitation(t),
-                                      {math::plain(y[0]), math::plain(y[1])});
+      g[0] = muscle::activation_event(plain_dynamics(), excitation(t), {math::plain(y[0]), math::plain(y[1])});
     };
     const std::array<T, 2> y{state_.filtered_excitation, state_.activation};
     double g = 0.0;
@@ -105,15 +100,12 @@ class ActivationSignal {
     if (piece_.empty() || time_s >= end_) return state_.activation;
     if (time_s <= start_.front()) return piece_.front()[0];
     if (hint >= piece_.size()) hint = 0;
-    const bool here =
-        start_[hint] <= time_s && (hint + 1 == start_.size() || time_s < start_[hint + 1]);
+    const bool here = start_[hint] <= time_s && (hint + 1 == start_.size() || time_s < start_[hint + 1]);
     if (!here) {
       if (hint + 2 < start_.size() && start_[hint + 1] <= time_s && time_s < start_[hint + 2]) {
         ++hint;
       } else {
-        hint = static_cast<std::size_t>(std::upper_bound(start_.begin(), start_.end(), time_s) -
-                                        start_.begin()) -
-               1;
+        hint = static_cast<std::size_t>(std::upper_bound(start_.begin(), start_.end(), time_s) - start_.begin()) - 1;
       }
     }
     const double s = time_s - start_[hint];
@@ -122,19 +114,15 @@ class ActivationSignal {
   }
 
   [[nodiscard]] double end_s() const { return end_; }
-  [[nodiscard]] const muscle::ActivationPoint<T>& state() const {
-    return state_;
-  }  ///< The state at the end.
-  /// Returns the status. Unless it is `done`, the times contradict the law and the signal is
-  /// unusable.
+  [[nodiscard]] const muscle::ActivationPoint<T>& state() const { return state_; }  ///< The state at the end.
+  /// Returns the status. Unless it is `done`, the times contradict the law and the signal is unusable.
   [[nodiscard]] math::OdeStatus status() const { return status_; }
   [[nodiscard]] std::size_t piece_count() const { return piece_.size(); }
 
  private:
   static double value_left_of(const Signal& excitation, double time_s) {
     const auto& t = excitation.time_s;
-    const auto at =
-        static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
+    const auto at = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
     return at < t.size() && t[at] == time_s ? excitation.value[at] : value_at(excitation, time_s);
   }
   static math::OdeOptions options() {
@@ -144,9 +132,8 @@ class ActivationSignal {
     return o;
   }
   muscle::ActivationDynamics<double> plain_dynamics() const {
-    return {dynamics_.law, math::plain(dynamics_.excitation_time_s),
-            math::plain(dynamics_.activation_time_s), math::plain(dynamics_.deactivation_time_s),
-            dynamics_.steepness};
+    return {dynamics_.law, math::plain(dynamics_.excitation_time_s), math::plain(dynamics_.activation_time_s),
+            math::plain(dynamics_.deactivation_time_s), dynamics_.steepness};
   }
 
   static constexpr double kActivationTolerance = 1e-10;

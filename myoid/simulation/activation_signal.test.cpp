@@ -15,8 +15,8 @@ using test::step_activation;
 using muscle::ActivationDynamics;
 using muscle::ActivationLaw;
 
-constexpr ActivationLaw kLaws[] = {ActivationLaw::two_lags, ActivationLaw::thelen,
-                                   ActivationLaw::de_groote, ActivationLaw::recursive};
+constexpr ActivationLaw kLaws[] = {ActivationLaw::two_lags, ActivationLaw::thelen, ActivationLaw::de_groote,
+                                   ActivationLaw::recursive};
 
 const Burst kBursts[] = {{0.1, 0.15, 0.9}, {0.4, 0.05, 0.3}, {0.6, 0.3, 1.0}};
 
@@ -40,8 +40,7 @@ TEST(ActivationSignal, OfTheEnvelopeIsTheExcitationItself) {
   const Signal u = bursts(kBursts, 0.05);
   const ActivationSignal<double> a({.law = ActivationLaw::envelope}, u, 0.0, 1.2);
   std::size_t hint = 0;
-  for (const double t : {0.0, 0.1, 0.2, 0.25, 0.7, 0.3})
-    EXPECT_NEAR(a.at(t, hint), value_at(u, t), 1e-15) << t;
+  for (const double t : {0.0, 0.1, 0.2, 0.25, 0.7, 0.3}) EXPECT_NEAR(a.at(t, hint), value_at(u, t), 1e-15) << t;
 }
 
 // A sine sampled at 1 kHz through two equal rises: gain and lag of two first-order lags.
@@ -54,8 +53,7 @@ TEST(ActivationSignal, DenseSamplesPassAsThroughTwoLags) {
   }
   const ActivationDynamics<double> d{.law = ActivationLaw::recursive};
   const ActivationSignal<double> a(d, u, 0.0, 3.0);
-  const double gain =
-      1.0 / std::sqrt((1.0 + std::pow(omega * 0.040, 2)) * (1.0 + std::pow(omega * 0.015, 2)));
+  const double gain = 1.0 / std::sqrt((1.0 + std::pow(omega * 0.040, 2)) * (1.0 + std::pow(omega * 0.015, 2)));
   const double lag = std::atan(omega * 0.040) + std::atan(omega * 0.015);
   std::size_t hint = 0;
   for (double t = 2.0; t < 3.0; t += 0.0137) {
@@ -82,8 +80,7 @@ TEST(ActivationSignal, DerivativesByTheTimeConstantsAgreeWithDifferences) {
       std::size_t hints[3] = {0, 0, 0};
       for (double t = 0.05; t < 1.2; t += 0.071) {
         // Rounding of values good to 1e-10, divided by 2 h.
-        EXPECT_NEAR(a.at(t, hints[0]).v[p], (up.at(t, hints[1]) - down.at(t, hints[2])) / (2.0 * h),
-                    1e-3)
+        EXPECT_NEAR(a.at(t, hints[0]).v[p], (up.at(t, hints[1]) - down.at(t, hints[2])) / (2.0 * h), 1e-3)
             << "law " << static_cast<int>(law) << " t " << t;
       }
     }

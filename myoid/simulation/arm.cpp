@@ -15,12 +15,11 @@ Arm<double> make_arm(const ArmSetup& setup) {
   Arm<double> arm;
   for (std::size_t i = 0; i < elbow.muscles.size(); ++i) {
     const model::PlanarMuscle& path = elbow.muscles[i];
-    arm.muscles.push_back(
-        {std::string(path.name),
-         {path.constant_m, path.above_m, path.below_m, path.straight_rad, path.pulley_m},
-         muscle::published_defaults(parameters[i], setup.laws),
-         setup.laws,
-         setup.activation});
+    arm.muscles.push_back({std::string(path.name),
+                           {path.constant_m, path.above_m, path.below_m, path.straight_rad, path.pulley_m},
+                           muscle::published_defaults(parameters[i], setup.laws),
+                           setup.laws,
+                           setup.activation});
   }
   arm.inertia_kgm2 = elbow.inertia_kgm2;
   arm.static_moment_kgm = elbow.static_moment_kgm;

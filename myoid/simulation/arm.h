@@ -45,7 +45,7 @@ struct Arm {
   T static_moment_kgm{};          ///< S, mass times distance of its center.
   T held_mass_kg{0.0};            ///< m
   T held_at_m{};                  ///< d
-  T gravity_mps2{};  ///< g in the plane of movement, along the upper arm; 0: horizontal.
+  T gravity_mps2{};               ///< g in the plane of movement, along the upper arm; 0: horizontal.
 };
 
 struct ArmSetup {

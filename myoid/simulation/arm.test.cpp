@@ -12,8 +12,7 @@ TEST(Arm, IsThePlanarElbowWithTheLiteraturesMuscles) {
   const auto muscles = model::arm4_muscles();
   ASSERT_EQ(arm.muscles.size(), muscles.size());
   for (std::size_t i = 0; i < muscles.size(); ++i) {
-    EXPECT_EQ(arm.muscles[i].parameters.hill.max_isometric_force_n,
-              muscles[i].max_isometric_force_n);
+    EXPECT_EQ(arm.muscles[i].parameters.hill.max_isometric_force_n, muscles[i].max_isometric_force_n);
   }
   EXPECT_EQ(arm.held_mass_kg, 2.0);
   EXPECT_GT(arm.gravity_mps2, 9.8);

@@ -24,8 +24,7 @@ template <typename T>
   if (muscle::value_of(path.above_m) == 0.0) return result;
   const T psi = path.straight_rad - angle_rad;
   const T product = path.above_m * path.below_m;
-  const T across =
-      sqrt(path.above_m * path.above_m + path.below_m * path.below_m - 2.0 * product * cos(psi));
+  const T across = sqrt(path.above_m * path.above_m + path.below_m * path.below_m - 2.0 * product * cos(psi));
   result.length_m += across;
   result.moment_arm_m += product * sin(psi) / across;
   return result;
@@ -40,8 +39,7 @@ class ArmDynamics {
     offsets_.push_back(2);
     for (const ArmMuscle<T>& m : arm_.muscles) {
       units_.emplace_back(m.parameters, m.laws);
-      offsets_.push_back(offsets_.back() +
-                         static_cast<std::size_t>(muscle::state_size(m.laws.mode)));
+      offsets_.push_back(offsets_.back() + static_cast<std::size_t>(muscle::state_size(m.laws.mode)));
     }
     inertia_ = arm_.inertia_kgm2 + arm_.held_mass_kg * arm_.held_at_m * arm_.held_at_m;
     static_moment_ = arm_.static_moment_kgm + arm_.held_mass_kg * arm_.held_at_m;

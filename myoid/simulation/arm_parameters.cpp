@@ -9,8 +9,7 @@ namespace myoid::simulation {
 
 std::vector<std::string> arm_parameter_names(const Arm<double>& arm) {
   std::vector<std::string> names;
-  visit_arm_parameters(arm,
-                       [&](const auto& name, Unit, const double&) { names.emplace_back(name); });
+  visit_arm_parameters(arm, [&](const auto& name, Unit, const double&) { names.emplace_back(name); });
   return names;
 }
 
@@ -20,8 +19,8 @@ double& arm_parameter(Arm<double>& arm, std::string_view wanted) {
     if (name == wanted) found = &field;
   });
   if (found == nullptr) {
-    throw InvalidInput(fmt::format("the arm has no parameter '{}'; there are {}", wanted,
-                                   fmt::join(arm_parameter_names(arm), ", ")));
+    throw InvalidInput(
+        fmt::format("the arm has no parameter '{}'; there are {}", wanted, fmt::join(arm_parameter_names(arm), ", ")));
   }
   return *found;
 }

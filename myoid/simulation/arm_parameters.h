@@ -15,9 +15,8 @@ template <typename ArmType, typename F>
 void visit_arm_parameters(ArmType& arm, F&& f) {
   for (auto& m : arm.muscles) {
     const std::string head = m.name + ".";
-    muscle::visit_parameters(m.parameters, [&](std::string_view name, Unit unit, auto& field) {
-      f(head + std::string(name), unit, field);
-    });
+    muscle::visit_parameters(
+        m.parameters, [&](std::string_view name, Unit unit, auto& field) { f(head + std::string(name), unit, field); });
     f(head + "path_constant", Unit::meter, m.path.constant_m);
     f(head + "path_above", Unit::meter, m.path.above_m);
     f(head + "path_below", Unit::meter, m.path.below_m);
@@ -59,13 +58,11 @@ template <typename T>
   std::vector<T*> fields;
   visit_arm_parameters(result, [&](const auto&, Unit, T& field) { fields.push_back(&field); });
   std::size_t k = 0;
-  visit_arm_parameters(arm,
-                       [&](const auto&, Unit, const double& value) { *fields[k++] = T(value); });
+  visit_arm_parameters(arm, [&](const auto&, Unit, const double& value) { *fields[k++] = T(value); });
   return result;
 }
 
-/// Returns the names of the parameters. ("arm_static_moment" is in kg m, for which there is no
-/// Unit.)
+/// Returns the names of the parameters. ("arm_static_moment" is in kg m, for which there is no Unit.)
 [[nodiscard]] std::vector<std::string> arm_parameter_names(const Arm<double>& arm);
 
 /// Returns one parameter. Throws InvalidInput listing the names if there is none of this name.

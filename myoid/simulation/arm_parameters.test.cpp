@@ -25,8 +25,7 @@ TEST(ArmParameters, SurviveTheChangeOfScalar) {
   std::vector<double> values;
   visit_arm_parameters(arm, [&](const auto&, Unit, double v) { values.push_back(v); });
   std::size_t k = 0;
-  visit_arm_parameters(
-      same, [&](const auto& name, Unit, double v) { EXPECT_EQ(v, values[k++]) << name; });
+  visit_arm_parameters(same, [&](const auto& name, Unit, double v) { EXPECT_EQ(v, values[k++]) << name; });
   EXPECT_EQ(same.muscles[3].name, "TRI");
 }
 

@@ -13,20 +13,18 @@ namespace myoid::simulation {
 void validate(const Signal& signal, std::string_view what) {
   const auto& t = signal.time_s;
   if (t.empty() || t.size() != signal.value.size()) {
-    throw InvalidInput(
-        fmt::format("{}: {} times and {} values, expected as many of both, at least one", what,
-                    t.size(), signal.value.size()));
+    throw InvalidInput(fmt::format("{}: {} times and {} values, expected as many of both, at least one", what, t.size(),
+                                   signal.value.size()));
   }
   for (std::size_t k = 0; k < t.size(); ++k) {
     if (!std::isfinite(t[k]) || !std::isfinite(signal.value[k])) {
-      throw InvalidInput(fmt::format("{}: node {} is {} at {} s, expected finite numbers", what, k,
-                                     signal.value[k], t[k]));
+      throw InvalidInput(
+          fmt::format("{}: node {} is {} at {} s, expected finite numbers", what, k, signal.value[k], t[k]));
     }
     if (k > 0 && t[k] < t[k - 1])
       throw InvalidInput(fmt::format("{}: time goes back from {} to {} s", what, t[k - 1], t[k]));
     if (k > 1 && t[k] == t[k - 2])
-      throw InvalidInput(
-          fmt::format("{}: more than two nodes at {} s; two make a jump", what, t[k]));
+      throw InvalidInput(fmt::format("{}: more than two nodes at {} s; two make a jump", what, t[k]));
   }
 }
 
@@ -34,18 +32,17 @@ void validate_excitation(const Signal& signal, std::string_view what) {
   validate(signal, what);
   for (std::size_t k = 0; k < signal.value.size(); ++k) {
     if (!(signal.value[k] >= 0.0 && signal.value[k] <= 1.0)) {
-      throw InvalidInput(fmt::format(
-          "{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal "
-          "effort first",
-          what, signal.value[k], signal.time_s[k]));
+      throw InvalidInput(
+          fmt::format("{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal "
+                      "effort first",
+                      what, signal.value[k], signal.time_s[k]));
     }
   }
 }
 
 double value_at(const Signal& signal, double time_s) {
   const auto& t = signal.time_s;
-  const auto after =
-      static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time_s) - t.begin());
+  const auto after = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time_s) - t.begin());
   if (after == 0) return signal.value.front();
   if (after == t.size()) return signal.value.back();
   const double share = (time_s - t[after - 1]) / (t[after] - t[after - 1]);
@@ -56,8 +53,7 @@ std::vector<double> jumps(const Signal& signal, double start_s, double end_s) {
   std::vector<double> result;
   for (std::size_t k = 1; k < signal.time_s.size(); ++k) {
     const double t = signal.time_s[k];
-    if (t == signal.time_s[k - 1] && signal.value[k] != signal.value[k - 1] && t > start_s &&
-        t < end_s)
+    if (t == signal.time_s[k - 1] && signal.value[k] != signal.value[k - 1] && t > start_s && t < end_s)
       result.push_back(t);
   }
   return result;
@@ -73,12 +69,12 @@ Signal bursts(std::span<const Burst> list, double rest) {
   };
   for (const Burst& burst : list) {
     if (!(burst.duration_s > 0.0)) {
-      throw InvalidInput(fmt::format("burst at {} s: its duration is {} s, expected more than 0",
-                                     burst.start_s, burst.duration_s));
+      throw InvalidInput(
+          fmt::format("burst at {} s: its duration is {} s, expected more than 0", burst.start_s, burst.duration_s));
     }
     if (!signal.time_s.empty() && burst.start_s <= signal.time_s.back()) {
-      throw InvalidInput(fmt::format("burst at {} s begins before the last one ends ({} s)",
-                                     burst.start_s, signal.time_s.back()));
+      throw InvalidInput(
+          fmt::format("burst at {} s begins before the last one ends ({} s)", burst.start_s, signal.time_s.back()));
     }
     add(burst.start_s, rest);
     add(burst.start_s, burst.level);
@@ -89,9 +85,7 @@ Signal bursts(std::span<const Burst> list, double rest) {
   return signal;
 }
 
-Signal step(double start_s, double level, double rest) {
-  return {{start_s, start_s}, {rest, level}};
-}
+Signal step(double start_s, double level, double rest) { return {{start_s, start_s}, {rest, level}}; }
 
 namespace {
 
@@ -114,8 +108,8 @@ std::vector<Signal> excitations_from(const TimeSeries& series, std::span<const s
   for (const std::string& name : names) {
     const auto column = channel_of(series, name);
     if (!column) {
-      throw InvalidInput(fmt::format("excitations: no channel for muscle '{}'; there are {}", name,
-                                     channel_names(series)));
+      throw InvalidInput(
+          fmt::format("excitations: no channel for muscle '{}'; there are {}", name, channel_names(series)));
     }
     Signal signal;
     signal.time_s.assign(series.time_s().begin(), series.time_s().end());

@@ -42,11 +42,9 @@ struct Burst {
 /// Returns a signal of `rest` and, from `start_s` on, `level`.
 [[nodiscard]] Signal step(double start_s, double level, double rest = 0.0);
 
-/// Returns channels of a recording as excitations, in the order of `names`. A channel may also be
-/// called "<name>.excitation" or ".../<name>", as in OpenSim's files of controls. Throws
-/// InvalidInput, naming the muscle and the available channels, if one is missing, leaves 0..1 or is
-/// not finite.
-[[nodiscard]] std::vector<Signal> excitations_from(const TimeSeries& series,
-                                                   std::span<const std::string> names);
+/// Returns channels of a recording as excitations, in the order of `names`. A channel may also be called
+/// "<name>.excitation" or ".../<name>", as in OpenSim's files of controls. Throws InvalidInput, naming the muscle and
+/// the available channels, if one is missing, leaves 0..1 or is not finite.
+[[nodiscard]] std::vector<Signal> excitations_from(const TimeSeries& series, std::span<const std::string> names);
 
 }  // namespace myoid::simulation

@@ -33,10 +33,9 @@ TEST(Excitation, ABurstJumpsUpAndDown) {
 }
 
 TEST(Excitation, IsFoundAmongTheChannelsOfARecording) {
-  const TimeSeries series(
-      Eigen::Vector2d(0.0, 1.0),
-      {{"BRA", Unit::dimensionless}, {"/forceset/BIC/excitation", Unit::dimensionless}},
-      (Eigen::Matrix2d() << 0.1, 0.2, 0.3, 0.4).finished());
+  const TimeSeries series(Eigen::Vector2d(0.0, 1.0),
+                          {{"BRA", Unit::dimensionless}, {"/forceset/BIC/excitation", Unit::dimensionless}},
+                          (Eigen::Matrix2d() << 0.1, 0.2, 0.3, 0.4).finished());
   const std::string names[] = {"BIC", "BRA"};
   const auto signals = excitations_from(series, names);
   EXPECT_THAT(signals[0].value, testing::ElementsAre(0.2, 0.4));
@@ -53,8 +52,7 @@ TEST(Excitation, IsFoundAmongTheChannelsOfARecording) {
 TEST(Excitation, OutOfRangeOrOutOfOrderIsRefusedWithItsPlace) {
   EXPECT_THROW(validate_excitation({{0.0, 1.0}, {0.0, 1.01}}, "x"), InvalidInput);
   EXPECT_THROW(validate_excitation({{0.0}, {-0.01}}, "x"), InvalidInput);
-  EXPECT_THROW(validate_excitation({{0.0}, {std::numeric_limits<double>::quiet_NaN()}}, "x"),
-               InvalidInput);
+  EXPECT_THROW(validate_excitation({{0.0}, {std::numeric_limits<double>::quiet_NaN()}}, "x"), InvalidInput);
   EXPECT_THROW(validate({{1.0, 0.0}, {0.0, 0.0}}, "x"), InvalidInput);
   EXPECT_THROW(validate({{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}}, "x"), InvalidInput);
   EXPECT_THROW(validate({}, "x"), InvalidInput);

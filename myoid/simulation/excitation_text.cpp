@@ -23,18 +23,18 @@ struct Excitation {
 
 Excitation parse_excitation(const std::string& text) {
   const auto bad = [&] {
-    return InvalidInput(fmt::format(
-        "--excite '{}': expected MUSCLE=LEVEL, MUSCLE=LEVEL@START or MUSCLE=LEVEL@START+DURATION "
-        "(level 0 to 1, seconds), such as BIC=0.3@0.2+0.25",
-        text));
+    return InvalidInput(
+        fmt::format("--excite '{}': expected MUSCLE=LEVEL, MUSCLE=LEVEL@START or MUSCLE=LEVEL@START+DURATION "
+                    "(level 0 to 1, seconds), such as BIC=0.3@0.2+0.25",
+                    text));
   };
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) throw bad();
   const std::size_t at = text.find('@', equals);
   const std::size_t plus = at == std::string::npos ? at : text.find('+', at);
   const auto number = [&](std::size_t from, std::size_t to) {
-    const auto value = recording::parse_number(
-        std::string_view(text).substr(from, to == std::string::npos ? to : to - from));
+    const auto value =
+        recording::parse_number(std::string_view(text).substr(from, to == std::string::npos ? to : to - from));
     if (!value || !std::isfinite(*value)) throw bad();
     return *value;
   };
@@ -55,8 +55,8 @@ std::vector<simulation::Signal> described_excitations(const std::vector<std::str
     list.push_back(parse_excitation(text));
     const std::string& name = list.back().muscle;
     if (name != "all" && std::find(muscles.begin(), muscles.end(), name) == muscles.end()) {
-      throw InvalidInput(fmt::format("--excite {}: the model has no such muscle; there are {}",
-                                     name, fmt::join(muscles, ", ")));
+      throw InvalidInput(
+          fmt::format("--excite {}: the model has no such muscle; there are {}", name, fmt::join(muscles, ", ")));
     }
   }
   std::vector<simulation::Signal> result;
@@ -71,8 +71,7 @@ std::vector<simulation::Signal> described_excitations(const std::vector<std::str
         level = e.level;
       }
     }
-    std::sort(bursts.begin(), bursts.end(),
-              [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
+    std::sort(bursts.begin(), bursts.end(), [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
     result.push_back(simulation::bursts(bursts, level));
   }
   return result;

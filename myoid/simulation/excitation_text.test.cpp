@@ -31,8 +31,8 @@ TEST(ExcitationText, AllIsEveryMuscleAndBurstsMayComeInAnyOrder) {
 }
 
 TEST(ExcitationText, WhatIsNoneIsRefused) {
-  for (const char* text : {"BIC", "=0.3", "BIC=", "BIC=1.5", "BIC=-0.1", "BIC=nan", "BIC=0.3@",
-                           "BIC=0.3@0.2+", "BIC=0.3@0.2+0", "BIC=0.3@0.2+-1", "SOL=0.3"})
+  for (const char* text : {"BIC", "=0.3", "BIC=", "BIC=1.5", "BIC=-0.1", "BIC=nan", "BIC=0.3@", "BIC=0.3@0.2+",
+                           "BIC=0.3@0.2+0", "BIC=0.3@0.2+-1", "SOL=0.3"})
     EXPECT_THROW((void)described_excitations({text}, 0.01, kMuscles), InvalidInput) << text;
 }
 

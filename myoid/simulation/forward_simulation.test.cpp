@@ -38,8 +38,7 @@ SimulationInput held(double excitation, std::size_t muscles) {
 /// Records a measured figure for --gtest_output=json:FILE.
 void say(const std::string& what, TendonMode mode, double value) {
   constexpr const char* kNames[] = {"rigid", "equilibrium", "mass"};
-  ::testing::Test::RecordProperty(what + "_" + kNames[static_cast<int>(mode)],
-                                  fmt::format("{:.3g}", value));
+  ::testing::Test::RecordProperty(what + "_" + kNames[static_cast<int>(mode)], fmt::format("{:.3g}", value));
 }
 
 double last(const TimeSeries& series, std::string_view name) {
@@ -63,8 +62,7 @@ TEST(ForwardSimulation, AnArmWithoutMusclesSwingsAsAPendulumDoes) {
   }
   const double period_s = 2.0 * kPi * std::sqrt(inertia / (moment * kStandardGravity)) / a;
   const Simulation s =
-      simulate(arm, {}, {.q = {q0}},
-               {.end_s = 5.25 * period_s, .output_times_s = {5.0 * period_s, 5.25 * period_s}});
+      simulate(arm, {}, {.q = {q0}}, {.end_s = 5.25 * period_s, .output_times_s = {5.0 * period_s, 5.25 * period_s}});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
   // Local errors of 1e-8, added up over five periods of about a hundred steps.
   EXPECT_NEAR(s.motion.values()(0, 0), q0, 1e-6);
@@ -81,8 +79,8 @@ TEST(ForwardSimulation, TheTorqueThatTheMotionRequiresIsThatOfTheMuscles) {
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     double worst = 0.0;
     for (Eigen::Index k = 0; k < s.motion.sample_count(); ++k) {
-      const double required = model::required_torque_nm(
-          elbow, s.motion.values()(k, 0), s.motion.values()(k, 2), kStandardGravity, 1.5);
+      const double required =
+          model::required_torque_nm(elbow, s.motion.values()(k, 0), s.motion.values()(k, 2), kStandardGravity, 1.5);
       // Algebra: round-off of torques up to 100 N m, a hundred operations.
       EXPECT_NEAR(required, s.torque.values()(k, 0), 1e-11);
       worst = std::max(worst, std::abs(required - s.torque.values()(k, 0)));
@@ -99,8 +97,7 @@ TEST(ForwardSimulation, EnergyClosesInEveryTendonMode) {
     const Arm<double> arm = make_arm(setup);
     SimulationInput in = bursting(10.0);
     in.external = {Signal{{0.0, 3.0, 3.0, 6.0}, {0.0, 1.0, -1.0, 0.5}}};
-    const Simulation s =
-        simulate(arm, in, {.q = {1.0}}, {.end_s = 10.0, .output_rate_hz = 1.0, .energy = true});
+    const Simulation s = simulate(arm, in, {.q = {1.0}}, {.end_s = 10.0, .output_rate_hz = 1.0, .energy = true});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     const EnergyBalance balance = energy_balance(s);
     EXPECT_GT(balance.turned_over_j, 10.0);  // energy was exchanged
@@ -115,8 +112,7 @@ TEST(ForwardSimulation, EnergyClosesAgainstADevice) {
     const Arm<double> arm = with_tendon_mode(make_arm(), mode);
     SimulationInput in = held(0.3, 4);
     in.device = {isokinetic(0.5, 1.5, 1.0)};
-    const Simulation s =
-        simulate(arm, in, {.q = {0.5}}, {.end_s = 2.0, .output_rate_hz = 10.0, .energy = true});
+    const Simulation s = simulate(arm, in, {.q = {0.5}}, {.end_s = 2.0, .output_rate_hz = 10.0, .energy = true});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
     // 1 rad/s for a second, the rise and the slowing down of 50 ms as much as one of them in full.
@@ -124,8 +120,7 @@ TEST(ForwardSimulation, EnergyClosesAgainstADevice) {
     EXPECT_NEAR(last(s.motion, "elbow_flexion_speed"), 0.0, 1e-9);
     // The device's torque to hold a posture.
     EXPECT_NEAR(last(s.torque, "device"),
-                -last(s.torque, "muscles") - last(s.torque, "gravity") - last(s.torque, "joint"),
-                1e-12);
+                -last(s.torque, "muscles") - last(s.torque, "gravity") - last(s.torque, "joint"), 1e-12);
   }
 }
 
@@ -135,8 +130,7 @@ TEST(ForwardSimulation, TheTendonModesAgreeInSlowMovement) {
   in.device = {isokinetic(0.5, 9.0, 0.15)};
   Eigen::VectorXd torque[3];
   for (const TendonMode mode : kModes) {
-    const Simulation s =
-        simulate(with_tendon_mode(make_arm(), mode), in, {.q = {0.5}}, {.end_s = 10.0});
+    const Simulation s = simulate(with_tendon_mode(make_arm(), mode), in, {.q = {0.5}}, {.end_s = 10.0});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     torque[static_cast<int>(mode)] = s.torque.column("muscles");
   }
@@ -145,8 +139,7 @@ TEST(ForwardSimulation, TheTendonModesAgreeInSlowMovement) {
   EXPECT_LT((torque[1] - torque[0]).cwiseAbs().maxCoeff(), 0.01 * greatest);
   EXPECT_LT((torque[2] - torque[0]).cwiseAbs().maxCoeff(), 0.01 * greatest);
   for (const TendonMode mode : kModes) {
-    say("share_of_torque", mode,
-        (torque[static_cast<int>(mode)] - torque[0]).cwiseAbs().maxCoeff() / greatest);
+    say("share_of_torque", mode, (torque[static_cast<int>(mode)] - torque[0]).cwiseAbs().maxCoeff() / greatest);
   }
   // A muscle of 0.1 kg hardly matters at 0.15 rad/s: its inertial force is below 1e-3 N, except
   // for the jolts of 3 rad/s^2 when the device starts and stops.
@@ -189,11 +182,10 @@ TEST(ForwardSimulation, AMuscleWithMassRingsAtTheFrequencyOfItsTendon) {
 
   fiber.fiber_length_m += 1e-6;  // 0.07 N: small against 19 N, the tendon stays taut
   const double period_s = 2.0 * kPi / omega;
-  const Simulation s =
-      simulate(arm, held(0.0, 1), {.q = {1.0}, .fiber = {fiber}},
-               {.end_s = 4.0 * period_s,
-                .output_times_s = {2.0 * period_s, 4.0 * period_s},
-                .ode = {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-13}});
+  const Simulation s = simulate(arm, held(0.0, 1), {.q = {1.0}, .fiber = {fiber}},
+                                {.end_s = 4.0 * period_s,
+                                 .output_times_s = {2.0 * period_s, 4.0 * period_s},
+                                 .ode = {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-13}});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
   const double rest = fiber.fiber_length_m - 1e-6;
   // After whole periods the displacement is that of the start times exp(-decay t); the passive
@@ -207,11 +199,11 @@ TEST(ForwardSimulation, AMuscleWithMassRingsAtTheFrequencyOfItsTendon) {
 TEST(ForwardSimulation, AHeldMuscleComesToRestWithTendonAndFiberPullingAlike) {
   for (const TendonMode mode : kModes) {
     for (const double u : {0.1, 0.6}) {
-      const Simulation s = simulate(
-          biceps(mode), {.excitation = {step(0.1, u, 0.05)}, .device = {locked()}}, {.q = {1.0}},
-          {.end_s = 10.0,
-           .output_times_s = {0.0, 10.0},
-           .ode = {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-15}});
+      const Simulation s =
+          simulate(biceps(mode), {.excitation = {step(0.1, u, 0.05)}, .device = {locked()}}, {.q = {1.0}},
+                   {.end_s = 10.0,
+                    .output_times_s = {0.0, 10.0},
+                    .ode = {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-15}});
       ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
       const double pull = last(s.tendon_force, "BIC");
       EXPECT_GT(pull, 15.0);
@@ -226,22 +218,18 @@ TEST(ForwardSimulation, ATighterToleranceMovesTheResultInProportion) {
   for (const TendonMode mode : kModes) {
     const Arm<double> arm = with_tendon_mode(make_arm(), mode);
     const auto angles = [&](double tolerance) {
-      const Simulation s = simulate(
-          arm, bursting(3.0), {.q = {1.0}},
-          {.end_s = 3.0,
-           .output_rate_hz = 100.0,
-           .ode = {.relative_tolerance = tolerance, .absolute_tolerance = 0.01 * tolerance}});
+      const Simulation s = simulate(arm, bursting(3.0), {.q = {1.0}},
+                                    {.end_s = 3.0,
+                                     .output_rate_hz = 100.0,
+                                     .ode = {.relative_tolerance = tolerance, .absolute_tolerance = 0.01 * tolerance}});
       EXPECT_EQ(s.status, math::OdeStatus::done) << s.message;
       return Eigen::VectorXd(s.motion.column("elbow_flexion"));
     };
     const Eigen::VectorXd exact = angles(1e-11);
-    const auto error = [&](double tolerance) {
-      return (angles(tolerance) - exact).cwiseAbs().maxCoeff();
-    };
-    // A method of order p, whose error per step h^(p+1) is held to the tolerance, errs by h^p =
-    // tolerance^(p/(p+1)) in the end: 5/6 for backward differentiation of order 5, 4/5 of order 4,
-    // where it mostly is. The explicit method goes on with order 5 and estimates its error by order
-    // 4: the power is one. Over ten halvings.
+    const auto error = [&](double tolerance) { return (angles(tolerance) - exact).cwiseAbs().maxCoeff(); };
+    // A method of order p, whose error per step h^(p+1) is held to the tolerance, errs by h^p = tolerance^(p/(p+1)) in
+    // the end: 5/6 for backward differentiation of order 5, 4/5 of order 4, where it mostly is. The explicit method
+    // goes on with order 5 and estimates its error by order 4: the power is one. Over ten halvings.
     const double power = std::log2(error(1e-5) / error(1e-5 / 1024.0)) / 10.0;
     EXPECT_GT(power, mode == TendonMode::rigid ? 0.85 : 0.7);
     EXPECT_LT(power, mode == TendonMode::rigid ? 1.25 : 0.95);
@@ -254,31 +242,28 @@ TEST(ForwardSimulation, ATighterToleranceMovesTheResultInProportion) {
 TEST(ForwardSimulation, WhatIsRecordedDoesNotChangeTheMotion) {
   const Arm<double> arm = with_tendon_mode(make_arm(), TendonMode::equilibrium);
   const Simulation often = simulate(arm, bursting(1.0), {.q = {1.0}}, {.end_s = 1.0});
-  const Simulation seldom =
-      simulate(arm, bursting(1.0), {.q = {1.0}}, {.end_s = 1.0, .output_rate_hz = 3.0});
+  const Simulation seldom = simulate(arm, bursting(1.0), {.q = {1.0}}, {.end_s = 1.0, .output_rate_hz = 3.0});
   EXPECT_EQ(seldom.motion.sample_count(), 4);
   EXPECT_EQ(last(often.motion, "elbow_flexion"), last(seldom.motion, "elbow_flexion"));
 }
 
 TEST(ForwardSimulation, AControllerCanHoldAPosture) {
   Controller pd{.interval_s = 0.01,
-                .excite = [](double, std::span<const double> q, std::span<const double> qdot,
-                             std::span<double> u) {
+                .excite = [](double, std::span<const double> q, std::span<const double> qdot, std::span<double> u) {
                   const double wanted = 0.3 * (1.4 - q[0]) - 0.05 * qdot[0];
                   for (std::size_t i = 0; i < 3; ++i) u[i] = std::clamp(0.1 + wanted, 0.01, 1.0);
                   u[3] = std::clamp(0.1 - wanted, 0.01, 1.0);
                 }};
   for (const TendonMode mode : kModes) {
-    const Simulation s = simulate(with_tendon_mode(make_arm(), mode), {}, {.q = {1.0}},
-                                  {.end_s = 3.0, .controller = pd});
+    const Simulation s =
+        simulate(with_tendon_mode(make_arm(), mode), {}, {.q = {1.0}}, {.end_s = 3.0, .controller = pd});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     EXPECT_NEAR(last(s.motion, "elbow_flexion"), 1.4, 0.2);
     EXPECT_NEAR(last(s.motion, "elbow_flexion_speed"), 0.0, 0.02);
   }
 }
 
-// With the envelope as activation, a step of excitation is a step of force: no effect may precede
-// it.
+// With the envelope as activation, a step of excitation is a step of force: no effect may precede it.
 TEST(ForwardSimulation, AJumpOfTheActivationActsFromItsTimeOn) {
   ArmSetup setup{.horizontal = true};
   setup.activation.law = muscle::ActivationLaw::envelope;
@@ -301,17 +286,16 @@ TEST(ForwardSimulation, JumpsAHairApartDoNoHarm) {
     SimulationInput in;
     in.excitation = {step(0.3, 0.2), step(0.1 + 0.2, 0.2), step(0.3, 0.1), step(0.1, 0.05)};
     in.device = {isokinetic(0.1 + 0.2, 0.5, 0.5)};
-    const Simulation s = simulate(with_tendon_mode(make_arm(), mode), in, {.q = {1.0}},
-                                  {.end_s = 0.6, .output_rate_hz = 100.0});
+    const Simulation s =
+        simulate(with_tendon_mode(make_arm(), mode), in, {.q = {1.0}}, {.end_s = 0.6, .output_rate_hz = 100.0});
     EXPECT_EQ(s.status, math::OdeStatus::done) << s.message;
     EXPECT_EQ(s.motion.sample_count(), 61);
   }
 }
 
 TEST(ForwardSimulation, ANumericalFailureIsSaidAndWhatWasReachedKept) {
-  const Simulation s =
-      simulate(with_tendon_mode(make_arm(), TendonMode::equilibrium), bursting(1.0), {.q = {1.0}},
-               {.end_s = 1.0, .ode = {.max_steps = 200}});
+  const Simulation s = simulate(with_tendon_mode(make_arm(), TendonMode::equilibrium), bursting(1.0), {.q = {1.0}},
+                                {.end_s = 1.0, .ode = {.max_steps = 200}});
   EXPECT_EQ(s.status, math::OdeStatus::too_many_steps);
   EXPECT_FALSE(s.message.empty());
   EXPECT_LT(s.reached_s, 1.0);
@@ -330,18 +314,16 @@ TEST(ForwardSimulation, RefusesWhatCannotBeSimulated) {
   EXPECT_THROW((void)simulate(arm, good, {.q = {1.0}}, {.end_s = -1.0}), InvalidInput);
   EXPECT_THROW((void)simulate(arm, good, {}, {.end_s = 1.0}), InvalidInput);
   EXPECT_THROW((void)simulate(arm, good, {.q = {1.0}}, {.output_rate_hz = 0.0}), InvalidInput);
-  EXPECT_THROW((void)simulate(arm, good, {.q = {1.0}}, {.output_times_s = {0.5, 0.4}}),
-               InvalidInput);
-  EXPECT_THROW((void)energy_balance(simulate(arm, good, {.q = {1.0}}, {.end_s = 0.1})),
-               InvalidInput);
+  EXPECT_THROW((void)simulate(arm, good, {.q = {1.0}}, {.output_times_s = {0.5, 0.4}}), InvalidInput);
+  EXPECT_THROW((void)energy_balance(simulate(arm, good, {.q = {1.0}}, {.end_s = 0.1})), InvalidInput);
 }
 
 TEST(ForwardSimulation, EndsOnRequest) {
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW((void)simulate(make_arm(), bursting(1.0), {.q = {1.0}},
-                              {.progress = {.report = {}, .stop = stop.get_token()}}),
-               Interrupted);
+  EXPECT_THROW(
+      (void)simulate(make_arm(), bursting(1.0), {.q = {1.0}}, {.progress = {.report = {}, .stop = stop.get_token()}}),
+      Interrupted);
 }
 
 }  // namespace

@@ -18,12 +18,8 @@ class HingeSkeleton {
   [[nodiscard]] std::string coordinate_name(std::size_t) const { return "elbow_flexion"; }
   [[nodiscard]] bool is_rotational(std::size_t) const { return true; }
   [[nodiscard]] std::size_t muscle_count() const { return arm_.muscle_count(); }
-  [[nodiscard]] const std::string& muscle_name(std::size_t i) const {
-    return arm_.arm().muscles[i].name;
-  }
-  [[nodiscard]] const muscle::Musculotendon<double>& unit(std::size_t i) const {
-    return arm_.unit(i);
-  }
+  [[nodiscard]] const std::string& muscle_name(std::size_t i) const { return arm_.arm().muscles[i].name; }
+  [[nodiscard]] const muscle::Musculotendon<double>& unit(std::size_t i) const { return arm_.unit(i); }
   [[nodiscard]] const muscle::ActivationDynamics<double>& activation(std::size_t i) const {
     return arm_.arm().muscles[i].activation;
   }
@@ -31,15 +27,12 @@ class HingeSkeleton {
   void set(const double* q, const double* qdot) {
     q_ = q[0];
     qdot_ = qdot[0];
-    for (std::size_t i = 0; i < paths_.size(); ++i)
-      paths_[i] = travel(arm_.arm().muscles[i].path, q_);
+    for (std::size_t i = 0; i < paths_.size(); ++i) paths_[i] = travel(arm_.arm().muscles[i].path, q_);
     passive_ = muscle::joint_passive(arm_.arm().joint, q_, qdot_);
   }
   [[nodiscard]] double length_m(std::size_t i) const { return paths_[i].length_m; }
   [[nodiscard]] double velocity_mps(std::size_t i) const { return -paths_[i].moment_arm_m * qdot_; }
-  [[nodiscard]] double moment_arm_m(std::size_t i, std::size_t) const {
-    return paths_[i].moment_arm_m;
-  }
+  [[nodiscard]] double moment_arm_m(std::size_t i, std::size_t) const { return paths_[i].moment_arm_m; }
 
   /// Computes accelerations under generalized forces `tau` (muscles and all other outside forces),
   /// in addition to gravity and the joints' own. A prescribed acceleration is read from `qddot`,
@@ -56,9 +49,7 @@ class HingeSkeleton {
   [[nodiscard]] double gravity(std::size_t) const { return arm_.gravity_torque_nm(q_); }
   [[nodiscard]] double joint_elastic(std::size_t) const { return passive_.elastic_torque_nm; }
   [[nodiscard]] double joint_viscous(std::size_t) const { return passive_.viscous_torque_nm; }
-  [[nodiscard]] double kinetic_energy_j() const {
-    return 0.5 * arm_.inertia_kgm2() * qdot_ * qdot_;
-  }
+  [[nodiscard]] double kinetic_energy_j() const { return 0.5 * arm_.inertia_kgm2() * qdot_ * qdot_; }
   [[nodiscard]] double gravity_energy_j() const { return arm_.gravity_energy_j(q_); }
   [[nodiscard]] double joint_elastic_energy_j() const { return passive_.stored_energy_j; }
 

@@ -18,8 +18,8 @@ TEST(HingeSkeleton, AcceleratesAsTheEquationsOfTheArmSay) {
   skeleton.set(y.data(), y.data() + 1);
   double tau = 0.7;
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto r = muscle::musculotendon_rate(
-        skeleton.unit(i), {activation[i], skeleton.length_m(i), skeleton.velocity_mps(i)}, {});
+    const auto r = muscle::musculotendon_rate(skeleton.unit(i),
+                                              {activation[i], skeleton.length_m(i), skeleton.velocity_mps(i)}, {});
     tau += skeleton.moment_arm_m(i, 0) * r.tendon_force_n;
   }
   const char is_free = 0;

@@ -20,8 +20,7 @@ forces::MuscleForceLaw muscle_force_law(const model::BodyModel& model,
                                         const kinematics::MuscleKinematics& muscles,
                                         const MuscleForceOptions& options) {
   const simulation::SimulationModel known = simulation::make_simulation_model(
-      model, {.mode = options.elastic_tendon ? muscle::TendonMode::equilibrium
-                                             : muscle::TendonMode::rigid});
+      model, {.mode = options.elastic_tendon ? muscle::TendonMode::equilibrium : muscle::TendonMode::rigid});
   using Units = std::vector<std::optional<muscle::Musculotendon<ByActivation>>>;
   const auto units = std::make_shared<Units>(model.muscles.size());
   for (std::size_t k = 0; k < known.muscles.size(); ++k) {
@@ -32,20 +31,18 @@ forces::MuscleForceLaw muscle_force_law(const model::BodyModel& model,
       laws.passive = muscle::PassiveLaw::none;
       parameters.damping = 0.0;
     }
-    (*units)[static_cast<std::size_t>(m.index)].emplace(muscle::lifted<ByActivation>(parameters),
-                                                        laws, known.millard[k]);
+    (*units)[static_cast<std::size_t>(m.index)].emplace(muscle::lifted<ByActivation>(parameters), laws,
+                                                        known.millard[k]);
   }
   return [units, length = muscles.length.values(), velocity = muscles.velocity.values()](
              Eigen::Index frame, Eigen::Index muscle, double activation) {
     const auto& unit = (*units)[static_cast<std::size_t>(muscle)];
     if (!unit) return forces::ForceAtActivation{};
-    const muscle::MusculotendonInput<ByActivation> input{ByActivation(activation, 0),
-                                                         ByActivation(length(frame, muscle)),
-                                                         ByActivation(velocity(frame, muscle))};
+    const muscle::MusculotendonInput<ByActivation> input{
+        ByActivation(activation, 0), ByActivation(length(frame, muscle)), ByActivation(velocity(frame, muscle))};
     const bool rigid = unit->laws().mode == muscle::TendonMode::rigid;
     const muscle::MusculotendonState<ByActivation> state =
-        rigid ? muscle::MusculotendonState<ByActivation>{}
-              : muscle::equilibrium_state(*unit, input);
+        rigid ? muscle::MusculotendonState<ByActivation>{} : muscle::equilibrium_state(*unit, input);
     const ByActivation force = muscle::musculotendon_rate(*unit, input, state).tendon_force_n;
     return forces::ForceAtActivation{force.a, force.v[0]};
   };

@@ -12,11 +12,10 @@ struct MuscleForceOptions {
   bool passive_force = false;   ///< The fiber's passive spring and damper pull too.
 };
 
-/// Returns F(x) of every muscle along a motion with exact dF/dx, by the curves of its class
-/// (muscle/musculotendon.h). F is the tendon's force in the equilibrium of fiber and tendon. With
-/// an elastic tendon the length of the fiber follows from the force by the tendon's law. Its
-/// velocity is dl_m/dt = v cos(alpha), as if the tendon's length were constant, so that frames are
-/// independent. Muscles that apply no force have none. Throws InvalidInput, naming the muscle, if
+/// Returns F(x) of every muscle along a motion with exact dF/dx, by the curves of its class (muscle/musculotendon.h). F
+/// is the tendon's force in the equilibrium of fiber and tendon. With an elastic tendon the length of the fiber follows
+/// from the force by the tendon's law. Its velocity is dl_m/dt = v cos(alpha), as if the tendon's length were constant,
+/// so that frames are independent. Muscles that apply no force have none. Throws InvalidInput, naming the muscle, if
 /// its parameters are impossible.
 [[nodiscard]] forces::MuscleForceLaw muscle_force_law(const model::BodyModel& model,
                                                       const kinematics::MuscleKinematics& muscles,

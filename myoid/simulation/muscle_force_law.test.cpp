@@ -23,8 +23,7 @@ struct BuiltInArm {
       channels.push_back({model.coordinates[static_cast<std::size_t>(c)].name, Unit::radian});
       q.col(c) = 0.9 + 0.5 * (3.0 * t.array()).sin();
     }
-    muscles = kinematics::muscle_kinematics(
-        model, kinematics::joint_motion(model, {t, channels, q}).motion);
+    muscles = kinematics::muscle_kinematics(model, kinematics::joint_motion(model, {t, channels, q}).motion);
   }
 };
 
@@ -37,8 +36,7 @@ TEST(MuscleForceLaw, TheSlopeIsTheDerivativeOfTheForce) {
         for (const double a : {0.1, 0.4, 0.9}) {
           const double h = 1e-5;
           const double quotient = (law(7, m, a + h).force_n - law(7, m, a - h).force_n) / (2.0 * h);
-          const double f_max =
-              arm.model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
+          const double f_max = arm.model.muscles[static_cast<std::size_t>(m)].properties.max_isometric_force_n;
           // h^2 times a third derivative of a few F_max.
           EXPECT_NEAR(law(7, m, a).slope_n, quotient, 1e-7 * f_max) << m << " " << a;
         }
@@ -60,22 +58,20 @@ TEST(MuscleForceLaw, FiberAndElasticTendonPullAlike) {
     const double e0 = p.max_tendon_strain;
     const double toe = 99.0 * e0 * std::exp(3.0) / (166.0 * std::exp(3.0) - 67.0);
     const double stiff = 0.67 / (e0 - toe);
-    const double strain = force > 0.33 ? toe + (force - 0.33) / stiff
-                                       : toe / 3.0 * std::log1p(force / 0.33 * std::expm1(3.0));
-    const double along =
-        arm.muscles.length.values()(5, m) - p.tendon_slack_length_m * (1.0 + strain);
+    const double strain =
+        force > 0.33 ? toe + (force - 0.33) / stiff : toe / 3.0 * std::log1p(force / 0.33 * std::expm1(3.0));
+    const double along = arm.muscles.length.values()(5, m) - p.tendon_slack_length_m * (1.0 + strain);
     const double height = p.optimal_fiber_length_m * std::sin(p.pennation_at_optimal_rad);
     const double fiber = std::hypot(along, height), cosine = along / fiber;
     const double l = fiber / p.optimal_fiber_length_m - 1.0;
     // Thelen's greatest velocity grows with the activation.
-    const double v = speed * cosine / (p.optimal_fiber_length_m * p.max_contraction_velocity) /
-                     (0.25 + 0.75 * a);
+    const double v = speed * cosine / (p.optimal_fiber_length_m * p.max_contraction_velocity) / (0.25 + 0.75 * a);
     const double k = p.concentric_shape;
     const double top = p.eccentric_plateau;
     // Thelen's hyperbola.
-    const double fv = v <= 0.0 ? (1.0 + v) / (1.0 - v / k)
-                               : (1.0 + v * top * (2.0 + 2.0 / k) / (top - 1.0)) /
-                                     (1.0 + v * (2.0 + 2.0 / k) / (top - 1.0));
+    const double fv = v <= 0.0
+                          ? (1.0 + v) / (1.0 - v / k)
+                          : (1.0 + v * top * (2.0 + 2.0 / k) / (top - 1.0)) / (1.0 + v * (2.0 + 2.0 / k) / (top - 1.0));
     const double pull = a * std::exp(-l * l / p.active_shape) * fv * cosine;
     EXPECT_NEAR(pull, force, 1e-9) << m;
   }

@@ -30,8 +30,7 @@ double scale_of(double value) { return value != 0.0 ? std::abs(value) : 1.0; }
 
 constexpr std::string_view kStart[] = {"start_angle", "start_speed"};
 
-/// Returns the arm in dual numbers, with the derivatives by (scaled) parameters begin, begin + 1,
-/// ....
+/// Returns the arm in dual numbers, with the derivatives by (scaled) parameters begin, begin + 1, ....
 Arm<Jet> seeded(const Arm<double>& arm, std::span<const std::string> chunk) {
   Arm<Jet> dual = lifted_arm<Jet>(arm);
   visit_arm_parameters(dual, [&](const auto& name, Unit, Jet& field) {
@@ -74,9 +73,8 @@ class Chunk {
       if (!start.activation.empty()) first = start.activation[i];
       signals_.emplace_back(arm.muscles[i].activation, now_, first);
       signals_.back().extend(input.excitation[i], options.end_s);
-      dual_signals_.emplace_back(
-          dual_.arm().muscles[i].activation, now_,
-          muscle::ActivationPoint<Jet>{Jet(first.filtered_excitation), Jet(first.activation)});
+      dual_signals_.emplace_back(dual_.arm().muscles[i].activation, now_,
+                                 muscle::ActivationPoint<Jet>{Jet(first.filtered_excitation), Jet(first.activation)});
       dual_signals_.back().extend(input.excitation[i], options.end_s);
     }
     begin(start, parameters);
@@ -94,8 +92,7 @@ class Chunk {
       return true;
     };
     problem.sensitivity_count = count_;
-    problem.sensitivity = [this](double t, const double* y, const double* const* s,
-                                 double* const* sdot) {
+    problem.sensitivity = [this](double t, const double* y, const double* const* s, double* const* sdot) {
       dual_rate(t, y, [&](std::size_t k, std::size_t i) { return s[k][i]; });
       for (std::size_t k = 0; k < count_; ++k) {
         for (std::size_t i = 0; i < states_; ++i) sdot[k][i] = dual_ydot_[i].v[static_cast<int>(k)];
@@ -184,24 +181,21 @@ class Chunk {
       std::size_t hint = 0;
       const auto in = dual_.input(i, dual_signals_[i].at(now_, hint), dual_y_.data(), arm_m);
       const auto fiber = start.fiber.empty() ? muscle::equilibrium_state(dual_.unit(i), in)
-                                             : muscle::MusculotendonState<Jet>{
-                                                   Jet(start.fiber[i].fiber_length_m),
-                                                   Jet(start.fiber[i].fiber_velocity_mps)};
+                                             : muscle::MusculotendonState<Jet>{Jet(start.fiber[i].fiber_length_m),
+                                                                               Jet(start.fiber[i].fiber_velocity_mps)};
       dual_y_[o] = fiber.fiber_length_m;
       if (size > 1) dual_y_[o + 1] = fiber.fiber_velocity_mps;
     }
     for (std::size_t i = 0; i < states_; ++i) {
       y_[i] = dual_y_[i].a;
-      for (std::size_t k = 0; k < count_; ++k)
-        s_[k * states_ + i] = dual_y_[i].v[static_cast<int>(k)];
+      for (std::size_t k = 0; k < count_; ++k) s_[k * states_ + i] = dual_y_[i].v[static_cast<int>(k)];
     }
   }
 
   template <typename Derivative>
   void dual_rate(double t, const double* y, const Derivative& derivative) {
     const double inside = std::min(t, limit_left_);
-    for (std::size_t i = 0; i < n_; ++i)
-      dual_activation_[i] = dual_signals_[i].at(inside, dual_hints_[i]);
+    for (std::size_t i = 0; i < n_; ++i) dual_activation_[i] = dual_signals_[i].at(inside, dual_hints_[i]);
     for (std::size_t i = 0; i < states_; ++i) {
       dual_y_[i] = Jet(y[i]);
       for (std::size_t k = 0; k < count_; ++k) dual_y_[i].v[static_cast<int>(k)] = derivative(k, i);
@@ -221,8 +215,7 @@ class Chunk {
     for (std::size_t i = 0; i < n_; ++i) {
       Jet arm_m;
       const auto in = dual_.input(i, dual_activation_[i], dual_y_.data(), arm_m);
-      const auto o =
-          muscle::musculotendon_output(dual_.unit(i), in, dual_.fiber(i, dual_y_.data()));
+      const auto o = muscle::musculotendon_output(dual_.unit(i), in, dual_.fiber(i, dual_y_.data()));
       torque += arm_m * o.tendon_force_n;
       put(result.activation[i], dual_activation_[i]);
       put(result.fiber_length[i], o.fiber_length_m);
@@ -232,8 +225,7 @@ class Chunk {
     put(result.speed, dual_y_[1]);
     put(result.acceleration, dual_ydot_[1]);
     put(result.torque, torque);
-    put(result.device,
-        prescribed_ ? dual_.inertia_kgm2() * (dual_ydot_[1] - free_acceleration_) : Jet(0.0));
+    put(result.device, prescribed_ ? dual_.inertia_kgm2() * (dual_ydot_[1] - free_acceleration_) : Jet(0.0));
   }
 
   ArmDynamics<double> plain_;
@@ -264,8 +256,7 @@ Sensitivities simulate_sensitivities(const Arm<double>& arm,
                                      const SimulationOptions& options,
                                      std::span<const std::string> parameters) {
   validate(arm);
-  if (options.controller.excite)
-    throw InvalidInput("sensitivities: the answers of a controller have no derivatives");
+  if (options.controller.excite) throw InvalidInput("sensitivities: the answers of a controller have no derivatives");
   std::vector<std::string> names;
   for (const ArmMuscle<double>& m : arm.muscles) names.push_back(m.name);
   check_simulation(names, 1, input, start, options);
@@ -282,9 +273,7 @@ Sensitivities simulate_sensitivities(const Arm<double>& arm,
   const auto columns = static_cast<Eigen::Index>(parameters.size());
   result.time_s = Eigen::Map<const Eigen::VectorXd>(times.data(), rows);
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(rows, columns);
-  for (auto* m :
-       {&result.angle, &result.speed, &result.acceleration, &result.torque, &result.device})
-    *m = zero;
+  for (auto* m : {&result.angle, &result.speed, &result.acceleration, &result.torque, &result.device}) *m = zero;
   for (auto* list : {&result.activation, &result.fiber_length, &result.tendon_force})
     list->assign(arm.muscles.size(), zero);
 
@@ -294,8 +283,7 @@ Sensitivities simulate_sensitivities(const Arm<double>& arm,
   oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     const std::size_t begin = c * kChunk;
     Chunk chunk(arm, input, start, options,
-                parameters.subspan(begin, std::min<std::size_t>(kChunk, parameters.size() - begin)),
-                times);
+                parameters.subspan(begin, std::min<std::size_t>(kChunk, parameters.size() - begin)), times);
     status[c] = chunk.run(result, static_cast<Eigen::Index>(begin));
     statistics[c] = chunk.statistics;
   });
@@ -312,9 +300,7 @@ Sensitivities simulate_sensitivities(const Arm<double>& arm,
   const auto unscale = [&](Eigen::MatrixXd& m) {
     for (Eigen::Index k = 0; k < columns; ++k) m.col(k) /= scales[static_cast<std::size_t>(k)];
   };
-  for (auto* m :
-       {&result.angle, &result.speed, &result.acceleration, &result.torque, &result.device})
-    unscale(*m);
+  for (auto* m : {&result.angle, &result.speed, &result.acceleration, &result.torque, &result.device}) unscale(*m);
   for (auto* list : {&result.activation, &result.fiber_length, &result.tendon_force}) {
     for (Eigen::MatrixXd& m : *list) unscale(m);
   }
@@ -326,8 +312,7 @@ Eigen::MatrixXd information(const Sensitivities& s, const MeasurementSpread& spr
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
   bool measured = false;
   const auto add = [&](const Eigen::MatrixXd& jacobian, double sd, std::string_view what) {
-    if (!(sd >= 0.0))
-      throw InvalidInput(fmt::format("information: the spread of {} is {}", what, sd));
+    if (!(sd >= 0.0)) throw InvalidInput(fmt::format("information: the spread of {} is {}", what, sd));
     if (sd == 0.0) return;
     measured = true;
     result.noalias() += jacobian.transpose() * jacobian / (sd * sd);
@@ -335,10 +320,8 @@ Eigen::MatrixXd information(const Sensitivities& s, const MeasurementSpread& spr
   add(s.angle, spread.angle_rad, "the angle");
   add(s.torque, spread.torque_nm, "the torque");
   add(s.device, spread.device_nm, "the device's torque");
-  for (const Eigen::MatrixXd& force : s.tendon_force)
-    add(force, spread.tendon_force_n, "the tendon force");
-  for (const Eigen::MatrixXd& length : s.fiber_length)
-    add(length, spread.fiber_length_m, "the fiber length");
+  for (const Eigen::MatrixXd& force : s.tendon_force) add(force, spread.tendon_force_n, "the tendon force");
+  for (const Eigen::MatrixXd& length : s.fiber_length) add(length, spread.fiber_length_m, "the fiber length");
   if (!measured) throw InvalidInput("information: nothing is measured");
   return result;
 }

@@ -16,8 +16,7 @@ namespace {
 
 using muscle::TendonMode;
 
-constexpr TendonMode kTendonModes[] = {TendonMode::rigid, TendonMode::equilibrium,
-                                       TendonMode::mass};
+constexpr TendonMode kTendonModes[] = {TendonMode::rigid, TendonMode::equilibrium, TendonMode::mass};
 
 /// Every effect takes part: passive forces, pennation, shifted optimum, a load, gravity.
 Arm<double> whole_arm(TendonMode mode) {
@@ -53,13 +52,11 @@ TEST(Sensitivities, AgreeWithDifferences) {
     std::vector<std::string> names;
     for (const std::string& name : arm_parameter_names(arm)) {
       const bool other = name == "TRI.max_isometric_force" || name == "BRD.tendon_slack_length";
-      if (other || name.starts_with("BIC.") || name.find('.') == std::string::npos)
-        names.push_back(name);
+      if (other || name.starts_with("BIC.") || name.find('.') == std::string::npos) names.push_back(name);
     }
     names.insert(names.end(), {"start_angle", "start_speed"});
     const SimulationInput input = there_and_back();
-    const Sensitivities s =
-        simulate_sensitivities(arm, input, {.q = {1.3}, .qdot = {0.2}}, within(1e-9), names);
+    const Sensitivities s = simulate_sensitivities(arm, input, {.q = {1.3}, .qdot = {0.2}}, within(1e-9), names);
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     for (std::size_t p = 0; p < names.size(); ++p) {
       const auto shifted = [&](double by) {
@@ -86,12 +83,11 @@ TEST(Sensitivities, AgreeWithDifferences) {
         // What changes if the parameter changes by itself, `size` at most, is wrong by 1e-5 of
         // that: the difference has a truncation of (3e-4)^2 times the third derivative and errors
         // of 1e-9 over 6e-4, the sensitivity what its tolerance allows.
-        const auto expect = [&](double ours, const TimeSeries& a, const TimeSeries& b,
-                                Eigen::Index column, double size, const char* what) {
+        const auto expect = [&](double ours, const TimeSeries& a, const TimeSeries& b, Eigen::Index column, double size,
+                                const char* what) {
           const double difference = (a.values()(row, column) - b.values()(row, column)) / (2.0 * h);
           EXPECT_NEAR(ours, difference, 1e-5 * size / unit + 1e-4 * std::abs(difference))
-              << what << " by " << names[p] << ", mode " << static_cast<int>(mode) << ", t "
-              << s.time_s[row];
+              << what << " by " << names[p] << ", mode " << static_cast<int>(mode) << ", t " << s.time_s[row];
         };
         expect(s.angle(row, c), up.motion, down.motion, 0, 1.0, "angle");
         expect(s.speed(row, c), up.motion, down.motion, 1, 10.0, "speed");
@@ -109,8 +105,7 @@ TEST(Sensitivities, AgreeWithDifferences) {
   }
 }
 
-// In a held posture the torque of rigid muscles is proportional to their strengths: sum F dT/dF =
-// T.
+// In a held posture the torque of rigid muscles is proportional to their strengths: sum F dT/dF = T.
 TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
   const Arm<double> arm = make_arm();
   SimulationInput input{.excitation = std::vector<Signal>(4, constant(0.2)), .device = {locked()}};
@@ -121,8 +116,7 @@ TEST(Sensitivities, OfAHeldTorqueToTheStrengthsAddUpToTheTorque) {
   const Simulation held = simulate(arm, input, {.q = {1.3}}, options);
   Arm<double> copy = arm;
   double sum = 0.0;
-  for (std::size_t k = 0; k < 4; ++k)
-    sum += s.torque(0, static_cast<Eigen::Index>(k)) * arm_parameter(copy, names[k]);
+  for (std::size_t k = 0; k < 4; ++k) sum += s.torque(0, static_cast<Eigen::Index>(k)) * arm_parameter(copy, names[k]);
   EXPECT_NEAR(sum, held.torque.values()(0, 0), 1e-12 * std::abs(sum));
   EXPECT_NEAR(s.device(0, 0), -s.torque(0, 0), 1e-14);
   EXPECT_EQ(s.angle.cwiseAbs().maxCoeff(), 0.0);
@@ -151,8 +145,7 @@ TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
           0.1 * (s.motion.values().col(1) - measured.motion.values().col(1)),
           0.01 * (s.torque.column("muscles") - measured.torque.column("muscles"));
       Eigen::VectorXd size(4);
-      for (Eigen::Index k = 0; k < 4; ++k)
-        size[k] = arm_parameter(guess, names[static_cast<std::size_t>(k)]);
+      for (Eigen::Index k = 0; k < 4; ++k) size[k] = arm_parameter(guess, names[static_cast<std::size_t>(k)]);
       const Eigen::MatrixXd scaled = jacobian * size.asDiagonal();
       const Eigen::VectorXd step = scaled.colPivHouseholderQr().solve(-residual);
       for (Eigen::Index k = 0; k < 4; ++k)
@@ -162,8 +155,7 @@ TEST(Sensitivities, LeadBackToTheParametersOfAMovement) {
     for (const std::string& name : names) {
       Arm<double> copy = truth;
       const double wanted = arm_parameter(copy, name);
-      EXPECT_NEAR(arm_parameter(guess, name), wanted, 1e-5 * wanted)
-          << name << ", mode " << static_cast<int>(mode);
+      EXPECT_NEAR(arm_parameter(guess, name), wanted, 1e-5 * wanted) << name << ", mode " << static_cast<int>(mode);
     }
   }
 }
@@ -184,15 +176,11 @@ TEST(Sensitivities, InformationIsTheCurvatureOfTheMisfit) {
 
 TEST(Sensitivities, RefuseWhatHasNone) {
   const std::vector<std::string> unknown = {"BIC.colour"};
-  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}},
-                                            within(1e-8), unknown),
+  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, within(1e-8), unknown),
                InvalidInput);
   SimulationOptions controlled = within(1e-8);
-  controlled.controller.excite = [](double, std::span<const double>, std::span<const double>,
-                                    std::span<double>) {};
-  EXPECT_THROW(
-      (void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, controlled, {}),
-      InvalidInput);
+  controlled.controller.excite = [](double, std::span<const double>, std::span<const double>, std::span<double>) {};
+  EXPECT_THROW((void)simulate_sensitivities(make_arm(), there_and_back(), {.q = {1.0}}, controlled, {}), InvalidInput);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ Device locked() {
 
 Device isokinetic(double start_s, double end_s, double speed, double rise_s) {
   if (!(rise_s > 0.0) || !(end_s - start_s >= rise_s) || !std::isfinite(speed)) {
-    throw InvalidInput(fmt::format(
-        "isokinetic movement from {} to {} s at {} with a rise of {} s: expected a rise of more "
-        "than 0 that ends before the slowing down begins",
-        start_s, end_s, speed, rise_s));
+    throw InvalidInput(
+        fmt::format("isokinetic movement from {} to {} s at {} with a rise of {} s: expected a rise of more "
+                    "than 0 that ends before the slowing down begins",
+                    start_s, end_s, speed, rise_s));
   }
   const double a = speed / rise_s;
   return {[=](double t) {
@@ -52,8 +52,7 @@ EnergyBalance energy_balance(const Simulation& simulation) {
     double stored = 0.0;
     for (const std::string_view part : {"passive", "tendon", "kinetic"}) {
       const double gained = change(fmt::format("{}_{}_energy", m, part));
-      gaps.emplace_back(fmt::format("{} {}", m, part),
-                        gained + change(fmt::format("{}_{}_work", m, part)));
+      gaps.emplace_back(fmt::format("{} {}", m, part), gained + change(fmt::format("{}_{}_work", m, part)));
       stored += gained;
     }
     gaps.emplace_back(m, active + viscous - stored - whole);
@@ -64,17 +63,15 @@ EnergyBalance energy_balance(const Simulation& simulation) {
   const double elastic = change("joint_elastic_work");
   gaps.emplace_back("gravity", gravity + change("gravity_energy"));
   gaps.emplace_back("joints", elastic + change("joint_elastic_energy"));
-  gaps.emplace_back("skeleton", muscles + gravity + elastic + change("joint_viscous_work") +
-                                    change("external_work") - change("skeleton_kinetic_energy"));
+  gaps.emplace_back("skeleton", muscles + gravity + elastic + change("joint_viscous_work") + change("external_work") -
+                                    change("skeleton_kinetic_energy"));
   // Without muscles the works of gravity and the joints are the scale.
   if (balance.turned_over_j == 0.0) {
-    balance.turned_over_j = std::abs(gravity) + std::abs(elastic) +
-                            std::abs(change("joint_viscous_work")) +
+    balance.turned_over_j = std::abs(gravity) + std::abs(elastic) + std::abs(change("joint_viscous_work")) +
                             e.values().col(e.index("skeleton_kinetic_energy")).maxCoeff();
   }
   for (const auto& [where, gap] : gaps) {
-    const double relative =
-        balance.turned_over_j > 0.0 ? std::abs(gap) / balance.turned_over_j : std::abs(gap);
+    const double relative = balance.turned_over_j > 0.0 ? std::abs(gap) / balance.turned_over_j : std::abs(gap);
     if (relative >= balance.worst) {
       balance.worst = relative;
       balance.where = where;

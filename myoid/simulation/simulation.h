@@ -34,8 +34,7 @@ struct Device {
 
 /// Holds the coordinate at its initial value.
 [[nodiscard]] Device locked();
-/// Rests until `start_s`, accelerates evenly to the speed within `rise_s`, and slows down equally
-/// from `end_s` on.
+/// Rests until `start_s`, accelerates evenly to the speed within `rise_s`, and slows down equally from `end_s` on.
 [[nodiscard]] Device isokinetic(double start_s, double end_s, double speed, double rise_s = 0.05);
 
 /// Excitations, external forces and devices.
@@ -49,21 +48,17 @@ struct SimulationInput {
 /// the next call. For a virtual person who corrects movements.
 struct Controller {
   double interval_s = 0.01;
-  std::function<void(double time_s,
-                     std::span<const double> q,
-                     std::span<const double> qdot,
-                     std::span<double> excitation)>
+  std::function<void(
+      double time_s, std::span<const double> q, std::span<const double> qdot, std::span<double> excitation)>
       excite;
 };
 
 struct SimulationOptions {
   double end_s = 1.0;
-  double output_rate_hz = 1000.0;  ///< Rate of the result's samples, from the start on.
-  std::vector<double>
-      output_times_s;   ///< Times of the result's samples; overrides the rate unless empty.
-  bool energy = false;  ///< Also integrate the work of every element.
-  bool locate_kinks =
-      true;  ///< End steps where the right-hand side has a kink (slack, v = 0, ...).
+  double output_rate_hz = 1000.0;      ///< Rate of the result's samples, from the start on.
+  std::vector<double> output_times_s;  ///< Times of the result's samples; overrides the rate unless empty.
+  bool energy = false;                 ///< Also integrate the work of every element.
+  bool locate_kinks = true;            ///< End steps where the right-hand side has a kink (slack, v = 0, ...).
   math::OdeOptions ode;
   Controller controller;  ///< Replaces the excitations if it has a function.
   Progress progress;
@@ -99,10 +94,9 @@ struct Simulation {
   TimeSeries energy;
 };
 
-/// Error of the energy balance at the last row: for every element |work + change of stored energy|,
-/// and for muscles and skeleton |sum of the works in - work out - change|, relative to the sum of
-/// the absolute works of the muscles' contractile and viscous parts. The largest of all. Throws
-/// InvalidInput if the simulation has no `energy`.
+/// Error of the energy balance at the last row: for every element |work + change of stored energy|, and for muscles and
+/// skeleton |sum of the works in - work out - change|, relative to the sum of the absolute works of the muscles'
+/// contractile and viscous parts. The largest of all. Throws InvalidInput if the simulation has no `energy`.
 struct EnergyBalance {
   double worst = 0.0;
   std::string where;           ///< Name of the element with this error.

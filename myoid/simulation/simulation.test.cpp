@@ -26,8 +26,7 @@ TEST(EnergyBalance, SeesAnErrorInAnyEntry) {
   SimulationInput in;
   const Burst burst[] = {{0.1, 0.3, 0.5}};
   for (int i = 0; i < 4; ++i) in.excitation.push_back(bursts(burst, 0.05));
-  Simulation s =
-      simulate(arm, in, {.q = {1.0}}, {.end_s = 1.0, .output_rate_hz = 2, .energy = true});
+  Simulation s = simulate(arm, in, {.q = {1.0}}, {.end_s = 1.0, .output_rate_hz = 2, .energy = true});
   EXPECT_LT(energy_balance(s).worst, 1e-6);
   const TimeSeries good = s.energy;
   for (Eigen::Index c = 0; c < good.channel_count(); ++c) {

@@ -16,9 +16,7 @@ namespace myoid::simulation {
 namespace {
 
 /// Returns the laws that the setup asks for; with MuscleCurves::file the muscle's class decides.
-muscle::MusculotendonLaws laws_of(const model::MuscleProperties& p,
-                                  MuscleCurves curves,
-                                  muscle::TendonMode mode) {
+muscle::MusculotendonLaws laws_of(const model::MuscleProperties& p, MuscleCurves curves, muscle::TendonMode mode) {
   const muscle::MusculotendonLaws own = model::class_laws(p, mode);
   switch (curves) {
     case MuscleCurves::file:
@@ -37,22 +35,18 @@ muscle::MusculotendonLaws laws_of(const model::MuscleProperties& p,
 
 ModelMuscle muscle_of(const model::Muscle& m, int index, const ModelSetup& setup) {
   const model::MuscleProperties& p = m.properties;
-  ModelMuscle result{
-      .name = m.name, .index = index, .parameters = {}, .laws = {}, .activation = {}};
+  ModelMuscle result{.name = m.name, .index = index, .parameters = {}, .laws = {}, .activation = {}};
   const bool as_file = setup.curves == MuscleCurves::file;
   const bool equilibrium = setup.mode == muscle::TendonMode::equilibrium;
   const model::MuscleStates states = model::muscle_states(p);
-  result.laws = laws_of(
-      p, setup.curves,
-      as_file && equilibrium && states.rigid_tendon ? muscle::TendonMode::rigid : setup.mode);
+  result.laws =
+      laws_of(p, setup.curves, as_file && equilibrium && states.rigid_tendon ? muscle::TendonMode::rigid : setup.mode);
   result.parameters = model::musculotendon_parameters(p, result.laws);
   // Only Thelen's equilibrium works without damping; other units take the published damping.
   const bool undamped = equilibrium && result.laws.velocity == muscle::VelocityLaw::thelen;
   if (!(result.parameters.damping > 0.0) && !undamped)
-    result.parameters.damping =
-        muscle::published_defaults(result.parameters.hill, result.laws).damping;
-  result.activation.law =
-      as_file && states.no_activation_dynamics ? muscle::ActivationLaw::envelope : setup.activation;
+    result.parameters.damping = muscle::published_defaults(result.parameters.hill, result.laws).damping;
+  result.activation.law = as_file && states.no_activation_dynamics ? muscle::ActivationLaw::envelope : setup.activation;
   result.activation.excitation_time_s = setup.excitation_time_s;
   result.activation.activation_time_s = p.activation_time_s;
   result.activation.deactivation_time_s = p.deactivation_time_s;
@@ -73,13 +67,11 @@ muscle::MillardShape shape_of(const model::Muscle& m) {
   return shape;
 }
 
-muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate,
-                                      const ModelSetup& setup) {
+muscle::JointPassive<double> joint_of(const model::Coordinate& coordinate, const ModelSetup& setup) {
   muscle::JointPassive<double> joint;
   joint.viscosity_nms_per_rad = setup.joint_viscosity;
   if (setup.stops && coordinate.clamped) {
-    const double width =
-        coordinate.motion == model::MotionType::translational ? 0.003 : 3.0 * kDegree;
+    const double width = coordinate.motion == model::MotionType::translational ? 0.003 : 3.0 * kDegree;
     joint.lower_stop_torque_nm = joint.upper_stop_torque_nm = 1.0;
     joint.lower_stop_rad = coordinate.lower;
     joint.upper_stop_rad = coordinate.upper;
@@ -105,16 +97,12 @@ class TreeSkeleton {
   }
 
   [[nodiscard]] std::size_t coordinate_count() const { return model_->body.coordinates.size(); }
-  [[nodiscard]] const std::string& coordinate_name(std::size_t k) const {
-    return model_->body.coordinates[k].name;
-  }
+  [[nodiscard]] const std::string& coordinate_name(std::size_t k) const { return model_->body.coordinates[k].name; }
   [[nodiscard]] bool is_rotational(std::size_t k) const {
     return model_->body.coordinates[k].motion != model::MotionType::translational;
   }
   [[nodiscard]] std::size_t muscle_count() const { return n_; }
-  [[nodiscard]] const std::string& muscle_name(std::size_t i) const {
-    return model_->muscles[i].name;
-  }
+  [[nodiscard]] const std::string& muscle_name(std::size_t i) const { return model_->muscles[i].name; }
   [[nodiscard]] const muscle::Musculotendon<double>& unit(std::size_t i) const { return units_[i]; }
   [[nodiscard]] const muscle::ActivationDynamics<double>& activation(std::size_t i) const {
     return model_->muscles[i].activation;
@@ -130,8 +118,7 @@ class TreeSkeleton {
     dynamics_.set(q_, qdot_);
     for (std::size_t i = 0; i < n_; ++i) {
       const auto index = static_cast<std::size_t>(model_->muscles[i].index);
-      model::compute_path(model_->body, model_->body.muscles[index].path, dynamics_.state(),
-                          workspace_, paths_[i]);
+      model::compute_path(model_->body, model_->body.muscles[index].path, dynamics_.state(), workspace_, paths_[i]);
     }
     if (!model_->body.passive_forces.empty()) {
       others_.setZero(nq);
@@ -150,22 +137,17 @@ class TreeSkeleton {
     return paths_[i].moment_arm_m[static_cast<Eigen::Index>(k)];
   }
   void accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
-    for (std::size_t k = 0; k < forces_.size(); ++k)
-      forces_[k] = tau[k] + passive_[k].torque_nm + other(k);
+    for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] = tau[k] + passive_[k].torque_nm + other(k);
     if (!dynamics_.accelerate(forces_.data(), prescribed, qddot, device)) {
       throw ModelError(
           "the mass matrix of the free coordinates is not positive: a coordinate moves bodies "
           "without mass or inertia; give them some, or lock the coordinate");
     }
   }
-  [[nodiscard]] double gravity(std::size_t k) const {
-    return dynamics_.gravity()[static_cast<Eigen::Index>(k)];
-  }
+  [[nodiscard]] double gravity(std::size_t k) const { return dynamics_.gravity()[static_cast<Eigen::Index>(k)]; }
   [[nodiscard]] double joint_elastic(std::size_t k) const { return passive_[k].elastic_torque_nm; }
   /// Includes the model's other passive forces, whose energies are not counted.
-  [[nodiscard]] double joint_viscous(std::size_t k) const {
-    return passive_[k].viscous_torque_nm + other(k);
-  }
+  [[nodiscard]] double joint_viscous(std::size_t k) const { return passive_[k].viscous_torque_nm + other(k); }
   [[nodiscard]] double kinetic_energy_j() const { return dynamics_.kinetic_energy_j(); }
   [[nodiscard]] double gravity_energy_j() const { return dynamics_.gravity_energy_j(); }
   [[nodiscard]] double joint_elastic_energy_j() const {
@@ -196,10 +178,10 @@ class TreeSkeleton {
 
 SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& setup) {
   if (!body.constraints.empty()) {
-    throw ModelError(fmt::format(
-        "the model has a closed loop ({} '{}'), which is not simulated; remove the constraint, or "
-        "couple coordinates instead",
-        body.constraints[0].class_name, body.constraints[0].name));
+    throw ModelError(
+        fmt::format("the model has a closed loop ({} '{}'), which is not simulated; remove the constraint, or "
+                    "couple coordinates instead",
+                    body.constraints[0].class_name, body.constraints[0].name));
   }
   SimulationModel result;
   for (std::size_t i = 0; i < body.muscles.size(); ++i) {
@@ -207,8 +189,7 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
     result.muscles.push_back(muscle_of(body.muscles[i], static_cast<int>(i), setup));
     result.millard.push_back(shape_of(body.muscles[i]));
   }
-  for (const model::Coordinate& coordinate : body.coordinates)
-    result.joints.push_back(joint_of(coordinate, setup));
+  for (const model::Coordinate& coordinate : body.coordinates) result.joints.push_back(joint_of(coordinate, setup));
   for (const model::PassiveForce& force : body.passive_forces) {
     if (std::holds_alternative<model::PrescribedForce>(force.law)) {
       throw ModelError(
@@ -233,15 +214,15 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
   });
   for (const model::CoordinateCoupler& c : body.couplers) {
     if (body.coordinates[static_cast<std::size_t>(c.dependent)].prescribed) {
-      throw ModelError(fmt::format(
-          "coordinate '{}' follows '{}' through the coupler '{}' and is prescribed too; take one "
-          "of the two out of the model",
-          body.coordinates[static_cast<std::size_t>(c.dependent)].name,
-          body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
+      throw ModelError(
+          fmt::format("coordinate '{}' follows '{}' through the coupler '{}' and is prescribed too; take one "
+                      "of the two out of the model",
+                      body.coordinates[static_cast<std::size_t>(c.dependent)].name,
+                      body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
     }
   }
-  result.idle_actuators = body.actuators.size() + body.point_actuators.size() +
-                          body.torque_actuators.size() + body.path_actuators.size();
+  result.idle_actuators =
+      body.actuators.size() + body.point_actuators.size() + body.torque_actuators.size() + body.path_actuators.size();
   result.body = std::move(body);
   return result;
 }
@@ -265,9 +246,7 @@ std::vector<Device> default_devices(const SimulationModel& model) {
   for (const model::Coordinate& coordinate : model.body.coordinates) {
     Device device;
     if (coordinate.prescribed) {
-      device.acceleration = [f = *coordinate.prescribed](double t) {
-        return model::evaluate(f, t).second;
-      };
+      device.acceleration = [f = *coordinate.prescribed](double t) { return model::evaluate(f, t).second; };
     } else if (coordinate.locked) {
       device = locked();
     }
@@ -293,12 +272,11 @@ Simulation simulate(const SimulationModel& model,
   for (const model::CoordinateCoupler& c : model.body.couplers) {
     const auto k = static_cast<std::size_t>(c.dependent);
     if (k < input.device.size() && input.device[k].acceleration) {
-      const std::string& leader =
-          model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
-      throw InvalidInput(fmt::format(
-          "coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold "
-          "'{}'",
-          model.body.coordinates[k].name, leader, c.name, leader));
+      const std::string& leader = model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
+      throw InvalidInput(
+          fmt::format("coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold "
+                      "'{}'",
+                      model.body.coordinates[k].name, leader, c.name, leader));
     }
   }
   SimulationStart consistent = start;

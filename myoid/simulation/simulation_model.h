@@ -46,31 +46,27 @@ struct SimulationModel {
   std::vector<ModelMuscle> muscles;
   std::vector<muscle::JointPassive<double>> joints;  ///< One per coordinate.
   std::vector<muscle::MillardShape> millard;         ///< One per muscle.
-  std::size_t idle_actuators = 0;  ///< Number of the model's actuators, which exert nothing.
+  std::size_t idle_actuators = 0;                    ///< Number of the model's actuators, which exert nothing.
 };
 
-/// Takes the parameters from the model. All muscles: F_max, l0, l_t0, pennation, v_max, time
-/// constants. Thelen's muscles: also shapes and strains, without damping, as in OpenSim. Millard's
-/// and De Groote's: the curves' parameters and damping, and with MuscleCurves::file the statements
-/// on a rigid tendon (in the mode `equilibrium`) and on missing activation dynamics. A spring on a
-/// coordinate joins the joint's passive torque; the model's other passive forces act too, with
-/// their work counted as viscous. Actuators exert nothing; `idle_actuators` counts them. Throws
-/// InvalidInput, naming the muscle, if its parameters are impossible, ModelError if joints form a
-/// closed loop or a coupled coordinate is prescribed.
-[[nodiscard]] SimulationModel make_simulation_model(model::BodyModel body,
-                                                    const ModelSetup& setup = {});
+/// Takes the parameters from the model. All muscles: F_max, l0, l_t0, pennation, v_max, time constants. Thelen's
+/// muscles: also shapes and strains, without damping, as in OpenSim. Millard's and De Groote's: the curves' parameters
+/// and damping, and with MuscleCurves::file the statements on a rigid tendon (in the mode `equilibrium`) and on missing
+/// activation dynamics. A spring on a coordinate joins the joint's passive torque; the model's other passive forces act
+/// too, with their work counted as viscous. Actuators exert nothing; `idle_actuators` counts them. Throws InvalidInput,
+/// naming the muscle, if its parameters are impossible, ModelError if joints form a closed loop or a coupled coordinate
+/// is prescribed.
+[[nodiscard]] SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& setup = {});
 
-/// Returns the model's default posture and speeds, and devices that hold locked coordinates and
-/// move prescribed ones, with their posture at the start. If a locked coordinate follows another by
-/// a coupler, the other one is held.
+/// Returns the model's default posture and speeds, and devices that hold locked coordinates and move prescribed ones,
+/// with their posture at the start. If a locked coordinate follows another by a coupler, the other one is held.
 [[nodiscard]] SimulationStart default_start(const SimulationModel& model, double time_s = 0.0);
 [[nodiscard]] std::vector<Device> default_devices(const SimulationModel& model);
 
-/// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints +
-/// external, as `simulate` does for the arm, with all coordinates in the model's order. Dependent
-/// coordinates start where their couplers say. Throws InvalidInput if a device would move one of
-/// them, ModelError if the mass matrix of the free coordinates is not positive definite: a body has
-/// no mass.
+/// Integrates the model's equations of motion, M(q) qddot = R F_t + gravity - Coriolis + joints + external, as
+/// `simulate` does for the arm, with all coordinates in the model's order. Dependent coordinates start where their
+/// couplers say. Throws InvalidInput if a device would move one of them, ModelError if the mass matrix of the free
+/// coordinates is not positive definite: a body has no mass.
 [[nodiscard]] Simulation simulate(const SimulationModel& model,
                                   const SimulationInput& input,
                                   const SimulationStart& start,

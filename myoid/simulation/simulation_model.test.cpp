@@ -34,8 +34,8 @@ TEST(SimulationModel, TheArmsFileMovesAsItsClosedFormDoes) {
     ArmSetup setup;
     setup.laws = muscle::thelen_laws(mode);
     Arm<double> arm = make_arm(setup);  // its stops keep it where the file's paths hold
-    SimulationModel model = make_simulation_model(
-        arm4(), {.mode = mode, .activation = muscle::ActivationLaw::two_lags, .stops = false});
+    SimulationModel model =
+        make_simulation_model(arm4(), {.mode = mode, .activation = muscle::ActivationLaw::two_lags, .stops = false});
     model.joints[3] = arm.joint;
     for (std::size_t i = 0; i < 4; ++i) {
       arm.muscles[i].parameters = model.muscles[i].parameters;
@@ -46,17 +46,12 @@ TEST(SimulationModel, TheArmsFileMovesAsItsClosedFormDoes) {
     SimulationStart start = default_start(model);
     start.q[3] = 1.0;
     const Simulation tree =
-        simulate(model, {.excitation = bursting(), .device = {locked(), locked(), locked(), {}}},
-                 start, options);
+        simulate(model, {.excitation = bursting(), .device = {locked(), locked(), locked(), {}}}, start, options);
     ASSERT_EQ(tree.status, math::OdeStatus::done) << tree.message;
     // Both to the tolerance of 1e-8, whose local errors accumulate.
-    EXPECT_LT((tree.motion.column("elbow_flexion") - closed.motion.column("elbow_flexion"))
-                  .cwiseAbs()
-                  .maxCoeff(),
+    EXPECT_LT((tree.motion.column("elbow_flexion") - closed.motion.column("elbow_flexion")).cwiseAbs().maxCoeff(),
               1e-5);
-    EXPECT_LT((tree.torque.column("elbow_flexion/muscles") - closed.torque.column("muscles"))
-                  .cwiseAbs()
-                  .maxCoeff(),
+    EXPECT_LT((tree.torque.column("elbow_flexion/muscles") - closed.torque.column("muscles")).cwiseAbs().maxCoeff(),
               2e-3);
     EXPECT_LT(energy_balance(tree).worst, 1e-6) << energy_balance(tree).where;
     EXPECT_LT(tree.motion.column("shoulder_flexion").cwiseAbs().maxCoeff(), 1e-15);
@@ -67,8 +62,8 @@ TEST(SimulationModel, FourCoordinatesFreeKeepTheirEnergyAndRequireTheirTorque) {
   const SimulationModel model = make_simulation_model(arm4(), {.joint_viscosity = 0.1});
   SimulationStart start = default_start(model);
   start.q = {0.3, -0.4, 0.2, 1.0};
-  const Simulation s = simulate(model, {.excitation = bursting()}, start,
-                                {.end_s = 2.0, .output_rate_hz = 20.0, .energy = true});
+  const Simulation s =
+      simulate(model, {.excitation = bursting()}, start, {.end_s = 2.0, .output_rate_hz = 20.0, .energy = true});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
   EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
   model::BodyState state = model::make_state(model.body);
@@ -107,8 +102,8 @@ TEST(SimulationModel, AModelOfOthersWithWrappedPathsMoves) {
     for (std::size_t i = 0; i < model.muscles.size(); ++i) {
       if (model.muscles[i].name == "BRA") input.excitation[i] = step(0.1, 0.5, 0.05);
     }
-    const Simulation s = simulate(model, input, default_start(model),
-                                  {.end_s = 0.5, .output_rate_hz = 50.0, .energy = true});
+    const Simulation s =
+        simulate(model, input, default_start(model), {.end_s = 0.5, .output_rate_hz = 50.0, .energy = true});
     ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
     EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
     EXPECT_GT(s.motion.column("r_elbow_flex").maxCoeff(), 0.3);
@@ -119,10 +114,8 @@ TEST(SimulationModel, ACoupledCoordinateMovesAsItsCouplerSays) {
   model::BodyModel body = arm4();
   const int elbow = body.coordinate_index("elbow_flexion");
   const int shoulder = body.coordinate_index("shoulder_flexion");
-  body.couplers = {{.name = "c",
-                    .dependent = elbow,
-                    .independent = shoulder,
-                    .function = model::Polynomial{{0.3, 1.2, 0.8}}}};
+  body.couplers = {
+      {.name = "c", .dependent = elbow, .independent = shoulder, .function = model::Polynomial{{0.3, 1.2, 0.8}}}};
   const SimulationModel model = make_simulation_model(std::move(body), {.joint_viscosity = 0.05});
   SimulationStart start = default_start(model);
   start.q[static_cast<std::size_t>(shoulder)] = 0.5;
@@ -149,10 +142,9 @@ TEST(SimulationModel, WhatIsNotSimulatedIsRefusedOrSaid) {
   motor.actuators.push_back({{.name = "motor"}, 3});
   EXPECT_EQ(make_simulation_model(motor).idle_actuators, 1U);
   model::BodyModel sprung = arm4();
-  sprung.passive_forces = {
-      {.name = "s",
-       .class_name = "SpringGeneralizedForce",
-       .law = model::CoordinateSpring{.coordinate = 3, .stiffness = 2.0, .rest = 1.0}}};
+  sprung.passive_forces = {{.name = "s",
+                            .class_name = "SpringGeneralizedForce",
+                            .law = model::CoordinateSpring{.coordinate = 3, .stiffness = 2.0, .rest = 1.0}}};
   const SimulationModel model = make_simulation_model(sprung);
   EXPECT_EQ(model.idle_actuators, 0U);
   EXPECT_EQ(model.joints[3].stiffness_nm_per_rad, 2.0);
@@ -180,8 +172,8 @@ TEST(SimulationModel, PassiveForcesOfTheFileAct) {
   const SimulationModel model = make_simulation_model(body, {.stops = false});
   SimulationStart start = default_start(model);
   start.q = {0.3, -0.4, 0.2, 1.0};
-  const Simulation s = simulate(model, {.excitation = bursting()}, start,
-                                {.end_s = 0.5, .output_rate_hz = 20.0, .energy = true});
+  const Simulation s =
+      simulate(model, {.excitation = bursting()}, start, {.end_s = 0.5, .output_rate_hz = 20.0, .energy = true});
   ASSERT_EQ(s.status, math::OdeStatus::done) << s.message;
   EXPECT_LT(energy_balance(s).worst, 1e-6) << energy_balance(s).where;
   model::BodyState state = model::make_state(model.body);
@@ -199,8 +191,7 @@ TEST(SimulationModel, PassiveForcesOfTheFileAct) {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(4);
     std::vector<model::BodyWrench> wrenches;
     dynamics::append_passive_forces(body, state, along, wrenches);
-    const Eigen::VectorXd required =
-        model::inverse_dynamics(model.body, q, qdot, qddot, wrenches, state) - along;
+    const Eigen::VectorXd required = model::inverse_dynamics(model.body, q, qdot, qddot, wrenches, state) - along;
     for (Eigen::Index k = 0; k < 4; ++k) {
       EXPECT_NEAR(required[k], s.torque.values()(row, 5 * k), 1e-8) << row;
       greatest = std::max(greatest, std::abs(s.torque.values()(row, 5 * k + 2)));
@@ -223,9 +214,9 @@ TEST(SimulationModel, WhatFollowsAnotherCoordinateIsHeldByHoldingThat) {
   EXPECT_FALSE(devices[elbow].acceleration);
   EXPECT_TRUE(devices[shoulder].acceleration);
   devices[elbow] = locked();
-  EXPECT_THROW((void)simulate(model, {.excitation = bursting(), .device = devices},
-                              default_start(model), {.end_s = 0.1}),
-               InvalidInput);
+  EXPECT_THROW(
+      (void)simulate(model, {.excitation = bursting(), .device = devices}, default_start(model), {.end_s = 0.1}),
+      InvalidInput);
   body.coordinates[elbow].prescribed = model::Constant{0.3};
   EXPECT_THROW((void)make_simulation_model(body), ModelError);
 }

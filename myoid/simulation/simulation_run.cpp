@@ -8,8 +8,8 @@ void check_simulation(std::span<const std::string> muscles,
                       const SimulationStart& start,
                       const SimulationOptions& o) {
   const std::size_t n = muscles.size();
-  const auto fits = [](std::size_t found, std::size_t expected, bool may_be_empty,
-                       std::string_view what, std::string_view of) {
+  const auto fits = [](std::size_t found, std::size_t expected, bool may_be_empty, std::string_view what,
+                       std::string_view of) {
     if (found != expected && !(may_be_empty && found == 0))
       throw InvalidInput(fmt::format("{} {} for {} {}", found, what, expected, of));
   };
@@ -25,17 +25,14 @@ void check_simulation(std::span<const std::string> muscles,
   fits(start.fiber.size(), n, true, "starting fiber states", "muscles");
   for (const auto* values : {&start.q, &start.qdot}) {
     for (const double value : *values) {
-      if (!std::isfinite(value))
-        throw InvalidInput(fmt::format("the start holds {}, expected finite numbers", value));
+      if (!std::isfinite(value)) throw InvalidInput(fmt::format("the start holds {}, expected finite numbers", value));
     }
   }
   if (!std::isfinite(start.time_s) || !std::isfinite(o.end_s) || !(o.end_s > start.time_s)) {
-    throw InvalidInput(fmt::format("the simulation goes from {} to {} s, expected a later end",
-                                   start.time_s, o.end_s));
+    throw InvalidInput(fmt::format("the simulation goes from {} to {} s, expected a later end", start.time_s, o.end_s));
   }
   if (o.controller.excite && !(o.controller.interval_s > 0.0)) {
-    throw InvalidInput(fmt::format("the controller's interval is {} s, expected more than 0",
-                                   o.controller.interval_s));
+    throw InvalidInput(fmt::format("the controller's interval is {} s, expected more than 0", o.controller.interval_s));
   }
 }
 
@@ -45,20 +42,18 @@ std::vector<double> output_times(const SimulationStart& start, const SimulationO
       const double t = o.output_times_s[k];
       if (!(t >= start.time_s && t <= o.end_s) || (k > 0 && t <= o.output_times_s[k - 1])) {
         throw InvalidInput(
-            fmt::format("output time {} is {} s, expected rising times in {} .. {} s", k, t,
-                        start.time_s, o.end_s));
+            fmt::format("output time {} is {} s, expected rising times in {} .. {} s", k, t, start.time_s, o.end_s));
       }
     }
     return o.output_times_s;
   }
   if (!(o.output_rate_hz > 0.0) || !(o.output_rate_hz <= 1e6)) {
-    throw InvalidInput(
-        fmt::format("output rate {} Hz, expected more than 0 and at most 1e6", o.output_rate_hz));
+    throw InvalidInput(fmt::format("output rate {} Hz, expected more than 0 and at most 1e6", o.output_rate_hz));
   }
   const double duration = o.end_s - start.time_s;
   if (duration * o.output_rate_hz > 5e7) {
-    throw InvalidInput(fmt::format("{} s at {} Hz are more samples than 50 million; lower the rate",
-                                   duration, o.output_rate_hz));
+    throw InvalidInput(
+        fmt::format("{} s at {} Hz are more samples than 50 million; lower the rate", duration, o.output_rate_hz));
   }
   const auto count = static_cast<std::size_t>(std::floor(duration * o.output_rate_hz + 1e-9)) + 1;
   std::vector<double> times(count);

@@ -27,8 +27,7 @@ void check_simulation(std::span<const std::string> muscles,
                       const SimulationOptions& options);
 
 /// Returns the times of the result's rows.
-[[nodiscard]] std::vector<double> output_times(const SimulationStart& start,
-                                               const SimulationOptions& options);
+[[nodiscard]] std::vector<double> output_times(const SimulationStart& start, const SimulationOptions& options);
 
 /// One running simulation. States: q, qdot, and for each muscle the states of its tendon mode.
 template <typename Skeleton>
@@ -64,8 +63,7 @@ class SimulationRun {
     qddot_.assign(nq_, 0.0);
     device_.assign(nq_, 0.0);
     prescribed_.assign(nq_, 0);
-    for (std::size_t k = 0; k < input.device.size(); ++k)
-      prescribed_[k] = input.device[k].acceleration ? 1 : 0;
+    for (std::size_t k = 0; k < input.device.size(); ++k) prescribed_[k] = input.device[k].acceleration ? 1 : 0;
     y_.assign(states_, 0.0);
     std::copy(start.q.begin(), start.q.end(), y_.begin());
     std::copy(start.qdot.begin(), start.qdot.end(), y_.begin() + static_cast<std::ptrdiff_t>(nq_));
@@ -76,8 +74,7 @@ class SimulationRun {
 
   Simulation go() {
     bool explicit_method = true;
-    for (std::size_t i = 0; i < n_; ++i)
-      explicit_method &= skeleton_.unit(i).laws().mode == muscle::TendonMode::rigid;
+    for (std::size_t i = 0; i < n_; ++i) explicit_method &= skeleton_.unit(i).laws().mode == muscle::TendonMode::rigid;
     result_.status = explicit_method ? go_explicit() : go_implicit();
     if (options_.progress.stop.stop_requested()) throw Interrupted();
     return finish();
@@ -89,8 +86,8 @@ class SimulationRun {
   static constexpr const char* kMuscleWorkNames[] = {"active", "passive",       "viscous",
                                                      "tendon", "musculotendon", "kinetic"};
   static constexpr std::size_t kJointWorks = 4;
-  static constexpr const char* kJointWorkNames[] = {"gravity_work", "joint_elastic_work",
-                                                    "joint_viscous_work", "external_work"};
+  static constexpr const char* kJointWorkNames[] = {"gravity_work", "joint_elastic_work", "joint_viscous_work",
+                                                    "external_work"};
   static constexpr const char* kStored[] = {"passive", "tendon", "kinetic"};
   static constexpr const char* kStoredTogether[] = {"skeleton_kinetic_energy", "gravity_energy",
                                                     "joint_elastic_energy"};
@@ -113,14 +110,12 @@ class SimulationRun {
     skeleton_.set(y_.data(), y_.data() + nq_);
     for (std::size_t i = 0; i < n_; ++i) {
       if (!controlled()) excitation_[i] = value_at(input_.excitation[i], now_);
-      const auto first = start.activation.empty() ? muscle::settled_activation(excitation_[i])
-                                                  : start.activation[i];
+      const auto first = start.activation.empty() ? muscle::settled_activation(excitation_[i]) : start.activation[i];
       signals_.emplace_back(skeleton_.activation(i), now_, first);
       if (!controlled()) signals_.back().extend(input_.excitation[i], options_.end_s);
       const auto fiber = start.fiber.empty()
-                             ? muscle::equilibrium_state(skeleton_.unit(i),
-                                                         {first.activation, skeleton_.length_m(i),
-                                                          skeleton_.velocity_mps(i)})
+                             ? muscle::equilibrium_state(skeleton_.unit(i), {first.activation, skeleton_.length_m(i),
+                                                                             skeleton_.velocity_mps(i)})
                              : start.fiber[i];
       if (size(i) > 0) y_[offsets_[i]] = fiber.fiber_length_m;
       if (size(i) > 1) y_[offsets_[i] + 1] = fiber.fiber_velocity_mps;
@@ -133,8 +128,7 @@ class SimulationRun {
         if (t > now_ && t < options_.end_s) breaks_.push_back(t);
       }
     };
-    for (std::size_t i = 0; i < n_ && !controlled(); ++i)
-      append(jumps(input_.excitation[i], now_, options_.end_s));
+    for (std::size_t i = 0; i < n_ && !controlled(); ++i) append(jumps(input_.excitation[i], now_, options_.end_s));
     for (const Signal& signal : input_.external) append(jumps(signal, now_, options_.end_s));
     for (const Device& device : input_.device) append(device.jumps_s);
     breaks_.push_back(options_.end_s);
@@ -252,8 +246,7 @@ class SimulationRun {
     }
     result_.reached_s = until;
     if (++calls_ % 256 == 0) {
-      options_.progress.tell((until - times_.front()) / (options_.end_s - times_.front()),
-                             "simulating");
+      options_.progress.tell((until - times_.front()) / (options_.end_s - times_.front()), "simulating");
     }
     return !options_.progress.stop.stop_requested();
   }
@@ -261,8 +254,7 @@ class SimulationRun {
   math::OdeStatus go_explicit() {
     const std::size_t total = states_ + works_;
     math::OdeOptions ode = options_.ode;
-    if (!ode.absolute_tolerances.empty())
-      ode.absolute_tolerances.resize(total, ode.absolute_tolerance);
+    if (!ode.absolute_tolerances.empty()) ode.absolute_tolerances.resize(total, ode.absolute_tolerance);
     math::RungeKutta<double> stepper(total, ode);
     const auto f = [this](double t, const double* y, double* ydot) {
       rate(t, y, ydot);
@@ -309,11 +301,8 @@ class SimulationRun {
   }
 
   template <typename Stepper, typename Events, typename OnStep, typename... Rate>
-  math::OdeStatus drive(Stepper& stepper,
-                        std::vector<double> y,
-                        const Events& g,
-                        const OnStep& on_step,
-                        const Rate&... rate) {
+  math::OdeStatus drive(
+      Stepper& stepper, std::vector<double> y, const Events& g, const OnStep& on_step, const Rate&... rate) {
     math::EventSigns signs(event_count());
     std::vector<double> values(event_count());
     set_limit(next_limit(y.data()));
@@ -362,8 +351,8 @@ class SimulationRun {
     motion_.resize(rows, 3 * nq);
     torque_.resize(rows, 5 * nq);
     arm_m_.resize(rows, nq * n);
-    for (auto* m : {&excitations_, &activations_, &length_, &velocity_, &fiber_length_,
-                    &fiber_velocity_, &tendon_length_, &fiber_force_, &tendon_force_})
+    for (auto* m : {&excitations_, &activations_, &length_, &velocity_, &fiber_length_, &fiber_velocity_,
+                    &tendon_length_, &fiber_force_, &tendon_force_})
       m->resize(rows, n);
     if (works_ > 0) energy_.resize(rows, static_cast<Eigen::Index>(works_) + 3 * n + 3);
   }
@@ -408,8 +397,7 @@ class SimulationRun {
       motion_(row, 3 * c + 2) = qddot_[k];
     }
     if (works_ > 0) {
-      for (std::size_t k = 0; k < works_; ++k)
-        energy_(row, static_cast<Eigen::Index>(k)) = work_[k];
+      for (std::size_t k = 0; k < works_; ++k) energy_(row, static_cast<Eigen::Index>(k)) = work_[k];
       const auto w = static_cast<Eigen::Index>(works_) + 3 * static_cast<Eigen::Index>(n_);
       energy_(row, w) = skeleton_.kinetic_energy_j();
       energy_(row, w + 1) = skeleton_.gravity_energy_j();
@@ -435,8 +423,7 @@ class SimulationRun {
     result_.message = std::string(math::explain(result_.status));
     if (result_.jumps_passed > 0)
       result_.message += fmt::format(", past {} jumps of the equations", result_.jumps_passed);
-    if (result_.status != math::OdeStatus::done)
-      result_.message += fmt::format(" (at {:.6g} s)", result_.reached_s);
+    if (result_.status != math::OdeStatus::done) result_.message += fmt::format(" (at {:.6g} s)", result_.reached_s);
     std::vector<Channel> motion;
     std::vector<Channel> torque;
     std::vector<Channel> arms;
@@ -445,12 +432,10 @@ class SimulationRun {
       const std::string name = skeleton_.coordinate_name(k);
       motion.push_back({name, turns ? Unit::radian : Unit::meter});
       motion.push_back({name + "_speed", turns ? Unit::radian_per_second : Unit::meter_per_second});
-      motion.push_back(
-          {name + "_acceleration", turns ? Unit::radian_per_second2 : Unit::meter_per_second2});
+      motion.push_back({name + "_acceleration", turns ? Unit::radian_per_second2 : Unit::meter_per_second2});
       for (const char* what : kTorques)
         torque.push_back({of_coordinate(k, what), turns ? Unit::newton_meter : Unit::newton});
-      for (std::size_t i = 0; i < n_; ++i)
-        arms.push_back({of_coordinate(k, skeleton_.muscle_name(i)), Unit::meter});
+      for (std::size_t i = 0; i < n_; ++i) arms.push_back({of_coordinate(k, skeleton_.muscle_name(i)), Unit::meter});
     }
     result_.motion = series(std::move(motion), motion_);
     result_.torque = series(std::move(torque), torque_);
@@ -466,17 +451,13 @@ class SimulationRun {
     result_.tendon_force = series(per_muscle(Unit::newton), tendon_force_);
     if (works_ > 0) {
       std::vector<Channel> channels;
-      const auto add = [&](std::string name) {
-        channels.push_back({std::move(name), Unit::newton_meter});
-      };
+      const auto add = [&](std::string name) { channels.push_back({std::move(name), Unit::newton_meter}); };
       for (std::size_t i = 0; i < n_; ++i) {
-        for (const char* what : kMuscleWorkNames)
-          add(fmt::format("{}_{}_work", skeleton_.muscle_name(i), what));
+        for (const char* what : kMuscleWorkNames) add(fmt::format("{}_{}_work", skeleton_.muscle_name(i), what));
       }
       for (const char* what : kJointWorkNames) add(what);
       for (std::size_t i = 0; i < n_; ++i) {
-        for (const char* what : kStored)
-          add(fmt::format("{}_{}_energy", skeleton_.muscle_name(i), what));
+        for (const char* what : kStored) add(fmt::format("{}_{}_energy", skeleton_.muscle_name(i), what));
       }
       for (const char* what : kStoredTogether) add(what);
       result_.energy = series(std::move(channels), energy_);

@@ -6,8 +6,7 @@
 namespace myoid::simulation {
 namespace {}  // namespace
 
-TreeDynamics::TreeDynamics(const model::BodyModel& model)
-    : model_(&model), state_(model::make_state(model)) {
+TreeDynamics::TreeDynamics(const model::BodyModel& model) : model_(&model), state_(model::make_state(model)) {
   const auto n = static_cast<Eigen::Index>(model.coordinates.size());
   mass_.setZero(n, n);
   gravity_.setZero(n);
@@ -38,8 +37,7 @@ TreeDynamics::TreeDynamics(const model::BodyModel& model)
     throw ModelError("couplers of coordinates depend on each other in a circle");
 }
 
-void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q,
-                       const Eigen::Ref<const Eigen::VectorXd>& qdot) {
+void TreeDynamics::set(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qdot) {
   const model::BodyModel& model = *model_;
   q_ = q;
   qdot_ = qdot;
@@ -68,8 +66,7 @@ void TreeDynamics::take_bodies() {
     moment_[b] = composite_mass_[b] * c;
     const Mat3 cross = skew(c);
     inertia_[b] =
-        b == 0 ? Mat3(Mat3::Zero())
-               : Mat3(R * body.I_BBcm_B * R.transpose() - composite_mass_[b] * cross * cross);
+        b == 0 ? Mat3(Mat3::Zero()) : Mat3(R * body.I_BBcm_B * R.transpose() - composite_mass_[b] * cross * cross);
     potential_ -= moment_[b].dot(model.gravity_G);
   }
 }
@@ -91,13 +88,11 @@ void TreeDynamics::take_mass_matrix() {
       const Vec3& v = v_origin_[at(c)];
       const Vec3 momentum = composite_mass_[b] * v + w.cross(moment_[b]);
       const Vec3 angular = moment_[b].cross(v) + inertia_[b] * w;
-      gravity_[c] =
-          w.dot(moment_[b].cross(model.gravity_G)) + v.dot(composite_mass_[b] * model.gravity_G);
+      gravity_[c] = w.dot(moment_[b].cross(model.gravity_G)) + v.dot(composite_mass_[b] * model.gravity_G);
       for (model::BodyIndex up = joint.child; up != 0;) {
         const model::Joint& carrier = model.joints[at(model.joint_of_body[at(up)])];
         for (const int d : carrier.coordinates) {
-          mass_(c, d) = mass_(d, c) =
-              state_.H_w_G[at(d)].dot(angular) + v_origin_[at(d)].dot(momentum);
+          mass_(c, d) = mass_(d, c) = state_.H_w_G[at(d)].dot(angular) + v_origin_[at(d)].dot(momentum);
         }
         up = carrier.parent;
       }
@@ -119,10 +114,7 @@ void TreeDynamics::add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) co
   }
 }
 
-bool TreeDynamics::accelerate(const double* tau,
-                              const char* prescribed,
-                              double* qddot,
-                              double* device) {
+bool TreeDynamics::accelerate(const double* tau, const char* prescribed, double* qddot, double* device) {
   const model::BodyModel& model = *model_;
   const Eigen::Index n = mass_.rows();
   free_.clear();
@@ -138,8 +130,7 @@ bool TreeDynamics::accelerate(const double* tau,
   for (const std::size_t c : couplers_) {
     const model::CoordinateCoupler& coupler = model.couplers[c];
     const double rate = qdot_[coupler.independent];
-    bias_[coupler.dependent] =
-        coupled_[c].second * rate * rate + coupled_[c].first * bias_[coupler.independent];
+    bias_[coupler.dependent] = coupled_[c].second * rate * rate + coupled_[c].first * bias_[coupler.independent];
     jacobian_.row(coupler.dependent) = coupled_[c].first * jacobian_.row(coupler.independent);
   }
   const Eigen::Map<const Eigen::VectorXd> given(tau, n);

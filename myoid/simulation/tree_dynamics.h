@@ -14,18 +14,16 @@ namespace myoid::simulation {
 ///
 ///   M_cd = w_d . L_c + v_d . P_c,   P_c = m v_c + w_c x h,   L_c = h x v_c + I w_c
 ///
-/// with m, h, I mass, first moment and inertia of all bodies that coordinate c carries, and w, v
-/// the angular velocity and the velocity of the point at the ground's origin per unit of a
-/// coordinate's speed. C from the recursive Newton-Euler method (kinematic_tree.h). Not to be
-/// shared by threads.
+/// with m, h, I mass, first moment and inertia of all bodies that coordinate c carries, and w, v the angular velocity
+/// and the velocity of the point at the ground's origin per unit of a coordinate's speed. C from the recursive
+/// Newton-Euler method (kinematic_tree.h). Not to be shared by threads.
 class TreeDynamics {
  public:
   explicit TreeDynamics(const model::BodyModel& model);
 
   /// Sets the state for the functions below. Dependent coordinates of couplers follow their
   /// couplers, whatever is given.
-  void set(const Eigen::Ref<const Eigen::VectorXd>& q,
-           const Eigen::Ref<const Eigen::VectorXd>& qdot);
+  void set(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qdot);
 
   [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
   [[nodiscard]] const Eigen::VectorXd& qdot() const { return qdot_; }
@@ -39,16 +37,12 @@ class TreeDynamics {
   /// Adds to `tau` the generalized forces of a force and moment on a body.
   void add(const model::BodyWrench& wrench, Eigen::VectorXd& tau) const;
 
-  /// Computes the accelerations under generalized forces `tau` and gravity. Where `prescribed` is
-  /// not 0, qddot is given and `device` receives the necessary force; elsewhere device is 0. With
-  /// couplers qddot = J x + b, where x are the accelerations of the free independent coordinates,
-  /// and
+  /// Computes the accelerations under generalized forces `tau` and gravity. Where `prescribed` is not 0, qddot is given
+  /// and `device` receives the necessary force; elsewhere device is 0. With couplers qddot = J x + b, where x are the
+  /// accelerations of the free independent coordinates, and
   ///   J' M J x = J' (tau + gravity - C - M b).
   /// Returns false if J' M J is not positive definite.
-  [[nodiscard]] bool accelerate(const double* tau,
-                                const char* prescribed,
-                                double* qddot,
-                                double* device);
+  [[nodiscard]] bool accelerate(const double* tau, const char* prescribed, double* qddot, double* device);
 
  private:
   /// Mass, moment and inertia of each body about the ground's origin, and the potential energy.

@@ -45,22 +45,18 @@ void expect_consistent(const model::BodyModel& body, std::uint64_t seed) {
   Eigen::VectorXd device(n);
   ASSERT_TRUE(dynamics.accelerate(s.tau.data(), is_free.data(), qddot.data(), device.data()));
   const Eigen::VectorXd back = model::inverse_dynamics(body, s.q, s.qdot, qddot, {}, state);
-  EXPECT_LT((back - s.tau).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + s.tau.cwiseAbs().maxCoeff()))
-      << seed;
+  EXPECT_LT((back - s.tau).cwiseAbs().maxCoeff(), 1e-8 * (1.0 + s.tau.cwiseAbs().maxCoeff())) << seed;
 
   // A force and moment on the outermost body, as inverse dynamics counts it.
-  const model::BodyWrench wrench{.body = static_cast<int>(body.bodies.size()) - 1,
-                                 .f_G = Vec3(3.0, -20.0, 5.0),
-                                 .m_G = Vec3(1.0, 0.5, -2.0)};
+  const model::BodyWrench wrench{
+      .body = static_cast<int>(body.bodies.size()) - 1, .f_G = Vec3(3.0, -20.0, 5.0), .m_G = Vec3(1.0, 0.5, -2.0)};
   Eigen::VectorXd pushed = Eigen::VectorXd::Zero(n);
   dynamics.add(wrench, pushed);
-  const Eigen::VectorXd without =
-      model::inverse_dynamics(body, s.q, s.qdot, qddot, std::vector{wrench}, state);
+  const Eigen::VectorXd without = model::inverse_dynamics(body, s.q, s.qdot, qddot, std::vector{wrench}, state);
   EXPECT_LT((back - pushed - without).cwiseAbs().maxCoeff(),
             1e-9 * (1.0 + pushed.cwiseAbs().maxCoeff() + s.tau.cwiseAbs().maxCoeff()));
 
-  // Every other coordinate is prescribed: the devices' forces are the difference to inverse
-  // dynamics.
+  // Every other coordinate is prescribed: the devices' forces are the difference to inverse dynamics.
   std::vector<char> some(body.coordinates.size(), 0);
   for (std::size_t k = 0; k < some.size(); k += 2) some[k] = 1;
   qddot.setConstant(2.0);
@@ -71,8 +67,7 @@ void expect_consistent(const model::BodyModel& body, std::uint64_t seed) {
 }
 
 TEST(TreeDynamics, ForwardDynamicsUndoesInverseDynamics) {
-  const model::BodyModel arm =
-      model::parse_osim(model::arm4_osim({.forearm_rotations = true}), "arm4.osim");
+  const model::BodyModel arm = model::parse_osim(model::arm4_osim({.forearm_rotations = true}), "arm4.osim");
   for (std::uint64_t seed = 1; seed <= 5; ++seed) expect_consistent(arm, seed);
 }
 

@@ -24,8 +24,7 @@ constexpr auto kHillNames = [] {
 ChoiceNames parameter_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
-    for (const identification::ParameterField& field : identification::parameter_fields())
-      list.push_back(field.name);
+    for (const identification::ParameterField& field : identification::parameter_fields()) list.push_back(field.name);
     return list;
   }();
   return names;
@@ -50,12 +49,10 @@ void visit_start(std::map<std::string, double>& start, SettingVisitor& v) {
 
 void visit(MuscleSpec& muscle, SettingVisitor& v) {
   v.text("name", muscle.name,
-         {.says = "Its name in the results.",
-          .required = "a short name for the results, name = \"BIC\""});
-  const bool stated =
-      v.texts("osim", muscle.osim,
-              {.says = "Muscles of the model that act as this one, lumped by their F_max.",
-               .otherwise = "the one of this name"});
+         {.says = "Its name in the results.", .required = "a short name for the results, name = \"BIC\""});
+  const bool stated = v.texts("osim", muscle.osim,
+                              {.says = "Muscles of the model that act as this one, lumped by their F_max.",
+                               .otherwise = "the one of this name"});
   v.must(!stated || !muscle.osim.empty(), "osim", "expected at least one muscle of the model");
   if (muscle.osim.empty()) muscle.osim = {muscle.name};
   v.text("emg", muscle.emg, muscle.same_as,
@@ -63,15 +60,13 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
                   "muscle without an electrode.",
           .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
           .table = "same_as"});
-  v.table("start", !muscle.start.empty(),
-          {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
+  v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
-  v.texts(
-      "fixed", muscle.fixed,
-      {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named "
-               "here: unknown, it is free with the literature's spread, which the intervals "
-               "of V_sh then carry.",
-       .words = kHillNames});
+  v.texts("fixed", muscle.fixed,
+          {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named "
+                   "here: unknown, it is free with the literature's spread, which the intervals "
+                   "of V_sh then carry.",
+           .words = kHillNames});
 }
 
 void visit(identification::ParameterRule& rule, SettingVisitor& v) {
@@ -79,8 +74,7 @@ void visit(identification::ParameterRule& rule, SettingVisitor& v) {
          {.says = "The parameter.",
           .required = "a parameter, such as \"tendon_slack_length\"",
           .words = parameter_names()});
-  v.texts("of", rule.owners,
-          {.says = "Muscles, EMG channels or joints that it is about.", .otherwise = "all"});
+  v.texts("of", rule.owners, {.says = "Muscles, EMG channels or joints that it is about.", .otherwise = "all"});
   v.flag("free", rule.free, {.says = "It is identified."});
   v.number("value", rule.value,
            {.says = "The value where it starts or is held, in its unit.",
@@ -88,15 +82,11 @@ void visit(identification::ParameterRule& rule, SettingVisitor& v) {
             .otherwise = "its prior's mean"});
   v.number("lower", rule.lower, {.says = "Lower bound.", .limits = any_number()});
   v.number("upper", rule.upper, {.says = "Upper bound.", .limits = any_number()});
-  v.number("prior_mean", rule.prior_mean,
-           {.says = "The value expected beforehand.", .limits = any_number()});
-  v.number("prior_sd", rule.prior_sd,
-           {.says = "The standard deviation of that expectation.", .limits = above_zero()});
-  v.flag("tie", rule.tie,
-         {.says = "One unknown for all: their ratios to the starting values are equal."});
+  v.number("prior_mean", rule.prior_mean, {.says = "The value expected beforehand.", .limits = any_number()});
+  v.number("prior_sd", rule.prior_sd, {.says = "The standard deviation of that expectation.", .limits = above_zero()});
+  v.flag("tie", rule.tie, {.says = "One unknown for all: their ratios to the starting values are equal."});
   v.must(!rule.lower || !rule.upper || *rule.lower < *rule.upper, "lower",
-         fmt::format("found {}, not below upper = {}", rule.lower.value_or(0.0),
-                     rule.upper.value_or(0.0)));
+         fmt::format("found {}, not below upper = {}", rule.lower.value_or(0.0), rule.upper.value_or(0.0)));
 }
 
 }  // namespace myoid

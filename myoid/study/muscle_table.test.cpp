@@ -14,40 +14,33 @@ namespace {
 template <typename Spec>
 std::string table_message(const std::string& text) {
   const toml::table root = recording::parse_toml(text, "dir/study.toml");
-  return test::message_of([&] {
-    (void)read_spec<Spec>({root, "dir/study.toml", "[[table]]"}, "dir");
-  });
+  return test::message_of([&] { (void)read_spec<Spec>({root, "dir/study.toml", "[[table]]"}, "dir"); });
 }
 
 TEST(MuscleTable, AStartThatNoMuscleHasIsRefusedWithTheRange) {
-  const std::string message = table_message<MuscleSpec>(
-      "name = \"B\"\nemg = \"b\"\nstart = { optimal_fiber_length = 173 }\n");
+  const std::string message =
+      table_message<MuscleSpec>("name = \"B\"\nemg = \"b\"\nstart = { optimal_fiber_length = 173 }\n");
   EXPECT_NE(message.find("study.toml:3"), std::string::npos) << message;
   EXPECT_NE(message.find("found 173 m, expected 0.01 to 0.6 m"), std::string::npos) << message;
 }
 
 TEST(MuscleTable, AnUnknownParameterIsRefusedAtItsLine) {
-  const std::string message =
-      table_message<MuscleSpec>("name = \"B\"\nemg = \"b\"\nfixed = [\"eccentric_plato\"]\n");
+  const std::string message = table_message<MuscleSpec>("name = \"B\"\nemg = \"b\"\nfixed = [\"eccentric_plato\"]\n");
   EXPECT_NE(message.find("study.toml:3"), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean 'eccentric_plateau'"), std::string::npos) << message;
 }
 
 TEST(MuscleTable, WithoutOsimTheModelsMuscleHasTheSameName) {
   const toml::table root = recording::parse_toml("name = \"B\"\nemg = \"b\"\n", "study.toml");
-  EXPECT_EQ(read_spec<MuscleSpec>({root, "study.toml", "[[muscle]]"}, "").osim,
-            std::vector<std::string>{"B"});
+  EXPECT_EQ(read_spec<MuscleSpec>({root, "study.toml", "[[muscle]]"}, "").osim, std::vector<std::string>{"B"});
 }
 
 TEST(ParameterRuleTable, ARuleForAnUnknownParameterAndBoundsInTheWrongOrderAreRefused) {
-  EXPECT_NE(table_message<identification::ParameterRule>("name = \"F_mx\"\n").find("study.toml:1"),
-            std::string::npos);
-  EXPECT_NE(table_message<identification::ParameterRule>(
-                "name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n")
+  EXPECT_NE(table_message<identification::ParameterRule>("name = \"F_mx\"\n").find("study.toml:1"), std::string::npos);
+  EXPECT_NE(table_message<identification::ParameterRule>("name = \"optimal_fiber_length\"\nlower = 0.3\nupper = 0.2\n")
                 .find("found 0.3, not below upper = 0.2"),
             std::string::npos);
-  EXPECT_NE(table_message<identification::ParameterRule>(
-                "name = \"optimal_fiber_length\"\nprior_sd = 0\n")
+  EXPECT_NE(table_message<identification::ParameterRule>("name = \"optimal_fiber_length\"\nprior_sd = 0\n")
                 .find("expected a positive number"),
             std::string::npos);
 }

@@ -20,9 +20,7 @@ using recording::TomlTable;
 
 using Names = std::set<std::string>;
 
-[[noreturn]] void refuse(const Study& study, const std::string& message) {
-  throw ReadError(study.file, 0, message);
-}
+[[noreturn]] void refuse(const Study& study, const std::string& message) { throw ReadError(study.file, 0, message); }
 
 /// Returns the names of the [[muscle]] tables; refuses repeated names.
 Names muscle_names(const Study& study) {
@@ -33,8 +31,7 @@ Names muscle_names(const Study& study) {
            "muscle can be identified: `ik`, `id` and `so` do without");
   Names names;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (!names.insert(muscle.name).second)
-      refuse(study, fmt::format("two [[muscle]] are named '{}'", muscle.name));
+    if (!names.insert(muscle.name).second) refuse(study, fmt::format("two [[muscle]] are named '{}'", muscle.name));
   }
   return names;
 }
@@ -45,52 +42,44 @@ void check_muscles(const Study& study, const Names& names) {
     const auto other = std::find_if(study.muscles.begin(), study.muscles.end(),
                                     [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
     if (other == study.muscles.end() || other->same_as)
-      refuse(
-          study,
-          fmt::format(
-              "[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
-              muscle.name, *muscle.same_as, fmt::join(names, ", ")));
+      refuse(study, fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
+                                muscle.name, *muscle.same_as, fmt::join(names, ", ")));
   }
   for (const std::string& wanted : study.identify.muscles) {
     if (!names.contains(wanted))
-      refuse(study, fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted,
-                                fmt::join(names, ", ")));
+      refuse(study,
+             fmt::format("[identify] muscles: '{}' is no [[muscle]]; there are {}", wanted, fmt::join(names, ", ")));
   }
 }
 
 void check_rule(const Study& study, const identification::ParameterRule& rule, const Names& names) {
   if (identification::is_lag(rule.parameter) && !study.identify.dynamics)
-    refuse(study,
-           fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = "
-                       "true in [identify]; add that, or leave the table out",
-                       rule.parameter));
-  if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle)
-    return;
+    refuse(study, fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = "
+                              "true in [identify]; add that, or leave the table out",
+                              rule.parameter));
+  if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle) return;
   for (const std::string& owner : rule.owners) {
     if (!names.contains(owner))
-      refuse(study, fmt::format("[[parameter]] {}: '{}' is no [[muscle]]; there are {}",
-                                rule.parameter, owner, fmt::join(names, ", ")));
+      refuse(study, fmt::format("[[parameter]] {}: '{}' is no [[muscle]]; there are {}", rule.parameter, owner,
+                                fmt::join(names, ", ")));
   }
 }
 
 void check_trials(const Study& study) {
   if (study.trials.empty())
-    refuse(study,
-           "no [[trial]]; add one table per recording, with name, markers or motion, and emg");
-  const bool any_to_learn_from = std::any_of(
-      study.trials.begin(), study.trials.end(),
-      [](const TrialSpec& t) { return t.use == Use::calibration || t.use == Use::isometric; });
+    refuse(study, "no [[trial]]; add one table per recording, with name, markers or motion, and emg");
+  const bool any_to_learn_from = std::any_of(study.trials.begin(), study.trials.end(), [](const TrialSpec& t) {
+    return t.use == Use::calibration || t.use == Use::isometric;
+  });
   if (!any_to_learn_from && !study.identify.methods.empty())
     refuse(study,
            "no [[trial]] has use = \"calibration\" or \"isometric\", from which parameters are "
            "found; the others only test or scale them");
   Names names;
   for (const TrialSpec& trial : study.trials) {
-    if (!names.insert(trial.name).second)
-      refuse(study, fmt::format("two [[trial]] are named '{}'", trial.name));
+    if (!names.insert(trial.name).second) refuse(study, fmt::format("two [[trial]] are named '{}'", trial.name));
     if (trial.load_cell && !study.load_cell)
-      refuse(study, fmt::format("trial '{}' has a load_cell; a table [load_cell] must describe it",
-                                trial.name));
+      refuse(study, fmt::format("trial '{}' has a load_cell; a table [load_cell] must describe it", trial.name));
   }
 }
 
@@ -100,8 +89,8 @@ void check_norms(const Study& study) {
   for (const NormSpec& norm : study.norms) {
     for (const std::string& trial : norm.trials)
       if (!names.contains(trial))
-        refuse(study, fmt::format("[[norm]] {}: '{}' is no [[trial]]; there are {}", norm.name,
-                                  trial, fmt::join(names, ", ")));
+        refuse(study, fmt::format("[[norm]] {}: '{}' is no [[trial]]; there are {}", norm.name, trial,
+                                  fmt::join(names, ", ")));
   }
 }
 
@@ -109,8 +98,7 @@ void check_norms(const Study& study) {
 void check_references(const Study& study) {
   const Names muscles = muscle_names(study);
   check_muscles(study, muscles);
-  for (const identification::ParameterRule& rule : study.parameters)
-    check_rule(study, rule, muscles);
+  for (const identification::ParameterRule& rule : study.parameters) check_rule(study, rule, muscles);
   check_trials(study);
   check_norms(study);
 }
@@ -132,14 +120,12 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
       if (other.name == *muscle.same_as) muscle.emg = other.emg;
     }
   }
-  study.emg.has_mvc = std::any_of(study.trials.begin(), study.trials.end(),
-                                  [](const TrialSpec& t) { return t.use == Use::mvc; });
+  study.emg.has_mvc =
+      std::any_of(study.trials.begin(), study.trials.end(), [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;
 }
 
-Study read_study(const std::filesystem::path& file) {
-  return parse_study(recording::read_text_file(file), file);
-}
+Study read_study(const std::filesystem::path& file) { return parse_study(recording::read_text_file(file), file); }
 
 }  // namespace myoid

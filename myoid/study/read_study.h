@@ -7,9 +7,8 @@
 
 namespace myoid {
 
-/// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong
-/// types, unknown names and numbers out of range. Does not open the files that the study names;
-/// `check_study` opens them.
+/// Reads and validates a study file. Throws ReadError with the line for syntax, unknown keys, wrong types, unknown
+/// names and numbers out of range. Does not open the files that the study names; `check_study` opens them.
 [[nodiscard]] Study read_study(const std::filesystem::path& file);
 
 /// Reads a study from its text; `file` is its place, for paths and messages.

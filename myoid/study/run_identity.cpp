@@ -58,8 +58,7 @@ bool same_model(const RunIdentity& a, const RunIdentity& b) {
 
 RunIdentity identity_of(const Study& study) {
   RunIdentity identity = identity_of(parse_json(study_json(study)));
-  if (study.model.file)
-    identity.model_sha256 = sha256(recording::read_text_file(*study.model.file));
+  if (study.model.file) identity.model_sha256 = sha256(recording::read_text_file(*study.model.file));
   return identity;
 }
 
@@ -79,10 +78,9 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       for (const json& method : content.value("methods", json::array())) {
         for (const json& e : method.value("estimates", json::array())) {
           const std::string muscle = text(e, "muscle");
-          const bool listed = std::find(identity.muscles.begin(), identity.muscles.end(), muscle) !=
-                              identity.muscles.end();
-          if (!listed && text(e, "parameter") == "optimal_fiber_length")
-            identity.muscles.push_back(muscle);
+          const bool listed =
+              std::find(identity.muscles.begin(), identity.muscles.end(), muscle) != identity.muscles.end();
+          if (!listed && text(e, "parameter") == "optimal_fiber_length") identity.muscles.push_back(muscle);
         }
       }
     }
@@ -99,26 +97,21 @@ IdentityDifferences differences(const RunIdentity& here, const RunIdentity& ther
   IdentityDifferences found;
   if (here.known && there.known) {
     if (!same_model(here, there))
-      found.grave.push_back(
-          model_name(here) == model_name(there)
-              ? fmt::format("the model {} is another one (its content differs)", model_name(here))
-              : fmt::format("the model is {} here, {} there", model_name(here), model_name(there)));
+      found.grave.push_back(model_name(here) == model_name(there)
+                                ? fmt::format("the model {} is another one (its content differs)", model_name(here))
+                                : fmt::format("the model is {} here, {} there", model_name(here), model_name(there)));
     if (here.coordinates != there.coordinates)
-      found.grave.push_back(fmt::format("the coordinate is {} here, {} there",
-                                        fmt::join(here.coordinates, ", "),
+      found.grave.push_back(fmt::format("the coordinate is {} here, {} there", fmt::join(here.coordinates, ", "),
                                         fmt::join(there.coordinates, ", ")));
-    const auto named = [](const RunIdentity& i) {
-      return !i.subject.empty() && i.subject != SubjectSpec{}.name;
-    };
+    const auto named = [](const RunIdentity& i) { return !i.subject.empty() && i.subject != SubjectSpec{}.name; };
     if (here.subject != there.subject && named(here) && named(there))
-      found.other.push_back(
-          fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
+      found.other.push_back(fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
     if (here.sex != there.sex && !here.sex.empty() && !there.sex.empty())
       found.other.push_back(fmt::format("the subject is {} here, {} there", here.sex, there.sex));
     constexpr double kSameMass_kg = 5.0;  // variation of one person over months
     if (here.mass_kg && there.mass_kg && std::abs(*here.mass_kg - *there.mass_kg) > kSameMass_kg)
-      found.other.push_back(fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there",
-                                        *here.mass_kg, *there.mass_kg));
+      found.other.push_back(
+          fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there", *here.mass_kg, *there.mass_kg));
   }
   std::vector<std::string> only_here, only_there;
   const auto has = [](const std::vector<std::string>& list, const std::string& name) {
@@ -132,12 +125,10 @@ IdentityDifferences differences(const RunIdentity& here, const RunIdentity& ther
   }
   if (here.muscles.empty() || there.muscles.empty()) return found;
   if (only_here.size() == here.muscles.size())
-    found.grave.push_back(fmt::format("no muscle is common: {} here, {} there",
-                                      fmt::join(here.muscles, ", "),
+    found.grave.push_back(fmt::format("no muscle is common: {} here, {} there", fmt::join(here.muscles, ", "),
                                       fmt::join(there.muscles, ", ")));
   else if (!only_here.empty() || !only_there.empty())
-    found.other.push_back(fmt::format("the muscles are {} here, {} there",
-                                      fmt::join(here.muscles, ", "),
+    found.other.push_back(fmt::format("the muscles are {} here, {} there", fmt::join(here.muscles, ", "),
                                       fmt::join(there.muscles, ", ")));
   return found;
 }

@@ -9,8 +9,7 @@
 
 namespace myoid {
 
-/// Person and model of a result. The numbers of two results are comparable if person and model are
-/// the same.
+/// Person and model of a result. The numbers of two results are comparable if person and model are the same.
 struct RunIdentity {
   bool known = false;  ///< False: a result of `myoid identify`, which has neither person nor model.
   std::string subject;
@@ -32,8 +31,7 @@ struct IdentityDifferences {
   std::vector<std::string> grave;
   std::vector<std::string> other;  ///< Subject, mass, sex, and muscles that only one result has.
 };
-/// Compares the facts that both results state, in sentences: "the model is arm4 here, wu.osim
-/// there".
+/// Compares the facts that both results state, in sentences: "the model is arm4 here, wu.osim there".
 [[nodiscard]] IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there);
 
 }  // namespace myoid

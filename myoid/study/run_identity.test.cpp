@@ -56,8 +56,7 @@ TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {
   const RunIdentity here = identity_of(study_of({"BIC", "TRI"}));
   Study wu = study_of({"BIC", "TRI"});
   wu.model.file = "somewhere/wu.osim";
-  const IdentityDifferences model =
-      differences(here, read_run_identity(folder_of(wu, folder.path() / "wu")));
+  const IdentityDifferences model = differences(here, read_run_identity(folder_of(wu, folder.path() / "wu")));
   ASSERT_EQ(model.grave.size(), 1U);
   EXPECT_NE(model.grave[0].find("wu.osim"), std::string::npos);
   const IdentityDifferences muscles = differences(here, identity_of(study_of({"SOL", "GAS"})));
@@ -67,16 +66,14 @@ TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {
   recording::write_file(folder.path() / "wu.osim", "changed");
   Study changed = study_of({"BIC", "TRI"});
   changed.model.file = folder.path() / "wu.osim";
-  EXPECT_EQ(differences(identity_of(changed), read_run_identity(folder.path() / "wu")).grave.size(),
-            1U);
+  EXPECT_EQ(differences(identity_of(changed), read_run_identity(folder.path() / "wu")).grave.size(), 1U);
 }
 
 TEST(RunIdentity, AnotherPersonAndFurtherMusclesAreRemarked) {
   Study other = study_of({"BIC", "TRI", "BRA"});
   other.subject.name = "bernd";
   other.subject.mass_kg = 90.0;
-  const IdentityDifferences found =
-      differences(identity_of(study_of({"BIC", "TRI"})), identity_of(other));
+  const IdentityDifferences found = differences(identity_of(study_of({"BIC", "TRI"})), identity_of(other));
   EXPECT_TRUE(found.grave.empty());
   EXPECT_EQ(found.other.size(), 3U);
 }

@@ -26,41 +26,34 @@ RunRecord read_run_record(const fs::path& folder) {
   RunRecord record{.folder = folder};
   try {
     const json run = parse_json(recording::read_text_file(path));
-    if (!run.contains("study"))
-      throw ReadError(path, 0, "does not name its study; run the study again");
+    if (!run.contains("study")) throw ReadError(path, 0, "does not name its study; run the study again");
     record.study = run.at("study").get<std::string>();
     record.command = run.value("command", "");
     record.start_s = number_of(run, "start_s");
     record.end_s = number_of(run, "end_s");
     const json options = run.value("options", json::object());
     if (options.contains("identify"))
-      record.estimator = choice_named<identification::EstimatorKind>(
-          options.at("identify").value("estimator", std::string()));
+      record.estimator =
+          choice_named<identification::EstimatorKind>(options.at("identify").value("estimator", std::string()));
     for (const json& trial : run.value("trials", json::array()))
       record.uses[trial.at("name").get<std::string>()] = trial.at("use").get<std::string>();
     for (const json& input : run.value("inputs", json::array()))
-      record.inputs.push_back(
-          {input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
+      record.inputs.push_back({input.at("path").get<std::string>(), input.at("sha256").get<std::string>()});
   } catch (const json::exception& error) {
-    throw ReadError(path, 0,
-                    fmt::format("not a run's record: {}; run the study again", error.what()));
+    throw ReadError(path, 0, fmt::format("not a run's record: {}; run the study again", error.what()));
   }
   return record;
 }
 
-void refuse_changed(const std::vector<InputFile>& inputs,
-                    const RunRecord& run,
-                    const fs::path& but) {
+void refuse_changed(const std::vector<InputFile>& inputs, const RunRecord& run, const fs::path& but) {
   for (const InputFile& now : inputs) {
     const fs::path name = fs::path(now.path).filename();
     for (const InputFile& recorded : run.inputs) {
-      if (name != fs::path(recorded.path).filename() || recorded.sha256 == now.sha256 ||
-          name == but.filename())
+      if (name != fs::path(recorded.path).filename() || recorded.sha256 == now.sha256 || name == but.filename())
         continue;
       throw ReadError(
           now.path, 0,
-          fmt::format("has changed since the run in {}; run the study again (myoid run)",
-                      run.folder.string()));
+          fmt::format("has changed since the run in {}; run the study again (myoid run)", run.folder.string()));
     }
   }
 }

@@ -18,8 +18,7 @@ std::string other_unit(double value, const SettingLimits& limits) {
     std::string_view meant, written;
     double factor;
   };
-  for (const Slip& slip :
-       {Slip{"m", "cm", 100.0}, Slip{"m", "mm", 1000.0}, Slip{"s", "ms", 1000.0}}) {
+  for (const Slip& slip : {Slip{"m", "cm", 100.0}, Slip{"m", "mm", 1000.0}, Slip{"s", "ms", 1000.0}}) {
     const double meant = value / slip.factor;
     if (limits.unit == slip.meant && meant >= limits.lower && meant <= limits.upper && meant != 0.0)
       return fmt::format("; is it in {}? Divide by {}", slip.written, slip.factor);
@@ -29,11 +28,9 @@ std::string other_unit(double value, const SettingLimits& limits) {
 
 std::string expected(const SettingLimits& limits) {
   const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
-  if (std::isfinite(limits.upper))
-    return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
+  if (std::isfinite(limits.upper)) return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
   if (limits.above_lower)
-    return limits.lower == 0.0 ? "a positive number"
-                               : fmt::format("a number above {}", limits.lower);
+    return limits.lower == 0.0 ? "a positive number" : fmt::format("a number above {}", limits.lower);
   return fmt::format("{} or more", limits.lower);
 }
 
@@ -50,10 +47,8 @@ std::string refusal(const Setting& setting, double value) {
   const bool low = limits.above_lower ? !(value > limits.lower) : !(value >= limits.lower);
   if (low || value > limits.upper)
     return fmt::format(
-        "found {}{}{}, expected {}{}{}", value, limits.unit.empty() ? "" : " ", limits.unit,
-        expected(limits),
-        setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word),
-        other_unit(value, limits));
+        "found {}{}{}, expected {}{}{}", value, limits.unit.empty() ? "" : " ", limits.unit, expected(limits),
+        setting.about.word.empty() ? "" : fmt::format(" or \"{}\"", setting.about.word), other_unit(value, limits));
   if (setting.kind == SettingKind::count && value != std::floor(value))
     return fmt::format("found {}, expected a whole number", value);
   return "";
@@ -67,14 +62,12 @@ std::string refusal(const Setting& setting, const std::string& word) {
     if (!each.empty()) named.emplace_back(each);
   }
   const auto near = recording::nearest_word(word, named);
-  return fmt::format("found \"{}\"{}, expected {}{}", word,
-                     near ? fmt::format(" (did you mean '{}'?)", *near) : "",
+  return fmt::format("found \"{}\"{}, expected {}{}", word, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
                      named.size() > 1 ? "one of " : "", fmt::join(named, ", "));
 }
 
 bool SettingVisitor::flag(std::string_view key, bool& value, const About& about) {
-  return met({key, SettingKind::flag, about}, value,
-             [&](SettingValue given) { value = std::get<bool>(given); });
+  return met({key, SettingKind::flag, about}, value, [&](SettingValue given) { value = std::get<bool>(given); });
 }
 
 bool SettingVisitor::flag(std::string_view key, std::optional<bool>& value, const About& about) {
@@ -88,23 +81,16 @@ bool SettingVisitor::either(std::string_view key, bool& value, const About& abou
 }
 
 bool SettingVisitor::number(std::string_view key, double& value, const About& about) {
-  return met({key, SettingKind::number, about}, value,
-             [&](SettingValue given) { value = std::get<double>(given); });
+  return met({key, SettingKind::number, about}, value, [&](SettingValue given) { value = std::get<double>(given); });
 }
 
-bool SettingVisitor::number(std::string_view key,
-                            std::optional<double>& value,
-                            const About& about) {
+bool SettingVisitor::number(std::string_view key, std::optional<double>& value, const About& about) {
   return met({key, SettingKind::number, about}, or_nothing(value),
              [&](SettingValue given) { value = std::get<double>(given); });
 }
 
-bool SettingVisitor::number(std::string_view key,
-                            std::optional<double>& value,
-                            bool& worded,
-                            const About& about) {
-  return met({key, SettingKind::number, about},
-             worded ? SettingValue(std::string(about.word)) : or_nothing(value),
+bool SettingVisitor::number(std::string_view key, std::optional<double>& value, bool& worded, const About& about) {
+  return met({key, SettingKind::number, about}, worded ? SettingValue(std::string(about.word)) : or_nothing(value),
              [&](SettingValue given) {
                worded = std::holds_alternative<std::string>(given);
                value.reset();
@@ -118,14 +104,12 @@ bool SettingVisitor::count(std::string_view key, int& value, const About& about)
 }
 
 bool SettingVisitor::count(std::string_view key, std::optional<int>& value, const About& about) {
-  return met({key, SettingKind::count, about},
-             value ? SettingValue(static_cast<double>(*value)) : SettingValue(),
+  return met({key, SettingKind::count, about}, value ? SettingValue(static_cast<double>(*value)) : SettingValue(),
              [&](SettingValue given) { value = static_cast<int>(std::get<double>(given)); });
 }
 
 bool SettingVisitor::text(std::string_view key, std::string& value, const About& about) {
-  return met({key, SettingKind::text, about}, value,
-             [&](SettingValue given) { value = std::get<std::string>(given); });
+  return met({key, SettingKind::text, about}, value, [&](SettingValue given) { value = std::get<std::string>(given); });
 }
 
 bool SettingVisitor::text(std::string_view key,
@@ -134,8 +118,7 @@ bool SettingVisitor::text(std::string_view key,
                           const About& about) {
   using Table = std::map<std::string, std::string>;
   const std::string other(about.table);
-  return met({key, SettingKind::text, about},
-             instead ? SettingValue(Table{{other, *instead}}) : SettingValue(value),
+  return met({key, SettingKind::text, about}, instead ? SettingValue(Table{{other, *instead}}) : SettingValue(value),
              [&](SettingValue given) {
                if (const auto* table = std::get_if<Table>(&given)) {
                  instead = table->at(other);
@@ -146,25 +129,18 @@ bool SettingVisitor::text(std::string_view key,
 }
 
 bool SettingVisitor::path(std::string_view key, std::filesystem::path& value, const About& about) {
-  return met({key, SettingKind::path, about},
-             value.empty() ? SettingValue() : SettingValue(value.string()),
+  return met({key, SettingKind::path, about}, value.empty() ? SettingValue() : SettingValue(value.string()),
              [&](SettingValue given) { value = std::get<std::string>(given); });
 }
 
-bool SettingVisitor::path(std::string_view key,
-                          std::optional<std::filesystem::path>& value,
-                          const About& about) {
-  return met({key, SettingKind::path, about},
-             value ? SettingValue(value->string()) : SettingValue(),
+bool SettingVisitor::path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about) {
+  return met({key, SettingKind::path, about}, value ? SettingValue(value->string()) : SettingValue(),
              [&](SettingValue given) { value = std::get<std::string>(given); });
 }
 
-bool SettingVisitor::texts(std::string_view key,
-                           std::vector<std::string>& value,
-                           const About& about) {
+bool SettingVisitor::texts(std::string_view key, std::vector<std::string>& value, const About& about) {
   const bool worded = value.empty() && !about.word.empty();
-  return met({key, SettingKind::texts, about},
-             worded ? SettingValue(std::string(about.word)) : SettingValue(value),
+  return met({key, SettingKind::texts, about}, worded ? SettingValue(std::string(about.word)) : SettingValue(value),
              [&](SettingValue given) {
                const auto* list = std::get_if<std::vector<std::string>>(&given);
                value = list != nullptr ? *list : std::vector<std::string>{};
@@ -172,28 +148,22 @@ bool SettingVisitor::texts(std::string_view key,
 }
 
 bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, const About& about) {
-  return met({key, SettingKind::numbers, about},
-             value.empty() ? SettingValue() : SettingValue(value),
+  return met({key, SettingKind::numbers, about}, value.empty() ? SettingValue() : SettingValue(value),
              [&](SettingValue given) { value = std::get<std::vector<double>>(given); });
 }
 
 bool SettingVisitor::texts_by_name(std::string_view key,
                                    std::map<std::string, std::string>& value,
                                    const About& about) {
-  return met({key, SettingKind::texts_by_name, about}, value, [&](SettingValue given) {
-    value = std::get<std::map<std::string, std::string>>(given);
-  });
+  return met({key, SettingKind::texts_by_name, about}, value,
+             [&](SettingValue given) { value = std::get<std::map<std::string, std::string>>(given); });
 }
 
-bool SettingVisitor::numbers_by_name(std::string_view key,
-                                     std::map<std::string, double>& value,
-                                     const About& about) {
+bool SettingVisitor::numbers_by_name(std::string_view key, std::map<std::string, double>& value, const About& about) {
   return met({key, SettingKind::numbers_by_name, about}, value,
              [&](SettingValue given) { value = std::get<std::map<std::string, double>>(given); });
 }
 
-void SettingVisitor::must(bool /*holds*/,
-                          std::string_view /*key*/,
-                          const std::string& /*message*/) {}
+void SettingVisitor::must(bool /*holds*/, std::string_view /*key*/, const std::string& /*message*/) {}
 
 }  // namespace myoid

@@ -23,18 +23,12 @@ struct SettingLimits {
   std::string_view unit;     ///< "s", "Hz"; empty: dimensionless.
   bool above_lower = false;  ///< `lower` itself is refused.
 };
-[[nodiscard]] constexpr SettingLimits any_number(std::string_view unit = {}) {
-  return {.unit = unit};
-}
+[[nodiscard]] constexpr SettingLimits any_number(std::string_view unit = {}) { return {.unit = unit}; }
 [[nodiscard]] constexpr SettingLimits above_zero(std::string_view unit = {}) {
   return {.lower = 0.0, .unit = unit, .above_lower = true};
 }
-[[nodiscard]] constexpr SettingLimits zero_or_more(std::string_view unit = {}) {
-  return {.lower = 0.0, .unit = unit};
-}
-[[nodiscard]] constexpr SettingLimits within(double lower,
-                                             double upper,
-                                             std::string_view unit = {}) {
+[[nodiscard]] constexpr SettingLimits zero_or_more(std::string_view unit = {}) { return {.lower = 0.0, .unit = unit}; }
+[[nodiscard]] constexpr SettingLimits within(double lower, double upper, std::string_view unit = {}) {
   return {.lower = lower, .upper = upper, .unit = unit};
 }
 
@@ -48,21 +42,10 @@ struct About {
   std::string_view table = {};      ///< Key of a table allowed instead of a text: "same_as".
   ChoiceNames words = {};           ///< The only allowed texts; empty: any.
   std::size_t count = 0;            ///< Number of entries of a list; 0: any.
-  bool silent =
-      false;  ///< Not written: another setting is in force, and both together are refused.
+  bool silent = false;              ///< Not written: another setting is in force, and both together are refused.
 };
 
-enum class SettingKind {
-  flag,
-  number,
-  count,
-  text,
-  path,
-  texts,
-  numbers,
-  texts_by_name,
-  numbers_by_name
-};
+enum class SettingKind { flag, number, count, text, path, texts, numbers, texts_by_name, numbers_by_name };
 
 /// A setting: its key in the file and the facts about it.
 struct Setting {
@@ -71,8 +54,7 @@ struct Setting {
   About about;
 };
 
-/// Returns the reason to refuse a number or a word ("found 3 Hz, expected 5 to 2000 Hz"); empty:
-/// allowed.
+/// Returns the reason to refuse a number or a word ("found 3 Hz, expected 5 to 2000 Hz"); empty: allowed.
 [[nodiscard]] std::string refusal(const Setting& setting, double value);
 [[nodiscard]] std::string refusal(const Setting& setting, const std::string& word);
 
@@ -110,31 +92,22 @@ class SettingVisitor {
   bool count(std::string_view key, std::optional<int>& value, const About& about);
   bool text(std::string_view key, std::string& value, const About& about);
   /// Visits a text, or a table { `about.table` = text }, which goes to `instead`.
-  bool text(std::string_view key,
-            std::string& value,
-            std::optional<std::string>& instead,
-            const About& about);
+  bool text(std::string_view key, std::string& value, std::optional<std::string>& instead, const About& about);
   bool path(std::string_view key, std::filesystem::path& value, const About& about);
   bool path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about);
   /// Visits a list; an empty one stands for `about.word`, if there is one.
   bool texts(std::string_view key, std::vector<std::string>& value, const About& about);
   bool numbers(std::string_view key, std::vector<double>& value, const About& about);
-  bool texts_by_name(std::string_view key,
-                     std::map<std::string, std::string>& value,
-                     const About& about);
-  bool numbers_by_name(std::string_view key,
-                       std::map<std::string, double>& value,
-                       const About& about);
+  bool texts_by_name(std::string_view key, std::map<std::string, std::string>& value, const About& about);
+  bool numbers_by_name(std::string_view key, std::map<std::string, double>& value, const About& about);
 
   /// Visits a value of an enumeration; `about.words` are the allowed names (empty: all).
   template <typename Enumeration>
   bool choice(std::string_view key, Enumeration& value, About about) {
     if (about.words.empty()) about.words = choice_names(value);
-    return met({key, SettingKind::text, about}, std::string(choice_name(value)),
-               [&value](const SettingValue& given) {
-                 if (const auto* name = std::get_if<std::string>(&given))
-                   value = *choice_named<Enumeration>(*name);
-               });
+    return met({key, SettingKind::text, about}, std::string(choice_name(value)), [&value](const SettingValue& given) {
+      if (const auto* name = std::get_if<std::string>(&given)) value = *choice_named<Enumeration>(*name);
+    });
   }
   /// Visits a list of such values.
   template <typename Enumeration>
@@ -180,26 +153,16 @@ class SettingVisitor {
  protected:
   using Set = std::function<void(SettingValue)>;
   using InsideEach = std::function<void(std::size_t, SettingVisitor&)>;
-  /// Visits one setting with its present value and its setter. Returns whether a file gave the
-  /// setting.
+  /// Visits one setting with its present value and its setter. Returns whether a file gave the setting.
   virtual bool met(const Setting& setting, const SettingValue& now, const Set& set) = 0;
-  virtual bool entered(std::string_view key,
-                       bool present,
-                       const About& about,
-                       const Inside& inside) = 0;
-  virtual void repeated(std::string_view key,
-                        std::size_t count,
-                        const About& about,
-                        const InsideEach& inside) = 0;
+  virtual bool entered(std::string_view key, bool present, const About& about, const Inside& inside) = 0;
+  virtual void repeated(std::string_view key, std::size_t count, const About& about, const InsideEach& inside) = 0;
 };
 
 /// A visitor of settings outside tables.
 class FlatSettingVisitor : public SettingVisitor {
  protected:
-  bool entered(std::string_view /*key*/,
-               bool /*present*/,
-               const About& /*about*/,
-               const Inside& /*inside*/) override {
+  bool entered(std::string_view /*key*/, bool /*present*/, const About& /*about*/, const Inside& /*inside*/) override {
     return false;
   }
   void repeated(std::string_view /*key*/,

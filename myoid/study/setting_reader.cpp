@@ -37,8 +37,7 @@ SettingValue SettingReader::number(const Setting& setting) {
   if (!about.word.empty() && table_->is_text(setting.key)) {
     const std::string value = *table_->text(setting.key);
     if (value != about.word)
-      table_->fail(setting.key,
-                   fmt::format("found \"{}\", expected a number or \"{}\"", value, about.word));
+      table_->fail(setting.key, fmt::format("found \"{}\", expected a number or \"{}\"", value, about.word));
     return value;
   }
   const double value = *table_->number(setting.key);
@@ -49,12 +48,10 @@ SettingValue SettingReader::number(const Setting& setting) {
 SettingValue SettingReader::texts(const Setting& setting) {
   const About& about = setting.about;
   std::vector<std::string> value = *table_->texts(setting.key);
-  if (!about.word.empty() && value == std::vector<std::string>{std::string(about.word)})
-    return std::string(about.word);
+  if (!about.word.empty() && value == std::vector<std::string>{std::string(about.word)}) return std::string(about.word);
   for (const std::string& each : value) refuse(setting, refusal(setting, each));
   if (about.count > 0 && value.size() != about.count)
-    table_->fail(setting.key,
-                 fmt::format("found {} names, expected {}", value.size(), about.count));
+    table_->fail(setting.key, fmt::format("found {} names, expected {}", value.size(), about.count));
   return value;
 }
 
@@ -62,8 +59,7 @@ SettingValue SettingReader::numbers(const Setting& setting) {
   const About& about = setting.about;
   std::vector<double> value = *table_->numbers(setting.key);
   if (about.count > 0 && value.size() != about.count)
-    table_->fail(setting.key,
-                 fmt::format("found {} numbers, expected {}", value.size(), about.count));
+    table_->fail(setting.key, fmt::format("found {} numbers, expected {}", value.size(), about.count));
   for (const double each : value) refuse(setting, refusal(setting, each));
   return value;
 }
@@ -115,10 +111,7 @@ bool SettingReader::met(const Setting& setting, const SettingValue& /*now*/, con
   return true;
 }
 
-bool SettingReader::entered(std::string_view key,
-                            bool /*present*/,
-                            const About& /*about*/,
-                            const Inside& inside) {
+bool SettingReader::entered(std::string_view key, bool /*present*/, const About& /*about*/, const Inside& inside) {
   std::optional<TomlTable> inner = table_->table(key);
   if (!inner) return false;
   SettingReader reader(*inner, folder_);

@@ -7,10 +7,9 @@
 
 namespace myoid {
 
-/// Reads settings from a table of a TOML file. A setting that the file does not give keeps its
-/// value; paths are resolved against `folder`. Throws ReadError with the line for a wrong type, a
-/// refused number or word, and settings that exclude each other. The caller checks the table for
-/// unknown keys at the end (TomlTable::finish).
+/// Reads settings from a table of a TOML file. A setting that the file does not give keeps its value; paths are
+/// resolved against `folder`. Throws ReadError with the line for a wrong type, a refused number or word, and settings
+/// that exclude each other. The caller checks the table for unknown keys at the end (TomlTable::finish).
 class SettingReader : public SettingVisitor {
  public:
   SettingReader(recording::TomlTable& table, std::filesystem::path folder)
@@ -20,14 +19,8 @@ class SettingReader : public SettingVisitor {
 
  protected:
   bool met(const Setting& setting, const SettingValue& now, const Set& set) override;
-  bool entered(std::string_view key,
-               bool present,
-               const About& about,
-               const Inside& inside) override;
-  void repeated(std::string_view key,
-                std::size_t count,
-                const About& about,
-                const InsideEach& inside) override;
+  bool entered(std::string_view key, bool present, const About& about, const Inside& inside) override;
+  void repeated(std::string_view key, std::size_t count, const About& about, const InsideEach& inside) override;
 
  private:
   [[nodiscard]] SettingValue text(const Setting& setting);

@@ -28,8 +28,7 @@ std::string words_of(const Setting& setting) {
 
 std::string range_of(const SettingLimits& limits) {
   const std::string unit = limits.unit.empty() ? "" : fmt::format(" {}", limits.unit);
-  if (std::isfinite(limits.upper))
-    return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
+  if (std::isfinite(limits.upper)) return fmt::format("{} to {}{}", limits.lower, limits.upper, unit);
   if (std::isfinite(limits.lower)) {
     return limits.above_lower ? fmt::format("above {}{}", limits.lower, unit)
                               : fmt::format("{}{} or more", limits.lower, unit);
@@ -68,8 +67,7 @@ std::string type_of(const Setting& setting, bool option) {
 std::string allowed(const Setting& setting, bool option) {
   std::string text = type_of(setting, option);
   const About& about = setting.about;
-  if (setting.kind == SettingKind::texts && about.count > 0)
-    text = fmt::format("{} texts", about.count);
+  if (setting.kind == SettingKind::texts && about.count > 0) text = fmt::format("{} texts", about.count);
   if (!about.word.empty()) text += fmt::format(", or `\"{}\"`", about.word);
   if (!about.table.empty()) text += fmt::format(", or `{{ {} = … }}`", about.table);
   return text;
@@ -79,17 +77,14 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
   const About& about = setting.about;
   if (!about.required.empty()) return "required";
   if (!about.otherwise.empty()) return std::string(about.otherwise);
-  if (const auto* flag = std::get_if<bool>(&value))
-    return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
+  if (const auto* flag = std::get_if<bool>(&value)) return option ? (*flag ? "on" : "off") : (*flag ? "true" : "false");
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && !text->empty())
     return code(option ? *text : in_quotes(*text));
-  if (const auto* list = std::get_if<std::vector<std::string>>(&value);
-      list != nullptr && !list->empty()) {
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value); list != nullptr && !list->empty()) {
     std::vector<std::string> quoted;
     std::transform(list->begin(), list->end(), std::back_inserter(quoted), in_quotes);
-    return list->size() == 1 ? code(quoted.front())
-                             : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
+    return list->size() == 1 ? code(quoted.front()) : code(fmt::format("[{}]", fmt::join(quoted, ", ")));
   }
   if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
     return code(fmt::format("[{}]", fmt::join(*list, ", ")));
@@ -99,8 +94,7 @@ std::string default_of(const Setting& setting, const SettingValue& value, bool o
 /// Describes the settings of one table.
 class RowVisitor : public SettingVisitor {
  public:
-  RowVisitor(std::string prefix, std::vector<SettingRow>& rows)
-      : prefix_(std::move(prefix)), rows_(&rows) {}
+  RowVisitor(std::string prefix, std::vector<SettingRow>& rows) : prefix_(std::move(prefix)), rows_(&rows) {}
 
  protected:
   bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
@@ -108,12 +102,8 @@ class RowVisitor : public SettingVisitor {
     rows_->back().key.insert(0, prefix_);
     return false;
   }
-  bool entered(std::string_view key,
-               bool /*present*/,
-               const About& about,
-               const Inside& inside) override {
-    rows_->push_back({prefix_ + std::string(key), "table",
-                      about.otherwise.empty() ? "–" : std::string(about.otherwise),
+  bool entered(std::string_view key, bool /*present*/, const About& about, const Inside& inside) override {
+    rows_->push_back({prefix_ + std::string(key), "table", about.otherwise.empty() ? "–" : std::string(about.otherwise),
                       std::string(about.says)});
     if (key == "sync") return false;  // the table [sync] describes its settings
     RowVisitor rows(prefix_ + std::string(key) + ".", *rows_);
@@ -136,23 +126,15 @@ class TableVisitor : public SettingVisitor {
   std::vector<SettingTable> tables;
 
  protected:
-  bool met(const Setting& /*setting*/, const SettingValue& /*now*/, const Set& /*set*/) override {
-    return false;
-  }
-  bool entered(std::string_view key,
-               bool /*present*/,
-               const About& about,
-               const Inside& inside) override {
+  bool met(const Setting& /*setting*/, const SettingValue& /*now*/, const Set& /*set*/) override { return false; }
+  bool entered(std::string_view key, bool /*present*/, const About& about, const Inside& inside) override {
     SettingTable table{fmt::format("[{}]", key), std::string(about.says), {}};
     RowVisitor rows("", table.rows);
     inside(rows);
     tables.push_back(std::move(table));
     return false;
   }
-  void repeated(std::string_view key,
-                std::size_t /*count*/,
-                const About& about,
-                const InsideEach& inside) override {
+  void repeated(std::string_view key, std::size_t /*count*/, const About& about, const InsideEach& inside) override {
     SettingTable table{fmt::format("[[{}]]", key), std::string(about.says), {}};
     RowVisitor rows("", table.rows);
     inside(0, rows);
@@ -194,12 +176,10 @@ std::string without_markdown(const std::string& text) {
   return result;
 }
 
-SettingRow setting_row(const Setting& setting,
-                       const SettingValue& usual,
-                       SettingNotation notation) {
+SettingRow setting_row(const Setting& setting, const SettingValue& usual, SettingNotation notation) {
   const bool option = notation == SettingNotation::command_line;
-  return {(option ? "--" : "") + std::string(setting.key), allowed(setting, option),
-          default_of(setting, usual, option), std::string(setting.about.says)};
+  return {(option ? "--" : "") + std::string(setting.key), allowed(setting, option), default_of(setting, usual, option),
+          std::string(setting.about.says)};
 }
 
 std::string reference_text(const std::vector<SettingTable>& tables) {
@@ -223,8 +203,7 @@ std::string reference_json(const std::vector<SettingTable>& tables) {
                       {"values", without_markdown(row.allowed)},
                       {"default", without_markdown(row.usual)},
                       {"meaning", without_markdown(row.says)}});
-    list.push_back(
-        {{"table", table.name}, {"meaning", without_markdown(table.says)}, {"settings", rows}});
+    list.push_back({{"table", table.name}, {"meaning", without_markdown(table.says)}, {"settings", rows}});
   }
   return json_text(list) + "\n";
 }
@@ -237,8 +216,7 @@ std::vector<SettingTable> setting_tables() {
 }
 
 std::string markdown(const std::vector<SettingRow>& rows, std::string_view heading) {
-  std::string text =
-      fmt::format("| {} | values | default | meaning |\n| --- | --- | --- | --- |\n", heading);
+  std::string text = fmt::format("| {} | values | default | meaning |\n| --- | --- | --- | --- |\n", heading);
   for (const SettingRow& row : rows)
     text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.allowed, row.usual, row.says);
   return text;

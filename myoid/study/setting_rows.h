@@ -22,9 +22,7 @@ enum class SettingNotation {
 };
 
 /// Returns the row of a setting; `usual` is the value without any input of the user.
-[[nodiscard]] SettingRow setting_row(const Setting& setting,
-                                     const SettingValue& usual,
-                                     SettingNotation notation);
+[[nodiscard]] SettingRow setting_row(const Setting& setting, const SettingValue& usual, SettingNotation notation);
 
 /// A table of study.toml.
 struct SettingTable {
@@ -37,8 +35,7 @@ struct SettingTable {
 [[nodiscard]] std::vector<SettingTable> setting_tables();
 
 /// Returns the rows as Markdown with the heading `heading`, for pages of docs/guide.
-[[nodiscard]] std::string markdown(const std::vector<SettingRow>& rows,
-                                   std::string_view heading = "key");
+[[nodiscard]] std::string markdown(const std::vector<SettingRow>& rows, std::string_view heading = "key");
 
 /// Returns the text without Markdown's marks: `code` and [text](address).
 [[nodiscard]] std::string without_markdown(const std::string& markdown);

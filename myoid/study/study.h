@@ -18,8 +18,7 @@ namespace myoid {
 
 /// The purpose of a trial.
 enum class Use { calibration, validation, mvc, static_pose, passive, isometric };
-inline constexpr std::string_view kUseNames[] = {"calibration", "validation", "mvc",
-                                                 "static",      "passive",    "isometric"};
+inline constexpr std::string_view kUseNames[] = {"calibration", "validation", "mvc", "static", "passive", "isometric"};
 constexpr ChoiceNames choice_names(Use) { return kUseNames; }
 
 enum class Sex { unstated, male, female };
@@ -43,12 +42,12 @@ struct HeldMassSpec {
 
 struct ModelSpec {
   std::optional<std::filesystem::path> file;  ///< .osim
-  std::string text;     ///< Text of the model instead of a file, for a study in memory.
-  std::string builtin;  ///< "arm4" if there is no file.
-  std::optional<double> upper_arm_length_m;  ///< For the built-in arm.
-  std::optional<double> forearm_length_m;    ///< For the built-in arm: elbow to wrist.
-  bool horizontal = false;                   ///< Plane of movement of the built-in arm.
-  bool forearm_rotations = false;  ///< For the built-in arm: free base and forearm rotations.
+  std::string text;                           ///< Text of the model instead of a file, for a study in memory.
+  std::string builtin;                        ///< "arm4" if there is no file.
+  std::optional<double> upper_arm_length_m;   ///< For the built-in arm.
+  std::optional<double> forearm_length_m;     ///< For the built-in arm: elbow to wrist.
+  bool horizontal = false;                    ///< Plane of movement of the built-in arm.
+  bool forearm_rotations = false;             ///< For the built-in arm: free base and forearm rotations.
   std::string coordinate = "elbow_flexion";   ///< The joint whose torque the muscles share.
   std::vector<std::string> more_coordinates;  ///< Further joints that the same muscles cross.
   std::optional<HeldMassSpec> held_mass;
@@ -62,9 +61,9 @@ struct LoadCellSpec {
   double sign = 1.0;                     ///< -1: the cell measures the opposite force.
   std::vector<double> zero_s{0.0, 1.0};  ///< Time without load on the cell.
   std::optional<std::filesystem::path>
-      instrument;     ///< Model of the object, posed by its markers; empty: the study's model.
-  std::string frame;  ///< Body of the instrument: the cell's axes and origin.
-  std::string body;   ///< Body of the person that feels the load.
+      instrument;                    ///< Model of the object, posed by its markers; empty: the study's model.
+  std::string frame;                 ///< Body of the instrument: the cell's axes and origin.
+  std::string body;                  ///< Body of the person that feels the load.
   std::optional<double> lowpass_hz;  ///< Empty: as for the motion.
   bool operator==(const LoadCellSpec&) const = default;
 };
@@ -82,10 +81,10 @@ struct MotionSpec {
 
 struct MarkerSpec {
   std::map<std::string, std::string> rename;  ///< From the file's labels to the model's.
-  std::map<std::string, double> weight;  ///< Weights by the model's names; 1 for other markers.
-  char up = 'a';           ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file states.
-  bool undo_swaps = true;  ///< Undoes exchanged labels.
-  bool fill_gaps = true;   ///< Fills gaps by splines and from the segment's other markers.
+  std::map<std::string, double> weight;       ///< Weights by the model's names; 1 for other markers.
+  char up = 'a';                              ///< Vertical axis: 'x', 'y', 'z'; 'a': as each file states.
+  bool undo_swaps = true;                     ///< Undoes exchanged labels.
+  bool fill_gaps = true;                      ///< Fills gaps by splines and from the segment's other markers.
   bool operator==(const MarkerSpec&) const = default;
 };
 
@@ -122,17 +121,16 @@ struct EmgSpec {
   /// Share of the muscles' full force that the MVC trials reach, and its standard deviation among
   /// people. With 1 and 0, F_max is the force at the greatest recorded effort.
   double mvc_effort = 1.0, mvc_effort_sd = 0.0;
-  bool has_mvc = true;  ///< False: no trial is a maximal contraction (set from the trials).
+  bool has_mvc = true;            ///< False: no trial is a maximal contraction (set from the trials).
   std::optional<double> delay_s;  ///< Empty: estimated.
   bool operator==(const EmgSpec&) const = default;
 };
 
 struct MuscleSpec {
   std::string name;
-  std::vector<std::string> osim;  ///< Muscles of the model that act as this one.
-  std::string emg;                ///< EMG channel.
-  std::optional<std::string>
-      same_as;  ///< For a muscle without an electrode: the muscle whose channel it uses.
+  std::vector<std::string> osim;        ///< Muscles of the model that act as this one.
+  std::string emg;                      ///< EMG channel.
+  std::optional<std::string> same_as;   ///< For a muscle without an electrode: the muscle whose channel it uses.
   std::map<std::string, double> start;  ///< Starting values by parameter name, SI.
   std::vector<std::string> fixed;       ///< Parameters held at their start.
   bool operator==(const MuscleSpec&) const = default;
@@ -153,12 +151,11 @@ constexpr ChoiceNames choice_names(SyncMatch) { return kSyncMatchNames; }
 struct SyncSpec {
   std::optional<double> offset_s;  ///< Added to the times of the EMG.
   std::optional<double> offset_sd_s;
-  double drift_ppm = 0.0;      ///< Drift of the file's clock, from its time 0 on.
-  bool estimate = false;       ///< The offset is estimated from EMG and motion.
-  std::string emg_trigger;     ///< Channel or event of the EMG's file.
-  std::string motion_trigger;  ///< Channel or event of the motion's file, or "start".
-  std::optional<std::filesystem::path>
-      trigger_file;  ///< File on the motion's clock; empty: the motion's own file.
+  double drift_ppm = 0.0;                             ///< Drift of the file's clock, from its time 0 on.
+  bool estimate = false;                              ///< The offset is estimated from EMG and motion.
+  std::string emg_trigger;                            ///< Channel or event of the EMG's file.
+  std::string motion_trigger;                         ///< Channel or event of the motion's file, or "start".
+  std::optional<std::filesystem::path> trigger_file;  ///< File on the motion's clock; empty: the motion's own file.
   SyncMatch match = SyncMatch::rising;
   double search_s = 0.6;        ///< Range of the search for "estimate" and "shape", to either side.
   double loads_offset_s = 0.0;  ///< Added to the times of the loads' file.
@@ -180,17 +177,16 @@ struct TrialSpec {
   std::optional<std::filesystem::path> markers;
   std::optional<std::filesystem::path> motion;
   std::optional<std::filesystem::path> emg;
-  std::optional<std::filesystem::path>
-      external_torque;  ///< <coordinate>_moment of the surroundings [N m].
-  std::optional<std::filesystem::path> external_loads;  ///< OpenSim's ExternalLoads (.xml).
-  std::optional<std::filesystem::path> load_cell;       ///< File of the load cell's channels.
+  std::optional<std::filesystem::path> external_torque;  ///< <coordinate>_moment of the surroundings [N m].
+  std::optional<std::filesystem::path> external_loads;   ///< OpenSim's ExternalLoads (.xml).
+  std::optional<std::filesystem::path> load_cell;        ///< File of the load cell's channels.
   std::optional<PlateSpec> plates;
   Use use = Use::calibration;
   double held_mass_kg = 0.0;
-  std::string condition;  ///< Trials of one condition are left out together by folds = "condition".
-  std::optional<double> start_s, end_s;        ///< On the clock of the motion.
+  std::string condition;                 ///< Trials of one condition are left out together by folds = "condition".
+  std::optional<double> start_s, end_s;  ///< On the clock of the motion.
   std::optional<std::filesystem::path> video;  ///< Film of the trial; the report shows it.
-  double video_offset_s = 0.0;  ///< Time of the film's begin, on the clock of the motion.
+  double video_offset_s = 0.0;                 ///< Time of the film's begin, on the clock of the motion.
   std::optional<SyncSpec> sync;
   bool operator==(const TrialSpec&) const = default;
 };
@@ -225,8 +221,7 @@ struct PhasesSpec {
 };
 
 struct IdentifySpec {
-  std::vector<identification::Method> methods{identification::Method::paper,
-                                              identification::Method::torque};
+  std::vector<identification::Method> methods{identification::Method::paper, identification::Method::torque};
   bool force_loop = false;           ///< Iterate forces and parameters until they agree.
   std::vector<std::string> muscles;  ///< Empty: all.
   bool priors = true;

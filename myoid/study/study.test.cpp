@@ -59,16 +59,14 @@ TEST(ParseStudy, ANormNamesTrialsOfTheStudy) {
   ASSERT_EQ(study.norms.size(), 1U);
   EXPECT_EQ(study.norms[0].file, std::filesystem::path("dir/n.csv"));
   EXPECT_EQ(study.norms[0].trials, std::vector<std::string>{"t1"});
-  EXPECT_TRUE(
-      parse_study(kMinimal + norm + "trials = \"all\"\n", "s.toml").norms[0].trials.empty());
+  EXPECT_TRUE(parse_study(kMinimal + norm + "trials = \"all\"\n", "s.toml").norms[0].trials.empty());
   EXPECT_NE(study_message(kMinimal + norm + "trials = [\"t2\"]\n")
                 .find("[[norm]] adults: 't2' is no [[trial]]; there are t1"),
             std::string::npos);
 }
 
 TEST(ParseStudy, WithoutATrialToLearnFromItIsRefused) {
-  EXPECT_NE(study_message(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"),
-            std::string::npos);
+  EXPECT_NE(study_message(kMinimal + "use = \"validation\"\n").find("no [[trial]] has use"), std::string::npos);
 }
 
 TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
@@ -81,8 +79,7 @@ TEST(ParseStudy, LagsOfTheActivationWithoutDynamicsAreRefusedWithTheRemedy) {
 
 TEST(ParseStudy, AnEmgIsFollowedInOneWayOnly) {
   const std::string both = "\n[identify]\nlag = \"shared\"\ndynamics = true\n";
-  EXPECT_NE(study_message(kMinimal + both).find("lag: it stands beside dynamics = true"),
-            std::string::npos)
+  EXPECT_NE(study_message(kMinimal + both).find("lag: it stands beside dynamics = true"), std::string::npos)
       << study_message(kMinimal + both);
 }
 

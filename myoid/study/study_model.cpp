@@ -19,8 +19,7 @@
 namespace myoid {
 namespace {
 
-/// Returns the mean distance from the elbow (or the middle of the epicondyles) to the middle of the
-/// styloids.
+/// Returns the mean distance from the elbow (or the middle of the epicondyles) to the middle of the styloids.
 std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
   const auto find = [&](std::string_view name) -> Eigen::Index {
     const auto it = std::find(markers.names.begin(), markers.names.end(), name);
@@ -59,8 +58,7 @@ model::Arm4Options arm_options(const Study& study, const recording::MarkerSeries
       options.person.upper_arm_length_m = kUpperArmOverForearm * *measured;
     }
   }
-  if (study.model.upper_arm_length_m)
-    options.person.upper_arm_length_m = *study.model.upper_arm_length_m;
+  if (study.model.upper_arm_length_m) options.person.upper_arm_length_m = *study.model.upper_arm_length_m;
   return options;
 }
 
@@ -92,15 +90,13 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
       throw ModelError(fmt::format("{}: {}: {}", study.file.string(), key, error.what()));
     }
   };
-  for (const std::string& name : study_coordinates(study.model))
-    (void)coordinate("[model] coordinate", name);
+  for (const std::string& name : study_coordinates(study.model)) (void)coordinate("[model] coordinate", name);
   for (const MuscleSpec& muscle : study.muscles) {
     for (const std::string& name : muscle.osim) {
       try {
         (void)model.muscle_index(name);
       } catch (const ModelError& error) {
-        throw ModelError(
-            fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
+        throw ModelError(fmt::format("{}: [[muscle]] {}: {}", study.file.string(), muscle.name, error.what()));
       }
     }
   }
@@ -110,16 +106,14 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
     if (model.find_marker(name)) continue;
     std::vector<std::string> names;
     for (const model::Marker& marker : model.markers) names.push_back(marker.name);
-    throw ModelError(
-        fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
-                    study.file.string(), name, fmt::join(names, ", ")));
+    throw ModelError(fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
+                                 study.file.string(), name, fmt::join(names, ", ")));
   }
   if (study.model.held_mass && !model.find_body(study.model.held_mass->body)) {
     std::string names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i)
-      names += (i == 1 ? "" : ", ") + model.bodies[i].name;
-    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}",
-                                 study.file.string(), study.model.held_mass->body, names));
+    for (std::size_t i = 1; i < model.bodies.size(); ++i) names += (i == 1 ? "" : ", ") + model.bodies[i].name;
+    throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}", study.file.string(),
+                                 study.model.held_mass->body, names));
   }
   return model;
 }
@@ -138,12 +132,10 @@ model::BodyModel load_model(const Study& study, const std::string& text) {
 
 model::BodyModel load_model(const Study& study) { return load_model(study, model_text(study)); }
 
-std::optional<model::BodyModel> arm_of_markers(const Study& study,
-                                               const recording::MarkerSeries& markers) {
+std::optional<model::BodyModel> arm_of_markers(const Study& study, const recording::MarkerSeries& markers) {
   const bool built_in = study.model.text.empty() && !study.model.file;
   if (!built_in || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
-  return prepared(study,
-                  model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
+  return prepared(study, model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
 }
 
 HeldMassSpec held_mass_place(const Study& study) {
@@ -152,16 +144,15 @@ HeldMassSpec held_mass_place(const Study& study) {
   throw InvalidInput("held_mass_kg is given, but [model] held_mass does not say where it acts");
 }
 
-std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study,
-                                                   const model::BodyModel& model) {
+std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model) {
   std::vector<kinematics::MuscleGroup> groups;
   for (const MuscleSpec& spec : study.muscles) {
     kinematics::MuscleGroup group;
     double sum = 0.0;
     for (const std::string& name : spec.osim) {
       group.members.push_back(model.muscle_index(name));
-      group.weights.push_back(model.muscles[static_cast<std::size_t>(group.members.back())]
-                                  .properties.max_isometric_force_n);
+      group.weights.push_back(
+          model.muscles[static_cast<std::size_t>(group.members.back())].properties.max_isometric_force_n);
       sum += group.weights.back();
     }
     for (double& w : group.weights) w /= sum;
@@ -170,8 +161,7 @@ std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study,
   return groups;
 }
 
-std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
-                                                       const model::BodyModel& model) {
+std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model) {
   std::vector<identification::MuscleSetup> setups;
   const std::vector<kinematics::MuscleGroup> groups = muscle_groups(study, model);
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -181,8 +171,8 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
     setup.emg_channel = spec.emg;
     setup.start = {};
     for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-      const auto head = model::hill_parameters(
-          model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);
+      const auto head =
+          model::hill_parameters(model.muscles[static_cast<std::size_t>(groups[g].members[i])].properties);
       for (const muscle::HillField& field : muscle::kHillFields) {
         const double share = field.name == "max_isometric_force" ? 1.0 : groups[g].weights[i];
         setup.start.*field.member += share * head.*field.member;
@@ -191,8 +181,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
     if (study.identify.model_muscles || study.identify.elastic_tendon) {
       identification::MuscleExtras mean{.passive_strain = 0.0, .passive_shape = 0.0};
       for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-        const auto head =
-            model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
+        const auto head = model_extras(model.muscles[static_cast<std::size_t>(groups[g].members[i])]);
         const double weight = groups[g].weights[i];
         mean.pennation_angle_rad += weight * head.pennation_angle_rad;
         mean.passive_force += weight * head.passive_force;
@@ -203,8 +192,7 @@ std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
       if (study.identify.model_muscles) setup.extras = mean;
       setup.extras.tendon_strain = study.identify.elastic_tendon ? mean.tendon_strain : 0.0;
     }
-    for (const auto& [name, value] : spec.start)
-      setup.start.*muscle::hill_field(name).member = value;
+    for (const auto& [name, value] : spec.start) setup.start.*muscle::hill_field(name).member = value;
     setup.fixed = spec.fixed;
     setup.priors = identification::literature_priors(setup.start);
     // The study states measured lengths.
@@ -235,21 +223,18 @@ std::string identified_model(const Study& study,
         changes.push_back({"ForceSet", name, property, {value}});
       };
       if (changed("max_isometric_force")) {
-        set("max_isometric_force",
-            old.properties.max_isometric_force_n *
-                (muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n));
+        set("max_isometric_force", old.properties.max_isometric_force_n *
+                                       (muscle.identified.max_isometric_force_n / muscle.start.max_isometric_force_n));
       }
       if (changed("optimal_fiber_length")) {
-        set("optimal_fiber_length",
-            old.properties.optimal_fiber_length_m *
-                (muscle.identified.optimal_fiber_length_m / muscle.start.optimal_fiber_length_m));
+        set("optimal_fiber_length", old.properties.optimal_fiber_length_m * (muscle.identified.optimal_fiber_length_m /
+                                                                             muscle.start.optimal_fiber_length_m));
       }
       // The shape parameters are Thelen's; other classes have curves of their own.
       if (!old.class_name.starts_with("Thelen2003Muscle")) continue;
       // The file's (l_sh / l0)^2 needs both numbers to be identified.
       if (changed("force_length_width") && changed("optimal_fiber_length")) {
-        const double ratio =
-            muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
+        const double ratio = muscle.identified.force_length_width_m / muscle.identified.optimal_fiber_length_m;
         set("KshapeActive", ratio * ratio);
       }
       if (changed("concentric_curvature")) set("Af", muscle.identified.concentric_curvature);

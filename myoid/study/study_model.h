@@ -23,26 +23,22 @@ namespace myoid {
 /// Returns the built-in arm with the forearm length (elbow to middle of the styloids) that these
 /// markers measure; the upper arm follows in de Leva's proportion. Empty if the study has a model
 /// file or states the length, or if the markers do not show it.
-[[nodiscard]] std::optional<model::BodyModel> arm_of_markers(
-    const Study& study, const recording::MarkerSeries& markers);
+[[nodiscard]] std::optional<model::BodyModel> arm_of_markers(const Study& study,
+                                                             const recording::MarkerSeries& markers);
 
-/// Returns the point at which a trial's held mass acts. Throws InvalidInput if the study does not
-/// state it.
+/// Returns the point at which a trial's held mass acts. Throws InvalidInput if the study does not state it.
 [[nodiscard]] HeldMassSpec held_mass_place(const Study& study);
 
 /// Returns the muscles to identify: one for each [[muscle]], with the heads lumped with their F_max
 /// as weights, and with the priors of the literature.
-[[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study,
-                                                                     const model::BodyModel& model);
+[[nodiscard]] std::vector<identification::MuscleSetup> muscle_setups(const Study& study, const model::BodyModel& model);
 
 /// Returns the model's muscles that make up each [[muscle]], weighted by their F_max.
-[[nodiscard]] std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study,
-                                                                 const model::BodyModel& model);
+[[nodiscard]] std::vector<kinematics::MuscleGroup> muscle_groups(const Study& study, const model::BodyModel& model);
 
-/// The identified numbers of a [[muscle]] for the model's text. F_max and optimal fiber length of
-/// its heads change in the group's proportion. Thelen's muscles also get KshapeActive = (l_sh /
-/// l0)^2 if both are identified, Af = V_sh and Flen = V_ml. The rest of the text stays byte for
-/// byte.
+/// The identified numbers of a [[muscle]] for the model's text. F_max and optimal fiber length of its heads change in
+/// the group's proportion. Thelen's muscles also get KshapeActive = (l_sh / l0)^2 if both are identified, Af = V_sh and
+/// Flen = V_ml. The rest of the text stays byte for byte.
 struct IdentifiedMuscle {
   std::string group;
   muscle::HillParameters<double> start, identified;

@@ -17,15 +17,13 @@ void visit(SubjectSpec& subject, SettingVisitor& v) {
            {.says = "Body mass, for the segments of the built-in arm.",
             .limits = within(10.0, 350.0, "kg"),
             .otherwise = "the literature's person"});
-  v.choice("sex", subject.sex,
-           {.says = "Selects the literature's segment masses.", .otherwise = "not stated"});
+  v.choice("sex", subject.sex, {.says = "Selects the literature's segment masses.", .otherwise = "not stated"});
   v.texts("notes", subject.notes, {.says = "Assumptions of your own, printed among the report's."});
 }
 
 void visit(HeldMassSpec& held, SettingVisitor& v) {
   v.text("body", held.body,
-         {.says = "The body that carries the held mass.",
-          .required = "the body that carries the held mass"});
+         {.says = "The body that carries the held mass.", .required = "the body that carries the held mass"});
   std::vector<double> at_m{held.p_BP_m.x(), held.p_BP_m.y(), held.p_BP_m.z()};
   const bool given = v.numbers("at_m", at_m,
                                {.says = "The point where it acts, in the body's frame.",
@@ -52,8 +50,7 @@ void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
                    "torques at once, force sharing balances them all, and each is validated."});
   v.must(!names.empty(), "coordinate", "expected the name of a joint coordinate");
   for (auto it = names.begin(); it != names.end(); ++it)
-    v.must(std::find(names.begin(), it, *it) == it, "coordinate",
-           fmt::format("'{}' is named twice", *it));
+    v.must(std::find(names.begin(), it, *it) == it, "coordinate", fmt::format("'{}' is named twice", *it));
   model.coordinate = names.front();
   model.more_coordinates.assign(names.begin() + 1, names.end());
 }
@@ -69,49 +66,41 @@ void visit(ModelSpec& model, SettingVisitor& v) {
          {.says = "`arm4`: trunk, upper arm, forearm with hand; BIC, BRA, BRD, TRI.",
           .otherwise = "`arm4` without a `file`",
           .words = kBuiltIn});
-  v.must(!model.file || model.builtin.empty(), "builtin",
-         "give either 'file' or 'builtin', not both");
+  v.must(!model.file || model.builtin.empty(), "builtin", "give either 'file' or 'builtin', not both");
   v.number("upper_arm_length_m", model.upper_arm_length_m,
-           {.says = "Of the built-in arm.",
-            .limits = kArms,
-            .otherwise = "from markers, else the literature"});
+           {.says = "Of the built-in arm.", .limits = kArms, .otherwise = "from markers, else the literature"});
   v.number("forearm_length_m", model.forearm_length_m,
            {.says = "Of the built-in arm, from elbow to wrist.",
             .limits = kArms,
             .otherwise = "from markers, else the literature"});
-  v.either("plane", model.horizontal,
-           {.says = "Plane of the built-in arm's movement.", .words = kPlanes});
+  v.either("plane", model.horizontal, {.says = "Plane of the built-in arm's movement.", .words = kPlanes});
   v.flag("forearm_rotations", model.forearm_rotations,
          {.says = "The built-in arm has a movable base, a carrying angle and forearm rotation, for "
                   "landmarks that all move with the forearm."});
   visit_coordinates(model, v);
   v.table("held_mass", model.held_mass,
-          {.says = "The place where a trial's `held_mass_kg` acts.",
-           .otherwise = "the built-in arm's palm"});
+          {.says = "The place where a trial's `held_mass_kg` acts.", .otherwise = "the built-in arm's palm"});
 }
 
 void visit(MotionSpec& motion, SettingVisitor& v) {
-  const bool stated =
-      v.choice("smoothing", motion.smoothing,
-               {.says = "`auto`: as the EMG's `lowpass_hz`, so that torque and prediction hold the "
-                        "same band; `cutoff`: at `cutoff_hz`."});
+  const bool stated = v.choice("smoothing", motion.smoothing,
+                               {.says = "`auto`: as the EMG's `lowpass_hz`, so that torque and prediction hold the "
+                                        "same band; `cutoff`: at `cutoff_hz`."});
   std::optional<double> cutoff_hz;
   if (motion.smoothing == Smoothing::cutoff) cutoff_hz = motion.cutoff_hz;
-  const bool given =
-      v.number("cutoff_hz", cutoff_hz,
-               {.says = "Smoothing at this frequency, −3 dB of both passes together; "
-                        "below 0.45 of the recording's rate.",
-                .limits = within(0.1, 500.0, "Hz"),
-                .otherwise = "6 with `smoothing = \"cutoff\"`"});
+  const bool given = v.number("cutoff_hz", cutoff_hz,
+                              {.says = "Smoothing at this frequency, −3 dB of both passes together; "
+                                       "below 0.45 of the recording's rate.",
+                               .limits = within(0.1, 500.0, "Hz"),
+                               .otherwise = "6 with `smoothing = \"cutoff\"`"});
   if (given) {
     v.must(!stated || motion.smoothing == Smoothing::cutoff, "smoothing",
            "it stands beside cutoff_hz, which says how to smooth; expected cutoff");
     motion.smoothing = Smoothing::cutoff;
     motion.cutoff_hz = *cutoff_hz;
   }
-  v.number(
-      "rate_hz", motion.rate_hz,
-      {.says = "Rate of the samples that are analyzed.", .limits = within(10.0, 2000.0, "Hz")});
+  v.number("rate_hz", motion.rate_hz,
+           {.says = "Rate of the samples that are analyzed.", .limits = within(10.0, 2000.0, "Hz")});
 }
 
 void visit(MarkerSpec& markers, SettingVisitor& v) {
@@ -123,39 +112,31 @@ void visit(MarkerSpec& markers, SettingVisitor& v) {
                   "says](c3d.md#which-way-is-up), the model's for files that do not.",
           .words = kUps});
   markers.up = up == "auto" ? kUpOfTheFile : up.front();
-  v.texts_by_name("rename", markers.rename,
-                  {.says = "Marker name of the file = that of the model."});
+  v.texts_by_name("rename", markers.rename, {.says = "Marker name of the file = that of the model."});
   v.numbers_by_name("weight", markers.weight,
                     {.says = "Weight in inverse kinematics, by the model's marker name.",
                      .limits = zero_or_more(),
                      .otherwise = "1 each"});
   v.flag("undo_swaps", markers.undo_swaps, {.says = "Exchanged labels are exchanged back."});
-  v.flag(
-      "fill_gaps", markers.fill_gaps,
-      {.says =
-           "[Gaps are filled](check.md#what-is-mended) where neighbors or the segment show them."});
+  v.flag("fill_gaps", markers.fill_gaps,
+         {.says = "[Gaps are filled](check.md#what-is-mended) where neighbors or the segment show them."});
 }
 
 void visit(CalibrationSpec& calibrate, SettingVisitor& v) {
-  v.numbers("window_s", calibrate.window_s,
-            {.says = "Start and end of the known posture.",
-             .limits = any_number("s"),
-             .otherwise = "required",
-             .count = 2});
-  v.must(calibrate.window_s.size() == 2 && calibrate.window_s[0] < calibrate.window_s[1],
-         "window_s", "expected [start, end] in seconds, start before end");
-  v.texts("free", calibrate.free,
-          {.says = "The coordinates that are found there.", .otherwise = "required"});
+  v.numbers(
+      "window_s", calibrate.window_s,
+      {.says = "Start and end of the known posture.", .limits = any_number("s"), .otherwise = "required", .count = 2});
+  v.must(calibrate.window_s.size() == 2 && calibrate.window_s[0] < calibrate.window_s[1], "window_s",
+         "expected [start, end] in seconds, start before end");
+  v.texts("free", calibrate.free, {.says = "The coordinates that are found there.", .otherwise = "required"});
   v.must(!calibrate.free.empty(), "free", "expected the coordinates to find in the window");
   const bool held =
-      v.texts("hold", calibrate.hold,
-              {.says = "Which of them stay fixed afterwards.", .otherwise = "all of `free`"});
+      v.texts("hold", calibrate.hold, {.says = "Which of them stay fixed afterwards.", .otherwise = "all of `free`"});
   if (!held && calibrate.hold.empty()) calibrate.hold = calibrate.free;
 }
 
 void visit(IkSpec& ik, SettingVisitor& v) {
-  v.texts("unlock", ik.unlock,
-          {.says = "Coordinates that are freed although the model locks them."});
+  v.texts("unlock", ik.unlock, {.says = "Coordinates that are freed although the model locks them."});
   v.texts("lock", ik.lock, {.says = "Coordinates that are held at their default value."});
   v.table("calibrate", ik.calibrate, {.says = "Coordinates that are found once and then held."});
 }
@@ -164,32 +145,24 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
   static constexpr std::string_view kNotch[] = {"none", "auto"};
   static constexpr std::string_view kNormalise[] = {"max"};
   v.choice("kind", emg.kind, {.says = "How far the EMG is processed already."});
-  v.text("unit", emg.unit,
-         {.says = "`V`, `mV` or `uV`, if the file does not say.", .otherwise = "as the file says"});
-  v.flag("rectify", emg.rectify,
-         {.says = "First step of [the chain](emg.md) after the high-pass."});
-  v.either("notch", emg.notch,
-           {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
-  v.flag(
-      "whitening", emg.whitening,
-      {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all "
-               "channels or in none, as the recording allows; the report says which, and why. "
-               "`false`: in none."});
-  v.number("highpass_hz", emg.highpass_hz,
-           {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
+  v.text("unit", emg.unit, {.says = "`V`, `mV` or `uV`, if the file does not say.", .otherwise = "as the file says"});
+  v.flag("rectify", emg.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
+  v.either("notch", emg.notch, {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
+  v.flag("whitening", emg.whitening,
+         {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all "
+                  "channels or in none, as the recording allows; the report says which, and why. "
+                  "`false`: in none."});
+  v.number("highpass_hz", emg.highpass_hz, {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
   v.number("lowpass_hz", emg.lowpass_hz,
-           {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.",
-            .limits = above_zero("Hz")});
-  v.flag("as_published", emg.as_published,
-         {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
+           {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.", .limits = above_zero("Hz")});
+  v.flag("as_published", emg.as_published, {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
   std::string normalise(kNormalise[0]);
   v.text("normalise", normalise,
          {.says = "`max`: the largest effort over all maximal and task trials counts as 1; the "
                   "report names it.",
           .words = kNormalise});
-  v.number(
-      "normalise_window_s", emg.normalise_window_s,
-      {.says = "Length of the moving mean that counts as 1.", .limits = within(0.01, 60.0, "s")});
+  v.number("normalise_window_s", emg.normalise_window_s,
+           {.says = "Length of the moving mean that counts as 1.", .limits = within(0.01, 60.0, "s")});
   v.number("mvc_effort", emg.mvc_effort,
            {.says = "Share of the muscles' full force that the `mvc` trials reach, e.g. 0.9; "
                     "see [below](#what-f_max-means).",
@@ -198,32 +171,25 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
            {.says = "How widely people differ in it, e.g. 0.06.", .limits = within(0.0, 0.3)});
   bool estimated = !emg.delay_s;
   v.number("delay_s", emg.delay_s, estimated,
-           {.says = "Delay between EMG and force.",
-            .limits = within(0.0, 0.3, "s"),
-            .word = "estimate"});
+           {.says = "Delay between EMG and force.", .limits = within(0.0, 0.3, "s"), .word = "estimate"});
 }
 
 void visit(LoadCellSpec& cell, SettingVisitor& v) {
   v.texts("channels", cell.channels,
-          {.says = "Six channels, in the order of the matrix's columns.",
-           .otherwise = "required",
-           .count = 6});
-  v.must(!cell.channels.empty(), "channels",
-         "expected six names: the channels of the matrix's columns");
+          {.says = "Six channels, in the order of the matrix's columns.", .otherwise = "required", .count = 6});
+  v.must(!cell.channels.empty(), "channels", "expected six names: the channels of the matrix's columns");
   v.path("calibration", cell.calibration,
          {.says = "File of six rows (Fx, Fy, Fz, Mx, My, Mz) of six numbers, N and N m for each "
                   "volt.",
           .required = "the file of the 6 x 6 matrix [N/V] and [N m/V]"});
   v.number("sign", cell.sign,
-           {.says = "`-1` where the cell measures the opposite of the load on the body.",
-            .limits = within(-1.0, 1.0)});
+           {.says = "`-1` where the cell measures the opposite of the load on the body.", .limits = within(-1.0, 1.0)});
   v.must(cell.sign == 1.0 || cell.sign == -1.0, "sign", "expected 1 or -1");
   v.numbers("zero_s", cell.zero_s,
             {.says = "Start and end of a time when nothing acts on it; its median is the zero.",
              .limits = any_number("s"),
              .count = 2});
-  v.must(cell.zero_s[0] < cell.zero_s[1], "zero_s",
-         "expected [start, end] in seconds, start before end");
+  v.must(cell.zero_s[0] < cell.zero_s[1], "zero_s", "expected [start, end] in seconds, start before end");
   v.path("instrument", cell.instrument,
          {.says = "`.osim` of the object that holds the cell; the trial's markers pose it.",
           .otherwise = "the study's model"});
@@ -244,11 +210,9 @@ void visit(SharingSpec& sharing, SettingVisitor& v) {
            {.says = "The quantity of which [force sharing](so.md) uses the least, for method "
                     "`paper`."});
   v.number("exponent", sharing.exponent,
-           {.says = "Exponent of the sum; 2 or 3 is usual.",
-            .limits = {.lower = 1.0, .above_lower = true}});
-  v.number(
-      "reserve_nm", sharing.reserve_nm,
-      {.says = "Optimal torque of the reserve on the coordinate.", .limits = above_zero("N m")});
+           {.says = "Exponent of the sum; 2 or 3 is usual.", .limits = {.lower = 1.0, .above_lower = true}});
+  v.number("reserve_nm", sharing.reserve_nm,
+           {.says = "Optimal torque of the reserve on the coordinate.", .limits = above_zero("N m")});
 }
 
 void visit(PhasesSpec& phases, SettingVisitor& v) {
@@ -265,28 +229,24 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   static constexpr std::string_view kMuscleLaws[] = {"paper", "model"};
   static constexpr std::string_view kTendons[] = {"rigid", "elastic"};
   v.choices("method", identify.methods, {.says = "The methods, one or several."});
-  v.texts("muscles", identify.muscles,
-          {.says = "The muscles whose parameters are found.", .word = "all"});
+  v.texts("muscles", identify.muscles, {.says = "The muscles whose parameters are found.", .word = "all"});
   v.flag("force_loop", identify.force_loop,
          {.says = "Share the torque with the muscles found, fit them to their forces, share again, "
                   "until nothing changes. The end is reported: `converged`, `diverged` (a gate "
                   "fails) or `not_settled`. By the posterior the muscles are those of the torque, "
                   "and one round shares it among them."});
-  v.flag("priors", identify.priors,
-         {.says = "The [priors](../theory/priors.md) from the literature are used."});
-  v.choice(
-      "estimator", identify.estimator,
-      {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
-               "EMG; `posterior`, one posterior, whose intervals also hold what "
-               "residuals do not show: moment arms, tendons, the scale of the torque, "
-               "cross-talk and drift ([how](../theory/posterior.md))."});
+  v.flag("priors", identify.priors, {.says = "The [priors](../theory/priors.md) from the literature are used."});
+  v.choice("estimator", identify.estimator,
+           {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
+                    "EMG; `posterior`, one posterior, whose intervals also hold what "
+                    "residuals do not show: moment arms, tendons, the scale of the torque, "
+                    "cross-talk and drift ([how](../theory/posterior.md))."});
   v.count("posterior_draws", identify.posterior_draws,
           {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the "
                    "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
                    "none.",
            .limits = within(0, 100000)});
-  v.flag("gain", identify.gain,
-         {.says = "The uncertainty of the EMG's normalization widens the intervals."});
+  v.flag("gain", identify.gain, {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,
           {.says = "Above 1: the search begins at the literature's values and at Sobol points over "
                    "± 2 standard deviations of the priors, and the lowest minimum "
@@ -304,8 +264,7 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
                     "have them.",
             .words = kMuscleLaws});
   v.either("tendon", identify.elastic_tendon,
-           {.says = "`elastic`: quasi-static, with the strain that the model's muscles have.",
-            .words = kTendons});
+           {.says = "`elastic`: quasi-static, with the strain that the model's muscles have.", .words = kTendons});
 }
 
 /// Visits [identify]: the law by which a muscle follows its EMG.
@@ -315,20 +274,18 @@ void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
                   "of the source paper's equation (1), and `emg_delay` is the delay left beside "
                   "them. `[[parameter]]` of `excitation_time`, `activation_time`, "
                   "`deactivation_time` needs it."});
-  const bool stated =
-      v.choice("lag", identify.lag,
-               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the "
-                        "delay is the mean of a pure one and the lags of excitation and "
-                        "activation, which damp fast changes; `automatic`: the one that the "
-                        "recording prefers ([how](../theory/identification.md); method `force` has "
-                        "one muscle at a time and takes `delay`).",
-                .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
-                .silent = identify.dynamics});
+  const bool stated = v.choice("lag", identify.lag,
+                               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the "
+                                        "delay is the mean of a pure one and the lags of excitation and "
+                                        "activation, which damp fast changes; `automatic`: the one that the "
+                                        "recording prefers ([how](../theory/identification.md); method `force` has "
+                                        "one muscle at a time and takes `delay`).",
+                                .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
+                                .silent = identify.dynamics});
   v.must(!identify.dynamics || !stated, "lag",
          "it stands beside dynamics = true, which is a third way to follow the EMG; leave one of "
          "both out");
-  v.flag("delay_per_channel", identify.delay_per_channel,
-         {.says = "Each EMG channel has a delay of its own."});
+  v.flag("delay_per_channel", identify.delay_per_channel, {.says = "Each EMG channel has a delay of its own."});
 }
 
 /// Visits [identify]: validation, intervals and the fitted samples.
@@ -346,11 +303,9 @@ void visit_data(IdentifySpec& identify, SettingVisitor& v) {
           {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: "
                    "none.",
            .limits = within(0, 100000)});
-  v.flag("profile", identify.profile,
-         {.says = "Profile likelihood of every parameter, the third route."});
+  v.flag("profile", identify.profile, {.says = "Profile likelihood of every parameter, the third route."});
   v.number("angle_sd_deg", identify.angle_sd_deg,
-           {.says = "Error of the joint angle, propagated into the weights.",
-            .limits = zero_or_more("deg")});
+           {.says = "Error of the joint angle, propagated into the weights.", .limits = zero_or_more("deg")});
   v.number("angle_rate_sd_degps", identify.angle_rate_sd_degps,
            {.says = "Error of the angle's rate.", .limits = zero_or_more("deg/s")});
   v.number("max_rate_hz", identify.max_rate_hz,
@@ -372,18 +327,15 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
                     "measured.",
             .limits = kSpread});
   v.number("moment_arm_slope_sd", beliefs.moment_arm_slope,
-           {.says = "Change of that error from the middle to an end of the recorded lengths.",
-            .limits = kSpread});
+           {.says = "Change of that error from the middle to an end of the recorded lengths.", .limits = kSpread});
   v.number("tendon_strain", beliefs.tendon_strain,
-           {.says = "Strain at F_max of a tendon that is taken to be rigid.",
-            .limits = within(0.0, 0.2)});
+           {.says = "Strain at F_max of a tendon that is taken to be rigid.", .limits = within(0.0, 0.2)});
   v.number("torque_scale_sd", beliefs.torque_scale,
            {.says = "Relative error of the scale of all torques.", .limits = kSpread});
   v.number("crosstalk_sd", beliefs.crosstalk,
            {.says = "Share of another electrode's envelope in an envelope.", .limits = kSpread});
-  v.number(
-      "gain_drift_sd", beliefs.gain_drift,
-      {.says = "Relative change of an EMG channel's gain over the session.", .limits = kSpread});
+  v.number("gain_drift_sd", beliefs.gain_drift,
+           {.says = "Relative change of an EMG channel's gain over the session.", .limits = kSpread});
   v.number("effort_sd", beliefs.effort,
            {.says = "Force of a maximal voluntary contraction: relative difference from that of a "
                     "completely active muscle. Not beside `mvc_effort_sd` of `[emg]`.",
@@ -432,14 +384,12 @@ void visit(Study& study, SettingVisitor& v) {
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
   v.tables("trial", study.trials, {.says = "A recording."});
   v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});
-  v.tables("norm", study.norms,
-           {.says = "Curves of a group of people, which the report draws behind the person's."});
+  v.tables("norm", study.norms, {.says = "Curves of a group of people, which the report draws behind the person's."});
   v.table("truth", study.truth.has_value(), {.says = "A virtual recording's true values."},
           [&study](SettingVisitor& inside) {
-            inside.path(
-                "file", study.truth,
-                {.says = "True values of a virtual recording, printed beside the estimates.",
-                 .required = "the table of true values, truth.csv"});
+            inside.path("file", study.truth,
+                        {.says = "True values of a virtual recording, printed beside the estimates.",
+                         .required = "the table of true values, truth.csv"});
           });
 }
 

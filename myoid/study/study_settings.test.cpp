@@ -21,8 +21,7 @@ std::string settings_message(const std::string& text) {
 }
 
 TEST(StudySettings, AModelIsAFileOrBuiltIn) {
-  EXPECT_NE(settings_message("[model]\nfile = \"a.osim\"\nbuiltin = \"arm4\"\n").find("not both"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[model]\nfile = \"a.osim\"\nbuiltin = \"arm4\"\n").find("not both"), std::string::npos);
   const Study study = settings_of("[model]\nfile = \"a.osim\"\n");
   EXPECT_EQ(study.model.builtin, "");
   EXPECT_EQ(study.model.file, "dir/a.osim");
@@ -34,22 +33,17 @@ TEST(StudySettings, AMisspeltKeyIsRefusedWithTheNearestKnownOne) {
 }
 
 TEST(StudySettings, ARateThatNoMachineCanHoldIsRefusedWithTheRange) {
-  EXPECT_NE(settings_message("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[motion]\nrate_hz = 1e9\n").find("expected 10 to 2000 Hz"), std::string::npos);
 }
 
 TEST(StudySettings, AnUnknownBuiltInModelIsRefusedWithTheOneThereIs) {
-  EXPECT_NE(settings_message("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[model]\nbuiltin = \"arm26\"\n").find("expected arm4"), std::string::npos);
 }
 
 TEST(StudySettings, ALengthInCentimetersOrMillimetersIsRefusedByItsKey) {
-  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("forearm_length_m"),
-            std::string::npos);
-  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("is it in cm?"),
-            std::string::npos);
-  EXPECT_NE(settings_message("[model]\nupper_arm_length_m = 300\n").find("is it in mm?"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("forearm_length_m"), std::string::npos);
+  EXPECT_NE(settings_message("[model]\nforearm_length_m = 25\n").find("is it in cm?"), std::string::npos);
+  EXPECT_NE(settings_message("[model]\nupper_arm_length_m = 300\n").find("is it in mm?"), std::string::npos);
   EXPECT_EQ(settings_of("[model]\nforearm_length_m = 0.25\n").model.forearm_length_m, 0.25);
   EXPECT_NE(settings_message("[model]\nheld_mass = { body = \"hand\", at_m = [0, -32, 0] }\n")
                 .find("32 m from the body's origin"),
@@ -57,8 +51,7 @@ TEST(StudySettings, ALengthInCentimetersOrMillimetersIsRefusedByItsKey) {
 }
 
 TEST(StudySettings, ADelayInMillisecondsIsRefused) {
-  EXPECT_NE(settings_message("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[emg]\ndelay_s = 60\n").find("expected 0 to 0.3 s"), std::string::npos);
   EXPECT_EQ(settings_of("[emg]\ndelay_s = 0.06\n").emg.delay_s, 0.06);
   EXPECT_EQ(settings_of("[emg]\ndelay_s = \"estimate\"\n").emg.delay_s, std::nullopt);
 }
@@ -70,24 +63,20 @@ TEST(StudySettings, AngularErrorsAreGivenInDegrees) {
 }
 
 TEST(StudySettings, AJointNamedTwiceIsRefused) {
-  EXPECT_NE(settings_message("[model]\ncoordinate = [\"knee\", \"knee\"]\n")
-                .find("'knee' is named twice"),
+  EXPECT_NE(settings_message("[model]\ncoordinate = [\"knee\", \"knee\"]\n").find("'knee' is named twice"),
             std::string::npos);
 }
 
 TEST(StudySettings, AMisspeltWordIsRefusedWithTheNearestKnownOne) {
-  EXPECT_NE(settings_message("[identify]\nloss = \"hubr\"\n").find("did you mean 'huber'"),
-            std::string::npos);
-  EXPECT_NE(settings_message("[phases]\nexclude = [\"regular\"]\n").find("found \"regular\""),
-            std::string::npos);
+  EXPECT_NE(settings_message("[identify]\nloss = \"hubr\"\n").find("did you mean 'huber'"), std::string::npos);
+  EXPECT_NE(settings_message("[phases]\nexclude = [\"regular\"]\n").find("found \"regular\""), std::string::npos);
 }
 
 TEST(StudySettings, ACutOffSaysHowToSmooth) {
   const Study study = settings_of("[motion]\ncutoff_hz = 8\n");
   EXPECT_EQ(study.motion.smoothing, Smoothing::cutoff);
   EXPECT_EQ(study.motion.cutoff_hz, 8.0);
-  EXPECT_NE(settings_message("[motion]\nsmoothing = \"none\"\ncutoff_hz = 8\n").find("smoothing"),
-            std::string::npos);
+  EXPECT_NE(settings_message("[motion]\nsmoothing = \"none\"\ncutoff_hz = 8\n").find("smoothing"), std::string::npos);
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ using nlohmann::ordered_json;
 class SettingWriter : public SettingVisitor {
  public:
   /// Paths are written relative to `folder`; without a folder they stay unchanged.
-  explicit SettingWriter(std::optional<std::filesystem::path> folder)
-      : folder_(std::move(folder)) {}
+  explicit SettingWriter(std::optional<std::filesystem::path> folder) : folder_(std::move(folder)) {}
 
   [[nodiscard]] ordered_json& object() { return object_; }
 
@@ -40,30 +39,22 @@ class SettingWriter : public SettingVisitor {
     return false;
   }
 
-  bool entered(std::string_view key,
-               bool present,
-               const About& /*about*/,
-               const Inside& inside) override {
+  bool entered(std::string_view key, bool present, const About& /*about*/, const Inside& inside) override {
     ordered_json& written = object_[std::string(key)];
     if (present) written = written_by(inside);
     return false;
   }
 
-  void repeated(std::string_view key,
-                std::size_t count,
-                const About& /*about*/,
-                const InsideEach& inside) override {
+  void repeated(std::string_view key, std::size_t count, const About& /*about*/, const InsideEach& inside) override {
     ordered_json list = ordered_json::array();
-    for (std::size_t i = 0; i < count; ++i)
-      list.push_back(written_by([&](SettingVisitor& each) { inside(i, each); }));
+    for (std::size_t i = 0; i < count; ++i) list.push_back(written_by([&](SettingVisitor& each) { inside(i, each); }));
     object_[std::string(key)] = std::move(list);
   }
 
  private:
   /// Returns the path relative to the folder.
   [[nodiscard]] std::filesystem::path from_folder(const std::filesystem::path& path) const {
-    const auto [rest, own] =
-        std::mismatch(folder_->begin(), folder_->end(), path.begin(), path.end());
+    const auto [rest, own] = std::mismatch(folder_->begin(), folder_->end(), path.begin(), path.end());
     const bool below = rest == folder_->end() && own != path.end();
     return below || path.is_relative() ? path.lexically_proximate(*folder_) : path;
   }
@@ -132,8 +123,7 @@ std::string study_toml(const Study& study) {
   for (const auto& [key, value] : all.items()) {
     if (value.is_object()) text += fmt::format("[{}]\n{}\n", key, toml_lines(value));
     if (!value.is_array()) continue;
-    for (const ordered_json& each : value)
-      text += fmt::format("[[{}]]\n{}\n", key, toml_lines(each));
+    for (const ordered_json& each : value) text += fmt::format("[[{}]]\n{}\n", key, toml_lines(each));
   }
   return text;
 }

@@ -210,11 +210,10 @@ TEST(StudyToml, AStudyOfDefaultsIsWrittenWhole) {
 }
 
 TEST(StudyJson, EverySettingOfTheReferenceStandsInIt) {
-  const nlohmann::json j =
-      nlohmann::json::parse(study_json(parse_study(kEverything, "study.toml")));
+  const nlohmann::json j = nlohmann::json::parse(study_json(parse_study(kEverything, "study.toml")));
   for (const SettingTable& table : setting_tables()) {
-    const std::string name = table.name.substr(table.name.rfind('[') + 1,
-                                               table.name.find(']') - table.name.rfind('[') - 1);
+    const std::string name =
+        table.name.substr(table.name.rfind('[') + 1, table.name.find(']') - table.name.rfind('[') - 1);
     const nlohmann::json& written = j.at(name).is_array() ? j.at(name)[0] : j.at(name);
     for (const SettingRow& row : table.rows)
       EXPECT_TRUE(written.contains(row.key.substr(0, row.key.find('.')))) << name << row.key;

@@ -11,47 +11,37 @@ namespace myoid {
 
 void visit(SyncSpec& sync, SettingVisitor& v) {
   constexpr SettingLimits kDrift = within(-1e5, 1e5, "ppm");
-  v.number(
-      "offset_s", sync.offset_s, sync.estimate,
-      {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the "
-               "motion by 60 ± 54 ms, as people's does, ± a quarter of the movement's period "
-               "(0.2 to 0.3 s), since activation goes with velocity as well as with torque: "
-               "better than nothing, no match for a trigger.",
-       .limits = any_number("s"),
-       .word = "estimate"});
+  v.number("offset_s", sync.offset_s, sync.estimate,
+           {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the "
+                    "motion by 60 ± 54 ms, as people's does, ± a quarter of the movement's period "
+                    "(0.2 to 0.3 s), since activation goes with velocity as well as with torque: "
+                    "better than nothing, no match for a trigger.",
+            .limits = any_number("s"),
+            .word = "estimate"});
   v.number("offset_sd_s", sync.offset_sd_s,
-           {.says = "Its standard deviation, if you know it.",
-            .limits = above_zero("s"),
-            .otherwise = "not stated"});
-  v.number(
-      "drift_ppm", sync.drift_ppm,
-      {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its "
-               "time 0 on (50: a minute of it lasts 60.003 s).",
-       .limits = kDrift});
-  v.text(
-      "emg_trigger", sync.emg_trigger,
-      {.says =
-           "Record of the same instants, or of the same signal, in the EMG's recording as in "
-           "the motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
-           "from the two, with their errors, by as many edges as there are; edges that one "
-           "recording missed are found by the intervals of the others."});
-  v.text(
-      "motion_trigger", sync.motion_trigger,
-      {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, "
-               "the label of events, or `start`, its first frame."});
+           {.says = "Its standard deviation, if you know it.", .limits = above_zero("s"), .otherwise = "not stated"});
+  v.number("drift_ppm", sync.drift_ppm,
+           {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its "
+                    "time 0 on (50: a minute of it lasts 60.003 s).",
+            .limits = kDrift});
+  v.text("emg_trigger", sync.emg_trigger,
+         {.says = "Record of the same instants, or of the same signal, in the EMG's recording as in "
+                  "the motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
+                  "from the two, with their errors, by as many edges as there are; edges that one "
+                  "recording missed are found by the intervals of the others."});
+  v.text("motion_trigger", sync.motion_trigger,
+         {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, "
+                  "the label of events, or `start`, its first frame."});
   v.path("trigger_file", sync.trigger_file,
-         {.says = "File that holds `motion_trigger`, on the motion's clock.",
-          .otherwise = "the motion's"});
+         {.says = "File that holds `motion_trigger`, on the motion's clock.", .otherwise = "the motion's"});
   v.choice("match", sync.match,
            {.says = "Of channels: their `rising` or `falling` edges, or the `shape` of the whole "
                     "signal."});
   v.number("search_s", sync.search_s,
-           {.says = "How far `estimate` and `shape` look, either way.",
-            .limits = within(0.05, 30.0, "s")});
-  v.number(
-      "loads_offset_s", sync.loads_offset_s,
-      {.says = "Seconds to add to the times of the trial's loads, if they are in another file.",
-       .limits = any_number("s")});
+           {.says = "How far `estimate` and `shape` look, either way.", .limits = within(0.05, 30.0, "s")});
+  v.number("loads_offset_s", sync.loads_offset_s,
+           {.says = "Seconds to add to the times of the trial's loads, if they are in another file.",
+            .limits = any_number("s")});
   v.number("loads_drift_ppm", sync.loads_drift_ppm,
            {.says = "How much too slowly the clock of that file counts.", .limits = kDrift});
   const bool emg = !sync.emg_trigger.empty(), motion = !sync.motion_trigger.empty();
@@ -65,17 +55,15 @@ void visit(SyncSpec& sync, SettingVisitor& v) {
 }
 
 void visit(PlateSpec& plates, SettingVisitor& v) {
-  v.path("file", plates.file,
-         {.says = "The `.c3d` with the force plates.", .otherwise = "that of the markers"});
-  const bool given = v.texts(
-      "bodies", plates.bodies,
-      {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes to "
-               "the body whose marker is nearest to its center of pressure, and is said.",
-       .word = "auto"});
+  v.path("file", plates.file, {.says = "The `.c3d` with the force plates.", .otherwise = "that of the markers"});
+  const bool given =
+      v.texts("bodies", plates.bodies,
+              {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes to "
+                       "the body whose marker is nearest to its center of pressure, and is said.",
+               .word = "auto"});
   const auto empty = [](const std::string& body) { return body.empty(); };
-  v.must(!given || plates.bodies.empty() ||
-             !std::all_of(plates.bodies.begin(), plates.bodies.end(), empty),
-         "bodies", "no body is named; name one for each plate (\"\" for none), or \"auto\"");
+  v.must(!given || plates.bodies.empty() || !std::all_of(plates.bodies.begin(), plates.bodies.end(), empty), "bodies",
+         "no body is named; name one for each plate (\"\" for none), or \"auto\"");
   v.number("least_force_n", plates.least_force_n,
            {.says = "Below this force a plate bears nothing.", .limits = above_zero("N")});
   v.number("lowpass_hz", plates.lowpass_hz,
@@ -87,20 +75,17 @@ void visit(PlateSpec& plates, SettingVisitor& v) {
 namespace {
 
 void visit_name(TrialSpec& trial, SettingVisitor& v) {
-  v.text("name", trial.name,
-         {.says = "Unique; becomes a folder.", .required = "a name that is unique in the study"});
+  v.text("name", trial.name, {.says = "Unique; becomes a folder.", .required = "a name that is unique in the study"});
   const std::string& name = trial.name;
-  const bool folder = !name.empty() && name.find_first_of("/\\") == std::string::npos &&
-                      !name.starts_with(".") && name != "figures" && name != "tables";
+  const bool folder = !name.empty() && name.find_first_of("/\\") == std::string::npos && !name.starts_with(".") &&
+                      name != "figures" && name != "tables";
   v.must(folder, "name",
-         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -",
-                     name));
+         fmt::format("found \"{}\"; a trial's name becomes a folder: use letters, digits, _ and -", name));
 }
 
 /// Visits the recordings of a trial.
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
-  static const std::string kEmgFiles =
-      recording::emg_endings_text() + ". A C3D file may be that of the markers.";
+  static const std::string kEmgFiles = recording::emg_endings_text() + ". A C3D file may be that of the markers.";
   v.path("markers", trial.markers,
          {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
                   "`_motion.tsv`.",
@@ -108,15 +93,12 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
   v.path("motion", trial.motion, {.says = "Joint angles, to start later than at markers."});
   v.must(!trial.markers || !trial.motion, "motion",
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
-  v.path("emg", trial.emg,
-         {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
-  v.path(
-      "external_torque", trial.external_torque,
-      {.says =
-           "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque "
-           "that the surroundings exert on the body, positive in the coordinate's direction. The "
-           "muscles provide inverse dynamics minus it. A coordinate without a column is "
-           "acted on by nothing."});
+  v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
+  v.path("external_torque", trial.external_torque,
+         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque "
+                  "that the surroundings exert on the body, positive in the coordinate's direction. The "
+                  "muscles provide inverse dynamics minus it. A coordinate without a column is "
+                  "acted on by nothing."});
   v.path("external_loads", trial.external_loads,
          {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as "
                   "[`convert`](convert.md) writes it for force plates."});
@@ -134,20 +116,18 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
 }
 
 void visit_use(TrialSpec& trial, SettingVisitor& v) {
-  v.choice(
-      "use", trial.use,
-      {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; "
-               "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: the joint's "
-               "resting torque with the weight of limb and instrument, subtracted "
-               "everywhere else (EMG, where given, must stay below 2 % of the maximal "
-               "contraction); `static` is computed up to the torque and the shared forces, and is "
-               "not fitted."});
+  v.choice("use", trial.use,
+           {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; "
+                    "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: the joint's "
+                    "resting torque with the weight of limb and instrument, subtracted "
+                    "everywhere else (EMG, where given, must stay below 2 % of the maximal "
+                    "contraction); `static` is computed up to the torque and the shared forces, and is "
+                    "not fitted."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
-         fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one",
-                     trial.name));
+         fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
-         fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"",
-                     trial.name, choice_name(trial.use)));
+         fmt::format("trial '{}' has no 'emg'; a {} trial needs one, or set use = \"static\"", trial.name,
+                     choice_name(trial.use)));
 }
 
 void visit_clock(TrialSpec& trial, SettingVisitor& v) {
@@ -157,11 +137,9 @@ void visit_clock(TrialSpec& trial, SettingVisitor& v) {
            .otherwise = "[sync]"});
   if (!trial.sync) return;
   const auto& motion_file = trial.markers ? trial.markers : trial.motion;
-  v.must(trial.emg && motion_file, "sync",
-         "it joins the clocks of an 'emg' file and of 'markers' or 'motion'");
-  v.must(trial.emg != motion_file || trial.sync->loads_offset_s != 0.0 ||
-             trial.sync->loads_drift_ppm != 0.0,
-         "sync", "EMG and motion are in one file, and so on one clock");
+  v.must(trial.emg && motion_file, "sync", "it joins the clocks of an 'emg' file and of 'markers' or 'motion'");
+  v.must(trial.emg != motion_file || trial.sync->loads_offset_s != 0.0 || trial.sync->loads_drift_ppm != 0.0, "sync",
+         "EMG and motion are in one file, and so on one clock");
 }
 
 }  // namespace
@@ -170,11 +148,10 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   visit_name(trial, v);
   visit_files(trial, v);
   visit_use(trial, v);
-  v.number("held_mass_kg", trial.held_mass_kg,
-           {.says = "Mass in the hand.", .limits = within(0.0, 100.0, "kg")});
-  v.text("condition", trial.condition,
-         {.says = "Trials of one name are left out together by `folds = \"condition\"`.",
-          .otherwise = "the trial alone"});
+  v.number("held_mass_kg", trial.held_mass_kg, {.says = "Mass in the hand.", .limits = within(0.0, 100.0, "kg")});
+  v.text(
+      "condition", trial.condition,
+      {.says = "Trials of one name are left out together by `folds = \"condition\"`.", .otherwise = "the trial alone"});
   v.number("start_s", trial.start_s,
            {.says = "Begin of the part that is used, in seconds of the motion.",
             .limits = any_number("s"),
@@ -187,10 +164,9 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
   v.must(!trial.start_s || !trial.end_s || *trial.start_s < *trial.end_s, "end_s",
          fmt::format("found {} s, expected a time after start_s = {} s", trial.end_s.value_or(0.0),
                      trial.start_s.value_or(0.0)));
-  v.path(
-      "video", trial.video,
-      {.says = "Film of the trial, which the [report](report.md#the-workbench) shows beside the "
-               "model: a format that browsers play (`.mp4`, `.webm`). No number depends on it."});
+  v.path("video", trial.video,
+         {.says = "Film of the trial, which the [report](report.md#the-workbench) shows beside the "
+                  "model: a format that browsers play (`.mp4`, `.webm`). No number depends on it."});
   v.number("video_offset_s", trial.video_offset_s,
            {.says = "When the film begins, in seconds of the motion.", .limits = any_number("s")});
   visit_clock(trial, v);

@@ -35,14 +35,12 @@ TEST(TrialTable, ATrialWithoutEmgIsRefusedWithTheRemedy) {
 }
 
 TEST(TrialTable, AnEndBeforeTheStartIsRefused) {
-  EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"),
-            std::string::npos);
+  EXPECT_NE(trial_message(kTrial + "start_s = 10\nend_s = 5\n").find("after start_s = 10 s"), std::string::npos);
 }
 
 TEST(TrialTable, ANameThatWouldLeaveTheResultsFolderIsRefused) {
   for (const std::string name : {"../t", "a/b", ".", "", "figures"}) {
-    const std::string message =
-        trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
+    const std::string message = trial_message("name = \"" + name + "\"\nmotion = \"a.mot\"\nemg = \"e.sto\"\n");
     EXPECT_NE(message.find("a trial's name becomes a folder"), std::string::npos) << name;
   }
 }
@@ -56,10 +54,8 @@ TEST(TrialTable, OneFileHasOneClock) {
 TEST(TrialTable, ClocksAreJoinedByTriggersOrByANumber) {
   const std::string triggers = "[sync]\nemg_trigger = \"T\"\nmotion_trigger = \"start\"\n";
   EXPECT_EQ(trial_of(kTrial + triggers).sync->emg_trigger, "T");
-  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"),
-            std::string::npos);
-  EXPECT_NE(trial_message(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"),
-            std::string::npos);
+  EXPECT_NE(trial_message(kTrial + triggers + "offset_s = 0.1\n").find("give one or the other"), std::string::npos);
+  EXPECT_NE(trial_message(kTrial + "[sync]\nemg_trigger = \"T\"\n").find("give both"), std::string::npos);
 }
 
 }  // namespace

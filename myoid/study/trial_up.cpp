@@ -19,13 +19,10 @@ Vec3 model_up(const model::BodyModel& model) {
 }
 
 Mat3 rotation_onto(const model::BodyModel& model, const Vec3& up_L) {
-  return recording::rotation_to_y_up(model_up(model)).transpose() *
-         recording::rotation_to_y_up(up_L);
+  return recording::rotation_to_y_up(model_up(model)).transpose() * recording::rotation_to_y_up(up_L);
 }
 
-recording::LaboratoryUp trial_up(char markers_up,
-                                 const std::filesystem::path& file,
-                                 const model::BodyModel& model) {
+recording::LaboratoryUp trial_up(char markers_up, const std::filesystem::path& file, const model::BodyModel& model) {
   if (const auto told = stated_up(markers_up)) return {told, "[markers] up"};
   recording::LaboratoryUp up = recording::read_laboratory_up(file);
   if (!up.up_L) return {model_up(model), "nothing in the file tells"};
@@ -35,14 +32,11 @@ recording::LaboratoryUp trial_up(char markers_up,
 std::string up_note(const recording::LaboratoryUp& up, const model::BodyModel& model) {
   const std::string to = recording::axis_name(model_up(model));
   const std::string from = up.up_L ? recording::axis_name(*up.up_L) : to;
-  return from == to
-             ? fmt::format("{} is up ({})", from, up.because)
-             : fmt::format("laboratory turned from {} up to {} up ({})", from, to, up.because);
+  return from == to ? fmt::format("{} is up ({})", from, up.because)
+                    : fmt::format("laboratory turned from {} up to {} up ({})", from, to, up.because);
 }
 
-std::optional<double> upright(const model::BodyModel& model,
-                              const recording::MarkerSeries& markers,
-                              const Vec3& up_L) {
+std::optional<double> upright(const model::BodyModel& model, const recording::MarkerSeries& markers, const Vec3& up_L) {
   const recording::MarkerSeries turned = recording::rotated(markers, rotation_onto(model, up_L));
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);

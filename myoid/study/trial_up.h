@@ -18,16 +18,14 @@ inline constexpr char kUpOfTheFile = 'a';
 /// Returns [markers] up as a unit vector; empty: each file states its own.
 [[nodiscard]] std::optional<Vec3> stated_up(char markers_up);
 
-/// Returns up of a model: the axis of ground nearest to the direction against gravity; y for a
-/// model without gravity.
+/// Returns up of a model: the axis of ground nearest to the direction against gravity; y for a model without gravity.
 [[nodiscard]] Vec3 model_up(const model::BodyModel& model);
 
 /// Returns the rotation that brings `up_L`, along an axis in either direction, onto `model_up`.
 [[nodiscard]] Mat3 rotation_onto(const model::BodyModel& model, const Vec3& up_L);
 
-/// Returns the cosine of the angle between `up` and the model's vertical after a fit of the markers
-/// at the model's default pose to the first complete frame; empty if fewer than four markers are
-/// known.
+/// Returns the cosine of the angle between `up` and the model's vertical after a fit of the markers at the model's
+/// default pose to the first complete frame; empty if fewer than four markers are known.
 [[nodiscard]] std::optional<double> upright(const model::BodyModel& model,
                                             const recording::MarkerSeries& markers,
                                             const Vec3& up_L);

@@ -26,8 +26,7 @@ std::string names_of(const std::vector<TrialSpec*>& trials) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Returns the trial that --video names, and its file. Text before '=' is a trial's name if the
-/// study has such a trial.
+/// Returns the trial that --video names, and its file. Text before '=' is a trial's name if the study has such a trial.
 TrialSpec& trial_of(Study& study, const std::string& asked, std::string& file) {
   const std::size_t equals = asked.find('=');
   for (TrialSpec& trial : study.trials) {
@@ -39,12 +38,11 @@ TrialSpec& trial_of(Study& study, const std::string& asked, std::string& file) {
   const std::vector<TrialSpec*> moving = movements(study);
   std::error_code ignored;
   if (equals != std::string::npos && !std::filesystem::exists(asked, ignored))
-    throw InvalidInput(fmt::format("--video '{}': there is no trial '{}'; there are {}", asked,
-                                   asked.substr(0, equals), names_of(moving)));
+    throw InvalidInput(fmt::format("--video '{}': there is no trial '{}'; there are {}", asked, asked.substr(0, equals),
+                                   names_of(moving)));
   if (moving.size() != 1)
-    throw InvalidInput(
-        fmt::format("--video '{}': the study has {} movements; write TRIAL=FILE with one of {}",
-                    asked, moving.size(), names_of(moving)));
+    throw InvalidInput(fmt::format("--video '{}': the study has {} movements; write TRIAL=FILE with one of {}", asked,
+                                   moving.size(), names_of(moving)));
   return *moving.front();
 }
 
@@ -57,11 +55,9 @@ void set_videos(Study& study, const VideoChoice& choice) {
   for (const std::string& asked : choice.files) {
     std::string file;
     TrialSpec& trial = trial_of(study, asked, file);
-    if (file.empty())
-      throw InvalidInput(fmt::format("--video '{}': the file is missing; write TRIAL=FILE", asked));
+    if (file.empty()) throw InvalidInput(fmt::format("--video '{}': the file is missing; write TRIAL=FILE", asked));
     if (!named.insert(trial.name).second)
-      throw InvalidInput(
-          fmt::format("--video '{}': trial '{}' has a film already; give one", asked, trial.name));
+      throw InvalidInput(fmt::format("--video '{}': trial '{}' has a film already; give one", asked, trial.name));
     trial.video = file;
     trial.video_offset_s = choice.offset_s.value_or(0.0);
   }

@@ -6,9 +6,8 @@
 
 namespace myoid {
 
-/// Sets the films of the trials that `choice` names, in place of the study's. Throws InvalidInput
-/// for a trial that the study lacks, a repeated trial, a missing name in a study of several
-/// movements, and an offset without a film.
+/// Sets the films of the trials that `choice` names, in place of the study's. Throws InvalidInput for a trial that the
+/// study lacks, a repeated trial, a missing name in a study of several movements, and an offset without a film.
 void set_videos(Study& study, const VideoChoice& choice);
 
 /// Throws ReadError, naming trial and file, if a film of the study is missing.

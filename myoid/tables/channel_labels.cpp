@@ -26,9 +26,8 @@ bool is_time(const TableColumn& column) {
   std::string name = lower(column.name);
   if (const std::size_t point = name.find('.'); point != std::string::npos && point > 0)
     name.resize(point);  // "X[s].1" of programs that make names unique
-  static const std::set<std::string> kWords{"time",    "t",         "times",       "time_s",
-                                            "time_ms", "timestamp", "time stamp",  "zeit",
-                                            "temps",   "tiempo",    "time series", "abs time"};
+  static const std::set<std::string> kWords{"time",       "t",    "times", "time_s", "time_ms",     "timestamp",
+                                            "time stamp", "zeit", "temps", "tiempo", "time series", "abs time"};
   if (kWords.contains(name)) return true;
   const bool seconds = column.unit && column.unit->unit == Unit::second;
   // "EMG 1 Time Series (s)": a time column for each channel.
@@ -69,16 +68,14 @@ Kind kind_by_name(const std::string& label) {
 
 std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
   cell = trim(cell);
-  if (cell.size() > 2 &&
-      ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+  if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
     cell = cell.substr(1, cell.size() - 2);
   return unit_of(cell);
 }
 
 std::optional<double> rate_in_cell(std::string_view cell) {
   cell = trim(cell);
-  if (cell.size() < 3 || !equal_ignoring_case(cell.substr(cell.size() - 2), "hz"))
-    return std::nullopt;
+  if (cell.size() < 3 || !equal_ignoring_case(cell.substr(cell.size() - 2), "hz")) return std::nullopt;
   const auto rate = parse_number(cell.substr(0, cell.size() - 2));
   return rate && *rate > 0.0 && *rate <= 1e6 ? rate : std::nullopt;
 }
@@ -110,8 +107,8 @@ TableColumn take_label_apart(const std::string& text) {
 
 std::optional<double> rate_in_line(std::string_view line) {
   const std::string text = lower(line);
-  for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate",
-                           "sample frequency", "samplingrate", "frequency", "rate", "fs"}) {
+  for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate", "sample frequency",
+                           "samplingrate", "frequency", "rate", "fs"}) {
     const std::size_t at = text.find(word);
     if (at == std::string::npos) continue;
     std::size_t i = at + std::string_view(word).size();
@@ -159,17 +156,14 @@ void put_devices_before_names(TableLayout& layout, const std::vector<std::string
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (c < devices.size() && !devices[c].empty()) device = devices[c];
     TableColumn& column = columns[c];
-    if (column.kind != Kind::channel || column.name.empty() || count[column.name] < 2 ||
-        device.empty())
-      continue;
+    if (column.kind != Kind::channel || column.name.empty() || count[column.name] < 2 || device.empty()) continue;
     column.name = device + " " + column.name;
     ++renamed;
   }
   if (renamed > 0)
     layout.repairs.push_back(
         {layout.names_line + 1,
-         fmt::format("{} channels share their names; they have their device's before them here",
-                     renamed)});
+         fmt::format("{} channels share their names; they have their device's before them here", renamed)});
 }
 
 }  // namespace myoid::recording

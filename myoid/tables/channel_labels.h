@@ -22,19 +22,16 @@ namespace myoid::recording {
 /// Returns the number behind a word that means a sampling rate, anywhere in a line.
 [[nodiscard]] std::optional<double> rate_in_line(std::string_view line);
 
-/// Gives every column its kind by its name: times, numbers of frames and samples, remarks. A second
-/// time column called just "t" or "T" counts as a channel (a trigger, a torque), unless the first
-/// has the same name.
+/// Gives every column its kind by its name: times, numbers of frames and samples, remarks. A second time column called
+/// just "t" or "T" counts as a channel (a trigger, a torque), unless the first has the same name.
 void set_kinds(std::vector<TableColumn>& columns);
 
-/// Returns the exact rate of a wireless sensor whose rate is stated in whole Hz. Such sensors send
-/// whole numbers of samples in 27 ms: 1259 Hz stands for 34 / 0.027 s. Returns the rate itself
-/// where no such rate is within half a Hz.
+/// Returns the exact rate of a wireless sensor whose rate is stated in whole Hz. Such sensors send whole numbers of
+/// samples in 27 ms: 1259 Hz stands for 34 / 0.027 s. Returns the rate itself where no such rate is within half a Hz.
 [[nodiscard]] double packet_rate(double rate_hz);
 
-/// Makes names unique: where two channels share a name, the name of the device goes before it, with
-/// a note. `devices` are cells of a row above the names; an empty cell repeats the last device
-/// before it.
+/// Makes names unique: where two channels share a name, the name of the device goes before it, with a note. `devices`
+/// are cells of a row above the names; an empty cell repeats the last device before it.
 void put_devices_before_names(TableLayout& layout, const std::vector<std::string>& devices);
 
 }  // namespace myoid::recording

@@ -37,10 +37,7 @@ std::optional<TableLayout> nexus_devices(const TableText& text, const std::files
 }
 
 /// Finds the first row of numbers among the first `most` lines from `begin` on.
-std::optional<std::size_t> first_numbers(const TableText& text,
-                                         std::size_t begin,
-                                         std::size_t most,
-                                         char separator) {
+std::optional<std::size_t> first_numbers(const TableText& text, std::size_t begin, std::size_t most, char separator) {
   for (std::size_t n = begin; n < std::min(most, text.lines.size()); ++n) {
     const auto cells = cells_of(text.lines[n], separator);
     if (parse_number(cells[0]) || (separator != ',' && parse_comma_number(cells[0]))) return n;
@@ -49,8 +46,7 @@ std::optional<std::size_t> first_numbers(const TableText& text,
 }
 
 /// Finds Qualisys's layout: a line CHANNEL_NAMES, then perhaps a row "SAMPLE, TIME, names".
-std::optional<TableLayout> qualisys_channels(const TableText& text,
-                                             const std::filesystem::path& path) {
+std::optional<TableLayout> qualisys_channels(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_SAMPLES")) return std::nullopt;
   constexpr std::size_t kHeader = 40;
   TableLayout layout;
@@ -81,11 +77,9 @@ std::optional<TableLayout> qualisys_channels(const TableText& text,
   const std::size_t header = head.empty() ? *first : layout.names_line;
   layout.rate_hz = stated_number(text, header, '\t', {"frequency"}).value_or(0.0);
   layout.rows_said = stated_number(text, header, '\t', {"no_of_samples"});
-  layout.channels_said =
-      stated_number(text, header, '\t', {"total_no_of_channels", "no_of_channels"});
+  layout.channels_said = stated_number(text, header, '\t', {"total_no_of_channels", "no_of_channels"});
   const bool named = !head.empty();
-  for (const std::string& name : named ? head : names)
-    layout.columns.push_back(take_label_apart(name));
+  for (const std::string& name : named ? head : names) layout.columns.push_back(take_label_apart(name));
   if (named) {
     set_kinds(layout.columns);
   } else {
@@ -108,8 +102,7 @@ std::optional<double> biopac_rate(std::string_view line) {
 
 /// Finds BIOPAC's layout: a file name, "0.5 msec/sample", "2 channels", name and unit of each
 /// channel, "CH1 CH2", counts, rows.
-std::optional<TableLayout> biopac_channels(const TableText& text,
-                                           const std::filesystem::path& path) {
+std::optional<TableLayout> biopac_channels(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.size() < 8) return std::nullopt;
   const auto rate = biopac_rate(text.lines[1]);
   const auto said = split_words(text.lines[2]);
@@ -119,23 +112,21 @@ std::optional<TableLayout> biopac_channels(const TableText& text,
   const auto channels = static_cast<std::size_t>(*count);
   const std::size_t head = 3 + 2 * channels;
   if (head + 2 >= text.lines.size())
-    throw ReadError(path, 3,
-                    fmt::format("{} channels are stated, but the text ends before", *count));
+    throw ReadError(path, 3, fmt::format("{} channels are stated, but the text ends before", *count));
   TableLayout layout;
   layout.separator = text.lines[head].find('\t') != std::string_view::npos ? '\t' : ',';
   auto cells = cells_of(text.lines[head], layout.separator);
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
   // A time column before the channels is ignored: the stated interval is more exact.
   if (cells.size() < channels || cells.size() > channels + 1)
-    throw ReadError(
-        path, head + 1,
-        fmt::format("{} channels are stated in line 3, the row of columns has {}: a line "
-                    "of the header is lost",
-                    *count, cells.size()));
+    throw ReadError(path, head + 1,
+                    fmt::format("{} channels are stated in line 3, the row of columns has {}: a line "
+                                "of the header is lost",
+                                *count, cells.size()));
   if (cells.size() > channels) layout.columns.push_back({Kind::left_out, cells[0]});
   for (std::size_t c = 0; c < channels; ++c)
-    layout.columns.push_back({Kind::channel, to_utf8(trim(text.lines[3 + 2 * c])),
-                              unit_in_cell(trim(text.lines[4 + 2 * c]))});
+    layout.columns.push_back(
+        {Kind::channel, to_utf8(trim(text.lines[3 + 2 * c])), unit_in_cell(trim(text.lines[4 + 2 * c]))});
   const std::size_t left_out = cells.size() - channels;
   const auto counts = cells_of(text.lines[head + 1], layout.separator);
   if (counts.size() > left_out) layout.rows_said = parse_number(counts[left_out]);

@@ -11,7 +11,6 @@ namespace myoid::recording {
 /// "Devices" of Vicon Nexus (.csv), Qualisys' analog channels (.tsv, DATA_INCLUDED ANALOG),
 /// BIOPAC's text (names and units in lines of their own), and BTS' EMG tracks (.emt, one unit for
 /// all). Empty for other texts. Throws ReadError where such a header lacks its rows.
-[[nodiscard]] std::optional<TableLayout> makers_layout(const TableText& text,
-                                                       const std::filesystem::path& path);
+[[nodiscard]] std::optional<TableLayout> makers_layout(const TableText& text, const std::filesystem::path& path);
 
 }  // namespace myoid::recording

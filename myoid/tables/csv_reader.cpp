@@ -17,9 +17,7 @@ using Kind = TableColumn::Kind;
 
 /// Finds the first line, from `n` on, that is neither blank nor a remark.
 std::size_t next_line(const TableText& text, std::size_t n) {
-  while (n < text.lines.size() &&
-         (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
-    ++n;
+  while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;
   return n;
 }
 
@@ -30,9 +28,8 @@ char separator_of(std::string_view head) {
 }
 
 bool is_time(std::string_view name) {
-  return equal_ignoring_case(name, "time") || equal_ignoring_case(name, "t") ||
-         equal_ignoring_case(name, "time_s") || equal_ignoring_case(name, "times") ||
-         equal_ignoring_case(name, "time_ms");
+  return equal_ignoring_case(name, "time") || equal_ignoring_case(name, "t") || equal_ignoring_case(name, "time_s") ||
+         equal_ignoring_case(name, "times") || equal_ignoring_case(name, "time_ms");
 }
 
 /// Splits "name [unit]" or "name (unit)".
@@ -47,8 +44,7 @@ TableColumn take_apart(const std::string& label) {
   return {Kind::channel, label};
 }
 
-/// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds
-/// numbers.
+/// Reads a row of units ("s", "mV", ...) for the columns that have none; false if the row holds numbers.
 bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColumn>& columns) {
   bool any = false;
   for (const std::string& cell : cells) {
@@ -78,17 +74,16 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
   if (layout.first_row < text.lines.size() &&
       take_units_row(cells_of(text.lines[layout.first_row], layout.separator), layout.columns))
     ++layout.first_row;
-  const auto time = std::find_if(layout.columns.begin(), layout.columns.end(),
-                                 [](const TableColumn& c) { return is_time(c.name); });
+  const auto time =
+      std::find_if(layout.columns.begin(), layout.columns.end(), [](const TableColumn& c) { return is_time(c.name); });
   if (time == layout.columns.end()) {
     throw ReadError(path, head + 1,
-                    fmt::format("no time column; expected one named time (in s) among {}",
-                                fmt::join(names, ", ")));
+                    fmt::format("no time column; expected one named time (in s) among {}", fmt::join(names, ", ")));
   }
   if (time->unit && time->unit->unit != Unit::second)
-    throw ReadError(path, head + 1,
-                    fmt::format("column '{}': time is in s or ms",
-                                names[static_cast<std::size_t>(time - layout.columns.begin())]));
+    throw ReadError(
+        path, head + 1,
+        fmt::format("column '{}': time is in s or ms", names[static_cast<std::size_t>(time - layout.columns.begin())]));
   if (!time->unit && equal_ignoring_case(time->name, "time_ms")) time->unit = parse_unit("ms");
   time->kind = Kind::time;
   return layout;
@@ -114,29 +109,22 @@ CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& pat
           path, n + 1,
           fmt::format("expected {} cells as in the header ({}), found {}{}", table.names.size(),
                       fmt::join(table.names, ", "), cells.size(),
-                      too_many
-                          ? "; a cell too many, or decimal commas in a table separated by commas"
-                          : ""));
+                      too_many ? "; a cell too many, or decimal commas in a table separated by commas" : ""));
     }
     table.rows.push_back(std::move(cells));
     table.lines.push_back(n + 1);
   }
-  table.last_row_has_end =
-      table.rows.empty() || table.lines.back() < whole.lines.size() || whole.ends_with_line;
+  table.last_row_has_end = table.rows.empty() || table.lines.back() < whole.lines.size() || whole.ends_with_line;
   return table;
 }
 
-CsvTable read_csv_table(const std::filesystem::path& path) {
-  return parse_csv_table(read_text_file(path), path);
-}
+CsvTable read_csv_table(const std::filesystem::path& path) { return parse_csv_table(read_text_file(path), path); }
 
 CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
   return channels_of_table(table, plain_layout(table, path), path);
 }
 
-CsvSeries read_csv_series(const std::filesystem::path& path) {
-  return parse_csv_series(read_text_file(path), path);
-}
+CsvSeries read_csv_series(const std::filesystem::path& path) { return parse_csv_series(read_text_file(path), path); }
 
 }  // namespace myoid::recording

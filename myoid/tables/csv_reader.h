@@ -20,16 +20,14 @@ struct CsvTable {
   bool last_row_has_end = true;  ///< False: the file ends in the middle of its last row.
 };
 
-/// Reads a table. The header row decides the separator (comma, semicolon or tab); quotes follow RFC
-/// 4180; blanks around cells are dropped. Throws ReadError if a row has another number of cells
-/// than the header.
+/// Reads a table. The header row decides the separator (comma, semicolon or tab); quotes follow RFC 4180; blanks around
+/// cells are dropped. Throws ReadError if a row has another number of cells than the header.
 [[nodiscard]] CsvTable read_csv_table(const std::filesystem::path& path);
 [[nodiscard]] CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path);
 
-/// Reads a table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series.
-/// Decimal commas are read where a semicolon or tab separates; an empty cell is a gap. Throws
-/// ReadError if there is no time column, a cell is no number, time does not increase, two columns
-/// share a name, or the time's unit is unknown.
+/// Reads a table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series. Decimal commas are read
+/// where a semicolon or tab separates; an empty cell is a gap. Throws ReadError if there is no time column, a cell is
+/// no number, time does not increase, two columns share a name, or the time's unit is unknown.
 [[nodiscard]] CsvSeries read_csv_series(const std::filesystem::path& path);
 [[nodiscard]] CsvSeries parse_csv_series(std::string_view text, const std::filesystem::path& path);
 

@@ -10,8 +10,7 @@ namespace myoid::recording {
 namespace {
 
 TEST(CsvSeries, UnderstandsUnitsInTheHeader) {
-  const CsvSeries s =
-      parse_csv_series("Time (ms),biceps [mV],angle [deg]\n0,1,90\n10,2,180\n", "e.csv");
+  const CsvSeries s = parse_csv_series("Time (ms),biceps [mV],angle [deg]\n0,1,90\n10,2,180\n", "e.csv");
   EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.01);
   EXPECT_DOUBLE_EQ(s.data.column("biceps")[1], 2e-3);
   EXPECT_EQ(s.data.channels()[1].unit, Unit::radian);

@@ -29,8 +29,7 @@ std::optional<double> cell_number(const std::string& cell, char separator) {
   return separator == ',' ? std::nullopt : parse_comma_number(cell);
 }
 
-/// Returns true for a row that holds at least one number and otherwise only numbers and empty
-/// cells.
+/// Returns true for a row that holds at least one number and otherwise only numbers and empty cells.
 bool is_numbers(const Cells& cells, char separator) {
   std::size_t numbers = 0;
   for (const std::string& cell : cells) {
@@ -65,17 +64,14 @@ std::optional<TableColumn> label_line(std::string_view line) {
 /// Looks for a table with one given separator.
 class TableFinder {
  public:
-  TableFinder(const TableText& text, char separator) : text_(text) {
-    layout_.separator = separator;
-  }
+  TableFinder(const TableText& text, char separator) : text_(text) { layout_.separator = separator; }
 
   std::optional<TableLayout> find() {
     if (!find_first_row()) return std::nullopt;
     above_ = layout_.first_row;
     if (!previous()) return std::nullopt;
     Cells names = row(above_);
-    const Cells rates =
-        take_row(names, [](const std::string& cell) { return rate_in_cell(cell).has_value(); });
+    const Cells rates = take_row(names, [](const std::string& cell) { return rate_in_cell(cell).has_value(); });
     const Cells units = take_row(names, [](const std::string& cell) {
       const TableColumn label = take_label_apart(cell);
       return unit_in_cell(cell) || (label.name.empty() && label.unit);
@@ -89,13 +85,9 @@ class TableFinder {
   }
 
  private:
-  [[nodiscard]] Cells row(std::size_t n) const {
-    return cells_of(text_.lines[n], layout_.separator);
-  }
+  [[nodiscard]] Cells row(std::size_t n) const { return cells_of(text_.lines[n], layout_.separator); }
   [[nodiscard]] bool blank(std::size_t n) const { return trim(text_.lines[n]).empty(); }
-  [[nodiscard]] bool numbers(const Cells& cells) const {
-    return is_numbers(cells, layout_.separator);
-  }
+  [[nodiscard]] bool numbers(const Cells& cells) const { return is_numbers(cells, layout_.separator); }
 
   bool find_first_row() {
     constexpr std::size_t kMost = 1000;
@@ -104,8 +96,7 @@ class TableFinder {
       if (text_.lines[n].find(layout_.separator) == std::string_view::npos) continue;
       const Cells cells = row(n);
       if (!numbers(cells)) continue;
-      // A table begins where the next row that is not empty has the same width and holds numbers
-      // too.
+      // A table begins where the next row that is not empty has the same width and holds numbers too.
       std::size_t next = n + 1;
       while (next < text_.lines.size() && blank(next)) ++next;
       width_ = filled(cells);
@@ -145,8 +136,7 @@ class TableFinder {
     return true;
   }
 
-  /// Takes the row `names` if `is` holds for all its cells (units, rates); `names` becomes the row
-  /// above it.
+  /// Takes the row `names` if `is` holds for all its cells (units, rates); `names` becomes the row above it.
   template <typename Is>
   Cells take_row(Cells& names, const Is& is) {
     std::size_t count = 0;
@@ -176,8 +166,7 @@ class TableFinder {
     if (!rounded.empty())
       layout_.repairs.push_back(
           {layout_.names_line + 1,
-           fmt::format("rates in whole Hz stand for whole samples in 27 ms: {:.7g} Hz",
-                       fmt::join(rounded, ", "))});
+           fmt::format("rates in whole Hz stand for whole samples in 27 ms: {:.7g} Hz", fmt::join(rounded, ", "))});
     const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
                                      [](const TableColumn& c) { return c.kind == Kind::time; });
     const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
@@ -192,9 +181,8 @@ class TableFinder {
     const Cells first = row(layout_.first_row);
     const std::size_t next = layout_.first_row + 1;
     const Cells second = next < text_.lines.size() ? row(next) : Cells();
-    const bool with_sub_frames =
-        std::any_of(layout_.columns.begin(), layout_.columns.end(),
-                    [](const TableColumn& c) { return c.kind == Kind::sub_frame; });
+    const bool with_sub_frames = std::any_of(layout_.columns.begin(), layout_.columns.end(),
+                                             [](const TableColumn& c) { return c.kind == Kind::sub_frame; });
     std::vector<std::string> left_out;
     bool taken = false;
     for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
@@ -217,8 +205,7 @@ class TableFinder {
     if (!left_out.empty())
       layout_.repairs.push_back(
           {layout_.names_line + 1,
-           fmt::format("columns of numbers of frames or samples are left out: {}",
-                       fmt::join(left_out, ", "))});
+           fmt::format("columns of numbers of frames or samples are left out: {}", fmt::join(left_out, ", "))});
   }
 
   /// Returns the row of sensor names, which stands above the row of their modes.
@@ -256,8 +243,7 @@ class TableFinder {
                                    [](const TableColumn& c) { return c.kind == Kind::time; });
     if (!timed && layout_.rate_hz > 0.0)
       layout_.repairs.push_back(
-          {0, fmt::format("no time column; the rate of {} Hz stated in the header is taken",
-                          layout_.rate_hz)});
+          {0, fmt::format("no time column; the rate of {} Hz stated in the header is taken", layout_.rate_hz)});
   }
 
   const TableText& text_;
@@ -270,9 +256,7 @@ class TableFinder {
 /// line of text follows.
 bool is_plain(const TableText& text, const TableLayout& layout) {
   std::size_t n = 0;
-  while (n < text.lines.size() &&
-         (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#')))
-    ++n;
+  while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;
   if (n != layout.names_line) return false;
   std::size_t times = 0;
   for (const TableColumn& column : layout.columns) {
@@ -280,8 +264,7 @@ bool is_plain(const TableText& text, const TableLayout& layout) {
     if (column.name.find(',') != std::string::npos) return false;
     const std::string name = lower(column.name);
     if (column.kind == Kind::channel) continue;
-    if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms")
-      return false;
+    if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms") return false;
     ++times;
   }
   return times == 1;
@@ -292,17 +275,14 @@ std::optional<TableLayout> find_table(const TableText& text) {
   std::optional<TableLayout> layout;
   for (const char separator : {'\t', ';', ','}) {
     auto found = TableFinder(text, separator).find();
-    if (found && found->columns.size() > (layout ? layout->columns.size() : 1))
-      layout = std::move(found);
+    if (found && found->columns.size() > (layout ? layout->columns.size() : 1)) layout = std::move(found);
   }
   return layout;
 }
 
 /// Throws ReadError where commas both separate cells and mark decimals: "-88,9,15,4" below two
 /// names has twice as many cells as names, and every second cell holds digits only.
-void refuse_two_commas(const TableText& text,
-                       const TableLayout& layout,
-                       const std::filesystem::path& path) {
+void refuse_two_commas(const TableText& text, const TableLayout& layout, const std::filesystem::path& path) {
   const std::size_t names = filled(cells_of(text.lines[layout.names_line], layout.separator));
   const Cells first = cells_of(text.lines[layout.first_row], layout.separator);
   if (layout.separator != ',' || names == 0 || filled(first) != 2 * names) return;
@@ -319,16 +299,13 @@ void refuse_two_commas(const TableText& text,
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
-  if (const auto layout = makers_layout(table, path))
-    return channels_of_table(table, *layout, path);
+  if (const auto layout = makers_layout(table, path)) return channels_of_table(table, *layout, path);
   const auto layout = find_table(table);
   if (layout) refuse_two_commas(table, *layout, path);
-  if (layout &&
-      is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
-    throw ReadError(
-        path, layout->names_line + 1,
-        "the table begins with numbers; expected a row of names above them, and a column "
-        "'time' or a line 'Sampling rate: 2000 Hz'");
+  if (layout && is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
+    throw ReadError(path, layout->names_line + 1,
+                    "the table begins with numbers; expected a row of names above them, and a column "
+                    "'time' or a line 'Sampling rate: 2000 Hz'");
   }
   if (!layout || is_plain(table, *layout)) return parse_csv_series(text, path);
   return channels_of_table(table, *layout, path);

@@ -7,12 +7,11 @@
 
 namespace myoid::recording {
 
-/// Reads a table of channels over time as EMG programs export it. `parse_csv_series` reads plain
-/// tables (a header row, then numbers); `makers_layout` knows the formats of single makers. In all
-/// others the reader looks for the first rows that hold only numbers. Above them stand the names,
-/// perhaps rows of units and of rates, and lines of free text. The free text may state a sampling
-/// rate ("Frequency;1500", "Sampling rate: 2000 Hz"), a number of rows, a length, and lines about
-/// one channel ("Label: EMG 1 Sampling frequency: 1926 Unit: V"). Also read, with a note:
+/// Reads a table of channels over time as EMG programs export it. `parse_csv_series` reads plain tables (a header row,
+/// then numbers); `makers_layout` knows the formats of single makers. In all others the reader looks for the first rows
+/// that hold only numbers. Above them stand the names, perhaps rows of units and of rates, and lines of free text. The
+/// free text may state a sampling rate ("Frequency;1500", "Sampling rate: 2000 Hz"), a number of rows, a length, and
+/// lines about one channel ("Label: EMG 1 Sampling frequency: 1926 Unit: V"). Also read, with a note:
 ///
 ///   - a time column for each channel ("X [s]"), or a rate for each: channels of the same clock are
 ///     joined, each other clock becomes a series of its own;

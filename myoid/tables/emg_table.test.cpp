@@ -15,8 +15,7 @@ TEST(EmgTable, APlainTableIsReadAsEver) {
 }
 
 TEST(EmgTable, ATimeColumnForEachChannelGivesAClockForEachRate) {
-  // A table as wireless systems export it: EMG and acceleration in pairs of columns of different
-  // length.
+  // A table as wireless systems export it: EMG and acceleration in pairs of columns of different length.
   const CsvSeries s = parse_emg_table(
       "Label: Biceps: EMG 1 Sampling frequency: 2000 Unit: mV Domain: Time\n"
       "X [s],\"Biceps: EMG 1 [mV]\",X [s],\"Biceps: ACC.X 1 [g]\",X [s],\"Triceps: EMG 2 [mV]\"\n"
@@ -92,8 +91,8 @@ TEST(EmgTable, MetadataAndARowOfUnitsAreUnderstood) {
 }
 
 TEST(EmgTable, UnitsBehindACommaAndFrameNumbersAreUnderstood) {
-  const CsvSeries s = parse_emg_table(
-      "Frame,\"Time, s\",\"BICEPS, uV\",\"TRICEPS, uV\"\n1,0,10,20\n2,0.001,30,40\n", "a.csv");
+  const CsvSeries s =
+      parse_emg_table("Frame,\"Time, s\",\"BICEPS, uV\",\"TRICEPS, uV\"\n1,0,10,20\n2,0.001,30,40\n", "a.csv");
   EXPECT_EQ(s.data.channel_count(), 2);
   EXPECT_EQ(s.data.channels()[0], (Channel{"BICEPS", Unit::volt}));
   EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 40e-6);
@@ -120,8 +119,7 @@ TEST(EmgTable, ATriggerCalledTIsNoSecondClock) {
 
 TEST(EmgTable, WhatIsWrongIsSaidWithItsLine) {
   try {
-    static_cast<void>(
-        parse_emg_table("Frequency;1000\ntime;a\ns;mV\n0;1\n0.1;2\n0.2;x\n0.3;4\n", "a.csv"));
+    static_cast<void>(parse_emg_table("Frequency;1000\ntime;a\ns;mV\n0;1\n0.1;2\n0.2;x\n0.3;4\n", "a.csv"));
     FAIL();
   } catch (const ReadError& error) {
     EXPECT_EQ(error.line(), 6U);
@@ -138,16 +136,16 @@ TEST(EmgTable, CommasBetweenCellsAndInsideNumbersAreRefused) {
 
 TEST(EmgTable, AChannelBeforeTheFirstOfTwoTimeColumnsHasItsClock) {
   // Found by fuzzing: such a channel had neither a clock nor a rate.
-  const CsvSeries s = parse_emg_table(
-      "A [mV],X [s],\"EMG 1 [mV]\",X [s],\"EMG 2 [mV]\"\n7,0,1,0,2\n8,0.1,3,0.1,4\n", "a.csv");
+  const CsvSeries s =
+      parse_emg_table("A [mV],X [s],\"EMG 1 [mV]\",X [s],\"EMG 2 [mV]\"\n7,0,1,0,2\n8,0.1,3,0.1,4\n", "a.csv");
   EXPECT_EQ(s.data.channel_count(), 3);
   EXPECT_DOUBLE_EQ(s.data.column("A")[1], 8e-3);
   EXPECT_DOUBLE_EQ(s.data.time_s()[1], 0.1);
 }
 
 TEST(EmgTable, NamesStandAboveTheFirstRowsOfNumbersAndUnitsBetween) {
-  const CsvSeries s = parse_emg_table(
-      "Some lab\nSampling rate: 1000 Hz\n\nFrame,E1,E2\n,mV,uV\n1,0.5,7\n2,0.25,8\n", "a.csv");
+  const CsvSeries s =
+      parse_emg_table("Some lab\nSampling rate: 1000 Hz\n\nFrame,E1,E2\n,mV,uV\n1,0.5,7\n2,0.25,8\n", "a.csv");
   ASSERT_EQ(s.data.channel_count(), 2);
   EXPECT_DOUBLE_EQ(s.data.values()(1, 0), 0.25e-3);
   EXPECT_DOUBLE_EQ(s.data.values()(1, 1), 8e-6);

@@ -31,10 +31,8 @@ std::vector<std::string> words_of(std::string_view name) {
 bool named_as_other_sensor(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "gyro" || words[i] == "fsr" || words[i] == "ekg" || words[i] == "ecg")
-      return true;
-    const bool axis = i + 1 < words.size() && words[i + 1].size() == 1 && words[i + 1] >= "x" &&
-                      words[i + 1] <= "z";
+    if (words[i] == "gyro" || words[i] == "fsr" || words[i] == "ekg" || words[i] == "ecg") return true;
+    const bool axis = i + 1 < words.size() && words[i + 1].size() == 1 && words[i + 1] >= "x" && words[i + 1] <= "z";
     if (axis && (words[i] == "acc" || words[i] == "mag")) return true;
   }
   return false;
@@ -44,13 +42,12 @@ bool named_as_other_sensor(std::string_view name) {
 
 bool named_as_no_emg(std::string_view name) {
   if (named_as_other_sensor(name)) return true;
-  // Matches the letters and digits of a name: instrument, then quantity, axis and number in either
-  // order.
+  // Matches the letters and digits of a name: instrument, then quantity, axis and number in either order.
   static const std::regex kForce(
       "(force|moment|torque|grf|amti|bertec|kistler|forceplate|plate|fp|[0-9])*"
       "(f|m|cop|p)[0-9]*[xyz][0-9]*");
-  static constexpr std::array<std::string_view, 8> kInstruments{
-      "sync", "trig", "footsw", "heelsw", "gonio", "accel", "gyro", "loadcell"};
+  static constexpr std::array<std::string_view, 8> kInstruments{"sync",  "trig",  "footsw", "heelsw",
+                                                                "gonio", "accel", "gyro",   "loadcell"};
   const std::string plain = plain_label(name);
   std::string_view without_side = plain;
   for (const std::string_view side : {"left", "right"}) {
@@ -63,9 +60,7 @@ bool named_as_no_emg(std::string_view name) {
 
 bool named_as_input(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
-  const auto has = [&](std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
+  const auto has = [&](std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   return (has("analog") || has("analogue") || has("aux") || has("auxiliary")) && !has("emg");
 }
 

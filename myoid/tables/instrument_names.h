@@ -4,11 +4,10 @@
 
 namespace myoid::recording {
 
-/// Returns true for usual names of force plates, triggers, switches and other signals that are no
-/// EMG. Recognizes a force, moment or center of pressure with its axis and number ("F1X",
-/// "Force.Fz2", "Mx1", "COPy", "Fz3" and "Fx12" of piezoelectric plates), "Sync", "Trigger",
-/// "Footswitch", ..., and signals that wireless electrodes record in addition to EMG: motion
-/// ("Sensor 1: ACC.X 1", "GYRO Y", "FSR.A") and the heart ("EKG 1", "ECG").
+/// Returns true for usual names of force plates, triggers, switches and other signals that are no EMG. Recognizes a
+/// force, moment or center of pressure with its axis and number ("F1X", "Force.Fz2", "Mx1", "COPy", "Fz3" and "Fx12" of
+/// piezoelectric plates), "Sync", "Trigger", "Footswitch", ..., and signals that wireless electrodes record in addition
+/// to EMG: motion ("Sensor 1: ACC.X 1", "GYRO Y", "FSR.A") and the heart ("EKG 1", "ECG").
 [[nodiscard]] bool named_as_no_emg(std::string_view name);
 
 /// Returns true for a spare input of an amplifier, "Analog 13" or "AUX 2", which holds EMG in one

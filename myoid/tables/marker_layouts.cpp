@@ -44,12 +44,10 @@ std::optional<std::string> name_before_axis(const std::string& cell, char axis) 
 bool is_triple(const Cells& header, std::size_t c) {
   if (c + 2 >= header.size()) return false;
   const auto name = name_before_axis(header[c], 'x');
-  return name && name_before_axis(header[c + 1], 'y') == name &&
-         name_before_axis(header[c + 2], 'z') == name;
+  return name && name_before_axis(header[c + 1], 'y') == name && name_before_axis(header[c + 2], 'z') == name;
 }
 
-/// Takes columns NAME x, NAME y, NAME z that follow up to two columns of frames and times; false if
-/// there are none.
+/// Takes columns NAME x, NAME y, NAME z that follow up to two columns of frames and times; false if there are none.
 bool take_triples(const Cells& header, MarkerLayout& layout) {
   std::size_t c = 0;
   for (; c < header.size() && c < 3 && !is_triple(header, c); ++c) {
@@ -76,16 +74,14 @@ void require_triples(const MarkerLayout& layout, const std::filesystem::path& pa
   }
 }
 
-std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
-                                               const std::filesystem::path& path) {
+std::optional<MarkerLayout> nexus_trajectories(const TableText& text, const std::filesystem::path& path) {
   const auto section = nexus_section(text, "Trajectories", path);
   if (!section) return std::nullopt;
   MarkerLayout layout;
   layout.table = layout_of(*section);
   const std::size_t line = section->labels_line + 1;
   if (layout.table.columns.size() < 2 || layout.table.columns[1].kind != Kind::sub_frame)
-    throw ReadError(path, line,
-                    "expected 'Sub Frame' in column 2 of the row that begins with Frame");
+    throw ReadError(path, line, "expected 'Sub Frame' in column 2 of the row that begins with Frame");
   layout.table.columns.resize(2);
   if (section->groups.empty())
     throw ReadError(path, line, "the row of marker names above 'Frame, Sub Frame' is missing");
@@ -103,54 +99,44 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text,
   for (std::size_t c = 0; c < section->groups.size(); ++c) {
     const bool place = c >= 2 && (c - 2) % 3 == 0 && c < section->labels.size();
     if (!place && !section->groups[c].empty())
-      throw ReadError(
-          path, line - 1,
-          fmt::format("the name '{}' stands in column {}, where no X is: a cell of this "
-                      "row is lost or too many",
-                      section->groups[c], c + 1));
+      throw ReadError(path, line - 1,
+                      fmt::format("the name '{}' stands in column {}, where no X is: a cell of this "
+                                  "row is lost or too many",
+                                  section->groups[c], c + 1));
   }
   if (layout.names.empty()) return std::nullopt;
-  for (std::size_t c = 2; c < section->units.size() && layout.unit.empty(); ++c)
-    layout.unit = section->units[c];
+  for (std::size_t c = 2; c < section->units.size() && layout.unit.empty(); ++c) layout.unit = section->units[c];
   for (std::size_t c = 2; c < section->units.size(); ++c) {
     if (!section->units[c].empty() && section->units[c] != layout.unit)
-      throw ReadError(path, line + 1,
-                      fmt::format("the units '{}' and '{}' stand in one table of markers",
-                                  layout.unit, section->units[c]));
+      throw ReadError(
+          path, line + 1,
+          fmt::format("the units '{}' and '{}' stand in one table of markers", layout.unit, section->units[c]));
   }
   layout.table.short_row = ShortRow::gaps;
   return layout;
 }
 
 /// Reads the row above the frames: Frame, Time, and in some files the markers' names.
-void read_frame_row(const Cells& cells,
-                    std::size_t line,
-                    const std::filesystem::path& path,
-                    TableLayout& table,
-                    Cells& names) {
+void read_frame_row(
+    const Cells& cells, std::size_t line, const std::filesystem::path& path, TableLayout& table, Cells& names) {
   table.columns.push_back({Kind::frame, "Frame"});
-  if (cells.size() > 1 && equal_ignoring_case(cells[1], "Time"))
-    table.columns.push_back({Kind::time, "Time"});
+  if (cells.size() > 1 && equal_ignoring_case(cells[1], "Time")) table.columns.push_back({Kind::time, "Time"});
   if (cells.size() <= table.columns.size()) return;
   MarkerLayout named;
-  if (!take_triples(cells, named))
-    throw ReadError(path, line, "expected Frame, Time, then NAME X, NAME Y, NAME Z");
+  if (!take_triples(cells, named)) throw ReadError(path, line, "expected Frame, Time, then NAME X, NAME Y, NAME Z");
   require_triples(named, path);
-  while (!names.empty() && names.back().empty() && names.size() > named.names.size())
-    names.pop_back();
+  while (!names.empty() && names.back().empty() && names.size() > named.names.size()) names.pop_back();
   if (!names.empty() && names != named.names)
     throw ReadError(path, line, "this row names other markers than MARKER_NAMES: which is it?");
   names = named.names;
 }
 
-std::optional<MarkerLayout> qualisys_markers(const TableText& text,
-                                             const std::filesystem::path& path) {
+std::optional<MarkerLayout> qualisys_markers(const TableText& text, const std::filesystem::path& path) {
   const std::size_t head = std::min(text.lines.size(), kHeaderLines);
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("NO_OF_")) return std::nullopt;
   const std::string included = stated_text(text, head, '\t', "DATA_INCLUDED");
-  const bool has_names =
-      std::any_of(text.lines.begin(), text.lines.begin() + static_cast<std::ptrdiff_t>(head),
-                  [](std::string_view line) { return line.starts_with("MARKER_NAMES"); });
+  const bool has_names = std::any_of(text.lines.begin(), text.lines.begin() + static_cast<std::ptrdiff_t>(head),
+                                     [](std::string_view line) { return line.starts_with("MARKER_NAMES"); });
   if (included != "3D" && !(included.empty() && has_names)) return std::nullopt;
   MarkerLayout layout;
   TableLayout& table = layout.table;
@@ -162,8 +148,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
   for (; n < head; ++n) {
     Cells cells = filled_cells(text.lines[n], '\t');
     if (cells.empty() ? !names.empty()
-                      : parse_number(cells[0]) || parse_comma_number(cells[0]) ||
-                            (cells[0].empty() && !names.empty()))
+                      : parse_number(cells[0]) || parse_comma_number(cells[0]) || (cells[0].empty() && !names.empty()))
       break;  // the first frame: its row may have empty cells where a marker was not seen
     if (cells.empty()) continue;
     if (cells[0] == "MARKER_NAMES") {
@@ -185,8 +170,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
   while (!names.empty() && names.back().empty() &&
          !(table.channels_said && static_cast<double>(names.size()) <= *table.channels_said))
     names.pop_back();
-  if (names.empty())
-    throw ReadError(path, 1, "there is no line MARKER_NAMES, so no marker has a name");
+  if (names.empty()) throw ReadError(path, 1, "there is no line MARKER_NAMES, so no marker has a name");
   for (const std::string& name : names) add_marker(name, layout);
   table.short_row = ShortRow::gaps;
   return layout;
@@ -195,8 +179,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text,
 std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
   const std::size_t head = std::min(text.lines.size(), kHeaderLines);
-  const bool points =
-      lower(stated_text(text, head, '\t', "type")).find("point") != std::string::npos;
+  const bool points = lower(stated_text(text, head, '\t', "type")).find("point") != std::string::npos;
   for (std::size_t n = 0; n < head; ++n) {
     const Cells cells = filled_cells(text.lines[n], '\t');
     if (cells.empty() || !equal_ignoring_case(cells[0], "Frame")) continue;
@@ -218,28 +201,23 @@ std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesys
   return std::nullopt;
 }
 
-std::optional<MarkerLayout> first_principles(const TableText& text,
-                                             const std::filesystem::path& /*path*/) {
+std::optional<MarkerLayout> first_principles(const TableText& text, const std::filesystem::path& /*path*/) {
   constexpr std::size_t kLines = 20;
   for (std::size_t n = 0; n < std::min(text.lines.size(), kLines); ++n) {
     for (const char separator : {',', '\t', ';'}) {
       MarkerLayout layout;
       const Cells cells = filled_cells(text.lines[n], separator);
-      if (cells.size() < 4 || !equal_ignoring_case(cells[0], "Frame") ||
-          !take_triples(cells, layout))
-        continue;
+      if (cells.size() < 4 || !equal_ignoring_case(cells[0], "Frame") || !take_triples(cells, layout)) continue;
       // A table with further columns beside such triples is no table of markers.
-      const bool others =
-          std::any_of(layout.table.columns.begin() + 1, layout.table.columns.end(),
-                      [](const TableColumn& c) { return c.kind == Kind::left_out; });
+      const bool others = std::any_of(layout.table.columns.begin() + 1, layout.table.columns.end(),
+                                      [](const TableColumn& c) { return c.kind == Kind::left_out; });
       if (others) return std::nullopt;
       layout.table.separator = separator;
       layout.table.names_line = n;
       layout.table.first_row = n + 1;
       layout.table.end_row = end_of_block(text, n + 1, separator);
       layout.table.rate_hz =
-          stated_number(text, n, separator, {"collection frequency", "frequency", "frame rate"})
-              .value_or(0.0);
+          stated_number(text, n, separator, {"collection frequency", "frequency", "frame rate"}).value_or(0.0);
       layout.table.rows_said = stated_number(text, n, separator, {"number of frames"});
       layout.table.channels_said = stated_number(text, n, separator, {"number of markers"});
       layout.unit = stated_text(text, n, separator, "Units");
@@ -271,13 +249,11 @@ bool are_numbers_of_columns(const Cells& cells) {
   constexpr std::size_t kDigits = 32;
   return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
     return cell.find_first_not_of("0123456789") == std::string::npos || cell == "ID" ||
-           (cell.size() >= kDigits &&
-            cell.find_first_not_of("0123456789ABCDEFabcdef-") == std::string::npos);
+           (cell.size() >= kDigits && cell.find_first_not_of("0123456789ABCDEFabcdef-") == std::string::npos);
   });
 }
 
-std::optional<MotiveHeader> motive_header(const TableText& text,
-                                          const std::filesystem::path& path) {
+std::optional<MotiveHeader> motive_header(const TableText& text, const std::filesystem::path& path) {
   constexpr std::size_t kLines = 12;
   MotiveHeader header;
   std::vector<std::pair<std::size_t, Cells>> between;
@@ -289,18 +265,17 @@ std::optional<MotiveHeader> motive_header(const TableText& text,
       header.frame_line = n;
       break;
     }
-    if (all_of_words(cells, {"Type", "Marker", "Rigid Body", "Rigid Body Marker", "Bone",
-                             "Bone Marker", "Skeleton", "Force Plate", "Device"})) {
+    if (all_of_words(cells, {"Type", "Marker", "Rigid Body", "Rigid Body Marker", "Bone", "Bone Marker", "Skeleton",
+                             "Force Plate", "Device"})) {
       header.types = std::move(cells);
-    } else if (all_of_words(cells, {"Position", "Rotation", "Mean Marker Error", "Marker Quality",
-                                    "Marker Error", "Error Per Marker"})) {
+    } else if (all_of_words(cells, {"Position", "Rotation", "Mean Marker Error", "Marker Quality", "Marker Error",
+                                    "Error Per Marker"})) {
       header.kinds = std::move(cells);
     } else if (!header.types.empty() && header.kinds.empty()) {
       between.emplace_back(n, std::move(cells));
     }
   }
-  if (header.axes.empty())
-    throw ReadError(path, 1, "there is no row that begins with 'Frame'; export the take again");
+  if (header.axes.empty()) throw ReadError(path, 1, "there is no row that begins with 'Frame'; export the take again");
   if (header.types.empty() || header.kinds.empty() || between.empty() ||
       (between.size() == 1 && are_numbers_of_columns(between[0].second)))
     throw ReadError(path, header.frame_line + 1,
@@ -310,25 +285,20 @@ std::optional<MotiveHeader> motive_header(const TableText& text,
   return header;
 }
 
-/// Finds Motive's layout: takes the markers as measured, or, without these, the markers of its
-/// rigid bodies.
-std::optional<MarkerLayout> motive_markers(const TableText& text,
-                                           const std::filesystem::path& path) {
+/// Finds Motive's layout: takes the markers as measured, or, without these, the markers of its rigid bodies.
+std::optional<MarkerLayout> motive_markers(const TableText& text, const std::filesystem::path& path) {
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("Format Version")) return std::nullopt;
   const auto header = motive_header(text, path);
-  const auto cell = [](const Cells& cells, std::size_t c) {
-    return c < cells.size() ? cells[c] : std::string();
-  };
-  const std::size_t width = std::max(
-      {header->types.size(), header->kinds.size(), header->axes.size(), header->names.size()});
+  const auto cell = [](const Cells& cells, std::size_t c) { return c < cells.size() ? cells[c] : std::string(); };
+  const std::size_t width =
+      std::max({header->types.size(), header->kinds.size(), header->axes.size(), header->names.size()});
   MarkerLayout layout;
   layout.table.columns = {{Kind::frame, "Frame"}, {Kind::time, "Time"}};
   std::size_t others = 0;
-  const bool seen =
-      std::find(header->types.begin(), header->types.end(), "Marker") != header->types.end();
+  const bool seen = std::find(header->types.begin(), header->types.end(), "Marker") != header->types.end();
   for (std::size_t c = 2; c < width;) {
-    const bool marker = cell(header->types, c) == (seen ? "Marker" : "Rigid Body Marker") &&
-                        cell(header->kinds, c) == "Position";
+    const bool marker =
+        cell(header->types, c) == (seen ? "Marker" : "Rigid Body Marker") && cell(header->kinds, c) == "Position";
     if (!marker) {
       layout.table.columns.push_back({Kind::left_out, cell(header->names, c)});
       ++others;
@@ -337,14 +307,12 @@ std::optional<MarkerLayout> motive_markers(const TableText& text,
     }
     const std::string name = cell(header->names, c);
     for (std::size_t a = 0; a < 3; ++a) {
-      if (cell(header->axes, c + a) != std::string(1, "XYZ"[a]) ||
-          cell(header->names, c + a) != name ||
+      if (cell(header->axes, c + a) != std::string(1, "XYZ"[a]) || cell(header->names, c + a) != name ||
           cell(header->types, c + a) != cell(header->types, c))
-        throw ReadError(
-            path, header->frame_line + 1,
-            fmt::format("columns {} to {} are not X, Y and Z of one marker: the rows of "
-                        "the header do not go together",
-                        c + 1, c + 3));
+        throw ReadError(path, header->frame_line + 1,
+                        fmt::format("columns {} to {} are not X, Y and Z of one marker: the rows of "
+                                    "the header do not go together",
+                                    c + 1, c + 3));
     }
     add_marker(name, layout);
     c += 3;
@@ -352,14 +320,12 @@ std::optional<MarkerLayout> motive_markers(const TableText& text,
   if (layout.names.empty()) throw ReadError(path, 0, "no column is the position of a marker");
   if (others > 0)
     layout.table.repairs.push_back(
-        {header->frame_line + 1,
-         fmt::format("{} columns of rigid bodies and other quantities are left out", others)});
+        {header->frame_line + 1, fmt::format("{} columns of rigid bodies and other quantities are left out", others)});
   layout.table.names_line = header->frame_line;
   layout.table.first_row = header->frame_line + 1;
   layout.table.end_row = end_of_block(text, layout.table.first_row, ',');
   layout.table.first_frame = 0.0;
-  layout.table.rate_hz =
-      stated_number(text, 1, ',', {"export frame rate", "capture frame rate"}).value_or(0.0);
+  layout.table.rate_hz = stated_number(text, 1, ',', {"export frame rate", "capture frame rate"}).value_or(0.0);
   layout.table.rows_said = stated_number(text, 1, ',', {"total exported frames"});
   layout.unit = stated_text(text, 1, ',', "Length Units");
   for (const auto& [word, symbol] :
@@ -372,10 +338,8 @@ std::optional<MarkerLayout> motive_markers(const TableText& text,
 
 }  // namespace
 
-std::optional<MarkerLayout> marker_layout(const TableText& text,
-                                          const std::filesystem::path& path) {
-  for (const auto& known :
-       {qualisys_markers, bts_points, nexus_trajectories, motive_markers, first_principles}) {
+std::optional<MarkerLayout> marker_layout(const TableText& text, const std::filesystem::path& path) {
+  for (const auto& known : {qualisys_markers, bts_points, nexus_trajectories, motive_markers, first_principles}) {
     if (auto layout = known(text, path)) return layout;
   }
   return std::nullopt;

@@ -17,12 +17,10 @@ struct MarkerLayout {
   bool zero_is_missing = false;
 };
 
-/// Returns the layout of a table of markers: Vicon Nexus (.csv with a section "Trajectories"),
-/// Qualisys (.tsv, DATA_INCLUDED 3D), BTS (.emt, "Point 3D tracks"), OptiTrack Motive (.csv), NDI
-/// First Principles (.csv: "NAME x", "NAME y", "NAME z" and a collection frequency). Empty for
-/// other texts. Throws ReadError with the line where the header of such a table lacks a row, or
-/// where names and columns do not match.
-[[nodiscard]] std::optional<MarkerLayout> marker_layout(const TableText& text,
-                                                        const std::filesystem::path& path);
+/// Returns the layout of a table of markers: Vicon Nexus (.csv with a section "Trajectories"), Qualisys (.tsv,
+/// DATA_INCLUDED 3D), BTS (.emt, "Point 3D tracks"), OptiTrack Motive (.csv), NDI First Principles (.csv: "NAME x",
+/// "NAME y", "NAME z" and a collection frequency). Empty for other texts. Throws ReadError with the line where the
+/// header of such a table lacks a row, or where names and columns do not match.
+[[nodiscard]] std::optional<MarkerLayout> marker_layout(const TableText& text, const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -39,19 +39,15 @@ void require_clock(const TableLayout& table, const std::filesystem::path& path) 
     throw ReadError(path, 0, "the frame rate is not stated; add it to the header");
 }
 
-void require_unique(const std::vector<std::string>& names,
-                    std::size_t line,
-                    const std::filesystem::path& path) {
+void require_unique(const std::vector<std::string>& names, std::size_t line, const std::filesystem::path& path) {
   std::set<std::string> seen;
   for (const std::string& name : names) {
     if (!name.empty() && !seen.insert(name).second)
-      throw ReadError(path, line,
-                      fmt::format("the marker's name '{}' stands twice; rename one of them", name));
+      throw ReadError(path, line, fmt::format("the marker's name '{}' stands twice; rename one of them", name));
   }
 }
 
-/// Makes a gap of a marker that lacks a coordinate, and of 0 0 0 in formats where that means "not
-/// seen".
+/// Makes a gap of a marker that lacks a coordinate, and of 0 0 0 in formats where that means "not seen".
 void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& file) {
   constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd& positions = file.markers.positions_m;
@@ -62,17 +58,14 @@ void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& fi
       auto p = positions.block<1, 3>(row, 3 * m);
       const bool zero = zero_is_missing && p.isZero(0.0);
       if (zero) ++zeros;
-      if (!p.allFinite() && !p.array().isNaN().all() && ++partial == 1)
-        partial_line = numbers.lines[at(row)];
+      if (!p.allFinite() && !p.array().isNaN().all() && ++partial == 1) partial_line = numbers.lines[at(row)];
       if (zero || !p.allFinite()) p.setConstant(kUnseen);
     }
   }
-  if (zeros > 0)
-    file.repairs.push_back({0, fmt::format("{} positions are 0 0 0, which is a gap here", zeros)});
+  if (zeros > 0) file.repairs.push_back({0, fmt::format("{} positions are 0 0 0, which is a gap here", zeros)});
   if (partial > 0)
     file.repairs.push_back(
-        {partial_line,
-         fmt::format("only some coordinates of a position, {} times; taken as missing", partial)});
+        {partial_line, fmt::format("only some coordinates of a position, {} times; taken as missing", partial)});
 }
 
 }  // namespace
@@ -98,8 +91,7 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   file.repairs = layout->table.repairs;
   const double to_m = to_meters(layout->unit, path, file);
   require_unique(layout->names, layout->table.names_line + 1, path);
-  file.markers.names =
-      unique_names(layout->names, "marker", layout->table.names_line + 1, file.repairs);
+  file.markers.names = unique_names(layout->names, "marker", layout->table.names_line + 1, file.repairs);
   compare_count(layout->table.channels_said, layout->names.size(), "markers", file.repairs);
   TableNumbers numbers = read_rows(table, rows_of(layout->table), path);
   file.repairs.insert(file.repairs.end(), numbers.repairs.begin(), numbers.repairs.end());

@@ -67,8 +67,7 @@ TEST(MarkerTable, QualisysRowsAreReadWithAndWithoutFrameAndTime) {
 
 TEST(MarkerTable, AFrameInWhichQualisysSawNothingKeepsItsPlace) {
   const MarkerSeries m =
-      parse_marker_table(kQualisys + "\t\t\t4\t5\t6\n\t\t\t\t\t\n1\t2\t3\t4\t5\t6\n", "a.tsv")
-          .markers;
+      parse_marker_table(kQualisys + "\t\t\t4\t5\t6\n\t\t\t\t\t\n1\t2\t3\t4\t5\t6\n", "a.tsv").markers;
   ASSERT_EQ(m.frame_count(), 3);
   EXPECT_TRUE(m.missing(0, 0));
   EXPECT_FALSE(m.missing(0, 1));
@@ -116,8 +115,7 @@ TEST(MarkerTable, WhatIsDamagedIsRefusedWithItsLine) {
   };
   EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "2,1,x2,3,,,"), HasSubstr("a.csv:4"));
   EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "2,1,2,3,4"), HasSubstr("a.csv:4: 5 cells, expected 7"));
-  EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "1,1,2,3,,,"),
-              HasSubstr("a.csv:4: frame 1 stands below frame 1"));
+  EXPECT_THAT(refusal(kNdi, "2,1,2,3,,,", "1,1,2,3,,,"), HasSubstr("a.csv:4: frame 1 stands below frame 1"));
   EXPECT_THAT(refusal(kNdi, "100", "n/a"), HasSubstr("frame rate is not stated"));
   EXPECT_THAT(refusal(kNdi, "cm", "kg"), HasSubstr("expected mm, cm or m"));
   EXPECT_THAT(refusal(kVicon, "P:B", "P:A"), HasSubstr("twice"));
@@ -133,13 +131,10 @@ TEST(MarkerTable, NamesAndColumnsThatDoNotGoTogetherAreRefused) {
     }
     return std::string("nothing thrown");
   };
-  EXPECT_THAT(refusal(kVicon, ",,P:A,,,P:B,,", ",,P:A,,P:B,,"),
-              HasSubstr("'P:B' stands in column 5"));
+  EXPECT_THAT(refusal(kVicon, ",,P:A,,,P:B,,", ",,P:A,,P:B,,"), HasSubstr("'P:B' stands in column 5"));
   EXPECT_THAT(refusal(kVicon, "X,Y,Z,X,Y,Z", "X,Y,Z,X,Y"), HasSubstr("expected Z in column 8"));
-  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,7,20,30,1,2,3"),
-              HasSubstr("9 cells, expected 8"));
-  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,0,20,0,30,0,1,0,2,0,3,0"),
-              HasSubstr("decimal commas"));
+  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,7,20,30,1,2,3"), HasSubstr("9 cells, expected 8"));
+  EXPECT_THAT(refusal(kVicon, "1,0,10,20,30,1,2,3", "1,0,10,0,20,0,30,0,1,0,2,0,3,0"), HasSubstr("decimal commas"));
   EXPECT_THAT(refusal(kNdi, "M_2 z", "M_2 z,M_3 x"), HasSubstr("no table of markers"));
 }
 
@@ -172,8 +167,7 @@ TEST(MarkerTable, CountsOfTheHeaderAreComparedWithTheTable) {
   };
   EXPECT_EQ(said("NO_OF_FRAMES\t3", "NO_OF_FRAMES\t3"), "");
   EXPECT_THAT(said("NO_OF_FRAMES\t3", "NO_OF_FRAMES\t5"), HasSubstr("says 5 rows, there are 3"));
-  EXPECT_THAT(said("NO_OF_MARKERS\t2", "NO_OF_MARKERS\t3"),
-              HasSubstr("says 3 markers, there are 2"));
+  EXPECT_THAT(said("NO_OF_MARKERS\t2", "NO_OF_MARKERS\t3"), HasSubstr("says 3 markers, there are 2"));
 }
 
 TEST(ReadRecording, OfNexusTakesDevicesAndTrajectories) {

@@ -16,9 +16,8 @@ std::string_view lone_word(std::string_view line) {
   line = trim(line);
   const std::size_t end = line.find_first_of(",\t;");
   if (end == std::string_view::npos) return line;
-  return line.substr(end).find_first_not_of(",\t; \"") == std::string_view::npos
-             ? trim(line.substr(0, end))
-             : std::string_view();
+  return line.substr(end).find_first_not_of(",\t; \"") == std::string_view::npos ? trim(line.substr(0, end))
+                                                                                 : std::string_view();
 }
 
 std::optional<double> lone_number(std::string_view line) { return parse_number(lone_word(line)); }
@@ -35,12 +34,10 @@ char separator_behind_frame(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);
   constexpr std::string_view kWord = "frame";
-  if (line.size() <= kWord.size() || !equal_ignoring_case(line.substr(0, kWord.size()), kWord))
-    return '\0';
+  if (line.size() <= kWord.size() || !equal_ignoring_case(line.substr(0, kWord.size()), kWord)) return '\0';
   line = line.substr(kWord.size());
   while (line.starts_with('"') || line.starts_with(' ')) line.remove_prefix(1);
-  return line.starts_with(',') || line.starts_with(';') || line.starts_with('\t') ? line.front()
-                                                                                  : '\0';
+  return line.starts_with(',') || line.starts_with(';') || line.starts_with('\t') ? line.front() : '\0';
 }
 
 void drop_empty_end(std::vector<std::string>& cells) {
@@ -58,8 +55,7 @@ void state_other_sections(const TableText& text, NexusSection& section) {
     others.emplace_back(title);
   }
   if (!others.empty())
-    section.repairs.push_back(
-        {0, fmt::format("sections that are not read: {}", fmt::join(others, ", "))});
+    section.repairs.push_back({0, fmt::format("sections that are not read: {}", fmt::join(others, ", "))});
 }
 
 }  // namespace
@@ -125,8 +121,7 @@ TableLayout layout_of(const NexusSection& section) {
   layout.columns[0] = {TableColumn::Kind::frame, "Frame"};
   if (section.labels.size() > 1) {
     const std::string second = lower(section.labels[1]);
-    if (second == "sub frame" || second == "subframe")
-      layout.columns[1] = {TableColumn::Kind::sub_frame, "Sub Frame"};
+    if (second == "sub frame" || second == "subframe") layout.columns[1] = {TableColumn::Kind::sub_frame, "Sub Frame"};
   }
   return layout;
 }

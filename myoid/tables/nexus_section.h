@@ -10,9 +10,8 @@
 
 namespace myoid::recording {
 
-/// A section of a table that Vicon Nexus exports. It has a title, a rate, a row of groups (devices
-/// or markers, each above its first column), a row of labels that begins with "Frame", a row of
-/// units, rows of numbers and a blank line.
+/// A section of a table that Vicon Nexus exports. It has a title, a rate, a row of groups (devices or markers, each
+/// above its first column), a row of labels that begins with "Frame", a row of units, rows of numbers and a blank line.
 struct NexusSection {
   char separator = ',';
   double rate_hz = 0.0;                            ///< 0 where it is missing.

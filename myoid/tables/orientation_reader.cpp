@@ -16,8 +16,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool holds_quaternions(const Storage& file) {
   return std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
-    return equal_ignoring_case(entry.first, "DataType") &&
-           equal_ignoring_case(entry.second, "Quaternion");
+    return equal_ignoring_case(entry.first, "DataType") && equal_ignoring_case(entry.second, "Quaternion");
   });
 }
 
@@ -55,10 +54,9 @@ OrientationSeries read_orientations(const std::filesystem::path& path) {
       } else if (q.norm() > 0.0) {
         q.normalize();
       } else {
-        throw ReadError(
-            path, 0,
-            fmt::format("sensor '{}' at {} s: a quaternion of length 0",
-                        series.names[static_cast<std::size_t>(c / 4)], series.time_s[i]));
+        throw ReadError(path, 0,
+                        fmt::format("sensor '{}' at {} s: a quaternion of length 0",
+                                    series.names[static_cast<std::size_t>(c / 4)], series.time_s[i]));
       }
     }
   }

@@ -20,8 +20,7 @@ struct OrientationSeries {
   Eigen::MatrixXd quaternions;
   std::vector<Repair> repairs{};
 
-  /// Returns R_LS, which turns vectors from the sensor's axes into the laboratory's; NaN if the
-  /// orientation is missing.
+  /// Returns R_LS, which turns vectors from the sensor's axes into the laboratory's; NaN if the orientation is missing.
   [[nodiscard]] Mat3 rotation(Eigen::Index frame, std::size_t sensor) const;
 };
 

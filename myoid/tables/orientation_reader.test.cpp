@@ -36,9 +36,8 @@ TEST_F(Orientations, AreReadAsUnitQuaternions) {
 
 TEST_F(Orientations, RefuseWhatIsNoOrientation) {
   const std::string head = "time\ta_imu\tb_imu\n";
-  for (const char* rows :
-       {"0\t1,0,0,0\n", "0\t1,0,0\t1,0,0,0\n", "0\t1,0,0,0,0\t1,0,0,0\n", "0\t0,0,0,0\t1,0,0,0\n",
-        "0\t1,0,x,0\t1,0,0,0\n", "", "0.1\t1,0,0,0\t1,0,0,0\n0\t1,0,0,0\t1,0,0,0\n"})
+  for (const char* rows : {"0\t1,0,0,0\n", "0\t1,0,0\t1,0,0,0\n", "0\t1,0,0,0,0\t1,0,0,0\n", "0\t0,0,0,0\t1,0,0,0\n",
+                           "0\t1,0,x,0\t1,0,0,0\n", "", "0.1\t1,0,0,0\t1,0,0,0\n0\t1,0,0,0\t1,0,0,0\n"})
     EXPECT_THROW((void)read(head + rows), ReadError) << rows;
   EXPECT_THROW((void)read("time\n0\n"), ReadError);
   EXPECT_THROW((void)read(head + "0\t1,0,0,0\t1,0,0,0\n", "double"), ReadError);
@@ -52,8 +51,7 @@ TEST_F(Orientations, RefuseWhatIsNoOrientation) {
 
 // Digits lost at the end of a file would turn a sensor without notice: 0.6, 0.8 lost two of them.
 TEST_F(Orientations, LeaveOutARowThatIsCutOff) {
-  const OrientationSeries series =
-      read("time\ta_imu\n0\t0.60,0.80,0,0.00\n0.01\t0.60,0,0,0.80\n0.02\t0.60,0,0,0.");
+  const OrientationSeries series = read("time\ta_imu\n0\t0.60,0.80,0,0.00\n0.01\t0.60,0,0,0.80\n0.02\t0.60,0,0,0.");
   EXPECT_EQ(series.time_s.size(), 2);
   ASSERT_EQ(series.repairs.size(), 1U);
   EXPECT_EQ(series.repairs[0].message, kLastRowLeftOut);

@@ -35,8 +35,7 @@ void write_series(const std::filesystem::path& path,
     write_storage(path, series, {.title = title, .comments = remarks});
   } else {
     throw InvalidInput(
-        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'",
-                    path.string(), extension));
+        fmt::format("{}: expected a name that ends in .sto, .mot or .csv, found '{}'", path.string(), extension));
   }
 }
 

@@ -33,16 +33,14 @@ TEST(ParseStorage, ReadsVersionOne) {
 }
 
 TEST(ToSi, ConvertsAnglesOnly) {
-  const TimeSeries si =
-      to_si(parse_storage(kPlain, "f.mot"), [](const std::string& name) { return name == "q1"; });
+  const TimeSeries si = to_si(parse_storage(kPlain, "f.mot"), [](const std::string& name) { return name == "q1"; });
   EXPECT_DOUBLE_EQ(si.values()(0, 0), kPi / 2.0);
   EXPECT_EQ(si.channels()[0].unit, Unit::radian);
   EXPECT_EQ(si.values()(2, 1), 3.0);
 }
 
 TEST(ParseStorage, ReadsSimmsKindAsDegrees) {
-  const Storage s = parse_storage(
-      "name m\ndatacolumns 2\ndatarows 1\nrange 0 0\nendheader\ntime q\n0 10\n", "f.mot");
+  const Storage s = parse_storage("name m\ndatacolumns 2\ndatarows 1\nrange 0 0\nendheader\ntime q\n0 10\n", "f.mot");
   EXPECT_TRUE(s.in_degrees);
   EXPECT_EQ(s.data.values()(0, 0), 10.0);
 }
@@ -81,18 +79,15 @@ TEST(ParseStorage, ReadsCommaDecimals) {
 }
 
 TEST(ParseStorage, TellsTheLineOfWhatItRefuses) {
-  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n0\t1\n1\n")
-                .find("f.sto:5: expected 2 numbers, found 1"),
+  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n0\t1\n1\n").find("f.sto:5: expected 2 numbers, found 1"),
             std::string::npos);
   EXPECT_NE(storage_message("x\nendheader\ntime\tq\n0\tabc\n")
                 .find("f.sto:4: expected a number in column 2 ('q'), found 'abc'"),
             std::string::npos);
-  EXPECT_NE(
-      storage_message("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"),
-      std::string::npos);
-  EXPECT_NE(storage_message("x\nno header end\n").find("no line 'endheader'"), std::string::npos);
-  EXPECT_NE(storage_message("x\nendheader\nt\tq\n").find("first column to be 'time'"),
+  EXPECT_NE(storage_message("x\nendheader\ntime\tq\n1\t1\n0\t1\n").find("f.sto:5: time goes backwards"),
             std::string::npos);
+  EXPECT_NE(storage_message("x\nno header end\n").find("no line 'endheader'"), std::string::npos);
+  EXPECT_NE(storage_message("x\nendheader\nt\tq\n").find("first column to be 'time'"), std::string::npos);
   EXPECT_NE(storage_message("x\nendheader\ntime\tq\n").find("no rows"), std::string::npos);
 }
 
@@ -111,8 +106,7 @@ TEST(FormatStorage, RoundTripsToTheLastBit) {
   Eigen::MatrixXd values(3, 2);
   values << 0.1, 1e-17, -2.0 / 7.0, 1e5, 3.0, std::nextafter(1.0, 2.0);
   const TimeSeries series(time, {{"a"}, {"b"}}, values);
-  const Storage back =
-      parse_storage(format_storage(series, {.title = "t", .comments = {"made by hand"}}), "f.sto");
+  const Storage back = parse_storage(format_storage(series, {.title = "t", .comments = {"made by hand"}}), "f.sto");
   EXPECT_EQ(back.data.values(), values);
   EXPECT_EQ(back.data.time_s(), time);
   EXPECT_TRUE(back.repairs.empty());
@@ -129,8 +123,7 @@ TEST(FormatStorage, WritesDegreesWhereAsked) {
 
 TEST(FormatStorage, RefusesAGap) {
   EXPECT_THROW(
-      (void)format_storage(
-          {Eigen::VectorXd::Zero(1), {{"q"}}, Eigen::MatrixXd::Constant(1, 1, std::nan(""))}, {}),
+      (void)format_storage({Eigen::VectorXd::Zero(1), {{"q"}}, Eigen::MatrixXd::Constant(1, 1, std::nan(""))}, {}),
       InvalidInput);
 }
 

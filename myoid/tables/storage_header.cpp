@@ -17,8 +17,7 @@ using Pair = std::pair<std::string, std::string>;
 constexpr std::size_t kMostLines = 2000;
 
 /// Returns the value of a header key, ignoring case.
-const std::string* value_of(const std::map<std::string, std::string>& header,
-                            std::string_view key) {
+const std::string* value_of(const std::map<std::string, std::string>& header, std::string_view key) {
   for (const auto& [name, value] : header) {
     if (equal_ignoring_case(name, key)) return &value;
   }
@@ -26,12 +25,10 @@ const std::string* value_of(const std::map<std::string, std::string>& header,
 }
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view w) { return equal_ignoring_case(w, word); });
+  return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return equal_ignoring_case(w, word); });
 }
 
-/// Splits "key=value", "key = value", and for the keys of the old kind "key value"; empty if the
-/// line is free text.
+/// Splits "key=value", "key = value", and for the keys of the old kind "key value"; empty if the line is free text.
 std::optional<Pair> key_and_value(std::string_view line) {
   const std::size_t equal = line.find('=');
   if (equal != std::string_view::npos) {
@@ -40,8 +37,8 @@ std::optional<Pair> key_and_value(std::string_view line) {
     return Pair(key, trim(line.substr(equal + 1)));
   }
   const auto words = split_words(line);
-  if (words.size() != 2 || !is_one_of(words[0], {"datacolumns", "datarows", "name", "nRows",
-                                                 "nColumns", "inDegrees", "version"})) {
+  if (words.size() != 2 ||
+      !is_one_of(words[0], {"datacolumns", "datarows", "name", "nRows", "nColumns", "inDegrees", "version"})) {
     return std::nullopt;
   }
   return Pair(words[0], words[1]);
@@ -51,8 +48,7 @@ std::optional<Pair> key_and_value(std::string_view line) {
 std::optional<Pair> channel_unit(std::string_view line) {
   constexpr std::string_view kStart = "channel ";
   const std::size_t open = line.rfind('[');
-  if (!line.starts_with(kStart) || !line.ends_with(']') || open == std::string_view::npos ||
-      open < kStart.size())
+  if (!line.starts_with(kStart) || !line.ends_with(']') || open == std::string_view::npos || open < kStart.size())
     return std::nullopt;
   const std::string_view name = trim(line.substr(kStart.size(), open - kStart.size()));
   const std::string_view unit = trim(line.substr(open + 1, line.size() - open - 2));
@@ -95,8 +91,7 @@ std::optional<double> StorageHeader::count(std::initializer_list<const char*> na
   return std::nullopt;
 }
 
-StorageHeader read_storage_header(const std::vector<std::string_view>& lines,
-                                  const std::filesystem::path& path) {
+StorageHeader read_storage_header(const std::vector<std::string_view>& lines, const std::filesystem::path& path) {
   StorageHeader header;
   const std::size_t most = std::min(lines.size(), kMostLines);
   for (std::size_t line = 0;; ++line) {
@@ -111,8 +106,7 @@ StorageHeader read_storage_header(const std::vector<std::string_view>& lines,
     } else if (const auto pair = key_and_value(content)) {
       const auto& [key, value] = *pair;
       header.keys[key] = value;
-      if (equal_ignoring_case(key, "inDegrees"))
-        header.in_degrees = yes_or_no(value, path, line + 1);
+      if (equal_ignoring_case(key, "inDegrees")) header.in_degrees = yes_or_no(value, path, line + 1);
     } else if (line == 0) {
       header.title = std::string(content);
     }
@@ -120,8 +114,7 @@ StorageHeader read_storage_header(const std::vector<std::string_view>& lines,
   if (value_of(header.keys, "inDegrees") == nullptr && extension_of(path) == ".mot" &&
       header.count({"version"}).value_or(0.0) < 1.0) {
     header.in_degrees = true;
-    header.repairs.push_back(
-        {0, "no version in the header: taken as SIMM's kind, angles in degrees"});
+    header.repairs.push_back({0, "no version in the header: taken as SIMM's kind, angles in degrees"});
   }
   header.elements = elements_of(header.keys);
   return header;

@@ -33,9 +33,8 @@ Cell next_number(const char*& at, const char* end, Before before, bool elements,
   const char* begin = *at == '+' && at + 1 != end && at[1] != '-' ? at + 1 : at;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range) {
-    const auto tiny = parse_number(
-        {begin,
-         static_cast<std::size_t>(stop - begin)});  // below the smallest double the value is 0
+    const auto tiny =
+        parse_number({begin, static_cast<std::size_t>(stop - begin)});  // below the smallest double the value is 0
     if (!tiny) return Cell::wrong;
     value = *tiny;
   } else if (error != std::errc()) {
@@ -72,8 +71,7 @@ bool is_comma_row(std::string_view line, std::size_t width) {
   if (line.find('\t') != std::string_view::npos) return false;
   const auto cells = split(line, ',');
   return width > 1 && cells.size() == width &&
-         std::all_of(cells.begin(), cells.end(),
-                     [](std::string_view cell) { return parse_number(cell).has_value(); });
+         std::all_of(cells.begin(), cells.end(), [](std::string_view cell) { return parse_number(cell).has_value(); });
 }
 
 std::size_t next_filled(const std::vector<std::string_view>& lines, std::size_t line) {
@@ -95,10 +93,9 @@ struct Columns {
 
 std::vector<std::string> labels_of(std::string_view line, bool comma_cells) {
   std::vector<std::string> names;
-  for (const std::string_view label : line.find('\t') != std::string_view::npos
-                                          ? split(trim(line), '\t')
-                                      : comma_cells ? split(trim(line), ',')
-                                                    : split_words(line))
+  for (const std::string_view label : line.find('\t') != std::string_view::npos ? split(trim(line), '\t')
+                                      : comma_cells                             ? split(trim(line), ',')
+                                                                                : split_words(line))
     names.emplace_back(trim(label));
   while (!names.empty() && names.back().empty()) names.pop_back();
   return names;
@@ -108,8 +105,7 @@ Columns read_columns(const std::vector<std::string_view>& lines,
                      const StorageHeader& header,
                      const std::filesystem::path& path) {
   const std::size_t at = next_filled(lines, header.end + 1);
-  if (at >= lines.size())
-    throw ReadError(path, at, "the file ends after its header: expected the column labels");
+  if (at >= lines.size()) throw ReadError(path, at, "the file ends after its header: expected the column labels");
   Columns columns;
   columns.line = at + 1;
   columns.comma_cells = header.elements == 1 && are_comma_labels(lines[at]);
@@ -117,8 +113,7 @@ Columns read_columns(const std::vector<std::string_view>& lines,
   columns.labels = names.size();
   if (names.empty() || !equal_ignoring_case(names[0], "time")) {
     throw ReadError(path, columns.line,
-                    fmt::format("expected the first column to be 'time', found '{}'",
-                                names.empty() ? "" : names[0]));
+                    fmt::format("expected the first column to be 'time', found '{}'", names.empty() ? "" : names[0]));
   }
   if (names[0] != "time")
     columns.repairs.push_back({columns.line, fmt::format("column '{}' read as 'time'", names[0])});
@@ -131,23 +126,19 @@ Columns read_columns(const std::vector<std::string_view>& lines,
       columns.channels.push_back({fmt::format("{}_{}", name, e), Unit::dimensionless});
   }
   if (header.elements == 1)
-    compare_count(header.count({"nColumns", "datacolumns"}), columns.labels, "columns",
-                  columns.repairs);
+    compare_count(header.count({"nColumns", "datacolumns"}), columns.labels, "columns", columns.repairs);
   columns.first_row = next_filled(lines, at + 1);
   if (header.elements == 1 && columns.first_row < lines.size() &&
       is_comma_row(lines[columns.first_row], columns.width()))
     columns.comma_cells = true;
-  if (columns.comma_cells)
-    columns.repairs.push_back({columns.line, "separated by commas instead of tabs"});
+  if (columns.comma_cells) columns.repairs.push_back({columns.line, "separated by commas instead of tabs"});
   return columns;
 }
 
 /// Reads the rows of numbers and keeps the first line of each kind of repair.
 class StorageRows {
  public:
-  StorageRows(const Columns& columns,
-              const StorageHeader& header,
-              const std::filesystem::path& path)
+  StorageRows(const Columns& columns, const StorageHeader& header, const std::filesystem::path& path)
       : columns_(columns),
         path_(path),
         elements_(header.elements),
@@ -157,9 +148,8 @@ class StorageRows {
 
   void read(const TableText& text, std::size_t bytes) {
     const auto& lines = text.lines;
-    const std::size_t most =
-        std::min(lines.size() - std::min(lines.size(), columns_.first_row),
-                 bytes / (2 * width_ - 1) + 1);  // a number and a separator for each cell
+    const std::size_t most = std::min(lines.size() - std::min(lines.size(), columns_.first_row),
+                                      bytes / (2 * width_ - 1) + 1);  // a number and a separator for each cell
     values_.resize(static_cast<Eigen::Index>(most), static_cast<Eigen::Index>(width_ - 1));
     for (std::size_t line = columns_.first_row; line < lines.size(); ++line) {
       if (trim(lines[line]).empty()) continue;
@@ -167,8 +157,7 @@ class StorageRows {
       read_row(lines[line], line + 1);
       keep_row(line + 1);
     }
-    if (time_.empty())
-      throw ReadError(path_, 0, "there are no rows of numbers after the column labels");
+    if (time_.empty()) throw ReadError(path_, 0, "there are no rows of numbers after the column labels");
     state_what_was_mended();
   }
 
@@ -177,16 +166,15 @@ class StorageRows {
   [[nodiscard]] TimeSeries series() && {
     const auto count = static_cast<Eigen::Index>(time_.size());
     values_.conservativeResize(count, Eigen::NoChange);
-    return {Eigen::Map<const Eigen::VectorXd>(time_.data(), count), columns_.channels,
-            std::move(values_)};
+    return {Eigen::Map<const Eigen::VectorXd>(time_.data(), count), columns_.channels, std::move(values_)};
   }
 
  private:
   [[nodiscard]] std::size_t count() const { return time_.size() + repeated_; }
 
   bool keeps_last(const TableText& text) {
-    const LastRow last = last_row_without_end(
-        text, rows_said_ && *rows_said_ == static_cast<double>(count() + 1), time_.empty());
+    const LastRow last =
+        last_row_without_end(text, rows_said_ && *rows_said_ == static_cast<double>(count() + 1), time_.empty());
     repairs_.push_back(last.note);
     return last.kept;
   }
@@ -204,8 +192,7 @@ class StorageRows {
     for (std::size_t c = 0; c < width_; ++c) {
       const bool element = c > 0 && (c - 1) % elements_ != 0;
       double value = 0.0;
-      const Cell cell =
-          next_number(at, end, element ? Before::comma : Before::blank, elements_ > 1, value);
+      const Cell cell = next_number(at, end, element ? Before::comma : Before::blank, elements_ > 1, value);
       if (cell != Cell::number) refuse(cell, c, line, word_at(at, end));
       if (!std::isfinite(value)) {
         if (c == 0) throw ReadError(path_, line, "the time is not a number");
@@ -219,15 +206,11 @@ class StorageRows {
     if (!text_between(at, end).empty()) judge_surplus(doubled, line);
   }
 
-  [[noreturn]] void refuse(Cell cell,
-                           std::size_t column,
-                           std::size_t line,
-                           std::string_view found) const {
+  [[noreturn]] void refuse(Cell cell, std::size_t column, std::size_t line, std::string_view found) const {
     if (cell == Cell::none)
       throw ReadError(
           path_, line,
-          fmt::format("expected {} numbers, found {}; the row is cut off or a cell is empty",
-                      width_, column));
+          fmt::format("expected {} numbers, found {}; the row is cut off or a cell is empty", width_, column));
     throw ReadError(path_, line,
                     fmt::format("expected a number in column {} ('{}'), found '{}'", column + 1,
                                 column == 0 ? "time" : columns_.channels[column - 1].name, found));
@@ -253,28 +236,22 @@ class StorageRows {
     constexpr double kSameTime_s = 1e-10;  // Times that differ by less differ only by rounding.
     if (!time_.empty() && row_[0] <= time_.back() + kSameTime_s) {
       if (row_[0] < time_.back() - kSameTime_s)
-        throw ReadError(
-            path_, line,
-            fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file",
-                        row_[0], time_.back()));
+        throw ReadError(path_, line,
+                        fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", row_[0],
+                                    time_.back()));
       if (++repeated_ == 1)
-        repairs_.push_back(
-            {line, fmt::format("the time {} s stands twice; the first row is kept", row_[0])});
+        repairs_.push_back({line, fmt::format("the time {} s stands twice; the first row is kept", row_[0])});
       return;
     }
     const auto index = static_cast<Eigen::Index>(time_.size());
     time_.push_back(row_[0]);
-    for (std::size_t c = 1; c < width_; ++c)
-      values_(index, static_cast<Eigen::Index>(c - 1)) = row_[c];
+    for (std::size_t c = 1; c < width_; ++c) values_(index, static_cast<Eigen::Index>(c - 1)) = row_[c];
   }
 
   void state_what_was_mended() {
-    if (repeated_ > 1)
-      repairs_.push_back(
-          {0, fmt::format("{} rows in all repeat a time and were dropped", repeated_)});
+    if (repeated_ > 1) repairs_.push_back({0, fmt::format("{} rows in all repeat a time and were dropped", repeated_)});
     note(comma_line_, "comma decimals read as decimal points");
-    note(doubled_line_,
-         "two tabs in a row taken as one, since the numbers are as many as the columns");
+    note(doubled_line_, "two tabs in a row taken as one, since the numbers are as many as the columns");
     note(extra_line_, "more numbers than columns; the surplus is ignored");
     note(nan_line_, "a value is not a number; kept as a gap");
     compare_count(rows_said_, count(), "rows", repairs_);
@@ -321,13 +298,9 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   return storage;
 }
 
-Storage read_storage(const std::filesystem::path& path) {
-  return parse_storage(read_text_file(path), path);
-}
+Storage read_storage(const std::filesystem::path& path) { return parse_storage(read_text_file(path), path); }
 
-TimeSeries to_si(const Storage& storage,
-                 const std::function<bool(const std::string&)>& is_angle,
-                 Unit other) {
+TimeSeries to_si(const Storage& storage, const std::function<bool(const std::string&)>& is_angle, Unit other) {
   std::vector<Channel> channels = storage.data.channels();
   Eigen::MatrixXd values = storage.data.values();
   for (std::size_t c = 0; c < channels.size(); ++c) {

@@ -10,16 +10,12 @@ std::string format_storage(const TimeSeries& series, const StorageFormat& format
   return text;
 }
 
-void write_storage(const std::filesystem::path& path,
-                   const TimeSeries& series,
-                   const StorageFormat& format) {
+void write_storage(const std::filesystem::path& path, const TimeSeries& series, const StorageFormat& format) {
   require_finite(series, "storage file");
   write_storage(path, rows_of(series), format);
 }
 
-void write_csv(const std::filesystem::path& path,
-               const TimeSeries& series,
-               const std::vector<std::string>& remarks) {
+void write_csv(const std::filesystem::path& path, const TimeSeries& series, const std::vector<std::string>& remarks) {
   write_csv(path, rows_of(series), remarks);
 }
 

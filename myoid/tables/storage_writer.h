@@ -10,21 +10,18 @@ namespace myoid::recording {
 
 struct StorageFormat {
   std::string title = "Storage";
-  bool angles_in_degrees = false;  ///< Writes radians as degrees; the header says so.
-  bool in_si = true;  ///< The header states S.I. units; false if the units are unknown.
+  bool angles_in_degrees = false;     ///< Writes radians as degrees; the header says so.
+  bool in_si = true;                  ///< The header states S.I. units; false if the units are unknown.
   std::vector<std::string> comments;  ///< Lines of free text in the header (provenance).
 };
 
-/// Returns the text of a version 1 storage file, as OpenSim, its GUI, CEINMS and pandas read it:
-/// title, version=1, nRows, nColumns (time included), inDegrees, comments, endheader, labels, rows.
-/// Cells are separated by tabs; every number is the shortest text that reads back to the same
-/// value. Throws InvalidInput if a value is not finite.
+/// Returns the text of a version 1 storage file, as OpenSim, its GUI, CEINMS and pandas read it: title, version=1,
+/// nRows, nColumns (time included), inDegrees, comments, endheader, labels, rows. Cells are separated by tabs; every
+/// number is the shortest text that reads back to the same value. Throws InvalidInput if a value is not finite.
 [[nodiscard]] std::string format_storage(const TimeSeries& series, const StorageFormat& format);
 
 /// Writes this text to a file, completely or not at all.
-void write_storage(const std::filesystem::path& path,
-                   const TimeSeries& series,
-                   const StorageFormat& format);
+void write_storage(const std::filesystem::path& path, const TimeSeries& series, const StorageFormat& format);
 
 /// Writes a plain table: lines "# remark", a header line "time_s,name [unit],..." (no brackets
 /// without a unit) and the numbers. Gaps become empty cells.

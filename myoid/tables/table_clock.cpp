@@ -21,8 +21,7 @@ std::optional<Eigen::Index> clock_column(const TableLayout& layout, Kind kind) {
   Eigen::Index k = 0;
   for (const TableColumn& column : layout.columns) {
     if (column.kind == kind) return k;
-    if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame)
-      ++k;
+    if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
   }
   return std::nullopt;
 }
@@ -55,10 +54,9 @@ class RowClock {
     }
     if (time_) return of_time_column();
     if (!(layout_.rate_hz > 0.0))
-      throw ReadError(
-          path_, layout_.names_line + 1,
-          "neither a time column nor a sampling rate is in the file; add a column "
-          "named 'time' in seconds, or a line 'Sampling rate: 2000 Hz' above the names");
+      throw ReadError(path_, layout_.names_line + 1,
+                      "neither a time column nor a sampling rate is in the file; add a column "
+                      "named 'time' in seconds, or a line 'Sampling rate: 2000 Hz' above the names");
     return frame_ ? of_frames() : of_rows();
   }
 
@@ -71,9 +69,8 @@ class RowClock {
       const double number = numbers_.clock(i, column);
       if (!(std::floor(number) == number && std::abs(number) < 1e12))
         throw ReadError(path_, line(i),
-                        std::isfinite(number)
-                            ? fmt::format("expected the number of a {}, found {}", what, number)
-                            : fmt::format("the number of the {} is missing", what));
+                        std::isfinite(number) ? fmt::format("expected the number of a {}, found {}", what, number)
+                                              : fmt::format("the number of the {} is missing", what));
     }
   }
 
@@ -93,9 +90,8 @@ class RowClock {
     for (Eigen::Index i = 1; i < rows(); ++i) {
       if (numbers_.clock(i, *frame_) != numbers_.clock(i - 1, *frame_)) ++ends[sub[i - 1]];
     }
-    const auto usual = std::max_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
-      return a.second <= b.second;
-    });
+    const auto usual =
+        std::max_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.second <= b.second; });
     return 1.0 + (usual == ends.end() ? sub.maxCoeff() : usual->first);
   }
 
@@ -106,23 +102,21 @@ class RowClock {
   }
 
   [[nodiscard]] std::string name_of(Eigen::Index i) const {
-    return sub_frame_ ? fmt::format("frame {}, sub-frame {}", numbers_.clock(i, *frame_),
-                                    numbers_.clock(i, *sub_frame_))
-                      : fmt::format("frame {}", numbers_.clock(i, *frame_));
+    return sub_frame_
+               ? fmt::format("frame {}, sub-frame {}", numbers_.clock(i, *frame_), numbers_.clock(i, *sub_frame_))
+               : fmt::format("frame {}", numbers_.clock(i, *frame_));
   }
 
   void check_order() {
     if (sub_frame_ && numbers_.clock.col(*sub_frame_).minCoeff() < 0.0)
       throw ReadError(path_, line(0), "the number of a sub-frame is below 0");
     // Where the ratio of the rates is no whole number, the number of sub-frames alternates by one.
-    const double ratio =
-        layout_.frame_rate_hz > 0.0 ? layout_.rate_hz / layout_.frame_rate_hz : 0.0;
+    const double ratio = layout_.frame_rate_hz > 0.0 ? layout_.rate_hz / layout_.frame_rate_hz : 0.0;
     const bool uneven = ratio > 0.0 && std::abs(ratio - std::round(ratio)) > 1e-6 * ratio;
     const double n = uneven ? std::ceil(ratio) : per_frame();
     for (Eigen::Index i = 0; sub_frame_ && i < rows(); ++i) {
       if (numbers_.clock(i, *sub_frame_) >= n)
-        throw ReadError(path_, line(i),
-                        fmt::format("{}, where frames have {} sub-frames", name_of(i), n));
+        throw ReadError(path_, line(i), fmt::format("{}, where frames have {} sub-frames", name_of(i), n));
     }
     double missing = 0.0;
     Eigen::Index first_hole = -1;
@@ -130,40 +124,33 @@ class RowClock {
       const double step = place(i, n) - place(i - 1, n);
       if (!(step > 0.0))
         throw ReadError(path_, line(i),
-                        fmt::format("{} stands below {}: the frames do not increase", name_of(i),
-                                    name_of(i - 1)));
+                        fmt::format("{} stands below {}: the frames do not increase", name_of(i), name_of(i - 1)));
       if (step == 1.0 || (uneven && step == 2.0)) continue;
       missing += step - 1.0;
       if (first_hole < 0) first_hole = i;
     }
     if (first_hole >= 0)
-      repairs_.push_back(
-          {line(first_hole), fmt::format("{} {} missing, first between {} and {}: a gap in time",
-                                         missing, missing == 1.0 ? "row is" : "rows are",
-                                         name_of(first_hole - 1), name_of(first_hole))});
+      repairs_.push_back({line(first_hole), fmt::format("{} {} missing, first between {} and {}: a gap in time",
+                                                        missing, missing == 1.0 ? "row is" : "rows are",
+                                                        name_of(first_hole - 1), name_of(first_hole))});
   }
 
   [[nodiscard]] Eigen::VectorXd of_time_column() {
     const TableColumn& column = first_of(layout_, Kind::time);
-    const Eigen::VectorXd time =
-        (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
+    const Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * numbers_.clock.col(*time_);
     for (Eigen::Index i = 0; i < time.size(); ++i) {
       if (!std::isfinite(time[i])) throw ReadError(path_, line(i), "the time is missing");
       if (i > 0 && time[i] <= time[i - 1])
-        throw ReadError(
-            path_, line(i),
-            fmt::format("time does not increase: {} s after {} s", time[i], time[i - 1]));
+        throw ReadError(path_, line(i), fmt::format("time does not increase: {} s after {} s", time[i], time[i - 1]));
     }
     const Eigen::Index last = time.size() - 1;
     if (last < 1) return time;
     if (!frame_) state_uneven_step(time, numbers_.lines, column.name, repairs_);
-    const double steps =
-        frame_ ? place(last, per_frame()) - place(0, per_frame()) : static_cast<double>(last);
+    const double steps = frame_ ? place(last, per_frame()) - place(0, per_frame()) : static_cast<double>(last);
     const double rate = steps / (time[last] - time[0]);
     if (layout_.rate_hz > 0.0 && std::abs(rate - layout_.rate_hz) > 0.01 * layout_.rate_hz)
       repairs_.push_back(
-          {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken",
-                          layout_.rate_hz, rate)});
+          {0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", layout_.rate_hz, rate)});
     return time;
   }
 
@@ -187,16 +174,15 @@ class RowClock {
     Eigen::VectorXd time(rows());
     for (Eigen::Index i = 0; i < rows(); ++i) {
       const double frame = numbers_.clock(i, *frame_) - layout_.first_frame;
-      time[i] = !sub_frame_ ? frame / frame_rate
-                            : frame / frame_rate + numbers_.clock(i, *sub_frame_) / layout_.rate_hz;
+      time[i] =
+          !sub_frame_ ? frame / frame_rate : frame / frame_rate + numbers_.clock(i, *sub_frame_) / layout_.rate_hz;
     }
     return time;
   }
 
   [[nodiscard]] Eigen::VectorXd of_rows() const {
     Eigen::VectorXd time(numbers_.values.rows());
-    for (Eigen::Index i = 0; i < time.size(); ++i)
-      time[i] = static_cast<double>(i) / layout_.rate_hz;
+    for (Eigen::Index i = 0; i < time.size(); ++i) time[i] = static_cast<double>(i) / layout_.rate_hz;
     return time;
   }
 
@@ -211,8 +197,7 @@ class RowClock {
 
 namespace {
 
-/// Returns the last decimal with which the times are written: the power of ten of which all are
-/// multiples.
+/// Returns the last decimal with which the times are written: the power of ten of which all are multiples.
 double last_decimal(const Eigen::VectorXd& time_s) {
   constexpr double kFinest = 1e-9;
   double unit = 0.1;
@@ -251,10 +236,9 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   Eigen::Index first = 0;
   while (!(off[first] > most)) ++first;
   repairs.push_back(
-      {lines[at(first + 1)],
-       fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: rows are lost or a time "
-                   "is wrong ({} such {})",
-                   name, step[first], usual, odd, odd == 1 ? "step" : "steps")});
+      {lines[at(first + 1)], fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: rows are lost or a time "
+                                         "is wrong ({} such {})",
+                                         name, step[first], usual, odd, odd == 1 ? "step" : "steps")});
 }
 
 Eigen::VectorXd row_times(const TableLayout& layout,

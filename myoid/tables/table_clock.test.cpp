@@ -22,8 +22,7 @@ using ::testing::HasSubstr;
 std::string rows(int from, int to) {
   std::string text;
   for (int i = from; i < to; ++i)
-    text +=
-        std::to_string(11 + i / 4) + "," + std::to_string(i % 4) + "," + std::to_string(i) + "\n";
+    text += std::to_string(11 + i / 4) + "," + std::to_string(i % 4) + "," + std::to_string(i) + "\n";
   return text;
 }
 
@@ -63,8 +62,7 @@ TEST(RowTimes, LostSubFramesAreAGapAndDoubledOrReversedOnesAreRefused) {
     }
     return "(no error)";
   };
-  EXPECT_THAT(refusal(rows(0, 5) + rows(4, 12), 500.0),
-              HasSubstr("f.csv:6: frame 12, sub-frame 0"));
+  EXPECT_THAT(refusal(rows(0, 5) + rows(4, 12), 500.0), HasSubstr("f.csv:6: frame 12, sub-frame 0"));
   EXPECT_THAT(refusal(rows(5, 12) + rows(0, 5), 500.0), HasSubstr("do not increase"));
   EXPECT_THAT(refusal(rows(0, 12), 250.0), HasSubstr("correct the rate"));
   EXPECT_THAT(refusal(rows(0, 4) + "12,9,1\n" + rows(5, 12), 500.0), HasSubstr("frames have 4"));
@@ -82,8 +80,7 @@ TEST(RowTimes, AStepThatIsNotAsTheOthersIsStatedAndRoundingIsNot) {
   };
   Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(400, 0.0, 399 * 0.0005);
   EXPECT_EQ(stated(even), "");
-  EXPECT_EQ(
-      stated((Eigen::VectorXd::LinSpaced(400, 0.0, 399 / 2000.4) * 1e5).array().round() / 1e5), "");
+  EXPECT_EQ(stated((Eigen::VectorXd::LinSpaced(400, 0.0, 399 / 2000.4) * 1e5).array().round() / 1e5), "");
   Eigen::VectorXd lost = even;
   lost.tail(200).array() += 0.0005;
   EXPECT_THAT(stated(lost), HasSubstr("201: 't' steps by 0.001 s, 0.0005 s elsewhere"));
@@ -104,10 +101,9 @@ TEST(ChannelLabels, UnitsAndRatesAreTakenOffTheName) {
 }
 
 TEST(NexusSection, ATableOfDevicesSharesTheFrameNumbersOfItsTrajectories) {
-  const std::string text =
-      "Devices\n2000\n,,EMG,\nFrame,Sub Frame,BIC,TRI\n,,mV,mV\n" +
-      std::string("200,0,1,2\n200,1,3,4\n\n") +
-      "Trajectories\n1000\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n200,0,1,2,3\n\nJoints\n100\n";
+  const std::string text = "Devices\n2000\n,,EMG,\nFrame,Sub Frame,BIC,TRI\n,,mV,mV\n" +
+                           std::string("200,0,1,2\n200,1,3,4\n\n") +
+                           "Trajectories\n1000\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n200,0,1,2,3\n\nJoints\n100\n";
   const TableText table(text);
   EXPECT_EQ(nexus_frame_rate(table), 1000.0);
   const auto section = nexus_section(table, "Devices", "f.csv");

@@ -13,9 +13,7 @@ namespace {
 std::optional<double> leading_number(std::string_view cell) {
   cell = trim(cell);
   std::size_t end = 0;
-  while (end < cell.size() &&
-         ((cell[end] >= '0' && cell[end] <= '9') || cell[end] == '.' || cell[end] == '-'))
-    ++end;
+  while (end < cell.size() && ((cell[end] >= '0' && cell[end] <= '9') || cell[end] == '.' || cell[end] == '-')) ++end;
   const std::string_view behind = trim(cell.substr(end));
   if (!behind.empty() && !equal_ignoring_case(behind, "hz")) return std::nullopt;
   return parse_number(cell.substr(0, end));
@@ -89,9 +87,8 @@ std::optional<double> stated_number(const TableText& text,
                                     char separator,
                                     const std::vector<std::string_view>& words) {
   const auto is_word = [&](std::string_view cell) {
-    return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
-      return equal_ignoring_case(without_colon(cell), word);
-    });
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return equal_ignoring_case(without_colon(cell), word); });
   };
   end = std::min(end, text.lines.size());
   for (std::size_t n = 0; n < end; ++n) {
@@ -105,8 +102,7 @@ std::optional<double> stated_number(const TableText& text,
       if (c + 1 < cells.size()) {
         if (const auto number = leading_number(cells[c + 1])) return number;
       }
-      const auto below =
-          n + 1 < end ? cells_of(text.lines[n + 1], separator) : std::vector<std::string>();
+      const auto below = n + 1 < end ? cells_of(text.lines[n + 1], separator) : std::vector<std::string>();
       if (cells.size() > 2 && c < below.size()) {
         if (const auto number = leading_number(below[c])) return number;
       }
@@ -115,10 +111,7 @@ std::optional<double> stated_number(const TableText& text,
   return std::nullopt;
 }
 
-std::string stated_text(const TableText& text,
-                        std::size_t end,
-                        char separator,
-                        std::string_view word) {
+std::string stated_text(const TableText& text, std::size_t end, char separator, std::string_view word) {
   for (std::size_t n = 0; n < std::min(end, text.lines.size()); ++n) {
     const auto cells = cells_of(text.lines[n], separator);
     for (std::size_t c = 0; c + 1 < cells.size(); ++c) {
@@ -140,27 +133,20 @@ std::vector<std::string> unique_names(const std::vector<std::string>& names,
     if (name.empty()) {
       name = fmt::format("{}_{}", kind, i + 1);
       while (seen.contains(name)) name += "_";
-      repairs.push_back(
-          {line, fmt::format("{} {} has no name; it is '{}' here", kind, i + 1, name)});
+      repairs.push_back({line, fmt::format("{} {} has no name; it is '{}' here", kind, i + 1, name)});
     }
     const std::string base = name;
-    const auto is_free = [&] {
-      return !taken.contains(name) && (name == base || !seen.contains(name));
-    };
+    const auto is_free = [&] { return !taken.contains(name) && (name == base || !seen.contains(name)); };
     for (int k = 2; !is_free(); ++k) name = fmt::format("{}_{}", base, k);
     taken.insert(name);
     if (name != base)
-      repairs.push_back({line, fmt::format("two {}s are named '{}'; the later one is '{}' here",
-                                           kind, base, name)});
+      repairs.push_back({line, fmt::format("two {}s are named '{}'; the later one is '{}' here", kind, base, name)});
     result.push_back(std::move(name));
   }
   return result;
 }
 
-void compare_count(std::optional<double> said,
-                   std::size_t found,
-                   std::string_view kind,
-                   std::vector<Repair>& repairs) {
+void compare_count(std::optional<double> said, std::size_t found, std::string_view kind, std::vector<Repair>& repairs) {
   if (said && *said != static_cast<double>(found))
     repairs.push_back({0, fmt::format("the header says {} {}, there are {}", *said, kind, found)});
 }

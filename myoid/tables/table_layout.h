@@ -14,10 +14,10 @@ namespace myoid::recording {
 /// One column of a table and the kind of its cells.
 struct TableColumn {
   enum class Kind {
-    channel,  ///< Samples; in a table of markers a coordinate.
-    time,     ///< Seconds, or `unit`: the clock of all channels, or of the channels up to the next
-              ///< time column.
-    frame,    ///< Number of the camera's frame or of the sample.
+    channel,    ///< Samples; in a table of markers a coordinate.
+    time,       ///< Seconds, or `unit`: the clock of all channels, or of the channels up to the next
+                ///< time column.
+    frame,      ///< Number of the camera's frame or of the sample.
     sub_frame,  ///< Number of the sample within its frame, from 0.
     remark,     ///< Text about an event.
     left_out,
@@ -42,7 +42,7 @@ struct TableLayout {
   std::optional<double> rows_said;      ///< Number of rows that the header states.
   std::optional<double> channels_said;  ///< Number of channels or markers that the header states.
   std::optional<double> length_s;       ///< Length that the header states.
-  bool plain = false;  ///< A header row and numbers in no maker's format: names must be unique.
+  bool plain = false;                   ///< A header row and numbers in no maker's format: names must be unique.
   std::vector<Repair> repairs;
 };
 
@@ -53,21 +53,16 @@ struct TableLayout {
 /// with no row of numbers after it, or the end of the text.
 [[nodiscard]] std::size_t end_of_block(const TableText& text, std::size_t first, char separator);
 
-/// Returns a number that a header states about one of `words` (in small letters, without a colon).
-/// The number stands in the next cell, in the same cell behind the word ("Sampling rate: 2000 Hz"),
-/// or in the row below, where that row holds the values for a row of keys. Searches the lines
-/// before `end`.
+/// Returns a number that a header states about one of `words` (in small letters, without a colon). The number stands in
+/// the next cell, in the same cell behind the word ("Sampling rate: 2000 Hz"), or in the row below, where that row
+/// holds the values for a row of keys. Searches the lines before `end`.
 [[nodiscard]] std::optional<double> stated_number(const TableText& text,
                                                   std::size_t end,
                                                   char separator,
                                                   const std::vector<std::string_view>& words);
 
-/// Returns the text in the cell after a cell that equals `word`, in the lines before `end`; empty
-/// if there is none.
-[[nodiscard]] std::string stated_text(const TableText& text,
-                                      std::size_t end,
-                                      char separator,
-                                      std::string_view word);
+/// Returns the text in the cell after a cell that equals `word`, in the lines before `end`; empty if there is none.
+[[nodiscard]] std::string stated_text(const TableText& text, std::size_t end, char separator, std::string_view word);
 
 /// Fills in empty names and changes repeated ones, with a note on each.
 [[nodiscard]] std::vector<std::string> unique_names(const std::vector<std::string>& names,
@@ -76,10 +71,7 @@ struct TableLayout {
                                                     std::vector<Repair>& repairs);
 
 /// Notes where the header's number of channels or markers differs from the number found.
-void compare_count(std::optional<double> said,
-                   std::size_t found,
-                   std::string_view kind,
-                   std::vector<Repair>& repairs);
+void compare_count(std::optional<double> said, std::size_t found, std::string_view kind, std::vector<Repair>& repairs);
 
 /// Turns capital ASCII letters into small ones.
 [[nodiscard]] std::string lower(std::string_view text);

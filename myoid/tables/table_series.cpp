@@ -64,9 +64,7 @@ class TableSeries {
   }
 
  private:
-  void note(std::size_t line, std::string message) {
-    series_.repairs.push_back({line, std::move(message)});
-  }
+  void note(std::size_t line, std::string message) { series_.repairs.push_back({line, std::move(message)}); }
 
   void find_channels() {
     std::vector<std::string> names;
@@ -93,12 +91,10 @@ class TableSeries {
   void require_names(const std::vector<std::string>& names) const {
     for (std::size_t c = 0; c < names.size(); ++c) {
       if (names[c].empty())
-        throw ReadError(path_, layout_.names_line + 1,
-                        fmt::format("channel {} of the table has no name", c + 1));
+        throw ReadError(path_, layout_.names_line + 1, fmt::format("channel {} of the table has no name", c + 1));
       if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c), names[c]) !=
           names.begin() + static_cast<std::ptrdiff_t>(c))
-        throw ReadError(path_, layout_.names_line + 1,
-                        fmt::format("two columns are named '{}'; rename one", names[c]));
+        throw ReadError(path_, layout_.names_line + 1, fmt::format("two columns are named '{}'; rename one", names[c]));
     }
   }
 
@@ -117,12 +113,11 @@ class TableSeries {
     const Eigen::VectorXd time = (column.unit ? column.unit->to_si : 1.0) * cells.head(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       if (!std::isfinite(time[i]))
-        throw ReadError(path_, numbers_.lines[at(i)],
-                        fmt::format("a time of column '{}' is missing", column.name));
+        throw ReadError(path_, numbers_.lines[at(i)], fmt::format("a time of column '{}' is missing", column.name));
       if (i > 0 && time[i] <= time[i - 1])
-        throw ReadError(path_, numbers_.lines[at(i)],
-                        fmt::format("time of column '{}' does not increase: {} s after {} s",
-                                    column.name, time[i], time[i - 1]));
+        throw ReadError(
+            path_, numbers_.lines[at(i)],
+            fmt::format("time of column '{}' does not increase: {} s after {} s", column.name, time[i], time[i - 1]));
     }
     return time;
   }
@@ -169,8 +164,7 @@ class TableSeries {
         next_clock(column);
         state_uneven_step(times_of(column, k), numbers_.lines, column.name, series_.repairs);
       }
-      if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame)
-        ++k;
+      if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
       if (column.kind != Kind::channel) continue;
       TableChannel& c = channels_[channel];
       if (c.samples > end)
@@ -190,9 +184,9 @@ class TableSeries {
       if (column.kind != Kind::channel) continue;
       const double rate = column.rate_hz > 0.0 ? column.rate_hz : layout_.rate_hz;
       if (!(rate > 0.0))
-        throw ReadError(path_, layout_.names_line + 1,
-                        fmt::format("channel '{}' has no sampling rate, which the others state",
-                                    channels_[channel].name));
+        throw ReadError(
+            path_, layout_.names_line + 1,
+            fmt::format("channel '{}' has no sampling rate, which the others state", channels_[channel].name));
       const auto [it, fresh] = known.try_emplace(rate, clocks_.size());
       if (fresh) {
         clocks_.push_back({Eigen::VectorXd(numbers_.values.rows()), {}});
@@ -212,8 +206,8 @@ class TableSeries {
     if (!layout_.length_s || channel.samples == 0) return;
     const double length = static_cast<double>(channel.samples) / rate;
     if (std::abs(length - *layout_.length_s) > std::max(kPackets_s, 0.005 * *layout_.length_s))
-      note(0, fmt::format("the header says {:.6g} s, '{}' has {:.6g} s: the file may be cut off",
-                          *layout_.length_s, channel.name, length));
+      note(0, fmt::format("the header says {:.6g} s, '{}' has {:.6g} s: the file may be cut off", *layout_.length_s,
+                          channel.name, length));
   }
 
   // --- channels and clocks together ---
@@ -228,14 +222,11 @@ class TableSeries {
         return true;
       });
     }
-    if (!empty.empty())
-      note(0, fmt::format("left out, since they have no samples: {}", fmt::join(empty, ", ")));
-    if (empty.size() == channels_.size())
-      throw ReadError(path_, 0, "there are no columns of numbers beside the time");
+    if (!empty.empty()) note(0, fmt::format("left out, since they have no samples: {}", fmt::join(empty, ", ")));
+    if (empty.size() == channels_.size()) throw ReadError(path_, 0, "there are no columns of numbers beside the time");
   }
 
-  /// Sorts the clocks by the number of channels called EMG, then by the number of channels in
-  /// volts.
+  /// Sorts the clocks by the number of channels called EMG, then by the number of channels in volts.
   [[nodiscard]] std::vector<std::size_t> clocks_in_order() const {
     std::vector<std::pair<int, int>> worth;
     std::vector<std::size_t> order;
@@ -251,8 +242,7 @@ class TableSeries {
       if (!clocks_[k].channels.empty() || clocks_.size() == 1) order.push_back(k);
     }
     const auto best =
-        std::max_element(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
+        std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
     if (best != order.end()) std::rotate(order.begin(), best, best + 1);
     return order;
   }
@@ -264,15 +254,13 @@ class TableSeries {
       longest = std::max(longest, channels_[c].samples);
       samples = std::min(samples, channels_[c].samples);
     }
-    if (longest > samples)
-      note(0, fmt::format("the channels differ in length; all are cut to {} samples", samples));
+    if (longest > samples) note(0, fmt::format("the channels differ in length; all are cut to {} samples", samples));
     ClockedChannels group;
     std::vector<Channel> channels;
     // Moves the numbers if one series takes all of them, so that they need not be copied.
     const bool all = clock.channels.size() == channels_.size() && samples == numbers_.values.rows();
     Eigen::MatrixXd values =
-        all ? std::move(numbers_.values)
-            : Eigen::MatrixXd(samples, static_cast<Eigen::Index>(clock.channels.size()));
+        all ? std::move(numbers_.values) : Eigen::MatrixXd(samples, static_cast<Eigen::Index>(clock.channels.size()));
     for (std::size_t k = 0; k < clock.channels.size(); ++k) {
       const TableChannel& c = channels_[clock.channels[k]];
       channels.push_back({c.name, c.unit ? c.unit->unit : Unit::dimensionless});
@@ -302,8 +290,7 @@ class TableSeries {
     };
     std::string all = said(series_.data);
     for (const ClockedChannels& group : series_.other_clocks) all += "; " + said(group.data);
-    note(layout_.names_line + 1,
-         fmt::format("the channels have {} clocks: {}", series_.other_clocks.size() + 1, all));
+    note(layout_.names_line + 1, fmt::format("the channels have {} clocks: {}", series_.other_clocks.size() + 1, all));
   }
 
   void add_events() {
@@ -314,8 +301,8 @@ class TableSeries {
         ++behind;
         continue;
       }
-      series_.events.push_back({time[static_cast<Eigen::Index>(remark.row)], remark.text,
-                                layout_.columns[remark.column].name, ""});
+      series_.events.push_back(
+          {time[static_cast<Eigen::Index>(remark.row)], remark.text, layout_.columns[remark.column].name, ""});
     }
     if (behind > 0) note(0, fmt::format("{} remarks behind the last sample are left out", behind));
   }
@@ -331,9 +318,7 @@ class TableSeries {
 
 }  // namespace
 
-CsvSeries channels_of_table(const TableText& text,
-                            const TableLayout& layout,
-                            const std::filesystem::path& path) {
+CsvSeries channels_of_table(const TableText& text, const TableLayout& layout, const std::filesystem::path& path) {
   return TableSeries(text, layout, path).read();
 }
 

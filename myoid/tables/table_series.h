@@ -11,24 +11,22 @@ namespace myoid::recording {
 
 /// Channels of one clock.
 struct ClockedChannels {
-  TimeSeries data;  ///< In SI if a unit is written ("name [mV]", "name (mm)", or in a row of units
-                    ///< below the header), else without dimension.
+  TimeSeries data;             ///< In SI if a unit is written ("name [mV]", "name (mm)", or in a row of units
+                               ///< below the header), else without dimension.
   std::vector<bool> has_unit;  ///< For each channel.
 };
 
-/// The channels of a table. If they have several clocks, `data` holds the clock with the most
-/// channels called EMG; ties go to the clock with the most channels in volts, then to the first.
-/// Names are unique over all clocks.
+/// The channels of a table. If they have several clocks, `data` holds the clock with the most channels called EMG; ties
+/// go to the clock with the most channels in volts, then to the first. Names are unique over all clocks.
 struct CsvSeries : ClockedChannels {
   std::vector<Repair> repairs;
   std::vector<ClockedChannels> other_clocks;
   std::vector<Event> events;  ///< The cells of columns of remarks, with the column's name.
 };
 
-/// Reads the channels of a table with a known layout. All are on the clock of its rows
-/// (`row_times`), unless there are several time columns or every channel states its rate: then each
-/// channel has its own clock. A channel that ends early cuts the others of its clock, with a note.
-/// Throws ReadError with the line.
+/// Reads the channels of a table with a known layout. All are on the clock of its rows (`row_times`), unless there are
+/// several time columns or every channel states its rate: then each channel has its own clock. A channel that ends
+/// early cuts the others of its clock, with a note. Throws ReadError with the line.
 [[nodiscard]] CsvSeries channels_of_table(const TableText& text,
                                           const TableLayout& layout,
                                           const std::filesystem::path& path);

@@ -11,9 +11,8 @@ namespace myoid::recording {
 namespace {
 
 std::string storage_header(const RowSource& source, const StorageFormat& format) {
-  std::string text =
-      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n", format.title,
-                  source.rows, source.channels.size() + 1, format.angles_in_degrees ? "yes" : "no");
+  std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n", format.title, source.rows,
+                                 source.channels.size() + 1, format.angles_in_degrees ? "yes" : "no");
   if (format.in_si) text += "Units are S.I. units (second, meters, Newtons, ...)\n";
   if (format.angles_in_degrees) text += "Angles are in degrees.\n";
   for (const std::string& comment : format.comments) text += comment + "\n";
@@ -31,8 +30,7 @@ void put_lines(const RowSource& source, char separator, const Cell& cell, const 
     Eigen::MatrixXd values;
     source.read(first, count, time_s, values);
     for (Eigen::Index row = 0; row < count; ++row) {
-      for (Eigen::Index c = 0; c < columns && row + 1 < count; ++c)
-        numbers.announce(values(row + 1, c));
+      for (Eigen::Index c = 0; c < columns && row + 1 < count; ++c) numbers.announce(values(row + 1, c));
       at = put_number(at, time_s[row]);
       for (Eigen::Index c = 0; c < columns; ++c) {
         *at++ = separator;
@@ -52,30 +50,24 @@ void put_storage(const RowSource& source, const StorageFormat& format, const Tex
   for (const Channel& channel : source.channels)
     over.push_back(format.angles_in_degrees && channel.unit == Unit::radian ? kDegree : 1.0);
   sink(storage_header(source, format));
-  const auto cell = [&](NumberText& numbers, char* at, double time_s, Eigen::Index c,
-                        double value) {
+  const auto cell = [&](NumberText& numbers, char* at, double time_s, Eigen::Index c, double value) {
     const auto column = static_cast<std::size_t>(c);
     if (!std::isfinite(value)) {
-      throw InvalidInput(
-          fmt::format("storage file: channel '{}' is not a number at {} s; fill the gaps first",
-                      source.channels[column].name, time_s));
+      throw InvalidInput(fmt::format("storage file: channel '{}' is not a number at {} s; fill the gaps first",
+                                     source.channels[column].name, time_s));
     }
     return numbers.put(at, value / over[column]);
   };
   put_lines(source, '\t', cell, sink);
 }
 
-void write_storage(const std::filesystem::path& path,
-                   const RowSource& source,
-                   const StorageFormat& format) {
+void write_storage(const std::filesystem::path& path, const RowSource& source, const StorageFormat& format) {
   FileInParts file(path);
   put_storage(source, format, [&](std::string_view part) { file.append(part); });
   file.finish();
 }
 
-void write_csv(const std::filesystem::path& path,
-               const RowSource& source,
-               const std::vector<std::string>& remarks) {
+void write_csv(const std::filesystem::path& path, const RowSource& source, const std::vector<std::string>& remarks) {
   std::string head;
   for (const std::string& remark : remarks) head += "# " + remark + "\n";
   head += "time_s";

@@ -9,13 +9,10 @@
 
 namespace myoid::recording {
 
-/// Writes a storage file (format_storage) to `sink`, or to a file completely or not at all. Rows
-/// are asked for block by block. Throws InvalidInput, naming channel and time, for the first row
-/// with a value that is not finite.
+/// Writes a storage file (format_storage) to `sink`, or to a file completely or not at all. Rows are asked for block by
+/// block. Throws InvalidInput, naming channel and time, for the first row with a value that is not finite.
 void put_storage(const RowSource& source, const StorageFormat& format, const TextSink& sink);
-void write_storage(const std::filesystem::path& path,
-                   const RowSource& source,
-                   const StorageFormat& format);
+void write_storage(const std::filesystem::path& path, const RowSource& source, const StorageFormat& format);
 
 /// Writes a plain table (write_csv) of such rows.
 void write_csv(const std::filesystem::path& path,

@@ -23,8 +23,8 @@ AnalogChannels counted() {
   AnalogCounts counts;
   AnalogCounts::Columns<std::int16_t> values(30'000, 3);
   for (Eigen::Index i = 0; i < values.rows(); ++i)
-    values.row(i) << static_cast<std::int16_t>((i * 7919) % 65536 - 32768),
-        static_cast<std::int16_t>(i % 100), static_cast<std::int16_t>(-i);
+    values.row(i) << static_cast<std::int16_t>((i * 7919) % 65536 - 32768), static_cast<std::int16_t>(i % 100),
+        static_cast<std::int16_t>(-i);
   counts.values = values;
   counts.scales = {{.scale = 3.0517578125e-4, .to_si = 1e-6}, {.offset = 50.0, .scale = -0.1}, {}};
   counts.rate_hz = 1500.0;
@@ -55,8 +55,7 @@ TEST(TableWriter, ATableKeepsItsGaps) {
   TimeSeries series(Eigen::Vector3d(0.0, 0.1, 0.2), {{"a", Unit::volt}},
                     Eigen::Vector3d(1.0, std::numeric_limits<double>::quiet_NaN(), -0.25));
   write_csv(folder / "gap.csv", rows_of(series), {"made by hand"});
-  EXPECT_EQ(read_text_file(folder / "gap.csv"),
-            "# made by hand\ntime_s,a [V]\n0,1\n0.1,\n0.2,-0.25\n");
+  EXPECT_EQ(read_text_file(folder / "gap.csv"), "# made by hand\ntime_s,a [V]\n0,1\n0.1,\n0.2,-0.25\n");
   EXPECT_TRUE(std::isnan(read_csv_series(folder / "gap.csv").data.values()(1, 0)));
 }
 

@@ -28,8 +28,7 @@ RowSource rows_of_columns(const AnalogChannels& channels, std::vector<Eigen::Ind
   for (const Eigen::Index column : columns)
     source.channels.push_back(channels.channels()[static_cast<std::size_t>(column)]);
   source.read = [&channels, columns = std::move(columns)](Eigen::Index first, Eigen::Index count,
-                                                          Eigen::VectorXd& time_s,
-                                                          Eigen::MatrixXd& values) {
+                                                          Eigen::VectorXd& time_s, Eigen::MatrixXd& values) {
     time_s = channels.time_s(first, count);
     values = channels.rows(first, count, columns);
   };
@@ -39,11 +38,10 @@ RowSource rows_of_columns(const AnalogChannels& channels, std::vector<Eigen::Ind
 }  // namespace
 
 void write_rows(Eigen::Index rows, Eigen::Index cells, const RowText& text, const TextSink& sink) {
-  const Eigen::Index in_block = std::clamp<Eigen::Index>(
-      kBlockNumbers / std::max<Eigen::Index>(1, cells), 1, std::max<Eigen::Index>(1, rows));
+  const Eigen::Index in_block =
+      std::clamp<Eigen::Index>(kBlockNumbers / std::max<Eigen::Index>(1, cells), 1, std::max<Eigen::Index>(1, rows));
   const auto count = static_cast<std::size_t>((rows + in_block - 1) / in_block);
-  const std::size_t room =
-      static_cast<std::size_t>(in_block * cells) * (NumberText::kRoom + 1) + NumberText::kRoom;
+  const std::size_t room = static_cast<std::size_t>(in_block * cells) * (NumberText::kRoom + 1) + NumberText::kRoom;
   const auto numbers = static_cast<std::size_t>(rows * cells);
   oneapi::tbb::enumerable_thread_specific<NumberText> kept([&] { return NumberText(numbers); });
   std::vector<Block> blocks(kBlocksUnderWay);
@@ -52,8 +50,7 @@ void write_rows(Eigen::Index rows, Eigen::Index cells, const RowText& text, cons
     if (!block.text) block.text = std::make_unique_for_overwrite<char[]>(room);
     const Eigen::Index first = static_cast<Eigen::Index>(i) * in_block;
     try {
-      char* const end =
-          text(first, std::min(in_block, rows - first), kept.local(), block.text.get());
+      char* const end = text(first, std::min(in_block, rows - first), kept.local(), block.text.get());
       block.size = static_cast<std::size_t>(end - block.text.get());
     } catch (...) {
       block.fault = std::current_exception();
@@ -68,8 +65,7 @@ void write_rows(Eigen::Index rows, Eigen::Index cells, const RowText& text, cons
 
 RowSource rows_of(const TimeSeries& series) {
   return {series.sample_count(), series.channels(),
-          [&series](Eigen::Index first, Eigen::Index count, Eigen::VectorXd& time_s,
-                    Eigen::MatrixXd& values) {
+          [&series](Eigen::Index first, Eigen::Index count, Eigen::VectorXd& time_s, Eigen::MatrixXd& values) {
             time_s = series.time_s().segment(first, count);
             values = series.values().middleRows(first, count);
           }};

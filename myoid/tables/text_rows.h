@@ -17,8 +17,7 @@ namespace myoid::recording {
 using TextSink = std::function<void(std::string_view)>;
 
 /// Writes the text of the rows [first, first + count) to `at` and returns the place behind it.
-using RowText =
-    std::function<char*(Eigen::Index first, Eigen::Index count, NumberText& numbers, char* at)>;
+using RowText = std::function<char*(Eigen::Index first, Eigen::Index count, NumberText& numbers, char* at)>;
 
 /// Writes `rows` rows of `cells` numbers each. Blocks of rows are made on as many threads as the
 /// program may use and go to `sink` in order. A block has room for NumberText::kRoom bytes and a
@@ -30,16 +29,13 @@ struct RowSource {
   Eigen::Index rows = 0;
   std::vector<Channel> channels;
   /// Returns times and values (one column a channel) of the rows [first, first + count).
-  std::function<void(
-      Eigen::Index first, Eigen::Index count, Eigen::VectorXd& time_s, Eigen::MatrixXd& values)>
-      read;
+  std::function<void(Eigen::Index first, Eigen::Index count, Eigen::VectorXd& time_s, Eigen::MatrixXd& values)> read;
 };
 
 /// Returns the rows of a series or of channels. The source refers to them: they must outlive it.
 [[nodiscard]] RowSource rows_of(const TimeSeries& series);
 [[nodiscard]] RowSource rows_of(const AnalogChannels& channels);
 /// Returns the rows of the named channels. Throws InvalidInput listing the available names.
-[[nodiscard]] RowSource rows_of(const AnalogChannels& channels,
-                                const std::vector<std::string>& names);
+[[nodiscard]] RowSource rows_of(const AnalogChannels& channels, const std::vector<std::string>& names);
 
 }  // namespace myoid::recording

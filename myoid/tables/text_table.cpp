@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Copies a row. A matrix without columns is skipped: a row of it would refer to memory behind its
-/// data.
+/// Copies a row. A matrix without columns is skipped: a row of it would refer to memory behind its data.
 void copy_row(Eigen::Index from, Eigen::Index to, Eigen::MatrixXd& matrix) {
   for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(to, c) = matrix(from, c);
 }
@@ -52,11 +51,9 @@ enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
 
 /// Reads a cell of a column of numbers.
 CellKind read_cell(std::string_view cell, char separator, double& value) {
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-    cell = trim(cell.substr(1, cell.size() - 2));
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
   value = kNoNumber;
-  if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") ||
-      equal_ignoring_case(cell, "nan"))
+  if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan"))
     return CellKind::gap;
   if (const auto number = parse_number(cell)) {
     value = *number;
@@ -90,8 +87,7 @@ class RowReader {
   RowReader(const TableText& text, const TableRows& rows, const std::filesystem::path& path)
       : text_(text), rows_(rows), path_(path), uses_(rows.names.size()) {
     const auto use = [&](const std::vector<std::size_t>& columns, ColumnUse::Kind kind) {
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        uses_[columns[k]] = {kind, static_cast<Eigen::Index>(k)};
+      for (std::size_t k = 0; k < columns.size(); ++k) uses_[columns[k]] = {kind, static_cast<Eigen::Index>(k)};
     };
     use(rows.clock, ColumnUse::Kind::clock);
     use(rows.values, ColumnUse::Kind::value);
@@ -103,10 +99,8 @@ class RowReader {
     while (end_ > rows_.first && is_left_out(end_ - 1)) --end_;
     const std::size_t count = end_ - std::min(end_, rows_.first);
     scans_.resize(count);
-    numbers_.clock.resize(static_cast<Eigen::Index>(count),
-                          static_cast<Eigen::Index>(rows_.clock.size()));
-    numbers_.values.resize(static_cast<Eigen::Index>(count),
-                           static_cast<Eigen::Index>(rows_.values.size()));
+    numbers_.clock.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows_.clock.size()));
+    numbers_.values.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows_.values.size()));
     parallel_ranges(count, std::size_t{256}, [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) scan(i);
     });
@@ -117,12 +111,8 @@ class RowReader {
 
  private:
   [[nodiscard]] std::size_t width() const { return rows_.names.size(); }
-  void note(std::size_t line, std::string message) {
-    numbers_.repairs.push_back({line, std::move(message)});
-  }
-  [[nodiscard]] std::string_view line_of(std::size_t i) const {
-    return text_.lines[rows_.first + i];
-  }
+  void note(std::size_t line, std::string message) { numbers_.repairs.push_back({line, std::move(message)}); }
+  [[nodiscard]] std::string_view line_of(std::size_t i) const { return text_.lines[rows_.first + i]; }
 
   /// Returns true for blank lines, remarks and empty rows at the end of a table.
   [[nodiscard]] bool is_left_out(std::size_t n) const {
@@ -216,16 +206,14 @@ class RowReader {
     }
   }
 
-  /// Returns true if the row is kept; false for a last row that is cut off. Throws if its width is
-  /// wrong.
+  /// Returns true if the row is kept; false for a last row that is cut off. Throws if its width is wrong.
   bool keeps(std::size_t i, Eigen::Index kept) {
     const RowScan& row = scans_[i];
     const std::size_t line = rows_.first + i + 1;
     const bool last = i + 1 == scans_.size();
     const bool without_end = last && line == text_.lines.size() && !text_.ends_with_line;
     if (without_end) {
-      const bool counted = rows_.rows_said && row.cells == width() &&
-                           *rows_.rows_said == static_cast<double>(kept + 1);
+      const bool counted = rows_.rows_said && row.cells == width() && *rows_.rows_said == static_cast<double>(kept + 1);
       LastRow judged = last_row_without_end(text_, counted, kept == 0);
       numbers_.repairs.push_back(std::move(judged.note));
       if (!judged.kept) return false;
@@ -234,22 +222,17 @@ class RowReader {
       throw ReadError(
           path_, line,
           fmt::format("{} cells, expected {} as in the header{}", row.filled, width(),
-                      rows_.separator == ','
-                          ? "; a cell too many, or decimal commas in a table separated by commas"
-                          : "; a cell is too many"));
+                      rows_.separator == ',' ? "; a cell too many, or decimal commas in a table separated by commas"
+                                             : "; a cell is too many"));
     if (row.cells >= width()) return true;
     if (last && kept > 0 && rows_.short_row != ShortRow::ended) {
-      note(line,
-           fmt::format("the last row has {} of {} cells and is left out", row.cells, width()));
+      note(line, fmt::format("the last row has {} of {} cells and is left out", row.cells, width()));
       return false;
     }
-    const bool triples =
-        row.cells >= rows_.first_triple && (row.cells - rows_.first_triple) % 3 == 0;
-    if (rows_.short_row == ShortRow::refused ||
-        (rows_.short_row == ShortRow::gaps && (!triples || pads())))
+    const bool triples = row.cells >= rows_.first_triple && (row.cells - rows_.first_triple) % 3 == 0;
+    if (rows_.short_row == ShortRow::refused || (rows_.short_row == ShortRow::gaps && (!triples || pads())))
       throw ReadError(path_, line,
-                      fmt::format("{} cells, expected {} as in the header; a cell is lost",
-                                  row.cells, width()));
+                      fmt::format("{} cells, expected {} as in the header; a cell is lost", row.cells, width()));
     if (short_line_ == 0) short_line_ = line;
     if (rows_.short_row == ShortRow::ended) require_that_none_follows(i);
     return true;
@@ -258,27 +241,23 @@ class RowReader {
   /// Returns true if the file writes separators of empty cells at the end of a row: then no row is
   /// cut off by missing cells.
   [[nodiscard]] bool pads() const {
-    return std::any_of(scans_.begin(), scans_.end(), [&](const RowScan& row) {
-      return row.cells >= width() && row.filled < width() && !row.blank;
-    });
+    return std::any_of(scans_.begin(), scans_.end(),
+                       [&](const RowScan& row) { return row.cells >= width() && row.filled < width() && !row.blank; });
   }
 
-  /// A channel that has ended does not begin again: throws if a later row has more cells than this
-  /// one.
+  /// A channel that has ended does not begin again: throws if a later row has more cells than this one.
   void require_that_none_follows(std::size_t i) {
     if (i < checked_end_) return;
     for (std::size_t k = scans_.size(); k-- > i + 1;) {
       if (scans_[k].cells > scans_[i].cells)
-        throw ReadError(
-            path_, rows_.first + i + 1,
-            fmt::format("{} cells, expected {} as in the header: a cell is lost, since "
-                        "line {} below has {}",
-                        scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
+        throw ReadError(path_, rows_.first + i + 1,
+                        fmt::format("{} cells, expected {} as in the header: a cell is lost, since "
+                                    "line {} below has {}",
+                                    scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
     }
     // Rows below need a check of their own only where they are narrower still.
     checked_end_ = i + 1;
-    while (checked_end_ < scans_.size() && scans_[checked_end_].cells >= scans_[i].cells)
-      ++checked_end_;
+    while (checked_end_ < scans_.size() && scans_[checked_end_].cells >= scans_[i].cells) ++checked_end_;
   }
 
   [[noreturn]] void refuse_cell(std::size_t i) const {
@@ -287,9 +266,9 @@ class RowReader {
       double ignored = 0.0;
       if ((uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value) &&
           read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
-        throw ReadError(path_, rows_.first + i + 1,
-                        fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1,
-                                    rows_.names[c], cells[c]));
+        throw ReadError(
+            path_, rows_.first + i + 1,
+            fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1, rows_.names[c], cells[c]));
     }
     throw ReadError(path_, rows_.first + i + 1, "expected a number in each cell");
   }
@@ -307,8 +286,7 @@ class RowReader {
       if (line_of(i).find('.') == std::string_view::npos) continue;
       const auto cells = cells_of(line_of(i), rows_.separator);
       for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
-        const bool number =
-            uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value;
+        const bool number = uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value;
         if (number && cells[c].find('.') != std::string::npos && parse_number(cells[c]))
           throw ReadError(path_, rows_.first + i + 1,
                           fmt::format("'{}' has a decimal point, while line {} has decimal commas; "
@@ -324,16 +302,13 @@ class RowReader {
       note(comma_line_, "comma decimals read as decimal points");
     }
     if (blank_line_ > 0)
-      note(first_blank_,
-           fmt::format(
-               "{} between rows of numbers passed over",
-               blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
+      note(first_blank_, fmt::format("{} between rows of numbers passed over",
+                                     blank_line_ == 1 ? "a blank line" : fmt::format("{} blank lines", blank_line_)));
     if (short_line_ > 0)
       note(short_line_, rows_.short_row == ShortRow::gaps
                             ? "a row ends early; the markers behind its end are taken as missing"
                             : "a row ends early; the channels behind its end have ended");
-    if (gap_line_ > 0 && rows_.state_gaps)
-      note(gap_line_, "a value is missing or no number; kept as a gap");
+    if (gap_line_ > 0 && rows_.state_gaps) note(gap_line_, "a value is missing or no number; kept as a gap");
     const auto count = static_cast<double>(numbers_.lines.size());
     if (rows_.rows_said && *rows_.rows_said != count)
       note(0, fmt::format("the header says {} rows, there are {}", *rows_.rows_said, count));
@@ -364,22 +339,18 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
 }
 
 bool has_no_cell(std::string_view line, char separator) {
-  return std::all_of(line.begin(), line.end(), [&](char c) {
-    return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"';
-  });
+  return std::all_of(line.begin(), line.end(),
+                     [&](char c) { return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"'; });
 }
 
 LastRow last_row_without_end(const TableText& text, bool counted, bool only_row) {
   const std::size_t line = text.lines.size();
-  const bool complete =
-      counted && line > 1 && !looks_cut(text.lines[line - 1], text.lines[line - 2]);
+  const bool complete = counted && line > 1 && !looks_cut(text.lines[line - 1], text.lines[line - 2]);
   const bool kept = only_row || complete;
   return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
 }
 
-TableNumbers read_rows(const TableText& text,
-                       const TableRows& rows,
-                       const std::filesystem::path& path) {
+TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path) {
   return RowReader(text, rows, path).read();
 }
 

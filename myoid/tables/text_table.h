@@ -35,9 +35,8 @@ struct LastRow {
   Repair note;
 };
 
-/// Decides whether a last row without a line end is complete. It is kept, with a note, if it is the
-/// only row, or if the header counts it (`counted`) and its last number has as many decimals as the
-/// row above. Otherwise it is left out.
+/// Decides whether a last row without a line end is complete. It is kept, with a note, if it is the only row, or if the
+/// header counts it (`counted`) and its last number has as many decimals as the row above. Otherwise it is left out.
 [[nodiscard]] LastRow last_row_without_end(const TableText& text, bool counted, bool only_row);
 
 /// Meaning of a row with fewer cells than the header.
@@ -75,14 +74,11 @@ struct TableNumbers {
   std::vector<Repair> repairs;
 };
 
-/// Reads all rows. Decimal commas hold for the whole table: they are read where a semicolon or tab
-/// separates, and then no number may have a point. Noted as repairs: decimal commas, blank lines
-/// between rows, gaps, rows that end early where `short_row` allows it, a last row that is cut off
-/// (left out), a number of rows other than `rows_said`. Throws ReadError with the line, found and
-/// expected: a row wider or narrower than the header, a cell that is no number, points and decimal
-/// commas in one table, no rows at all.
-[[nodiscard]] TableNumbers read_rows(const TableText& text,
-                                     const TableRows& rows,
-                                     const std::filesystem::path& path);
+/// Reads all rows. Decimal commas hold for the whole table: they are read where a semicolon or tab separates, and then
+/// no number may have a point. Noted as repairs: decimal commas, blank lines between rows, gaps, rows that end early
+/// where `short_row` allows it, a last row that is cut off (left out), a number of rows other than `rows_said`. Throws
+/// ReadError with the line, found and expected: a row wider or narrower than the header, a cell that is no number,
+/// points and decimal commas in one table, no rows at all.
+[[nodiscard]] TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -37,8 +37,7 @@ std::string refusal(const std::string& text, const TableRows& rows) {
 }
 
 TEST(ReadRows, EveryNumberStandsInItsColumn) {
-  const TableNumbers n =
-      read_rows(TableText("0,1.5,-2\n\"1\", 3 ,4e-3\n2,,n/a\n"), three_columns(','), "f.csv");
+  const TableNumbers n = read_rows(TableText("0,1.5,-2\n\"1\", 3 ,4e-3\n2,,n/a\n"), three_columns(','), "f.csv");
   ASSERT_EQ(n.values.rows(), 3);
   EXPECT_EQ(n.clock.col(0), Eigen::Vector3d(0.0, 1.0, 2.0));
   EXPECT_EQ(n.values(0, 1), -2.0);
@@ -67,12 +66,10 @@ TEST(ReadRows, OneDecisionOnDecimalCommasHoldsForAllRows) {
 }
 
 TEST(ReadRows, ABlankLineDoesNotEndTheTable) {
-  const TableNumbers n =
-      read_rows(TableText("0,1,2\n\n1,3,4\n,,\n\n"), three_columns(','), "f.csv");
+  const TableNumbers n = read_rows(TableText("0,1,2\n\n1,3,4\n,,\n\n"), three_columns(','), "f.csv");
   EXPECT_EQ(n.values.rows(), 2);
   EXPECT_THAT(test::repair_lines(n.repairs), HasSubstr("2: a blank line"));
-  EXPECT_THAT(refusal("0,1,2\n,,\n1,3,4\n", three_columns(',')),
-              HasSubstr("f.csv:2: the row is empty"));
+  EXPECT_THAT(refusal("0,1,2\n,,\n1,3,4\n", three_columns(',')), HasSubstr("f.csv:2: the row is empty"));
 }
 
 TEST(ReadRows, ALastRowThatIsCutOffIsLeftOutUnlessItIsCounted) {
@@ -82,8 +79,7 @@ TEST(ReadRows, ALastRowThatIsCutOffIsLeftOutUnlessItIsCounted) {
   EXPECT_EQ(read_rows(TableText("0,1,2\n1,3\n"), rows, "f.csv").values.rows(), 1);
   rows.rows_said = 3.0;
   EXPECT_EQ(read_rows(TableText(text), rows, "f.csv").values.rows(), 3);
-  // Its last number has fewer digits than the one above: the row is cut off, and then a row is
-  // missing.
+  // Its last number has fewer digits than the one above: the row is cut off, and then a row is missing.
   const TableNumbers cut = read_rows(TableText(text.substr(0, text.size() - 1)), rows, "f.csv");
   EXPECT_EQ(cut.values.rows(), 2);
   EXPECT_THAT(test::repair_lines(cut.repairs), HasSubstr("the header says 3 rows, there are 2"));

@@ -71,8 +71,7 @@ TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
 }
 
 TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
-  const std::string head =
-      "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n";
+  const std::string head = "PathFileType\t4\t(X/Y/Z)\tf.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n";
   const std::string rows = "1\t0\t1\t2\t3\t4\t5\t6\t7\t8\t9\n2\t0.01\t1\t2\t3\t4\t5\t6\t7\t8\t9\n";
   const std::string axes = "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n";
   struct Case {
@@ -86,13 +85,11 @@ TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
            Case{"3", "Frame#\tTime\ta\t\t\tb\t\t\t\t\t\n", {"a", "b", "marker_3"}},
        }) {
     for (const std::string& line : {axes, std::string()}) {
-      const TrcFile file = parse_trc(
-          head + "100\t100\t2\t" + one.count + "\tmm\n" + one.labels + line + rows, "f.trc");
+      const TrcFile file = parse_trc(head + "100\t100\t2\t" + one.count + "\tmm\n" + one.labels + line + rows, "f.trc");
       EXPECT_EQ(file.markers.names, one.names) << one.labels;
       ASSERT_EQ(file.markers.frame_count(), 2) << one.labels;
       EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 8), 0.009) << one.labels;
-      EXPECT_THAT(file.repairs,
-                  testing::Contains(testing::Field(&Repair::message, HasSubstr("no name"))));
+      EXPECT_THAT(file.repairs, testing::Contains(testing::Field(&Repair::message, HasSubstr("no name"))));
     }
   }
 }
@@ -104,8 +101,7 @@ TEST(Trc, TellsWhatItRefusesAndWhere) {
   EXPECT_NE(trc_message(bad).find("f.trc:3: Units: found 'inch'"), std::string::npos);
   bad = good;
   bad.replace(bad.find("300"), 3, "3x0");
-  EXPECT_NE(trc_message(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"),
-            std::string::npos)
+  EXPECT_NE(trc_message(bad).find("f.trc:7: expected a number for Z of marker 'a', found '3x0'"), std::string::npos)
       << trc_message(bad);
   EXPECT_NE(trc_message("name,x\n1,2\n").find("expected 'PathFileType'"), std::string::npos);
 }

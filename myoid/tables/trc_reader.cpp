@@ -20,9 +20,7 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 /// Pairs the keys of one header line with the values of the next. Real files have two tabs between
 /// values, so words are paired if their counts match; otherwise cells are.
-std::map<std::string, std::string> read_fields(std::string_view keys,
-                                               std::string_view values,
-                                               char separator) {
+std::map<std::string, std::string> read_fields(std::string_view keys, std::string_view values, char separator) {
   std::map<std::string, std::string> header;
   auto names = separator == ',' ? split(keys, separator) : split_words(keys);
   auto cells = separator == ',' ? split(values, separator) : split_words(values);
@@ -42,22 +40,18 @@ std::map<std::string, std::string> read_fields(std::string_view keys,
 /// the filled cells of the first row.
 std::size_t markers_in_columns(const std::vector<std::string_view>& lines, char separator) {
   const auto axes = split_words(lines[4]);
-  if (!axes.empty() && axes.front().starts_with('X') && axes.size() % 3 == 0)
-    return axes.size() / 3;
+  if (!axes.empty() && axes.front().starts_with('X') && axes.size() % 3 == 0) return axes.size() / 3;
   for (std::size_t n = 4; n < lines.size(); ++n) {
     auto cells = split(lines[n], separator);
     while (!cells.empty() && trim(cells.back()).empty()) cells.pop_back();
-    if (cells.size() >= 2 && parse_number(cells[0]))
-      return cells.size() / 3;  // (cells - 2) / 3, rounded up
+    if (cells.size() >= 2 && parse_number(cells[0])) return cells.size() / 3;  // (cells - 2) / 3, rounded up
   }
   return 0;
 }
 
-/// Returns the names of a label line in which each stands over the first of its marker's three
-/// columns and some are missing: an empty name for every marker without one. Empty if the names
-/// stand elsewhere.
-std::vector<std::string> names_over_columns(const std::vector<std::string_view>& cells,
-                                            std::size_t count) {
+/// Returns the names of a label line in which each stands over the first of its marker's three columns and some are
+/// missing: an empty name for every marker without one. Empty if the names stand elsewhere.
+std::vector<std::string> names_over_columns(const std::vector<std::string_view>& cells, std::size_t count) {
   std::vector<std::string> names(count);
   for (std::size_t c = 2; c < cells.size(); ++c) {
     if (trim(cells[c]).empty()) continue;
@@ -80,11 +74,9 @@ std::vector<std::string> label_words(std::string_view line,
     if (name.empty()) continue;
     if (++word <= 2) {
       if (word == 2 && !equal_ignoring_case(name.substr(0, 4), "time")) {
-        throw ReadError(path, number,
-                        fmt::format("expected the second column to be 'Time', found '{}'", name));
+        throw ReadError(path, number, fmt::format("expected the second column to be 'Time', found '{}'", name));
       }
-      if (word == 2 && name != "Time")
-        repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
+      if (word == 2 && name != "Time") repairs.push_back({number, fmt::format("column '{}' read as 'Time'", name)});
       continue;
     }
     names.emplace_back(name);
@@ -136,17 +128,13 @@ struct Header {
 
 Header read_header(const std::vector<std::string_view>& lines, const std::filesystem::path& path) {
   if (lines.empty() || !trim(lines[0]).starts_with("PathFileType")) {
-    throw ReadError(
-        path, 1,
-        fmt::format(
-            "expected 'PathFileType' as the first word, found '{}'; this is not a .trc file",
-            lines.empty() ? "" : trim(lines[0]).substr(0, 40)));
+    throw ReadError(path, 1,
+                    fmt::format("expected 'PathFileType' as the first word, found '{}'; this is not a .trc file",
+                                lines.empty() ? "" : trim(lines[0]).substr(0, 40)));
   }
-  if (lines.size() < 5)
-    throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
+  if (lines.size() < 5) throw ReadError(path, lines.size(), "the file is cut off: its header has five lines");
   Header header;
-  if (lines[1].find('\t') == std::string_view::npos &&
-      lines[1].find(',') != std::string_view::npos) {
+  if (lines[1].find('\t') == std::string_view::npos && lines[1].find(',') != std::string_view::npos) {
     header.separator = ',';
     header.repairs.push_back({2, "separated by commas instead of tabs"});
   }
@@ -154,19 +142,16 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
   const auto unit = parse_unit(header.field("Units"));
   if (!unit || unit->unit != Unit::meter) {
     throw ReadError(path, 3,
-                    fmt::format("Units: found '{}', expected mm or m; correct the header",
-                                header.field("Units")));
+                    fmt::format("Units: found '{}', expected mm or m; correct the header", header.field("Units")));
   }
   header.unit = *unit;
   header.names = read_names(lines, header.separator, path, header.repairs);
   if (header.names.empty()) throw ReadError(path, 4, "there are no markers after Frame# and Time");
   if (const auto said = parse_number(header.field("NumMarkers"));
       said && *said != static_cast<double>(header.names.size())) {
-    header.repairs.push_back(
-        {3, fmt::format("the header says {} markers, there are {}", *said, header.names.size())});
+    header.repairs.push_back({3, fmt::format("the header says {} markers, there are {}", *said, header.names.size())});
   }
-  if (trim(lines[4]).starts_with("X0"))
-    header.repairs.push_back({5, "coordinates numbered from 0"});
+  if (trim(lines[4]).starts_with("X0")) header.repairs.push_back({5, "coordinates numbered from 0"});
   // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame.
   const auto fifth = split(lines[4], header.separator);
   if (fifth.size() > 2 && parse_number(fifth[0]) && parse_number(fifth[1])) {
@@ -207,8 +192,7 @@ class TrcFrames {
       time_.push_back(time);
     }
     if (time_.empty())
-      throw ReadError(path_, lines.size(),
-                      "there are no frames after the header; export the file again");
+      throw ReadError(path_, lines.size(), "there are no frames after the header; export the file again");
     state_what_was_mended();
   }
 
@@ -234,8 +218,7 @@ class TrcFrames {
   }
 
   bool keeps_last(const TableText& text, std::size_t cells) {
-    const bool complete = frames_said_ && cells >= width_ + 2 &&
-                          *frames_said_ == static_cast<double>(time_.size() + 1);
+    const bool complete = frames_said_ && cells >= width_ + 2 && *frames_said_ == static_cast<double>(time_.size() + 1);
     const LastRow last = last_row_without_end(text, complete, time_.empty());
     repairs_.push_back(last.note);
     return last.kept;
@@ -243,21 +226,16 @@ class TrcFrames {
 
   /// Leaves out a last row that ends early: the file was cut off, perhaps within a number.
   void leave_out_last(std::size_t cells, std::size_t line) {
-    repairs_.push_back(
-        {line, fmt::format("the last row has {} of {} cells and is left out", cells, width_ + 2)});
+    repairs_.push_back({line, fmt::format("the last row has {} of {} cells and is left out", cells, width_ + 2)});
   }
 
-  double time_of(const std::vector<std::string_view>& cells,
-                 std::string_view row,
-                 std::size_t line) {
+  double time_of(const std::vector<std::string_view>& cells, std::string_view row, std::size_t line) {
     if (cells.size() < 2)
-      throw ReadError(
-          path_, line,
-          fmt::format("expected frame, time and {} coordinates, found '{}'", width_, trim(row)));
+      throw ReadError(path_, line,
+                      fmt::format("expected frame, time and {} coordinates, found '{}'", width_, trim(row)));
     const auto time = number_of(cells[1], line);
     if (!time || !std::isfinite(*time))
-      throw ReadError(path_, line,
-                      fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
+      throw ReadError(path_, line, fmt::format("expected the time as a number, found '{}'", trim(cells[1])));
     return *time;
   }
 
@@ -267,8 +245,7 @@ class TrcFrames {
     if (time < time_.back())
       throw ReadError(
           path_, line,
-          fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", time,
-                      time_.back()));
+          fmt::format("time goes backwards: {} s after {} s; sort the rows or split the file", time, time_.back()));
     mark(repeated_line_, line);
     return true;
   }
@@ -283,8 +260,8 @@ class TrcFrames {
         const auto number = number_of(cell, line);
         if (!number)
           throw ReadError(path_, line,
-                          fmt::format("expected a number for {} of marker '{}', found '{}'",
-                                      "XYZ"[c % 3], header_.names[c / 3], cell));
+                          fmt::format("expected a number for {} of marker '{}', found '{}'", "XYZ"[c % 3],
+                                      header_.names[c / 3], cell));
         value = *number * header_.unit.to_si;
       }
       values_(row, static_cast<Eigen::Index>(c)) = value;
@@ -315,15 +292,12 @@ class TrcFrames {
     note(repeated_line_, "a time stands twice; the first row is kept");
     const std::size_t frames = time_.size();
     if (frames_said_ && *frames_said_ != static_cast<double>(frames))
-      repairs_.push_back(
-          {3, fmt::format("the header says {} frames, there are {}", *frames_said_, frames)});
-    const double rate =
-        frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
+      repairs_.push_back({3, fmt::format("the header says {} frames, there are {}", *frames_said_, frames)});
+    const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
     const double said = parse_number(header_.field("DataRate")).value_or(0.0);
     if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
       repairs_.push_back(
-          {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said,
-                          rate)});
+          {3, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", said, rate)});
   }
 
   static void mark(std::size_t& first, std::size_t line) {
@@ -360,8 +334,6 @@ TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   return file;
 }
 
-TrcFile read_trc(const std::filesystem::path& path) {
-  return parse_trc(read_text_file(path), path);
-}
+TrcFile read_trc(const std::filesystem::path& path) { return parse_trc(read_text_file(path), path); }
 
 }  // namespace myoid::recording

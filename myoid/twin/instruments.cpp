@@ -19,10 +19,9 @@ constexpr double kMarkerSteps_perm = 1e5;
 constexpr double kEmgSteps_perv = 1e7;
 constexpr double kTorqueSteps_pernm = 1e4;
 constexpr double kArtefactBand_hz = 4.0;
-constexpr double kArtefactSpeed_radps =
-    2.0;                            ///< speed at which the artefact has the rms of the protocol
-constexpr double kColdGain = 0.15;  ///< excess of EMG at the beginning of a warm-up
-constexpr double kEnvelopeRate_hz = 250;  ///< amplitudes are straight lines between its samples
+constexpr double kArtefactSpeed_radps = 2.0;  ///< speed at which the artefact has the rms of the protocol
+constexpr double kColdGain = 0.15;            ///< excess of EMG at the beginning of a warm-up
+constexpr double kEnvelopeRate_hz = 250;      ///< amplitudes are straight lines between its samples
 constexpr double kShortestDropout_s = 0.03;
 constexpr double kLongestDropout_s = 0.30;
 constexpr double kMostOffsetSd = 3.0;
@@ -45,22 +44,17 @@ Vec3 random_direction(math::Random& random) {
   return v.normalized();
 }
 
-std::vector<MarkerError> place_markers(const MarkerNoise& noise,
-                                       const VirtualArm& arm,
-                                       math::Random random) {
+std::vector<MarkerError> place_markers(const MarkerNoise& noise, const VirtualArm& arm, math::Random random) {
   std::vector<MarkerError> errors;
   for (const MarkerSegment segment : arm.marker_segments()) {
     MarkerError error;
-    error.misplaced_m = noise.misplacement_m / std::sqrt(3.0) *
-                        Vec3(random.normal(), random.normal(), random.normal());
+    error.misplaced_m = noise.misplacement_m / std::sqrt(3.0) * Vec3(random.normal(), random.normal(), random.normal());
     const double upper_m = random.uniform(0.005, 0.010);
     const double forearm_m = random.uniform(0.003, 0.005);
     const Vec3 along = random_direction(random);
     error.phase_rad = random.uniform(0.0, 2.0 * kPi);
-    if (segment == MarkerSegment::upper_arm)
-      error.soft_tissue_m = noise.soft_tissue * upper_m * along;
-    if (segment == MarkerSegment::forearm)
-      error.soft_tissue_m = noise.soft_tissue * forearm_m * along;
+    if (segment == MarkerSegment::upper_arm) error.soft_tissue_m = noise.soft_tissue * upper_m * along;
+    if (segment == MarkerSegment::forearm) error.soft_tissue_m = noise.soft_tissue * forearm_m * along;
     errors.push_back(error);
   }
   return errors;
@@ -188,8 +182,7 @@ Eigen::VectorXd disturbance(const EmgNoise& emg,
   Eigen::VectorXd signal(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double mains =
-        std::sqrt(2.0) *
-        std::sin(2.0 * kPi * emg.hum_hz * static_cast<double>(k) / emg.rate_hz + phase_rad);
+        std::sqrt(2.0) * std::sin(2.0 * kPi * emg.hum_hz * static_cast<double>(k) / emg.rate_hz + phase_rad);
     signal(k) = baseline * random.normal() + emg.hum * mains +
                 emg.artefact * std::abs(speed_radps(k)) / kArtefactSpeed_radps * artefact(k);
   }
@@ -198,21 +191,15 @@ Eigen::VectorXd disturbance(const EmgNoise& emg,
 
 }  // namespace
 
-bool has_brachialis_electrode(const Protocol& protocol) {
-  return protocol.control.brachialis_synergy > 0.0;
-}
+bool has_brachialis_electrode(const Protocol& protocol) { return protocol.control.brachialis_synergy > 0.0; }
 
-Instruments attach_instruments(const Protocol& protocol,
-                               const VirtualArm& arm,
-                               std::uint64_t seed) {
+Instruments attach_instruments(const Protocol& protocol, const VirtualArm& arm, std::uint64_t seed) {
   Instruments result;
-  result.markers =
-      place_markers(protocol.motion, arm, math::Random(math::seed_for(seed, "marker placement")));
+  result.markers = place_markers(protocol.motion, arm, math::Random(math::seed_for(seed, "marker placement")));
   math::Random random(math::seed_for(seed, "electrodes"));
   const EmgNoise& emg = protocol.emg;
   for (std::size_t m = 0; m < 4; ++m) {
-    result.greatest_v[m] =
-        std::exp(random.uniform(std::log(emg.mvc_min_v), std::log(emg.mvc_max_v)));
+    result.greatest_v[m] = std::exp(random.uniform(std::log(emg.mvc_min_v), std::log(emg.mvc_max_v)));
     result.exponent[m] = random.uniform(emg.exponent_min, emg.exponent_max);
     result.exponent[m] = protocol.truth.sensors.emg_exponent.value_or(result.exponent[m]);
     result.crosstalk[m] = random.uniform(emg.crosstalk_min, emg.crosstalk_max);
@@ -220,8 +207,7 @@ Instruments attach_instruments(const Protocol& protocol,
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
   }
   math::Random tissue(math::seed_for(seed, "tissue"));
-  for (double& factor : result.spectrum)
-    factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
+  for (double& factor : result.spectrum) factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
   const bool drifts = random.uniform() < 0.5;
   result.clock_drift = drifts ? 1e-6 * protocol.sync.drift_ppm : 0.0;
   return result;
@@ -270,8 +256,7 @@ recording::MarkerSeries record_markers(const Protocol& protocol,
   }
   markers.positions_m = arm.markers_m(q_rad, trial.plane, instruments.markers);
   for (Eigen::Index k = 0; k < frames; ++k) {
-    markers.positions_m.row(k) +=
-        noise.marker_sd_m * random.normals(markers.positions_m.cols()).transpose();
+    markers.positions_m.row(k) += noise.marker_sd_m * random.normals(markers.positions_m.cols()).transpose();
   }
   quantize(markers.positions_m, kMarkerSteps_perm);
 
@@ -288,8 +273,7 @@ recording::MarkerSeries record_markers(const Protocol& protocol,
         const auto first = static_cast<Eigen::Index>(std::ceil(t * noise.rate_hz));
         const auto last = std::min(frames - 1, static_cast<Eigen::Index>(until_s * noise.rate_hz));
         for (Eigen::Index k = first; k <= last; ++k)
-          markers.positions_m.block<1, 3>(k, 3 * m).setConstant(
-              std::numeric_limits<double>::quiet_NaN());
+          markers.positions_m.block<1, 3>(k, 3 * m).setConstant(std::numeric_limits<double>::quiet_NaN());
         t = until_s;
       }
     }
@@ -314,12 +298,10 @@ TimeSeries record_emg(const Protocol& protocol,
   Eigen::MatrixXd values(n, static_cast<Eigen::Index>(channels_of.size()));
 
   if (protocol.level == Level::noise_free) {
-    for (const std::size_t m : channels_of)
-      channels.push_back({std::string(kArmMuscles[m]), Unit::dimensionless});
+    for (const std::size_t m : channels_of) channels.push_back({std::string(kArmMuscles[m]), Unit::dimensionless});
     for (Eigen::Index k = 0; k < n; ++k) {
       const PerMuscle u = performance.drive(time_s(k));
-      for (std::size_t c = 0; c < channels_of.size(); ++c)
-        values(k, static_cast<Eigen::Index>(c)) = u[channels_of[c]];
+      for (std::size_t c = 0; c < channels_of.size(); ++c) values(k, static_cast<Eigen::Index>(c)) = u[channels_of[c]];
     }
     return {time_s, channels, values};
   }
@@ -328,8 +310,7 @@ TimeSeries record_emg(const Protocol& protocol,
   constexpr std::size_t kWrist = 4;
   const double first_s = emg_clock.true_time_s(0.0);
   const double last_s = emg_clock.true_time_s(time_s(n - 1));
-  const auto count =
-      static_cast<Eigen::Index>(std::ceil((last_s - first_s) * kEnvelopeRate_hz)) + 2;
+  const auto count = static_cast<Eigen::Index>(std::ceil((last_s - first_s) * kEnvelopeRate_hz)) + 2;
   std::array<Source, 5> sources;
   for (Source& source : sources)
     source = {Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
@@ -354,18 +335,16 @@ TimeSeries record_emg(const Protocol& protocol,
   }
   Eigen::VectorXd true_time_s(n);
   for (Eigen::Index k = 0; k < n; ++k) true_time_s(k) = emg_clock.true_time_s(time_s(k));
-  const bool mixed =
-      *std::max_element(instruments.crosstalk.begin(), instruments.crosstalk.end()) > 0.0;
+  const bool mixed = *std::max_element(instruments.crosstalk.begin(), instruments.crosstalk.end()) > 0.0;
 
   std::array<Eigen::VectorXd, 5> signals;
   for (std::size_t m = 0; m < signals.size(); ++m) {
     const bool heard = std::find(channels_of.begin(), channels_of.end(), m) != channels_of.end();
     if (!heard && !mixed) continue;
     const std::string name = m == kWrist ? "ECRL" : std::string(kArmMuscles[m]);
-    signals[m] =
-        signal_of(sources[m], first_s, true_time_s, emg,
-                  m == kWrist ? instruments.spectrum[kBrachioradialis] : instruments.spectrum[m],
-                  stream(seed, "emg", script.protocol.name + "." + name));
+    signals[m] = signal_of(sources[m], first_s, true_time_s, emg,
+                           m == kWrist ? instruments.spectrum[kBrachioradialis] : instruments.spectrum[m],
+                           stream(seed, "emg", script.protocol.name + "." + name));
   }
   const Eigen::VectorXd speed_radps = stretched(speed, first_s, kEnvelopeRate_hz, true_time_s);
   constexpr std::array<std::size_t, 4> kNeighbour = {kBrachialis, kBiceps, kWrist, kTriceps};
@@ -373,9 +352,8 @@ TimeSeries record_emg(const Protocol& protocol,
     const std::size_t m = channels_of[c];
     const std::string name(kArmMuscles[m]);
     channels.push_back({name, Unit::volt});
-    Eigen::VectorXd signal =
-        signals[m] + disturbance(emg, instruments.baseline[m], speed_radps,
-                                 stream(seed, "amplifier", script.protocol.name + "." + name));
+    Eigen::VectorXd signal = signals[m] + disturbance(emg, instruments.baseline[m], speed_radps,
+                                                      stream(seed, "amplifier", script.protocol.name + "." + name));
     if (mixed && kNeighbour[m] != m) signal += instruments.crosstalk[m] * signals[kNeighbour[m]];
     for (const std::size_t other : channels_of) {
       if (sensors.crosstalk > 0.0 && other != m) signal += sensors.crosstalk * signals[other];
@@ -399,8 +377,8 @@ TimeSeries record_torque(const Protocol& protocol,
     shown = (sensors.torque_scale * shown.array() + sensors.torque_offset_nm).matrix();
   if (protocol.level != Level::noise_free && protocol.torque.sd_nm > 0.0) {
     math::Random random = stream(seed, "torque", performance.script().protocol.name);
-    shown += protocol.torque.sd_nm * lowpass_noise(protocol.torque.bandwidth_hz,
-                                                   protocol.motion.rate_hz, shown.size(), random);
+    shown += protocol.torque.sd_nm *
+             lowpass_noise(protocol.torque.bandwidth_hz, protocol.motion.rate_hz, shown.size(), random);
     quantize(shown, kTorqueSteps_pernm);
   }
   return {time_s, {{"elbow_flexion_moment", Unit::newton_meter}}, shown};

@@ -23,17 +23,13 @@ struct Instruments {
 };
 
 /// Draws the instruments; each kind from a stream of its own.
-[[nodiscard]] Instruments attach_instruments(const Protocol& protocol,
-                                             const VirtualArm& arm,
-                                             std::uint64_t seed);
+[[nodiscard]] Instruments attach_instruments(const Protocol& protocol, const VirtualArm& arm, std::uint64_t seed);
 
 /// The true time at the file's time t of this trial: (1 + drift) t + offset.
 struct EmgClock {
   double offset_s = 0.0;
   double drift = 0.0;
-  [[nodiscard]] double true_time_s(double file_time_s) const {
-    return file_time_s + drift * file_time_s + offset_s;
-  }
+  [[nodiscard]] double true_time_s(double file_time_s) const { return file_time_s + drift * file_time_s + offset_s; }
 };
 [[nodiscard]] EmgClock emg_clock(const Protocol& protocol,
                                  const Instruments& instruments,
@@ -43,8 +39,7 @@ struct EmgClock {
 /// Returns times from 0 to the end of a trial.
 [[nodiscard]] Eigen::VectorXd clock(double duration_s, double rate_hz);
 
-/// Returns markers in ground with the errors of cameras and skin; NaN while a marker is hidden.
-/// Exact at level L0.
+/// Returns markers in ground with the errors of cameras and skin; NaN while a marker is hidden. Exact at level L0.
 [[nodiscard]] recording::MarkerSeries record_markers(const Protocol& protocol,
                                                      const VirtualArm& arm,
                                                      const Instruments& instruments,
@@ -67,8 +62,7 @@ struct EmgClock {
                                     const EmgClock& emg_clock,
                                     std::uint64_t seed);
 
-/// Returns elbow_flexion_moment [N m] of the dynamometer: scale * torque + offset (SensorTruth),
-/// and noise.
+/// Returns elbow_flexion_moment [N m] of the dynamometer: scale * torque + offset (SensorTruth), and noise.
 [[nodiscard]] TimeSeries record_torque(const Protocol& protocol,
                                        const Performance& performance,
                                        const Eigen::VectorXd& time_s,

@@ -23,25 +23,20 @@ Protocol quiet(const std::string& trials) {
 const std::string kSwing =
     "[[trial]]\nname = \"swing\"\nkind = \"flexion\"\nfrequency_hz = 0.5\nduration_s = 20\n"
     "held_mass_kg = 2\n";
-const std::string kHold =
-    "[[trial]]\nname = \"hold\"\nkind = \"mvc\"\ndirection = \"flexion\"\nhold_s = 40\n";
+const std::string kHold = "[[trial]]\nname = \"hold\"\nkind = \"mvc\"\ndirection = \"flexion\"\nhold_s = 40\n";
 
 /// Amplitude of the sine of this frequency in a signal (rms), by its Fourier sum.
 double rms_at(const Eigen::VectorXd& signal, double frequency_hz, double rate_hz) {
   std::complex<double> sum = 0.0;
   for (Eigen::Index k = 0; k < signal.size(); ++k)
-    sum +=
-        signal(k) * std::polar(1.0, -2.0 * kPi * frequency_hz * static_cast<double>(k) / rate_hz);
+    sum += signal(k) * std::polar(1.0, -2.0 * kPi * frequency_hz * static_cast<double>(k) / rate_hz);
   return std::sqrt(2.0) * std::abs(sum) / static_cast<double>(signal.size());
 }
 
-double rms(const Eigen::VectorXd& v) {
-  return std::sqrt(v.squaredNorm() / static_cast<double>(v.size()));
-}
+double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
 
 TEST(Instruments, MainsHumHasItsRmsAndFrequency) {
-  Protocol protocol =
-      quiet("[[trial]]\nname = \"rest\"\nkind = \"passive\"\nraise_s = 8\nlower_s = 8\n");
+  Protocol protocol = quiet("[[trial]]\nname = \"rest\"\nkind = \"passive\"\nraise_s = 8\nlower_s = 8\n");
   protocol.emg.hum = 0.03;
   protocol.emg.hum_hz = 60.0;
   const VirtualRecording r = make_virtual_recording(protocol, 3);
@@ -90,13 +85,11 @@ TEST(Instruments, CrosstalkIsTheNeighboursOwnSignal) {
   const auto channel = [](const VirtualRecording& r, const char* name) -> Eigen::VectorXd {
     return r.trials[0].emg.column(name);
   };
-  const Eigen::VectorXd added =
-      (channel(with, "BIC") - channel(without, "BIC")) / greatest[kBiceps];
+  const Eigen::VectorXd added = (channel(with, "BIC") - channel(without, "BIC")) / greatest[kBiceps];
   const Eigen::VectorXd source = channel(without, "BRA") / greatest[kBrachialis];
   EXPECT_LT((added - 0.08 * source).cwiseAbs().maxCoeff(), 1e-3);  // 0.1 uV of 0.3 mV
   EXPECT_EQ(channel(with, "TRI"), channel(without, "TRI"));
-  const Eigen::VectorXd wrist =
-      (channel(with, "BRD") - channel(without, "BRD")) / greatest[kBrachioradialis];
+  const Eigen::VectorXd wrist = (channel(with, "BRD") - channel(without, "BRD")) / greatest[kBrachioradialis];
   EXPECT_NEAR(rms(wrist.segment(5000, 30000)), 0.08 * 0.5, 0.004);  // half of the biceps' effort
 }
 
@@ -196,8 +189,8 @@ TEST(Instruments, SkinMovesAsASineOfTheAngleWithThePublishedAmplitude) {
   const Eigen::VectorXd q = still.trials[0].truth.motion.values().col(0);
   for (std::size_t m = 0; m < segments.size(); ++m) {
     const auto c = static_cast<Eigen::Index>(3 * m);
-    const Eigen::MatrixXd off = moved.trials[0].markers.positions_m.middleCols(c, 3) -
-                                still.trials[0].markers.positions_m.middleCols(c, 3);
+    const Eigen::MatrixXd off =
+        moved.trials[0].markers.positions_m.middleCols(c, 3) - still.trials[0].markers.positions_m.middleCols(c, 3);
     const Eigen::VectorXd distance = off.rowwise().norm();
     const MarkerError& error = moved.truth.instruments.markers[m];
     const double size_m = error.soft_tissue_m.norm();
@@ -230,8 +223,7 @@ TEST(Instruments, MarkersAreMisplacedBySoMuch) {
 }
 
 TEST(Instruments, GapsComeAsOftenAndLastAsLongAsAskedFor) {
-  Protocol protocol = quiet(
-      "[[trial]]\nname = \"swing\"\nkind = \"flexion\"\nduration_s = 300\nfrequency_hz = 0.3\n");
+  Protocol protocol = quiet("[[trial]]\nname = \"swing\"\nkind = \"flexion\"\nduration_s = 300\nfrequency_hz = 0.3\n");
   protocol.motion.dropouts_per_min = 4.0;
   const VirtualRecording r = make_virtual_recording(protocol, 6);
   const recording::MarkerSeries& markers = r.trials[0].markers;
@@ -276,8 +268,7 @@ TEST(Instruments, EmgOfADifferentClockIsTheSameSignalShifted) {
   Instruments instruments = attach_instruments(protocol, arm, 1);
   Tiredness<4> fresh;
   const HillSet muscles = arm.literature();
-  const ExactPerformance performance(arm, muscles,
-                                     make_script(protocol.trials[0], protocol.control, 1), 0.05,
+  const ExactPerformance performance(arm, muscles, make_script(protocol.trials[0], protocol.control, 1), 0.05,
                                      {1.0, 1.0, 1.0, 1.0}, fresh);
   const TimeSeries on_time = record_emg(protocol, instruments, performance, {0.0, 0.0}, 1);
   const TimeSeries late = record_emg(protocol, instruments, performance, {0.1, 0.0}, 1);
@@ -285,15 +276,13 @@ TEST(Instruments, EmgOfADifferentClockIsTheSameSignalShifted) {
   for (Eigen::Index k = 3000; k < 15000; k += 10) {
     const double n = on_time.values()(k, 0) / performance.drive(0.001 * static_cast<double>(k))[0];
     const double expected = n * performance.drive(0.1 + 0.001 * static_cast<double>(k))[0];
-    // Straight lines 4 ms long in place of the drive, and 0.1 uV steps of signals of 10 uV and
-    // more.
+    // Straight lines 4 ms long in place of the drive, and 0.1 uV steps of signals of 10 uV and more.
     EXPECT_NEAR(late.values()(k, 0), expected, 0.02 * std::abs(expected) + 3e-7);
   }
 }
 
 Eigen::VectorXd channel(const VirtualRecording& r, std::size_t muscle) {
-  return r.trials[0].emg.column(std::string(kArmMuscles[muscle])) /
-         r.truth.instruments.greatest_v[muscle];
+  return r.trials[0].emg.column(std::string(kArmMuscles[muscle])) / r.truth.instruments.greatest_v[muscle];
 }
 
 TEST(WrongSensors, TheDynamometerShowsScaleTimesTorqueAndOffset) {

@@ -20,9 +20,9 @@ using recording::toml_text;
 void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& text) {
   const TrialProtocol& p = trial.protocol;
   const bool c3d = format == RecordingFormat::c3d;
-  text += fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n",
-                      toml_text(p.name), toml_text(p.name + (c3d ? ".c3d" : ".trc")),
-                      toml_text(p.name + (c3d ? ".c3d" : "_emg.sto")), p.use);
+  text +=
+      fmt::format("\n[[trial]]\nname = {}\nmarkers = {}\nemg = {}\nuse = \"{}\"\n", toml_text(p.name),
+                  toml_text(p.name + (c3d ? ".c3d" : ".trc")), toml_text(p.name + (c3d ? ".c3d" : "_emg.sto")), p.use);
   if (trial.external_torque) {
     text += fmt::format("external_torque = {}\n", toml_text(p.name + "_torque.sto"));
   }
@@ -58,17 +58,15 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
       name.substr(1, name.size() - 2), twin::name(protocol.level), recording.seed);
-  text +=
-      fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n", toml_text(subject.name),
-                  recording::toml_number(subject.mass_kg), subject.sex);
+  text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n", toml_text(subject.name),
+                      recording::toml_number(subject.mass_kg), subject.sex);
   text += fmt::format(
       "[model]\n"
       "file = \"model.osim\"              # this subject's segments, the literature's muscles\n"
       "coordinate = \"elbow_flexion\"     # the joint whose torque the muscles share\n"
       "held_mass = {{ body = {}, at_m = [{}, {}, {}] }}  # where held_mass_kg of a trial acts\n\n",
       toml_text(recording.held_body), recording::toml_number(recording.held_at_m.x()),
-      recording::toml_number(recording.held_at_m.y()),
-      recording::toml_number(recording.held_at_m.z()));
+      recording::toml_number(recording.held_at_m.y()), recording::toml_number(recording.held_at_m.z()));
   text += fmt::format("[motion]\nsmoothing = \"{}\"{}\n\n", exact ? "none" : "auto",
                       exact ? "               # the markers are exact" : "");
 
@@ -101,19 +99,14 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   // A person with the literature's v_max has a known one, which the study must hold.
   const std::vector<std::string>& vary = protocol.truth.vary;
   const bool speed_is_known =
-      !recording.truth.arm &&
-      std::find(vary.begin(), vary.end(), "max_shortening_speed") == vary.end();
+      !recording.truth.arm && std::find(vary.begin(), vary.end(), "max_shortening_speed") == vary.end();
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     const std::string_view muscle = kArmMuscles[i];
-    text += fmt::format("\n[[muscle]]\nname = \"{}\"\nosim = [{}]\n", muscle,
-                        modelled_as(i, protocol.seven_heads));
-    text += i == kBrachialis && !own_brachialis
-                ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
-                : fmt::format("emg = \"{}\"\n", muscle);
-    text +=
-        speed_is_known
-            ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
-            : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
+    text += fmt::format("\n[[muscle]]\nname = \"{}\"\nosim = [{}]\n", muscle, modelled_as(i, protocol.seven_heads));
+    text += i == kBrachialis && !own_brachialis ? "emg = { same_as = \"BIC\" }         # deep: no electrode on it\n"
+                                                : fmt::format("emg = \"{}\"\n", muscle);
+    text += speed_is_known ? "fixed = [\"max_shortening_speed\", \"tendon_slack_length\"]    # both are known\n"
+                           : "fixed = [\"tendon_slack_length\"]    # the tendon is the model's\n";
   }
   for (const VirtualTrial& trial : recording.trials) add_trial(trial, format, text);
   text +=
@@ -132,8 +125,7 @@ namespace {
 /// Returns the rows of truth.csv for the properties that depart from the model.
 std::string departures_csv(const Departures& departures) {
   std::string text;
-  const auto add = [&text](std::string_view name, std::string_view unit, const PerMuscle& values,
-                           double usual) {
+  const auto add = [&text](std::string_view name, std::string_view unit, const PerMuscle& values, double usual) {
     if (std::all_of(values.begin(), values.end(), [&](double v) { return v == usual; })) return;
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
       text += fmt::format("{},{},{},{}\n", kArmMuscles[i], name, unit, values[i]);
@@ -167,14 +159,11 @@ std::string truth_csv(const VirtualRecording& recording) {
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
       const double exponent = exact ? 1.0 : recording.truth.instruments.exponent[i];
       text += fmt::format("{},length_activation,1,{}\n{},emg_exponent,1,{}\n", kArmMuscles[i],
-                          recording.truth.beside.length_activation, kArmMuscles[i],
-                          exponent > 0.0 ? exponent : 1.0);
+                          recording.truth.beside.length_activation, kArmMuscles[i], exponent > 0.0 ? exponent : 1.0);
     }
     const BesideMuscles& beside = recording.truth.beside;
-    text +=
-        fmt::format("elbow_flexion,joint_viscosity,N m s,{}\n", beside.joint_viscosity_nms_per_rad);
-    text +=
-        fmt::format("elbow_flexion,joint_stiffness,N m,{}\n", beside.joint_stiffness_nm_per_rad);
+    text += fmt::format("elbow_flexion,joint_viscosity,N m s,{}\n", beside.joint_viscosity_nms_per_rad);
+    text += fmt::format("elbow_flexion,joint_stiffness,N m,{}\n", beside.joint_stiffness_nm_per_rad);
     text += fmt::format("elbow_flexion,joint_torque_offset,N m,{}\n", beside.joint_torque_nm);
     text += departures_csv(departures);
   }
@@ -182,8 +171,7 @@ std::string truth_csv(const VirtualRecording& recording) {
     const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
       text += fmt::format("{},anatomical_strength,N,{}\n", kArmMuscles[i], strength_n[i]);
-      text += fmt::format("{},misfit_of_the_fitted_model,1,{}\n", kArmMuscles[i],
-                          recording.truth.misfit[i]);
+      text += fmt::format("{},misfit_of_the_fitted_model,1,{}\n", kArmMuscles[i], recording.truth.misfit[i]);
     }
   }
   return text;
@@ -192,8 +180,7 @@ std::string truth_csv(const VirtualRecording& recording) {
 std::string truth_header() {
   std::string text = "seed,draws,emg_delay";
   for (const std::string_view muscle : kArmMuscles) {
-    for (const muscle::HillField& field : muscle::kHillFields)
-      text += fmt::format(",{}_{}", muscle, field.name);
+    for (const muscle::HillField& field : muscle::kHillFields) text += fmt::format(",{}_{}", muscle, field.name);
   }
   return text;
 }
@@ -203,8 +190,7 @@ std::string truth_row(const VirtualRecording& recording) {
   std::string text = fmt::format("{},{},{}", recording.seed, truth.draws, truth.emg_delay_s);
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     for (const muscle::HillField& field : muscle::kHillFields)
-      text +=
-          truth.departures.has(field) ? fmt::format(",{}", truth.muscles[i].*(field.member)) : ",";
+      text += truth.departures.has(field) ? fmt::format(",{}", truth.muscles[i].*(field.member)) : ",";
   }
   return text;
 }
@@ -212,8 +198,7 @@ std::string truth_row(const VirtualRecording& recording) {
 std::string person_csv(const VirtualRecording& recording) {
   const Truth& truth = recording.truth;
   std::string text = "of,quantity,unit,value\n";
-  const auto add = [&text](std::string_view of, std::string_view quantity, std::string_view unit,
-                           double value) {
+  const auto add = [&text](std::string_view of, std::string_view quantity, std::string_view unit, double value) {
     text += fmt::format("{},{},{},{}\n", of, quantity, unit, value);
   };
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
@@ -229,8 +214,7 @@ std::string person_csv(const VirtualRecording& recording) {
   for (const VirtualTrial& trial : recording.trials) {
     add(trial.protocol.name, "emg_offset", "s", trial.truth.emg_clock.offset_s);
     for (std::size_t m = 0; m < kArmMuscles.size(); ++m)
-      add(trial.protocol.name, fmt::format("fatigued_{}", kArmMuscles[m]), "1",
-          trial.truth.fatigued[m]);
+      add(trial.protocol.name, fmt::format("fatigued_{}", kArmMuscles[m]), "1", trial.truth.fatigued[m]);
   }
   for (const WorldSetting& setting : stated_world(recording.protocol))
     text += fmt::format("world,{},{},{}\n", setting.key, setting.unit, setting.value);
@@ -247,13 +231,11 @@ std::string person_csv(const VirtualRecording& recording) {
   add("person", "static_moment", "kg m", arm.static_moment_kgm);
   add("person", "held_at", "m", arm.held_at_m);
   for (const TrueHead& head : arm.heads) {
-    muscle::visit_parameters(head.parameters,
-                             [&](std::string_view parameter, Unit unit, double value) {
-                               add(head.name, parameter, symbol(unit), value);
-                             });
+    muscle::visit_parameters(head.parameters, [&](std::string_view parameter, Unit unit, double value) {
+      add(head.name, parameter, symbol(unit), value);
+    });
     add(head.name, "drive", "1", head.drive);
-    add(head.name, "moment_arm_at_90_degrees", "m",
-        model::travel(head.path, 0.5 * kPi).moment_arm_m);
+    add(head.name, "moment_arm_at_90_degrees", "m", model::travel(head.path, 0.5 * kPi).moment_arm_m);
   }
   return text;
 }

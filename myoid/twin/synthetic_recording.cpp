@@ -112,8 +112,7 @@ struct Session {
 template <std::size_t N>
 Tiredness<N> fresh(const Protocol& protocol) {
   Tiredness<N> tiredness;
-  if (protocol.fatigue.on)
-    tiredness.rates = muscle::published_fatigue_rates(protocol.fatigue.rates);
+  if (protocol.fatigue.on) tiredness.rates = muscle::published_fatigue_rates(protocol.fatigue.rates);
   return tiredness;
 }
 
@@ -124,9 +123,8 @@ Session perform_exactly(const Protocol& protocol,
   Session session;
   Tiredness<4> tiredness = fresh<4>(protocol);
   for (const TrialScript& script : scripts) {
-    auto performance =
-        std::make_unique<ExactPerformance>(arm, truth.muscles, script, truth.emg_delay_s,
-                                           truth.effort, tiredness, truth.beside, truth.departures);
+    auto performance = std::make_unique<ExactPerformance>(arm, truth.muscles, script, truth.emg_delay_s, truth.effort,
+                                                          tiredness, truth.beside, truth.departures);
     if (performance->greatest_activation(100.0) > kGreatestActivation) {
       session.too_hard = script.protocol.name;
       session.why = "the muscles are too weak";
@@ -153,9 +151,9 @@ Session perform_by_simulation(const Protocol& protocol,
   }
   Tiredness<7> tiredness = fresh<7>(protocol);
   for (const TrialScript& script : scripts) {
-    auto performance = std::make_unique<SimulatedPerformance>(
-        *truth.arm, script, truth.effort, protocol.control.motor_noise, tiredness,
-        math::seed_for(seed, "nerves." + script.protocol.name));
+    auto performance =
+        std::make_unique<SimulatedPerformance>(*truth.arm, script, truth.effort, protocol.control.motor_noise,
+                                               tiredness, math::seed_for(seed, "nerves." + script.protocol.name));
     if (!performance->failure().empty()) {
       session.too_hard = script.protocol.name;
       session.why = performance->failure();
@@ -186,9 +184,7 @@ void drift_gains(std::vector<TrialScript>& scripts, double growth, double rest_s
   }
 }
 
-std::vector<TrialScript> make_scripts(const Protocol& protocol,
-                                      const OwnBrachialis& brachialis,
-                                      std::uint64_t seed) {
+std::vector<TrialScript> make_scripts(const Protocol& protocol, const OwnBrachialis& brachialis, std::uint64_t seed) {
   std::vector<TrialScript> scripts;
   for (const TrialProtocol& trial : protocol.trials) {
     scripts.push_back(make_script(trial, protocol.control, seed));
@@ -217,23 +213,18 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   Truth& truth = recording.truth;
   truth.instruments = attach_instruments(protocol, arm, seed);
   if (!simulated) {
-    truth.beside =
-        draw_beside_muscles(protocol.truth, math::Random(math::seed_for(seed, "beside muscles")));
+    truth.beside = draw_beside_muscles(protocol.truth, math::Random(math::seed_for(seed, "beside muscles")));
     const bool drawn = protocol.truth.beside_muscles && !protocol.truth.sensors.emg_exponent;
-    for (std::size_t m = 0; drawn && m < 4; ++m)
-      truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
-    truth.departures =
-        draw_departures(protocol.truth, math::Random(math::seed_for(seed, "departures")));
+    for (std::size_t m = 0; drawn && m < 4; ++m) truth.instruments.exponent[m] *= truth.beside.emg_exponent[m];
+    truth.departures = draw_departures(protocol.truth, math::Random(math::seed_for(seed, "departures")));
   }
   math::Random random(math::seed_for(seed, "truth"));
-  truth.emg_delay_s =
-      random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
+  truth.emg_delay_s = random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
   if (protocol.level == Level::noise_free) {
     // Rounds to the clock of the EMG, so that no interpolation lies between truth and recovery.
     truth.emg_delay_s = std::round(truth.emg_delay_s * protocol.emg.rate_hz) / protocol.emg.rate_hz;
   }
-  for (double& effort : truth.effort)
-    effort = random.uniform(protocol.emg.effort_min, protocol.emg.effort_max);
+  for (double& effort : truth.effort) effort = random.uniform(protocol.emg.effort_min, protocol.emg.effort_max);
   const OwnBrachialis brachialis{random.uniform(0.7, 1.3), random.uniform(0.2, 0.5)};
 
   Session session;
@@ -250,12 +241,12 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
     if (session.too_hard.empty()) break;
   }
   if (!session.too_hard.empty()) {
-    throw InvalidInput(fmt::format(
-        "none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
-        "{}; the last one failed at trial \"{}\" ({}): choose a smaller held mass, a lower "
-        "frequency "
-        "or amplitude there",
-        kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
+    throw InvalidInput(
+        fmt::format("none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
+                    "{}; the last one failed at trial \"{}\" ({}): choose a smaller held mass, a lower "
+                    "frequency "
+                    "or amplitude there",
+                    kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
   }
   if (simulated) {
     truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);
@@ -264,19 +255,16 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   if (!record) return recording;
 
   for (const auto& performance : session.performances) {
-    const EmgClock emg_time =
-        emg_clock(protocol, truth.instruments, performance->script().protocol.name, seed);
-    VirtualTrial trial{
-        .protocol = performance->script().protocol,
-        .markers = record_markers(protocol, arm, truth.instruments, *performance, seed),
-        .emg = record_emg(protocol, truth.instruments, *performance, emg_time, seed),
-        .external_torque = std::nullopt,
-        .truth = true_trial(*performance, truth, protocol.motion.rate_hz)};
+    const EmgClock emg_time = emg_clock(protocol, truth.instruments, performance->script().protocol.name, seed);
+    VirtualTrial trial{.protocol = performance->script().protocol,
+                       .markers = record_markers(protocol, arm, truth.instruments, *performance, seed),
+                       .emg = record_emg(protocol, truth.instruments, *performance, emg_time, seed),
+                       .external_torque = std::nullopt,
+                       .truth = true_trial(*performance, truth, protocol.motion.rate_hz)};
     trial.truth.emg_clock = emg_time;
     if (performance->script().against_dynamometer()) {
-      trial.external_torque =
-          record_torque(protocol, *performance, trial.truth.torque.time_s(),
-                        trial.truth.torque.column("elbow_flexion_external_moment"), seed);
+      trial.external_torque = record_torque(protocol, *performance, trial.truth.torque.time_s(),
+                                            trial.truth.torque.column("elbow_flexion_external_moment"), seed);
     }
     recording.trials.push_back(std::move(trial));
   }

@@ -26,8 +26,7 @@ struct Truth {
   HillSet muscles;
   /// The muscle's activation at t follows the EMG at t - delay; at L2 approximately.
   double emg_delay_s = 0.0;
-  PerMuscle effort = {1.0, 1.0, 1.0,
-                      1.0};  ///< Share of the greatest activation that the MVC trials reach.
+  PerMuscle effort = {1.0, 1.0, 1.0, 1.0};  ///< Share of the greatest activation that the MVC trials reach.
   Instruments instruments;
   BesideMuscles beside;        ///< L0, L1.
   Departures departures;       ///< L0, L1.
@@ -55,8 +54,7 @@ struct TrueTrial {
 struct VirtualTrial {
   TrialProtocol protocol;
   recording::MarkerSeries markers;  ///< In ground, Y up.
-  /// Per electrode: raw EMG [V], or the exact activation (before the delay) in a noise-free
-  /// recording.
+  /// Per electrode: raw EMG [V], or the exact activation (before the delay) in a noise-free recording.
   TimeSeries emg;
   /// elbow_flexion_moment [N m]: torque of the dynamometer on the forearm about the axis of
   /// flexion, positive in flexion. The muscles' torque is M(q) qddot + ... - gravity - this torque.
@@ -78,11 +76,10 @@ struct VirtualRecording {
 /// Performs the protocol with a virtual person drawn from the priors with this seed; the same seed
 /// gives the same recording to the bit.
 ///
-/// L0 and L1, the built-in arm (four muscles, rigid tendons): a motion with five continuous
-/// derivatives is chosen and its torque computed. Activations that solve T = sum r_i F_i exactly,
-/// with co-contraction and slowly changing proportions, share this torque among the muscles.
-/// Against a dynamometer the activations are chosen and the dynamometer exerts the rest. The
-/// electrode sees the activation `emg_delay_s` earlier.
+/// L0 and L1, the built-in arm (four muscles, rigid tendons): a motion with five continuous derivatives is chosen and
+/// its torque computed. Activations that solve T = sum r_i F_i exactly, with co-contraction and slowly changing
+/// proportions, share this torque among the muscles. Against a dynamometer the activations are chosen and the
+/// dynamometer exerts the rest. The electrode sees the activation `emg_delay_s` earlier.
 ///
 /// L2, seven heads (true_arm.h): the person tries to follow this motion and is simulated forward
 /// (SimulatedPerformance); the recorded motion is the simulated one.

@@ -57,9 +57,8 @@ TEST(VirtualRecording, MusclesExertTheTorqueThatTheMotionRequires) {
   const double forearm_kg = 0.0162 * 73.0;
   const double hand_kg = 0.0061 * 73.0;
   const double hand_at_m = 0.2689 + 0.79 * 0.0862;
-  const double inertia =
-      forearm_kg * std::pow(0.2689, 2) * (std::pow(0.4574, 2) + std::pow(0.265, 2)) +
-      hand_kg * (hand_at_m * hand_at_m + std::pow(0.513 * 0.0862, 2));
+  const double inertia = forearm_kg * std::pow(0.2689, 2) * (std::pow(0.4574, 2) + std::pow(0.265, 2)) +
+                         hand_kg * (hand_at_m * hand_at_m + std::pow(0.513 * 0.0862, 2));
   const double moment = forearm_kg * 0.4574 * 0.2689 + hand_kg * hand_at_m;
   for (const VirtualTrial& t : recording.trials) {
     const double mass_kg = t.protocol.held_mass_kg;
@@ -67,8 +66,8 @@ TEST(VirtualRecording, MusclesExertTheTorqueThatTheMotionRequires) {
     for (Eigen::Index k = 0; k < t.truth.motion.sample_count(); ++k) {
       const double q = t.truth.motion.values()(k, 0);
       const double qddot = t.truth.motion.values()(k, 2);
-      const double required_nm = (inertia + mass_kg * hand_at_m * hand_at_m) * qddot +
-                                 (moment + mass_kg * hand_at_m) * g * std::sin(q);
+      const double required_nm =
+          (inertia + mass_kg * hand_at_m * hand_at_m) * qddot + (moment + mass_kg * hand_at_m) * g * std::sin(q);
       // Round-off of terms up to 100 N m.
       ASSERT_NEAR(t.truth.torque.values().row(k).sum(), required_nm, 1e-12) << t.protocol.name;
     }
@@ -85,9 +84,8 @@ TEST(VirtualRecording, ForcesTimesMomentArmsAreTheTorque) {
     for (std::size_t i = 0; i < 4; ++i) {
       // Moment arms by differences of the length: 1e-16/h, times forces of up to 1000 N.
       const double q = t.truth.motion.values()(k, 0);
-      const double arm_m = (model::travel(elbow.muscles[i], q - h).length_m -
-                            model::travel(elbow.muscles[i], q + h).length_m) /
-                           (2 * h);
+      const double arm_m =
+          (model::travel(elbow.muscles[i], q - h).length_m - model::travel(elbow.muscles[i], q + h).length_m) / (2 * h);
       torque_nm += arm_m * t.truth.force.values()(k, static_cast<Eigen::Index>(i));
     }
     EXPECT_NEAR(torque_nm, t.truth.torque.values()(k, 0), 1e-6);
@@ -133,8 +131,7 @@ TEST(VirtualRecording, BrachioradialisIsNotTheBicepsTwice) {
 
 TEST(VirtualRecording, ActivationsArePossible) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const VirtualRecording recording =
-        make_virtual_recording(small_protocol(Level::noise_free), seed);
+    const VirtualRecording recording = make_virtual_recording(small_protocol(Level::noise_free), seed);
     for (const VirtualTrial& t : recording.trials) {
       EXPECT_GE(t.truth.activation.values().minCoeff(), 0.0);
       EXPECT_LE(t.truth.activation.values().maxCoeff(), 1.0);
@@ -161,25 +158,20 @@ TEST(VirtualRecording, RawEmgOfTheGreatestEffortHasItsRms) {
   // Rest 1 s, rise 1 s, hold 4 s: samples of the plateau. Rms over 3.8 s of 200 Hz bandwidth:
   // standard error 1/sqrt(4 x 200 x 3.8) = 1.8 %; mains and amplifier add 0.02 %.
   const Eigen::VectorXd plateau = t.emg.column("BIC").segment(2000, 3800);
-  EXPECT_NEAR(
-      std::sqrt(plateau.squaredNorm() / 3800.0) / recording.truth.instruments.greatest_v[kBiceps],
-      1.0, 0.075);
+  EXPECT_NEAR(std::sqrt(plateau.squaredNorm() / 3800.0) / recording.truth.instruments.greatest_v[kBiceps], 1.0, 0.075);
   // Its rectified mean, which the study normalises by: sqrt(2/pi) of that.
-  EXPECT_NEAR(plateau.cwiseAbs().mean() / recording.truth.instruments.greatest_v[kBiceps],
-              std::sqrt(2.0 / kPi), 0.06);
+  EXPECT_NEAR(plateau.cwiseAbs().mean() / recording.truth.instruments.greatest_v[kBiceps], std::sqrt(2.0 / kPi), 0.06);
   // At rest: 1.5 % of it from the amplifier and 1 % of mains.
   const Eigen::VectorXd rest = t.emg.column("BIC").head(800);
-  EXPECT_NEAR(
-      std::sqrt(rest.squaredNorm() / 800.0) / recording.truth.instruments.greatest_v[kBiceps],
-      std::hypot(0.015, 0.010), 0.003);
+  EXPECT_NEAR(std::sqrt(rest.squaredNorm() / 800.0) / recording.truth.instruments.greatest_v[kBiceps],
+              std::hypot(0.015, 0.010), 0.003);
 }
 
 TEST(VirtualRecording, TheDynamometerTakesWhatTheMusclesExertAndHoldsTheForearm) {
   const VirtualRecording recording = make_virtual_recording(small_protocol(Level::noise_free), 4);
   const VirtualTrial& t = trial(recording, "ramp");
   ASSERT_TRUE(t.external_torque.has_value());
-  const double weight_nm =
-      model::planar_elbow().static_moment_kgm * kStandardGravity * std::sin(60.0 * kDegree);
+  const double weight_nm = model::planar_elbow().static_moment_kgm * kStandardGravity * std::sin(60.0 * kDegree);
   const Eigen::VectorXd external_nm = t.external_torque->column("elbow_flexion_moment");
   EXPECT_NEAR(external_nm(0), weight_nm, 1e-12);  // at rest it carries the weight: flexes
   EXPECT_LT(external_nm.minCoeff(), -5.0);        // it resists flexion: negative
@@ -191,8 +183,7 @@ TEST(VirtualRecording, TheDynamometerTakesWhatTheMusclesExertAndHoldsTheForearm)
 TEST(VirtualRecording, TorqueNoiseHasTheSpreadAskedFor) {
   const VirtualRecording noisy = make_virtual_recording(small_protocol(Level::noisy), 4);
   const VirtualTrial& t = trial(noisy, "ramp");
-  const Eigen::VectorXd error_nm =
-      t.external_torque->column("elbow_flexion_moment") - t.truth.torque.values().col(1);
+  const Eigen::VectorXd error_nm = t.external_torque->column("elbow_flexion_moment") - t.truth.torque.values().col(1);
   // 13 s of noise with 2 x 3.9 Hz: about 100 values, 7 % each way; four of them.
   EXPECT_NEAR(std::sqrt(error_nm.squaredNorm() / static_cast<double>(error_nm.size())), 0.3, 0.09);
 }
@@ -216,8 +207,7 @@ TEST(VirtualRecording, WithoutSpreadThePersonIsTheLiterature) {
   const auto expected = model::arm4_muscles();
   EXPECT_EQ(found[kBiceps].max_isometric_force_n, expected[kBiceps].max_isometric_force_n);
   // The product goes through the ratio of slopes and back: round-off.
-  EXPECT_NEAR(found[kTriceps].eccentric_curvature_product,
-              expected[kTriceps].eccentric_curvature_product, 1e-15);
+  EXPECT_NEAR(found[kTriceps].eccentric_curvature_product, expected[kTriceps].eccentric_curvature_product, 1e-15);
   EXPECT_EQ(found[kBrachialis].optimal_fiber_length_m, 0.09);
 }
 

@@ -56,14 +56,12 @@ std::vector<TrialInput> inputs_of(twin::VirtualRecording& recording) {
   return inputs;
 }
 
-std::map<std::pair<std::string, std::string>, double> truth_of(
-    const twin::VirtualRecording& recording) {
+std::map<std::pair<std::string, std::string>, double> truth_of(const twin::VirtualRecording& recording) {
   std::map<std::pair<std::string, std::string>, double> truth;
   for (std::size_t m = 0; m < twin::kArmMuscles.size(); ++m) {
     for (const muscle::HillField& field : muscle::kHillFields) {
       if (!recording.truth.departures.has(field)) continue;
-      truth[{std::string(twin::kArmMuscles[m]), std::string(field.name)}] =
-          recording.truth.muscles[m].*field.member;
+      truth[{std::string(twin::kArmMuscles[m]), std::string(field.name)}] = recording.truth.muscles[m].*field.member;
     }
   }
   truth[{"subject", "emg_delay"}] = recording.truth.emg_delay_s;
@@ -76,9 +74,7 @@ struct OnePerson {
   std::vector<TwinFailure> failures;
 };
 
-OnePerson one_person(const twin::Protocol& protocol,
-                     std::uint64_t seed,
-                     const TwinStudyOptions& options) {
+OnePerson one_person(const twin::Protocol& protocol, std::uint64_t seed, const TwinStudyOptions& options) {
   OnePerson person;
   try {
     twin::VirtualRecording recording = twin::make_virtual_recording(protocol, seed);
@@ -87,9 +83,9 @@ OnePerson one_person(const twin::Protocol& protocol,
     RunOptions run;
     run.progress.stop = options.progress.stop;
     run.inform_forces = false;
-    run.share_forces = std::any_of(
-        options.methods.begin(), options.methods.end(),
-        [](identification::Method method) { return method != identification::Method::torque; });
+    run.share_forces = std::any_of(options.methods.begin(), options.methods.end(), [](identification::Method method) {
+      return method != identification::Method::torque;
+    });
     const StudyResult result = analyse(in_memory(study, inputs_of(recording)), run);
     for (const TrialResult& trial : result.trials) {
       if (!trial.failure().empty())
@@ -125,8 +121,7 @@ TwinSummary summary_of(const std::vector<const TwinRow*>& rows) {
     ++s.count;
     s.verdicts[static_cast<std::size_t>(e.verdict)]++;
     const double error = row->error();
-    const double size =
-        std::isfinite(error) ? std::abs(error) : std::numeric_limits<double>::infinity();
+    const double size = std::isfinite(error) ? std::abs(error) : std::numeric_limits<double>::infinity();
     if (std::isfinite(error)) {
       errors.push_back(error);
       squares += error * error;
@@ -180,8 +175,7 @@ double TwinRow::error() const {
 }
 
 bool TwinRow::covered() const {
-  return estimate.ci_low && estimate.ci_high && *estimate.ci_low <= truth &&
-         truth <= *estimate.ci_high;
+  return estimate.ci_low && estimate.ci_high && *estimate.ci_low <= truth && truth <= *estimate.ci_high;
 }
 
 TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOptions& options) {
@@ -201,8 +195,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
       }
     });
     if (finished[k] == 0) return;
-    options.progress.tell(++done / static_cast<double>(count),
-                          fmt::format("{} of {} persons", done.load(), count));
+    options.progress.tell(++done / static_cast<double>(count), fmt::format("{} of {} persons", done.load(), count));
   });
   TwinStudyResult result;
   result.protocol = protocol.name;
@@ -214,8 +207,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   result.interrupted = result.finished < options.subjects;
   for (OnePerson& person : persons) {
     std::move(person.rows.begin(), person.rows.end(), std::back_inserter(result.rows));
-    std::move(person.predictions.begin(), person.predictions.end(),
-              std::back_inserter(result.predictions));
+    std::move(person.predictions.begin(), person.predictions.end(), std::back_inserter(result.predictions));
     std::move(person.failures.begin(), person.failures.end(), std::back_inserter(result.failures));
   }
   return result;
@@ -251,16 +243,13 @@ std::string persons_text(const TwinStudyResult& result) {
   std::string persons =
       "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
       "verdict\n";
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? cell(*value) : std::string();
-  };
+  const auto optional = [](const std::optional<double>& value) { return value ? cell(*value) : std::string(); };
   for (const TwinRow& row : result.rows) {
     const ParameterEstimate& e = row.estimate;
     persons +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, e.method, e.fit_case,
-                    e.muscle, e.parameter, symbol(e.unit), cell(row.truth), cell(e.initial),
-                    cell(e.estimate), optional(e.ci_low), optional(e.ci_high),
-                    optional(e.shrinkage), identification::name(e.verdict));
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.seed, e.method, e.fit_case, e.muscle, e.parameter,
+                    symbol(e.unit), cell(row.truth), cell(e.initial), cell(e.estimate), optional(e.ci_low),
+                    optional(e.ci_high), optional(e.shrinkage), identification::name(e.verdict));
   }
   return persons;
 }
@@ -274,14 +263,13 @@ std::string summary_text(const TwinStudyResult& result) {
       "not_identified_but_within_10,not_identified_and_not,identified_within_15,"
       "outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
-    summary += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-        s.method, s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error),
-        cell(s.mad), cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15),
-        cell(s.within_20), cell(s.prior_within_10), cell(s.coverage), cell(s.half_width),
-        cell(s.shrinkage), s.verdicts[0], s.verdicts[1], s.verdicts[2], s.verdicts[3],
-        s.verdicts[4], s.identified_good, s.identified_bad, s.other_good, s.other_bad,
-        s.identified_within_15, s.outside_physical);
+    summary +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
+                    s.fit_case, s.muscle, s.parameter, s.count, cell(s.bias), cell(s.median_error), cell(s.mad),
+                    cell(s.rmse), cell(s.within_5), cell(s.within_10), cell(s.within_15), cell(s.within_20),
+                    cell(s.prior_within_10), cell(s.coverage), cell(s.half_width), cell(s.shrinkage), s.verdicts[0],
+                    s.verdicts[1], s.verdicts[2], s.verdicts[3], s.verdicts[4], s.identified_good, s.identified_bad,
+                    s.other_good, s.other_bad, s.identified_within_15, s.outside_physical);
   }
   return summary;
 }
@@ -293,8 +281,7 @@ std::string predictions_text(const TwinStudyResult& result) {
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, p.trial);
     for (const identification::Score* s : {&p.law, &p.smooth, &p.band})
-      predictions +=
-          fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
+      predictions += fmt::format(",{},{},{}", cell(s->rmse_nm()), cell(s->nrmse_range()), cell(s->r2()));
     predictions += "\n";
   }
   return predictions;
@@ -322,8 +309,7 @@ void write_twin_study(const TwinStudyResult& result,
   for (const WorldSetting& setting : result.world) run["world"][setting.key] = setting.value;
   for (const InputFile& file : provenance.inputs)
     run["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
-  for (const TwinFailure& f : result.failures)
-    run["failures"].push_back({{"seed", f.seed}, {"message", f.message}});
+  for (const TwinFailure& f : result.failures) run["failures"].push_back({{"seed", f.seed}, {"message", f.message}});
   recording::write_file(folder / "run.json", json_text(run) + "\n");
 }
 

@@ -27,8 +27,7 @@ struct TwinRow {
   double truth = 0.0;
   identification::ParameterEstimate estimate;
 
-  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is
-  /// 10 ms.
+  /// Returns the error relative to the truth; for the EMG delay in units of 100 ms, so that 0.1 is 10 ms.
   [[nodiscard]] double error() const;
   [[nodiscard]] bool covered() const;  ///< The 95 % interval holds the truth.
 };
@@ -83,20 +82,16 @@ struct TwinSummary {
   int outside_physical = 0;      ///< Reported beyond the physical bounds and not `non_physical`.
 };
 
-/// Makes virtual persons, one per seed, recorded by the protocol at its level, and puts them
-/// through the whole chain (EMG, inverse kinematics and dynamics, identification) as `run` does.
-/// Compares the results with the truth. Persons run in parallel, with the same numbers for every
-/// number of threads. A person whose run fails is listed. When stopped, returns the finished
-/// persons.
-[[nodiscard]] TwinStudyResult twin_study(const twin::Protocol& protocol,
-                                         const TwinStudyOptions& options = {});
+/// Makes virtual persons, one per seed, recorded by the protocol at its level, and puts them through the whole chain
+/// (EMG, inverse kinematics and dynamics, identification) as `run` does. Compares the results with the truth. Persons
+/// run in parallel, with the same numbers for every number of threads. A person whose run fails is listed. When
+/// stopped, returns the finished persons.
+[[nodiscard]] TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOptions& options = {});
 
 /// Summarizes per method, case and parameter: each muscle and all together.
 [[nodiscard]] std::vector<TwinSummary> summarize(const TwinStudyResult& result);
 
 /// Writes persons.csv (every estimate), summary.csv, predictions.csv, run.json.
-void write_twin_study(const TwinStudyResult& result,
-                      const Provenance& provenance,
-                      const std::filesystem::path& folder);
+void write_twin_study(const TwinStudyResult& result, const Provenance& provenance, const std::filesystem::path& folder);
 
 }  // namespace myoid::twin

@@ -13,11 +13,7 @@
 namespace myoid::twin {
 namespace {
 
-TwinRow row(std::string parameter,
-            double truth,
-            double estimate,
-            double half_width,
-            identification::Verdict verdict) {
+TwinRow row(std::string parameter, double truth, double estimate, double half_width, identification::Verdict verdict) {
   return {1,
           truth,
           {.muscle = "BIC",
@@ -70,8 +66,7 @@ TEST(TwinSummary, TheDelayIsCountedInTensOfMilliseconds) {
 }
 
 TEST(TwinStudy, ExactRecordingsGiveTheTruth) {
-  twin::Protocol protocol =
-      twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
+  twin::Protocol protocol = twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
   TwinStudyOptions options;
   options.subjects = 1;
   options.first_seed = 3;
@@ -83,8 +78,7 @@ TEST(TwinStudy, ExactRecordingsGiveTheTruth) {
 }
 
 TEST(TwinStudy, StoppedItSaysSoAndHasOnlyWhoIsFinished) {
-  const twin::Protocol protocol =
-      twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
+  const twin::Protocol protocol = twin::read_protocol(test::source_dir() / "examples/protocols/noise_free.toml");
   std::stop_source stop;
   stop.request_stop();
   TwinStudyOptions options;

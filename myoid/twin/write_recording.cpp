@@ -21,13 +21,12 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error || !fs::is_directory(directory)) {
-    throw InvalidInput(fmt::format("{}: cannot be made a folder ({}); choose another one",
-                                   directory.string(),
+    throw InvalidInput(fmt::format("{}: cannot be made a folder ({}); choose another one", directory.string(),
                                    error ? error.message() : "a file of that name exists"));
   }
   if (!overwrite && !fs::is_empty(directory)) {
-    throw InvalidInput(fmt::format(
-        "{}: the folder is not empty; choose another one, or --overwrite", directory.string()));
+    throw InvalidInput(
+        fmt::format("{}: the folder is not empty; choose another one, or --overwrite", directory.string()));
   }
 }
 
@@ -36,19 +35,16 @@ void write_trial(const VirtualRecording& recording,
                  const fs::path& directory,
                  RecordingFormat format) {
   const std::string& name = trial.protocol.name;
-  const std::string origin = fmt::format("virtual recording: protocol {}, seed {}",
-                                         recording.protocol.name, recording.seed);
+  const std::string origin =
+      fmt::format("virtual recording: protocol {}, seed {}", recording.protocol.name, recording.seed);
   const auto write = [&](const fs::path& file, const TimeSeries& series, const std::string& what) {
-    recording::write_storage(directory / file, series,
-                             {.title = what + " " + name, .comments = {origin}});
+    recording::write_storage(directory / file, series, {.title = what + " " + name, .comments = {origin}});
   };
   if (format == RecordingFormat::c3d) {
-    recording::write_c3d(directory / (name + ".c3d"),
-                         recording::make_c3d(trial.markers, trial.emg));
+    recording::write_c3d(directory / (name + ".c3d"), recording::make_c3d(trial.markers, trial.emg));
   } else {
     recording::write_trc(directory / (name + ".trc"), trial.markers);
-    write(name + "_emg.sto", trial.emg,
-          recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
+    write(name + "_emg.sto", trial.emg, recording.protocol.level == Level::noise_free ? "activation" : "raw EMG [V]");
   }
   if (trial.external_torque) write(name + "_torque.sto", *trial.external_torque, "torque");
 
@@ -68,8 +64,7 @@ void write_virtual_recording(const VirtualRecording& recording,
                              const WriteOptions& options) {
   prepare_directory(directory, options.overwrite);
   recording::write_file(directory / "model.osim", recording.model_osim);
-  for (const VirtualTrial& trial : recording.trials)
-    write_trial(recording, trial, directory, options.format);
+  for (const VirtualTrial& trial : recording.trials) write_trial(recording, trial, directory, options.format);
   recording::write_file(directory / "truth" / "person.csv", person_csv(recording));
   recording::write_file(directory / "truth.csv", truth_csv(recording));
   recording::write_file(directory / "study.toml", study_toml(recording, options.format));

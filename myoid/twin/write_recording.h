@@ -14,12 +14,10 @@ enum class RecordingFormat {
 };
 
 /// Returns the study file for `myoid run`, with comments for a reader.
-[[nodiscard]] std::string study_toml(const VirtualRecording& recording,
-                                     RecordingFormat format = RecordingFormat::text);
+[[nodiscard]] std::string study_toml(const VirtualRecording& recording, RecordingFormat format = RecordingFormat::text);
 
-/// Returns the true values: muscle, parameter, unit, value; the delay of the EMG has muscle
-/// "subject". Omits parameters that exist only in the paper's curves if the person has other
-/// curves.
+/// Returns the true values: muscle, parameter, unit, value; the delay of the EMG has muscle "subject". Omits parameters
+/// that exist only in the paper's curves if the person has other curves.
 [[nodiscard]] std::string truth_csv(const VirtualRecording& recording);
 
 /// Returns the true values in one line, for tables of many persons: seed, persons drawn, delay, and
@@ -35,11 +33,10 @@ struct WriteOptions {
   RecordingFormat format = RecordingFormat::text;
 };
 
-/// Writes model.osim, study.toml, truth.csv, for each trial its markers and EMG and, with a
-/// dynamometer, TRIAL_torque.sto, and under truth/ the true course. Creates the folder. Files are
-/// written whole or not at all; study.toml comes last, so that a folder with one is complete.
-/// Throws InvalidInput if the folder holds files and not `overwrite`, or cannot be written; also if
-/// the EMG's rate is no whole multiple of the cameras' for C3D.
+/// Writes model.osim, study.toml, truth.csv, for each trial its markers and EMG and, with a dynamometer,
+/// TRIAL_torque.sto, and under truth/ the true course. Creates the folder. Files are written whole or not at all;
+/// study.toml comes last, so that a folder with one is complete. Throws InvalidInput if the folder holds files and not
+/// `overwrite`, or cannot be written; also if the EMG's rate is no whole multiple of the cameras' for C3D.
 void write_virtual_recording(const VirtualRecording& recording,
                              const std::filesystem::path& directory,
                              const WriteOptions& options = {});

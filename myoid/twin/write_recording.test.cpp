@@ -71,13 +71,10 @@ TEST_F(WriteRecording, FilesReadBackToTheBit) {
     EXPECT_EQ(trc.markers.time_s, trial.markers.time_s);
     // Through millimeters and back: two roundings of a number up to 2 m.
     EXPECT_LE((trc.markers.positions_m - trial.markers.positions_m).cwiseAbs().maxCoeff(), 5e-16);
-    EXPECT_EQ(recording::read_emg(directory_ / (name + "_emg.sto"), "", true).data.values(),
-              trial.emg.values());
+    EXPECT_EQ(recording::read_emg(directory_ / (name + "_emg.sto"), "", true).data.values(), trial.emg.values());
     if (trial.external_torque) {
-      const recording::Storage torque =
-          recording::read_storage(directory_ / (name + "_torque.sto"));
-      EXPECT_EQ(torque.data.column("elbow_flexion_moment"),
-                trial.external_torque->column("elbow_flexion_moment"));
+      const recording::Storage torque = recording::read_storage(directory_ / (name + "_torque.sto"));
+      EXPECT_EQ(torque.data.column("elbow_flexion_moment"), trial.external_torque->column("elbow_flexion_moment"));
       EXPECT_FALSE(torque.in_degrees);
     }
     EXPECT_TRUE(fs::exists(directory_ / "truth" / (name + "_activation.sto")));
@@ -89,10 +86,8 @@ TEST_F(WriteRecording, SameSeedSameBytes) {
   write_virtual_recording(recording(3, Level::noisy), directory_ / "a");
   write_virtual_recording(recording(3, Level::noisy), directory_ / "b");
   write_virtual_recording(recording(4, Level::noisy), directory_ / "c");
-  write_virtual_recording(recording(3, Level::different), directory_ / "a/person",
-                          {.format = RecordingFormat::c3d});
-  write_virtual_recording(recording(3, Level::different), directory_ / "b/person",
-                          {.format = RecordingFormat::c3d});
+  write_virtual_recording(recording(3, Level::different), directory_ / "a/person", {.format = RecordingFormat::c3d});
+  write_virtual_recording(recording(3, Level::different), directory_ / "b/person", {.format = RecordingFormat::c3d});
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(directory_ / "a")) {
     if (!entry.is_regular_file()) continue;
@@ -118,15 +113,12 @@ TEST_F(WriteRecording, AC3dFileHoldsMarkersAndEmg) {
     // The last frame has but one sample of the EMG and is left out. Reals of 32 bits.
     const Eigen::Index frames = markers.frame_count();
     ASSERT_EQ(frames, trial.markers.frame_count() - 1);
-    EXPECT_LE(
-        (markers.positions_m - trial.markers.positions_m.topRows(frames)).cwiseAbs().maxCoeff(),
-        2e-7);
+    EXPECT_LE((markers.positions_m - trial.markers.positions_m.topRows(frames)).cwiseAbs().maxCoeff(), 2e-7);
     ASSERT_EQ(emg.sample_count(), 10 * frames);
     for (const Channel& channel : trial.emg.channels())
-      EXPECT_LE((emg.column(channel.name) - trial.emg.column(channel.name).head(emg.sample_count()))
-                    .cwiseAbs()
-                    .maxCoeff(),
-                1e-9);
+      EXPECT_LE(
+          (emg.column(channel.name) - trial.emg.column(channel.name).head(emg.sample_count())).cwiseAbs().maxCoeff(),
+          1e-9);
   }
   const std::string study = content(directory_ / "study.toml");
   EXPECT_NE(study.find("emg = \"loaded.c3d\""), std::string::npos);
@@ -169,8 +161,7 @@ TEST_F(WriteRecording, TruthHasARowForEveryParameter) {
   }
   EXPECT_EQ(values.size(), 4U * 8U + 1U + 4U * 3U + 3U);
   EXPECT_EQ(values.at("BRA,max_isometric_force"), made.truth.muscles[1].max_isometric_force_n);
-  EXPECT_EQ(values.at("TRI,eccentric_curvature_product"),
-            made.truth.muscles[3].eccentric_curvature_product);
+  EXPECT_EQ(values.at("TRI,eccentric_curvature_product"), made.truth.muscles[3].eccentric_curvature_product);
   EXPECT_EQ(values.at("subject,emg_delay"), made.truth.emg_delay_s);
   // P = (V_ml - 1) V_sh / (S (1 + V_sh))
   const auto& tri = made.truth.muscles[3];
@@ -196,8 +187,7 @@ TEST_F(WriteRecording, ExactActivationsHaveNoExponentAndAVmaxThatIsNotDrawnIsKno
   EXPECT_EQ(exponents, 4);
   const auto held = [&](const std::string& folder) {
     write_virtual_recording(made, directory_ / folder);
-    const toml::table study =
-        recording::parse_toml(content(directory_ / folder / "study.toml"), "study.toml");
+    const toml::table study = recording::parse_toml(content(directory_ / folder / "study.toml"), "study.toml");
     return study["muscle"][0]["fixed"][0].value<std::string>();
   };
   EXPECT_EQ(held("known"), "max_shortening_speed");

@@ -22,8 +22,7 @@ constexpr double kLengthTolerance = 1e-12;
 
 /// Tabulates the tendon from slack to twice the strain at F_max. The slope at slack is the
 /// right-hand one, because De Groote's curve has a corner there.
-CurveTable tabulated_tendon(const muscle::NormalizedCurves<double>& curves,
-                            double strain_at_max_force) {
+CurveTable tabulated_tendon(const muscle::NormalizedCurves<double>& curves, double strain_at_max_force) {
   return {[&](double e) -> CurvePoint<double> {
             if (e > 0.0) return curves.tendon(e);
             return {0.0, curves.tendon(std::numeric_limits<double>::min()).slope};
@@ -43,21 +42,17 @@ ArmStepper::ArmStepper(const TrueArm& arm, double step_s) : arm_(&arm), step_s_(
     const muscle::MusculotendonParameters<double>& p = arm.heads[i].parameters;
     const muscle::Musculotendon<double> unit(p, arm.laws, arm.millard);
     const muscle::NormalizedCurves<double>& curves = unit.curves();
-    laws_[i] = {
-        .length = {[&](double l) { return curves.length(l); }, 0.3, 2.1, kIntervals},
-        .velocity = {[&](double v) { return curves.velocity(1.0, v); }, -1.2, 1.2, 2 * kIntervals},
-        .passive = {[&](double l) { return curves.passive(l); }, 0.2, 2.0, kIntervals},
-        .tendon = tabulated_tendon(curves, p.tendon_strain),
-        .height_m = unit.height_m(),
-        .shortest_m = unit.shortest_fiber_m()};
+    laws_[i] = {.length = {[&](double l) { return curves.length(l); }, 0.3, 2.1, kIntervals},
+                .velocity = {[&](double v) { return curves.velocity(1.0, v); }, -1.2, 1.2, 2 * kIntervals},
+                .passive = {[&](double l) { return curves.passive(l); }, 0.2, 2.0, kIntervals},
+                .tendon = tabulated_tendon(curves, p.tendon_strain),
+                .height_m = unit.height_m(),
+                .shortest_m = unit.shortest_fiber_m()};
   }
 }
 
-ArmStepper::FiberBalance ArmStepper::balance(std::size_t i,
-                                             double path_m,
-                                             double length_m,
-                                             double velocity_mps,
-                                             double velocity_slope) const {
+ArmStepper::FiberBalance ArmStepper::balance(
+    std::size_t i, double path_m, double length_m, double velocity_mps, double velocity_slope) const {
   const muscle::MusculotendonParameters<double>& p = arm_->heads[i].parameters;
   const HeadLaws& laws = laws_[i];
   const double per_l0 = 1.0 / p.hill.optimal_fiber_length_m;
@@ -68,39 +63,33 @@ ArmStepper::FiberBalance ArmStepper::balance(std::size_t i,
   const double cosine = along_m / length_m;
   const double per_slack = 1.0 / p.hill.tendon_slack_length_m;
   const double strain = (path_m - along_m) * per_slack - 1.0;
-  const CurvePoint<double> tendon =
-      strain > 0.0 ? laws.tendon(strain) : CurvePoint<double>{0.0, 0.0};
+  const CurvePoint<double> tendon = strain > 0.0 ? laws.tendon(strain) : CurvePoint<double>{0.0, 0.0};
 
   const double shorter = per_l0 / (1.0 + p.optimal_length_shift * (1.0 - a));
   const CurvePoint<double> f_l = laws.length(length_m * shorter);
   const CurvePoint<double> f_v = laws.velocity(velocity_mps * per_speed);
   const CurvePoint<double> f_pe = laws.passive(length_m * per_l0);
-  const double fiber =
-      a * f_l.value * f_v.value + f_pe.value + p.damping * velocity_mps * per_speed;
+  const double fiber = a * f_l.value * f_v.value + f_pe.value + p.damping * velocity_mps * per_speed;
   const double fiber_slope =
-      a * (f_l.slope * shorter * f_v.value + f_l.value * f_v.slope * velocity_slope * per_speed) +
-      f_pe.slope * per_l0 + p.damping * velocity_slope * per_speed;
+      a * (f_l.slope * shorter * f_v.value + f_l.value * f_v.slope * velocity_slope * per_speed) + f_pe.slope * per_l0 +
+      p.damping * velocity_slope * per_speed;
   const double cosine_slope = laws.height_m * laws.height_m / (along_m * length_m * length_m);
   const double f_max = p.hill.max_isometric_force_n;
   return {.mismatch_n = f_max * (tendon.value - fiber * cosine),
-          .slope_npm = f_max * (-tendon.slope * per_slack / cosine - fiber_slope * cosine -
-                                fiber * cosine_slope),
+          .slope_npm = f_max * (-tendon.slope * per_slack / cosine - fiber_slope * cosine - fiber * cosine_slope),
           .tendon_n = f_max * tendon.value};
 }
 
-double ArmStepper::balanced_length_m(std::size_t i,
-                                     double path_m,
-                                     double guess_m,
-                                     double velocity_offset_mps,
-                                     double velocity_slope) const {
+double ArmStepper::balanced_length_m(
+    std::size_t i, double path_m, double guess_m, double velocity_offset_mps, double velocity_slope) const {
   // The mismatch falls with the length: Newton's steps, halving the bracket where they leave it.
   const double l0_m = arm_->heads[i].parameters.hill.optimal_fiber_length_m;
   double lower_m = laws_[i].shortest_m;
   double upper_m = std::max(path_m, lower_m) + laws_[i].height_m;
   double length_m = std::clamp(guess_m, lower_m, upper_m);
   for (int k = 0; k < kMostIterations; ++k) {
-    const FiberBalance now = balance(
-        i, path_m, length_m, velocity_offset_mps + velocity_slope * length_m, velocity_slope);
+    const FiberBalance now =
+        balance(i, path_m, length_m, velocity_offset_mps + velocity_slope * length_m, velocity_slope);
     (now.mismatch_n > 0.0 ? lower_m : upper_m) = length_m;
     double next_m = length_m - now.mismatch_n / now.slope_npm;
     if (!(next_m > lower_m && next_m < upper_m)) {
@@ -115,9 +104,7 @@ double ArmStepper::balanced_length_m(std::size_t i,
   return length_m;
 }
 
-void ArmStepper::start(const Surroundings& surroundings,
-                       double elbow_flexion_rad,
-                       const PerHead& excitation) {
+void ArmStepper::start(const Surroundings& surroundings, double elbow_flexion_rad, const PerHead& excitation) {
   surroundings_ = surroundings;
   state_ = {};
   state_.q = {elbow_flexion_rad, 0.0, 0.0};
@@ -149,8 +136,7 @@ void ArmStepper::advance_fibers() {
     const model::MuscleTravel path = model::travel(arm_->heads[i].path, q_rad);
     const double last_m = state_.fiber_length_m[i];
     const double offset_mps = (before_m_[i] - 4.0 * last_m) / (2.0 * step_s_);
-    const double length_m =
-        balanced_length_m(i, path.length_m, 2.0 * last_m - before_m_[i], offset_mps, rate);
+    const double length_m = balanced_length_m(i, path.length_m, 2.0 * last_m - before_m_[i], offset_mps, rate);
     const double velocity_mps = offset_mps + rate * length_m;
     state_.tendon_force_n[i] = balance(i, path.length_m, length_m, velocity_mps, rate).tendon_n;
     state_.fiber_velocity_mps[i] = velocity_mps;
@@ -167,16 +153,12 @@ void ArmStepper::step_free(const PerHead& excitation) {
   q.value += h * half_radps;
   advance_activation(excitation);
   advance_fibers();
-  // The joint's viscosity acts on the velocity at the end of the step, which is linear in the
-  // acceleration there.
+  // The joint's viscosity acts on the velocity at the end of the step, which is linear in the acceleration there.
   const double elastic_nm = joint_passive(arm_->joint, q.value, 0.0).torque_nm;
-  const double gravity_nm =
-      required_torque_nm(*arm_, q.value, 0.0, surroundings_.plane, surroundings_.held_mass_kg);
-  const double inertia_kgm2 =
-      required_torque_nm(*arm_, 0.0, 1.0, surroundings_.plane, surroundings_.held_mass_kg);
+  const double gravity_nm = required_torque_nm(*arm_, q.value, 0.0, surroundings_.plane, surroundings_.held_mass_kg);
+  const double inertia_kgm2 = required_torque_nm(*arm_, 0.0, 1.0, surroundings_.plane, surroundings_.held_mass_kg);
   const double b = arm_->joint.viscosity_nms_per_rad;
-  q.second = (state_.muscle_torque_nm + elastic_nm - gravity_nm - b * half_radps) /
-             (inertia_kgm2 + 0.5 * h * b);
+  q.second = (state_.muscle_torque_nm + elastic_nm - gravity_nm - b * half_radps) / (inertia_kgm2 + 0.5 * h * b);
   q.first = half_radps + 0.5 * h * q.second;
   state_.passive_torque_nm = elastic_nm - b * q.first;
 }
@@ -193,27 +175,23 @@ ArmStepper::Foresight ArmStepper::foresee(const Moment& q) const {
   constexpr double kActivation = 0.2;
   constexpr double kLeastSpeedFactor = 0.05;
   Foresight result;
-  result.torque_nm = required_torque_nm(*arm_, q.value, q.second, surroundings_.plane,
-                                        surroundings_.held_mass_kg) -
+  result.torque_nm = required_torque_nm(*arm_, q.value, q.second, surroundings_.plane, surroundings_.held_mass_kg) -
                      joint_passive(arm_->joint, q.value, q.first).torque_nm;
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     const TrueHead& head = arm_->heads[i];
     const muscle::MusculotendonParameters<double>& p = head.parameters;
     const model::MuscleTravel path = model::travel(head.path, q.value);
-    const double along_m =
-        std::max(laws_[i].shortest_m,
-                 path.length_m - p.hill.tendon_slack_length_m * (1.0 + kStretch * p.tendon_strain));
+    const double along_m = std::max(laws_[i].shortest_m,
+                                    path.length_m - p.hill.tendon_slack_length_m * (1.0 + kStretch * p.tendon_strain));
     const double length_m = std::hypot(along_m, laws_[i].height_m);
     const double cosine = along_m / length_m;
     const double speed = -path.moment_arm_m * q.first * cosine / p.hill.max_shortening_speed_mps;
-    const double optimum_m =
-        p.hill.optimal_fiber_length_m * (1.0 + p.optimal_length_shift * (1.0 - kActivation));
+    const double optimum_m = p.hill.optimal_fiber_length_m * (1.0 + p.optimal_length_shift * (1.0 - kActivation));
     const double lever_nm = path.moment_arm_m * cosine * p.hill.max_isometric_force_n;
     result.capacity_nm[i] = lever_nm * strength_[i] * laws_[i].length(length_m / optimum_m).value *
                             std::max(kLeastSpeedFactor, laws_[i].velocity(speed).value);
     result.passive_nm +=
-        lever_nm *
-        (laws_[i].passive(length_m / p.hill.optimal_fiber_length_m).value + p.damping * speed);
+        lever_nm * (laws_[i].passive(length_m / p.hill.optimal_fiber_length_m).value + p.damping * speed);
   }
   result.torque_nm -= result.passive_nm;
   return result;

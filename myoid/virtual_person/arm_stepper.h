@@ -27,19 +27,17 @@ struct ArmState {
   double passive_torque_nm = 0.0;  ///< Torque of the joint.
 };
 
-/// Forward dynamics of an arm with elastic tendons, in fixed steps: the same numbers on every
-/// machine and with every number of threads, and fast enough for thousands of people (about 0.1 s
-/// for 100 s of seven heads).
+/// Forward dynamics of an arm with elastic tendons, in fixed steps: the same numbers on every machine and with every
+/// number of threads, and fast enough for thousands of people (about 0.1 s for 100 s of seven heads).
 ///
 /// The joint takes velocity Verlet steps, the fibers the backward differentiation formula of second
 /// order: with v = (3 l - 4 l' + l'') / (2 h),
 ///
 ///   F_t(l_mt - along(l)) = cos(alpha) F_max (a f_l f_v + f_pe + beta v / v_max)
 ///
-/// is solved for every fiber at every step, so that at the end of a step forces balance to
-/// round-off. The method is of second order, and stable for tendons of any stiffness. Activation
-/// follows excitation by equation (1), in exact exponentials. Curves are tables of the laws of
-/// muscle/ (CurveTable).
+/// is solved for every fiber at every step, so that at the end of a step forces balance to round-off. The method is of
+/// second order, and stable for tendons of any stiffness. Activation follows excitation by equation (1), in exact
+/// exponentials. Curves are tables of the laws of muscle/ (CurveTable).
 class ArmStepper {
  public:
   ArmStepper(const TrueArm& arm, double step_s);
@@ -80,17 +78,11 @@ class ArmStepper {
     double tendon_n = 0.0;
   };
 
-  [[nodiscard]] FiberBalance balance(std::size_t i,
-                                     double path_m,
-                                     double length_m,
-                                     double velocity_mps,
-                                     double velocity_slope) const;
+  [[nodiscard]] FiberBalance balance(
+      std::size_t i, double path_m, double length_m, double velocity_mps, double velocity_slope) const;
   /// Returns the length at which the head is in balance, with velocity = offset + slope * length.
-  [[nodiscard]] double balanced_length_m(std::size_t i,
-                                         double path_m,
-                                         double guess_m,
-                                         double velocity_offset_mps,
-                                         double velocity_slope) const;
+  [[nodiscard]] double balanced_length_m(
+      std::size_t i, double path_m, double guess_m, double velocity_offset_mps, double velocity_slope) const;
   void advance_activation(const PerHead& excitation);
   void advance_fibers();
 

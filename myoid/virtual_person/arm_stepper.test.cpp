@@ -21,8 +21,7 @@ TrueArm arm_with(const std::string& curves, std::uint64_t seed = 5) {
 /// An excitation of the head that is never the same, and smooth.
 PerHead drive(double t) {
   PerHead u;
-  for (std::size_t i = 0; i < kHeadCount; ++i)
-    u[i] = 0.25 + 0.2 * std::sin((3.0 + 0.7 * static_cast<double>(i)) * t);
+  for (std::size_t i = 0; i < kHeadCount; ++i) u[i] = 0.25 + 0.2 * std::sin((3.0 + 0.7 * static_cast<double>(i)) * t);
   return u;
 }
 
@@ -51,13 +50,12 @@ TEST(ArmStepper, ForcesBalanceByTheLawsOfTheMuscleLibrary) {
         muscle::MusculotendonLaws laws = arm.laws;
         laws.mode = muscle::TendonMode::mass;
         const muscle::Musculotendon<double> unit(head.parameters, laws, arm.millard);
-        const auto output = muscle::musculotendon_output(
-            unit, {now.activation[i], path.length_m, -path.moment_arm_m * now.q.first},
-            {now.fiber_length_m[i], now.fiber_velocity_mps[i]});
+        const auto output =
+            muscle::musculotendon_output(unit, {now.activation[i], path.length_m, -path.moment_arm_m * now.q.first},
+                                         {now.fiber_length_m[i], now.fiber_velocity_mps[i]});
         const double f_max = head.parameters.hill.max_isometric_force_n;
         EXPECT_NEAR(output.tendon_force_n, now.tendon_force_n[i], 1e-5 * f_max) << head.name;
-        EXPECT_NEAR(output.fiber_force_n * output.cos_pennation, now.tendon_force_n[i],
-                    1e-4 * f_max)
+        EXPECT_NEAR(output.fiber_force_n * output.cos_pennation, now.tendon_force_n[i], 1e-4 * f_max)
             << head.name << " " << curves;
       }
     }
@@ -94,8 +92,7 @@ TEST(ArmStepper, TheEquationOfMotionHoldsAtTheEndOfEveryStep) {
     const ArmState& now = stepper.state();
     const double inertia = arm.inertia_kgm2 + 2.0 * arm.held_at_m * arm.held_at_m;
     const double weight_nm = (arm.static_moment_kgm + 2.0 * arm.held_at_m) * 9.80665;
-    // Sum of the heads' forces by moment arms from differences of length (1e-16 / 1e-6, times 1
-    // kN).
+    // Sum of the heads' forces by moment arms from differences of length (1e-16 / 1e-6, times 1 kN).
     double torque_nm = joint_passive(arm.joint, now.q.value, now.q.first).torque_nm;
     for (std::size_t i = 0; i < kHeadCount; ++i) {
       const double h = 1e-6;

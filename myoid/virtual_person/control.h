@@ -17,10 +17,9 @@ struct Coordination {
   double brachioradialis = 0.0;  ///< ln(BRD / BIC activation).
   double brachialis = 0.0;       ///< ln(BRA / BIC activation).
   double co_contraction = 0.0;   ///< Activation of the antagonist while the agonists work.
-  /// Reduces the triceps' co-contraction at low torque, because people do not tense the flexors to
-  /// hold a stretched arm at rest. The co-contraction is then a share of the weaker side's
-  /// capacity, 0.3 of this share without a load and all of it under load: c min(C_TRI, C_flexors)
-  /// (0.3 + 0.7 T^2 / (T^2 + (3 N m)^2)).
+  /// Reduces the triceps' co-contraction at low torque, because people do not tense the flexors to hold a stretched arm
+  /// at rest. The co-contraction is then a share of the weaker side's capacity, 0.3 of this share without a load and
+  /// all of it under load: c min(C_TRI, C_flexors) (0.3 + 0.7 T^2 / (T^2 + (3 N m)^2)).
   bool eased = false;
 };
 
@@ -34,9 +33,8 @@ struct Coordination {
 ///   a_TRI = c + p(-T) / |C_TRI|   (c: see `eased`),
 ///   a_i = u w_i,   u sum_i w_i C_i = T + a_TRI |C_TRI|
 ///
-/// with p(x) = (x + sqrt(x^2 + (1 N m)^2)) / 2 > 0, smooth where the torque changes sign. All
-/// activations are positive and not limited to 1; the caller checks the limit. Precondition: no
-/// capacity is zero or of the wrong sign.
+/// with p(x) = (x + sqrt(x^2 + (1 N m)^2)) / 2 > 0, smooth where the torque changes sign. All activations are positive
+/// and not limited to 1; the caller checks the limit. Precondition: no capacity is zero or of the wrong sign.
 [[nodiscard]] PerMuscle activations_for(double torque_nm,
                                         const PerMuscle& capacity_nm,
                                         const Coordination& coordination);

@@ -12,8 +12,8 @@ namespace {
 TEST(Control, ActivationsExertTheTorqueAskedForAndArePositive) {
   math::Random random(5);
   for (int k = 0; k < 500; ++k) {
-    const PerMuscle capacity_nm = {random.uniform(10, 40), random.uniform(10, 30),
-                                   random.uniform(5, 20), -random.uniform(20, 60)};
+    const PerMuscle capacity_nm = {random.uniform(10, 40), random.uniform(10, 30), random.uniform(5, 20),
+                                   -random.uniform(20, 60)};
     const double torque_nm = random.uniform(-30, 40);
     const PerMuscle a = activations_for(torque_nm, capacity_nm,
                                         {.brachioradialis = random.uniform(-1, 1),
@@ -50,8 +50,7 @@ TEST(Control, NobodyTensesTheFlexorsForAStretchedArmAtRest) {
   EXPECT_NEAR(eased[kTriceps], (0.15 + 0.5) / 40.0, 1e-12);
   EXPECT_NEAR(eased[kBiceps], (0.15 + 0.5) / 5.0, 1e-12);
   // Under a load and with leverage it is the share asked for.
-  const PerMuscle loaded =
-      activations_for(60.0, {60.0, 40.0, 20.0, -40.0}, {.co_contraction = 0.1, .eased = true});
+  const PerMuscle loaded = activations_for(60.0, {60.0, 40.0, 20.0, -40.0}, {.co_contraction = 0.1, .eased = true});
   EXPECT_NEAR(loaded[kTriceps], 0.1, 5e-4);
 }
 

@@ -15,10 +15,7 @@ class CurveTable {
   CurveTable() = default;
   /// Tabulates `curve` at `intervals` + 1 nodes from `first` to `last`. Throws InvalidInput unless
   /// first < last, intervals > 0 and all values are finite.
-  CurveTable(const std::function<muscle::CurvePoint<double>(double)>& curve,
-             double first,
-             double last,
-             int intervals);
+  CurveTable(const std::function<muscle::CurvePoint<double>(double)>& curve, double first, double last, int intervals);
 
   [[nodiscard]] muscle::CurvePoint<double> operator()(double x) const {
     const double s = (x - first_) * per_interval_;
@@ -35,8 +32,7 @@ class CurveTable {
     // a + t (h a' + t (c2 + t c3)), per interval h.
     const double c2 = 3.0 * rise - 2.0 * a.slope - b.slope;
     const double c3 = a.slope + b.slope - 2.0 * rise;
-    return {a.value + t / per_interval_ * (a.slope + t * (c2 + t * c3)),
-            a.slope + t * (2.0 * c2 + 3.0 * t * c3)};
+    return {a.value + t / per_interval_ * (a.slope + t * (c2 + t * c3)), a.slope + t * (2.0 * c2 + 3.0 * t * c3)};
   }
 
  private:

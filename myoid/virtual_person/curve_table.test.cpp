@@ -29,14 +29,11 @@ TEST(CurveTable, GoesOnAsTangents) {
 }
 
 TEST(CurveTable, ItsErrorFallsWithTheFourthPowerOfTheInterval) {
-  const auto bell = [](double x) {
-    return muscle::CurvePoint<double>{std::exp(-x * x), -2.0 * x * std::exp(-x * x)};
-  };
+  const auto bell = [](double x) { return muscle::CurvePoint<double>{std::exp(-x * x), -2.0 * x * std::exp(-x * x)}; };
   const auto error = [&bell](int intervals) {
     const CurveTable table(bell, -2.0, 2.0, intervals);
     double worst = 0.0;
-    for (double x = -2.0; x < 2.0; x += 0.001)
-      worst = std::max(worst, std::abs(table(x).value - bell(x).value));
+    for (double x = -2.0; x < 2.0; x += 0.001) worst = std::max(worst, std::abs(table(x).value - bell(x).value));
     return worst;
   };
   // h^4 / 384 times a fourth derivative of 12.
@@ -46,12 +43,7 @@ TEST(CurveTable, ItsErrorFallsWithTheFourthPowerOfTheInterval) {
 
 TEST(CurveTable, RefusesWhatHoldsNothing) {
   EXPECT_THROW(CurveTable(cubic, 1.0, 1.0, 3), InvalidInput);
-  EXPECT_THROW(CurveTable(
-                   [](double) {
-                     return muscle::CurvePoint<double>{NAN, 0.0};
-                   },
-                   0.0, 1.0, 2),
-               InvalidInput);
+  EXPECT_THROW(CurveTable([](double) { return muscle::CurvePoint<double>{NAN, 0.0}; }, 0.0, 1.0, 2), InvalidInput);
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ double bounded_normal(math::Random& random) {
 bool Departures::has(const muscle::HillField& parameter) const {
   using Hill = muscle::HillParameters<double>;
   return paper_curves() || parameter.member == &Hill::max_isometric_force_n ||
-         parameter.member == &Hill::optimal_fiber_length_m ||
-         parameter.member == &Hill::max_shortening_speed_mps ||
+         parameter.member == &Hill::optimal_fiber_length_m || parameter.member == &Hill::max_shortening_speed_mps ||
          parameter.member == &Hill::tendon_slack_length_m;
 }
 
@@ -36,8 +35,7 @@ Departures draw_departures(const TruthSpec& spec, math::Random random) {
   Departures drawn;
   const bool coin = random.uniform() < 0.5;
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
-    drawn.moment_arm_scale[m] =
-        std::max(kLeastScale, 1.0 + spec.moment_arm_sd * bounded_normal(random));
+    drawn.moment_arm_scale[m] = std::max(kLeastScale, 1.0 + spec.moment_arm_sd * bounded_normal(random));
     drawn.moment_arm_slope_per_rad[m] = spec.moment_arm_slope_sd * bounded_normal(random);
     drawn.tendon_strain[m] = random.uniform(spec.tendon_strain_min, spec.tendon_strain_max);
   }
@@ -60,9 +58,7 @@ void taper_moment_arm(model::PlanarMuscle& path, double slope_per_rad, double q0
   path.taper_about_rad = q0_rad;
 }
 
-DepartedMuscles::DepartedMuscles(const Departures& departures,
-                                 const VirtualArm& modelled,
-                                 const HillSet& muscles)
+DepartedMuscles::DepartedMuscles(const Departures& departures, const VirtualArm& modelled, const HillSet& muscles)
     : departures_(departures), muscles_(&muscles), paths_(modelled.paths()) {
   for (std::size_t m = 0; m < paths_.size(); ++m) {
     model::PlanarMuscle& path = paths_[m];
@@ -90,8 +86,7 @@ double DepartedMuscles::fiber_length_m(std::size_t muscle, double path_m, double
   const double strain_at_one = departures_.tendon_strain[muscle];
   if (strain_at_one == 0.0) return path_m - hill.tendon_slack_length_m;
   const double pull = std::max(tension_n, 0.0) / hill.max_isometric_force_n;
-  const double strain =
-      strain_at_one * std::log1p(pull / kTendonForce) / std::log1p(1.0 / kTendonForce);
+  const double strain = strain_at_one * std::log1p(pull / kTendonForce) / std::log1p(1.0 / kTendonForce);
   return path_m - hill.tendon_slack_length_m * (1.0 + strain);
 }
 
@@ -104,11 +99,9 @@ PerMuscle DepartedMuscles::full_force_n(const MuscleGeometry& geometry,
     hill.optimal_fiber_length_m *= longer[m];
     const double length_m = fiber_length_m(m, geometry.length_m[m], tension_n[m]);
     const double speed_mps = geometry.velocity_mps[m];
-    force_n[m] = curves_
-                     ? hill.max_isometric_force_n *
-                           curves_->length(length_m / hill.optimal_fiber_length_m).value *
-                           curves_->velocity(1.0, speed_mps / hill.max_shortening_speed_mps).value
-                     : muscle::hill_force(1.0, length_m, speed_mps, hill);
+    force_n[m] = curves_ ? hill.max_isometric_force_n * curves_->length(length_m / hill.optimal_fiber_length_m).value *
+                               curves_->velocity(1.0, speed_mps / hill.max_shortening_speed_mps).value
+                         : muscle::hill_force(1.0, length_m, speed_mps, hill);
   }
   return force_n;
 }

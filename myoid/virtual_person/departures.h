@@ -22,8 +22,7 @@ struct Departures {
 
   [[nodiscard]] bool paper_curves() const { return laws.length == muscle::LengthLaw::gaussian; }
   [[nodiscard]] bool elastic() const { return tendon_strain != PerMuscle{}; }
-  /// Returns true if the curves have this parameter; published curves have F_max, l_0, v_max and
-  /// l_ts.
+  /// Returns true if the curves have this parameter; published curves have F_max, l_0, v_max and l_ts.
   [[nodiscard]] bool has(const muscle::HillField& parameter) const;
 };
 

@@ -37,8 +37,7 @@ TEST(Departures, FullForceAtTheOptimumAndAtRestIsTheGreatest) {
   const VirtualArm arm(VirtualSubject{});
   const DepartedMuscles muscles({}, arm, arm.literature());
   // BIC is optimal at 85 degrees.
-  const PerMuscle force_n =
-      muscles.full_force_n(muscles.geometry({85.0 * kDegree, 0.0, 0.0}), kOnes, {});
+  const PerMuscle force_n = muscles.full_force_n(muscles.geometry({85.0 * kDegree, 0.0, 0.0}), kOnes, {});
   EXPECT_NEAR(force_n[kBiceps], arm.literature()[kBiceps].max_isometric_force_n, 1e-9);
 }
 
@@ -61,19 +60,17 @@ TEST(Departures, MomentArmsAreScaledAndTaperedAndTheLengthsDerivative) {
   for (std::size_t m = 0; m < 4; ++m) {
     const double q0 = model::kArmOptimalAt_rad[m];
     const double at_optimum_m = arm.geometry({q0, 0.0, 0.0}).moment_arm_m[m];
-    EXPECT_NEAR(muscles.geometry({q0, 0.0, 0.0}).length_m[m],
-                arm.geometry({q0, 0.0, 0.0}).length_m[m], 1e-15);
+    EXPECT_NEAR(muscles.geometry({q0, 0.0, 0.0}).length_m[m], arm.geometry({q0, 0.0, 0.0}).length_m[m], 1e-15);
     EXPECT_NE(wrong.moment_arm_scale[m], 1.0);
     for (const double q : {0.3, 1.0, 1.7, 2.2}) {
       const double r = muscles.geometry({q, 0.0, 0.0}).moment_arm_m[m];
       const double longer = muscles.geometry({q + h, 0.0, 0.0}).length_m[m];
       const double shorter = muscles.geometry({q - h, 0.0, 0.0}).length_m[m];
       EXPECT_NEAR(r, -(longer - shorter) / (2.0 * h), 1e-9);
-      EXPECT_NEAR(
-          r,
-          wrong.moment_arm_scale[m] * (arm.geometry({q, 0.0, 0.0}).moment_arm_m[m] +
-                                       wrong.moment_arm_slope_per_rad[m] * at_optimum_m * (q - q0)),
-          1e-14);
+      EXPECT_NEAR(r,
+                  wrong.moment_arm_scale[m] * (arm.geometry({q, 0.0, 0.0}).moment_arm_m[m] +
+                                               wrong.moment_arm_slope_per_rad[m] * at_optimum_m * (q - q0)),
+                  1e-14);
     }
   }
 }
@@ -99,8 +96,7 @@ TEST(Departures, AnElasticTendonPullsAsItsFiberDoes) {
   Departures wrong;
   wrong.tendon_strain = {0.08, 0.08, 0.06, 0.05};
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless,
-                                     {}, wrong);
+  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless, {}, wrong);
   double most_strain = 0.0;
   for (const double t : {0.5, 1.7, 2.4, 3.1}) {
     const Instant now = performance.at(t);
@@ -108,13 +104,12 @@ TEST(Departures, AnElasticTendonPullsAsItsFiberDoes) {
     double torque_nm = 0.0;
     for (std::size_t m = 0; m < 4; ++m) {
       const muscle::HillParameters<double>& hill = arm.literature()[m];
-      const double strain =
-          (geometry.length_m[m] - now.fiber_length_m[m]) / hill.tendon_slack_length_m - 1.0;
+      const double strain = (geometry.length_m[m] - now.fiber_length_m[m]) / hill.tendon_slack_length_m - 1.0;
       most_strain = std::max(most_strain, strain);
-      const double fiber_n = muscle::hill_force(now.activation[m], now.fiber_length_m[m],
-                                                geometry.velocity_mps[m], hill);
-      const double tendon_n = hill.max_isometric_force_n *
-                              muscle::de_groote_tendon(strain, wrong.tendon_strain[m]).value;
+      const double fiber_n =
+          muscle::hill_force(now.activation[m], now.fiber_length_m[m], geometry.velocity_mps[m], hill);
+      const double tendon_n =
+          hill.max_isometric_force_n * muscle::de_groote_tendon(strain, wrong.tendon_strain[m]).value;
       EXPECT_NEAR(now.force_n[m], fiber_n, 1e-6);
       EXPECT_NEAR(now.force_n[m], tendon_n, 1e-6);
       torque_nm += geometry.moment_arm_m[m] * now.force_n[m];
@@ -129,8 +124,7 @@ TEST(Departures, MillardsCurvesTakeThePlaceOfThePapers) {
   Departures wrong;
   wrong.laws = muscle::millard_laws();
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless,
-                                     {}, wrong);
+  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless, {}, wrong);
   const muscle::MillardCurves curves;
   for (const double t : {0.5, 1.7, 3.1}) {
     const Instant now = performance.at(t);
@@ -146,9 +140,8 @@ TEST(Departures, MillardsCurvesTakeThePlaceOfThePapers) {
     }
   }
   for (const muscle::HillField& field : muscle::kHillFields)
-    EXPECT_EQ(wrong.has(field),
-              field.name == "max_isometric_force" || field.name == "optimal_fiber_length" ||
-                  field.name == "max_shortening_speed" || field.name == "tendon_slack_length");
+    EXPECT_EQ(wrong.has(field), field.name == "max_isometric_force" || field.name == "optimal_fiber_length" ||
+                                    field.name == "max_shortening_speed" || field.name == "tendon_slack_length");
 }
 
 TEST(Departures, APersonOfL2HasTaperedMomentArmsWithTheSameNumbersBeside) {
@@ -162,26 +155,21 @@ TEST(Departures, APersonOfL2HasTaperedMomentArmsWithTheSameNumbersBeside) {
     const model::PlanarMuscle& path = tapered.heads[i].path;
     const double q0 = model::kArmOptimalAt_rad[tapered.heads[i].muscle];
     EXPECT_EQ(model::travel(path, q0).length_m, model::travel(plain.heads[i].path, q0).length_m);
-    EXPECT_NE(model::travel(path, 2.0).moment_arm_m,
-              model::travel(plain.heads[i].path, 2.0).moment_arm_m);
+    EXPECT_NE(model::travel(path, 2.0).moment_arm_m, model::travel(plain.heads[i].path, 2.0).moment_arm_m);
     const double h = 1e-5;
-    EXPECT_NEAR(
-        model::travel(path, 2.0).moment_arm_slope_mprad,
-        (model::travel(path, 2.0 + h).moment_arm_m - model::travel(path, 2.0 - h).moment_arm_m) /
-            (2.0 * h),
-        1e-9);
+    EXPECT_NEAR(model::travel(path, 2.0).moment_arm_slope_mprad,
+                (model::travel(path, 2.0 + h).moment_arm_m - model::travel(path, 2.0 - h).moment_arm_m) / (2.0 * h),
+                1e-9);
   }
 }
 
 TEST(Departures, TheMuscleParametersOfAPersonAreTheSameInEveryWorld) {
-  Protocol protocol = parse_protocol("[[trial]]\nname = \"a\"\nkind = \"isometric_ramp\"\n",
-                                     "p.toml", Level::noisy);
+  Protocol protocol = parse_protocol("[[trial]]\nname = \"a\"\nkind = \"isometric_ramp\"\n", "p.toml", Level::noisy);
   const VirtualRecording plain = make_virtual_person(protocol, 9);
   set_truth(protocol, {"tendon_strain=[0.08, 0.08]", "moment_arm_sd=0.15", "crosstalk=0.1"});
   const VirtualRecording wrong = make_virtual_person(protocol, 9);
   for (std::size_t m = 0; m < 4; ++m) {
-    EXPECT_EQ(plain.truth.muscles[m].max_isometric_force_n,
-              wrong.truth.muscles[m].max_isometric_force_n);
+    EXPECT_EQ(plain.truth.muscles[m].max_isometric_force_n, wrong.truth.muscles[m].max_isometric_force_n);
     EXPECT_EQ(wrong.truth.departures.tendon_strain[m], 0.08);
   }
   EXPECT_EQ(plain.model_osim, wrong.model_osim);

@@ -23,24 +23,18 @@ bool varies(const TruthSpec& spec, std::string_view parameter) {
 }
 
 /// Draws every number, used or not, so that a held parameter does not change the others.
-Hill draw(const TruthSpec& spec,
-          const Hill& literature,
-          double shared_strength,
-          math::Random& random) {
+Hill draw(const TruthSpec& spec, const Hill& literature, double shared_strength, math::Random& random) {
   const auto normal = [&](std::string_view parameter) {
     const double z = random.normal();
     return varies(spec, parameter) ? spec.spread * z + spec.offset : 0.0;
   };
-  const auto offset_of = [&spec](std::string_view parameter) {
-    return varies(spec, parameter) ? spec.offset : 0.0;
-  };
+  const auto offset_of = [&spec](std::string_view parameter) { return varies(spec, parameter) ? spec.offset : 0.0; };
   Hill p = literature;
   const double strength = normal("max_isometric_force") - offset_of("max_isometric_force");
   p.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * strength +
                                       beliefs::kMaxForce.sd * offset_of("max_isometric_force"));
   p.optimal_fiber_length_m *= 1.0 + kFiberLengthSd * normal("optimal_fiber_length");
-  p.force_length_width_m +=
-      beliefs::kWidth.sd * normal("force_length_width") * literature.optimal_fiber_length_m;
+  p.force_length_width_m += beliefs::kWidth.sd * normal("force_length_width") * literature.optimal_fiber_length_m;
   p.concentric_curvature *= std::exp(beliefs::kCurvature.sd * normal("concentric_curvature"));
   p.max_shortening_speed_mps *= std::exp(beliefs::kSpeed.sd * normal("max_shortening_speed"));
   p.eccentric_plateau += beliefs::kPlateau.sd * normal("eccentric_plateau");
@@ -51,20 +45,18 @@ Hill draw(const TruthSpec& spec,
     // The slopes of f_v at rest keep their ratio S, except for its own spread.
     const double ratio = muscle::slope_ratio(literature.velocity_law());
     p.eccentric_curvature_product = muscle::curvature_product_from_slope_ratio(
-        ratio * std::exp(beliefs::kSlopeRatio.sd * slope), p.concentric_curvature,
-        p.eccentric_plateau);
+        ratio * std::exp(beliefs::kSlopeRatio.sd * slope), p.concentric_curvature, p.eccentric_plateau);
   }
   return p;
 }
 
 bool sensible(const Hill& p) {
-  const bool alive = std::all_of(
-      muscle::kHillFields.begin(), muscle::kHillFields.end(), [&p](const muscle::HillField& field) {
+  const bool alive =
+      std::all_of(muscle::kHillFields.begin(), muscle::kHillFields.end(), [&p](const muscle::HillField& field) {
         const double value = p.*(field.member);
         return value >= field.bounds.lower && value <= field.bounds.upper;
       });
-  return alive && p.optimal_fiber_length_m > 0.0 &&
-         p.force_length_width_m >= kLeastWidth * p.optimal_fiber_length_m &&
+  return alive && p.optimal_fiber_length_m > 0.0 && p.force_length_width_m >= kLeastWidth * p.optimal_fiber_length_m &&
          p.eccentric_plateau >= kLeastPlateau;
 }
 
@@ -93,8 +85,7 @@ HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, math::Ran
     } while (!sensible(result[i]));
     const auto given = spec.values.find(std::string(kArmMuscles[i]));
     if (given == spec.values.end()) continue;
-    for (const auto& [parameter, value] : given->second)
-      result[i].*(muscle::hill_field(parameter).member) = value;
+    for (const auto& [parameter, value] : given->second) result[i].*(muscle::hill_field(parameter).member) = value;
   }
   return result;
 }

@@ -15,15 +15,12 @@ inline constexpr double kFiberLengthSd = 0.10;
 
 /// Draws the muscle parameters of a virtual person about `literature` with `spec.spread` times
 /// these standard deviations: ln F_max 0.2 for the whole person and 0.15 per muscle, l_0 10 %, l_sh
-/// 0.12 l_0, ln V_sh 0.3, ln v_max 0.2, V_ml 0.15, ln S 0.5 (slope of f_v in lengthening over the
-/// slope in shortening, from which V_sh V_shl = (V_ml - 1) V_sh / (S (1 + V_sh))), l_ts 3 %. The
-/// mean is shifted by `spec.offset` standard deviations (for ln F_max: 0.25). Parameters outside
-/// `spec.vary` stay at the literature, and `spec.values` sets parameters directly. Draws without
-/// physical sense (l_sh < 0.2 l_0, V_ml < 1.05, or beyond the bounds of muscle::kHillFields) are
-/// repeated.
-[[nodiscard]] HillSet draw_muscles(const TruthSpec& spec,
-                                   const HillSet& literature,
-                                   math::Random& random);
+/// 0.12 l_0, ln V_sh 0.3, ln v_max 0.2, V_ml 0.15, ln S 0.5 (slope of f_v in lengthening over the slope in shortening,
+/// from which V_sh V_shl = (V_ml - 1) V_sh / (S (1 + V_sh))), l_ts 3 %. The mean is shifted by `spec.offset` standard
+/// deviations (for ln F_max: 0.25). Parameters outside `spec.vary` stay at the literature, and `spec.values` sets
+/// parameters directly. Draws without physical sense (l_sh < 0.2 l_0, V_ml < 1.05, or beyond the bounds of
+/// muscle::kHillFields) are repeated.
+[[nodiscard]] HillSet draw_muscles(const TruthSpec& spec, const HillSet& literature, math::Random& random);
 
 /// The parameters of a person at L0 and L1 beside the muscles' parameters.
 struct BesideMuscles {
@@ -33,10 +30,9 @@ struct BesideMuscles {
   PerMuscle emg_exponent = {1.0, 1.0, 1.0, 1.0};
 };
 
-/// Draws from a fit's priors (beliefs/beliefs.h), `spec.spread` times: gamma 0.1, torque 1 N m,
-/// stiffness 1 N m/rad, viscosity 0.2 N m s/rad, ln of the exponents 0.2. Gamma and viscosity are
-/// absolute values of normal numbers, because no fit lets them be negative. Without
-/// `spec.beside_muscles` all parameters have no effect.
+/// Draws from a fit's priors (beliefs/beliefs.h), `spec.spread` times: gamma 0.1, torque 1 N m, stiffness 1 N m/rad,
+/// viscosity 0.2 N m s/rad, ln of the exponents 0.2. Gamma and viscosity are absolute values of normal numbers, because
+/// no fit lets them be negative. Without `spec.beside_muscles` all parameters have no effect.
 [[nodiscard]] BesideMuscles draw_beside_muscles(const TruthSpec& spec, math::Random random);
 
 }  // namespace myoid::twin

@@ -19,8 +19,7 @@ TEST(DrawBesideMuscles, SpreadsAsAFitExpectsItBeforehandAndOnlyWhereAsked) {
   constexpr int n = 4000;  // a mean square of them spreads by 2 %
   double squares[5] = {};
   for (int k = 0; k < n; ++k) {
-    const BesideMuscles drawn =
-        draw_beside_muscles(spec, math::Random(static_cast<std::uint64_t>(k)));
+    const BesideMuscles drawn = draw_beside_muscles(spec, math::Random(static_cast<std::uint64_t>(k)));
     EXPECT_GE(drawn.length_activation, 0.0);
     EXPECT_GE(drawn.joint_viscosity_nms_per_rad, 0.0);
     squares[0] += std::pow(drawn.length_activation / 0.1, 2) / n;
@@ -46,14 +45,10 @@ TEST(DrawMuscles, SpreadsAsThePriorsSay) {
     };
     strength += std::pow(log_strength(kBiceps), 2) / n;
     shared += log_strength(kBiceps) * log_strength(kTriceps) / n;
-    length += std::pow(drawn[kTriceps].optimal_fiber_length_m /
-                               literature[kTriceps].optimal_fiber_length_m -
-                           1.0,
-                       2) /
-              n;
+    length +=
+        std::pow(drawn[kTriceps].optimal_fiber_length_m / literature[kTriceps].optimal_fiber_length_m - 1.0, 2) / n;
   }
-  // A variance from n draws: standard error sqrt(2/n) = 2.2 %, a covariance about 3 %; four of
-  // them.
+  // A variance from n draws: standard error sqrt(2/n) = 2.2 %, a covariance about 3 %; four of them.
   EXPECT_NEAR(strength, 0.2 * 0.2 + 0.15 * 0.15, 0.09 * 0.0625);
   EXPECT_NEAR(shared, 0.2 * 0.2, 0.15 * 0.04);
   EXPECT_NEAR(length, 0.01, 0.0012);  // a little less: draws without sense are drawn again
@@ -86,8 +81,8 @@ TEST(DrawMuscles, WhatDoesNotVaryIsTheLiteratureAndLeavesTheRestAlone) {
 
 TEST(DrawMuscles, GivenValuesWin) {
   math::Random random(6);
-  const HillSet drawn = draw_muscles({.values = {{"TRI", {{"max_isometric_force", 1234.0}}}}},
-                                     model::arm4_muscles(), random);
+  const HillSet drawn =
+      draw_muscles({.values = {{"TRI", {{"max_isometric_force", 1234.0}}}}}, model::arm4_muscles(), random);
   EXPECT_EQ(drawn[kTriceps].max_isometric_force_n, 1234.0);
 }
 

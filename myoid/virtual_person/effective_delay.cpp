@@ -68,10 +68,9 @@ double effective_delay_s(const TrueArm& person,
                          const HillSet& muscles,
                          const std::vector<std::unique_ptr<Performance>>& performances) {
   const RestingCurves resting(person);
-  const bool held =
-      std::any_of(performances.begin(), performances.end(), [](const auto& performance) {
-        return performance->script().protocol.kind == TrialKind::isometric_ramp;
-      });
+  const bool held = std::any_of(performances.begin(), performances.end(), [](const auto& performance) {
+    return performance->script().protocol.kind == TrialKind::isometric_ramp;
+  });
   std::array<double, kCount> left{};
   for (const auto& performance : performances) {
     if (!counts(performance->script().protocol.kind, held)) continue;
@@ -84,21 +83,18 @@ double effective_delay_s(const TrueArm& person,
       PerMuscle made = {};
       for (std::size_t i = 0; i < kHeadCount; ++i) {
         const TrueHead& head = person.heads[i];
-        made[head.muscle] +=
-            model::travel(head.path, now.q.value).moment_arm_m * now.tendon_force_n[i];
+        made[head.muscle] += model::travel(head.path, now.q.value).moment_arm_m * now.tendon_force_n[i];
       }
       PerMuscle per_activation = {};
       for (std::size_t m = 0; m < 4; ++m) {
         per_activation[m] =
-            geometry.moment_arm_m[m] *
-            muscle::hill_force(1.0, geometry.length_m[m] - muscles[m].tendon_slack_length_m,
-                               geometry.velocity_mps[m], muscles[m]);
+            geometry.moment_arm_m[m] * muscle::hill_force(1.0, geometry.length_m[m] - muscles[m].tendon_slack_length_m,
+                                                          geometry.velocity_mps[m], muscles[m]);
       }
       PerMuscle beyond_rest = {}, weight = {};
       for (std::size_t m = 0; m < 4; ++m) {
         beyond_rest[m] = made[m] - at_rest[m];
-        weight[m] =
-            1.0 / (kTorqueSd_nm * kTorqueSd_nm + kEmgSd * kEmgSd * beyond_rest[m] * beyond_rest[m]);
+        weight[m] = 1.0 / (kTorqueSd_nm * kTorqueSd_nm + kEmgSd * kEmgSd * beyond_rest[m] * beyond_rest[m]);
       }
       for (std::size_t k = 0; k < kCount; ++k) {
         const PerMuscle u = performance->drive(t - static_cast<double>(k) * kDelayStep_s);
@@ -115,8 +111,7 @@ double effective_delay_s(const TrueArm& person,
       for (const Sums& s : sums[k]) left[k] += s.left();
     }
   }
-  const auto best =
-      static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
+  const auto best = static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
   if (best == 0 || best + 1 == kCount) return static_cast<double>(best) * kDelayStep_s;
   // The bottom of the parabola through the three lowest.
   const double fall = left[best - 1] - left[best];

@@ -23,9 +23,7 @@ PerMuscle excitation(double time_s) {
 class Held : public Performance {
  public:
   Held(const TrueArm& person, TrialKind kind, double delay_s)
-      : Performance(make_script({.name = "held", .kind = kind}, {}, 1)),
-        person_(&person),
-        delay_s_(delay_s) {}
+      : Performance(make_script({.name = "held", .kind = kind}, {}, 1)), person_(&person), delay_s_(delay_s) {}
 
   [[nodiscard]] Instant at(double) const override { return {}; }
   [[nodiscard]] Moment motion(double) const override { return {kAngle_rad, 0.0, 0.0}; }
@@ -67,8 +65,7 @@ TEST(EffectiveDelay, IsTheLagOfTheForceWhateverTheMusclesGains) {
   for (const double delay_s : {0.030, 0.0873, 0.140}) {
     performances.clear();
     performances.push_back(std::make_unique<Held>(arm, TrialKind::isometric_ramp, delay_s));
-    EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature(), performances), delay_s,
-                5e-4);
+    EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature(), performances), delay_s, 5e-4);
   }
 }
 

@@ -39,8 +39,7 @@ class TrueMuscle {
     double sum = 0.0;
     for (std::size_t i = 0; i < heads_.size(); ++i) {
       const model::MuscleTravel path = model::travel(heads_[i]->path, angle_rad);
-      const muscle::MusculotendonInput<double> input{activation, path.length_m,
-                                                     -path.moment_arm_m * speed_radps};
+      const muscle::MusculotendonInput<double> input{activation, path.length_m, -path.moment_arm_m * speed_radps};
       const auto state = muscle::equilibrium_state(units_[i], input);
       sum += path.moment_arm_m * muscle::musculotendon_rate(units_[i], input, state).tendon_force_n;
     }
@@ -52,9 +51,7 @@ class TrueMuscle {
   std::vector<muscle::Musculotendon<double>> units_;
 };
 
-std::vector<SteadyPoint> steady_points(const TrueArm& person,
-                                       const VirtualArm& modelled,
-                                       std::size_t m) {
+std::vector<SteadyPoint> steady_points(const TrueArm& person, const VirtualArm& modelled, std::size_t m) {
   const TrueMuscle muscle(person, m);
   std::vector<SteadyPoint> points;
   for (const double angle_deg : kAngles_deg) {
@@ -75,9 +72,7 @@ std::vector<SteadyPoint> steady_points(const TrueArm& person,
 struct Fitted {
   identification::MuscleField field;
   double tether;  ///< Weight of (value / literature - 1) in the residual.
-  [[nodiscard]] const muscle::HillField& row() const {
-    return muscle::kHillFields[static_cast<std::size_t>(field)];
-  }
+  [[nodiscard]] const muscle::HillField& row() const { return muscle::kHillFields[static_cast<std::size_t>(field)]; }
 };
 constexpr std::array<Fitted, 6> kFitted = {{{identification::kMaxForce, 0.0},
                                             {identification::kFiberLength, 0.0},
@@ -127,9 +122,9 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
         r(row) = scale * t.force_n - point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
-            (*J)(row, first + static_cast<Eigen::Index>(i)) =
-                scale * t.by_field[static_cast<std::size_t>(kFitted[i].field)] *
-                literature[muscle].*(kFitted[i].row().member);
+            (*J)(row, first + static_cast<Eigen::Index>(i)) = scale *
+                                                              t.by_field[static_cast<std::size_t>(kFitted[i].field)] *
+                                                              literature[muscle].*(kFitted[i].row().member);
           }
           (*J)(row, gamma) = scale * t.by_field[identification::kLengthActivation];
         }
@@ -161,8 +156,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
       start(c) = 1.0;
     }
   }
-  const math::LeastSquaresResult fit =
-      math::minimize(problem, start, {.max_iterations = 100, .step_tolerance = 1e-8});
+  const math::LeastSquaresResult fit = math::minimize(problem, start, {.max_iterations = 100, .step_tolerance = 1e-8});
   HillSet result;
   Eigen::Index row = 0;
   for (Eigen::Index m = 0; m < muscles; ++m) {
@@ -172,8 +166,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     if (misfit != nullptr) {
       double torque2 = 0.0;
       for (const SteadyPoint& p : points[muscle]) torque2 += p.torque_nm * p.torque_nm;
-      (*misfit)[muscle] =
-          largest_nm[muscle] * fit.residual.segment(row, here).norm() / std::sqrt(torque2);
+      (*misfit)[muscle] = largest_nm[muscle] * fit.residual.segment(row, here).norm() / std::sqrt(torque2);
     }
     row += here;
   }
@@ -190,8 +183,8 @@ double resting_torque_nm(const TrueArm& person,
 PerMuscle anatomical_strength_n(const TrueArm& person) {
   PerMuscle strength_n = {};
   for (const TrueHead& head : person.heads)
-    strength_n[head.muscle] += head.parameters.hill.max_isometric_force_n *
-                               std::cos(head.parameters.pennation_at_optimal_rad);
+    strength_n[head.muscle] +=
+        head.parameters.hill.max_isometric_force_n * std::cos(head.parameters.pennation_at_optimal_rad);
   return strength_n;
 }
 

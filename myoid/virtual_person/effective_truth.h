@@ -10,18 +10,15 @@ namespace myoid::twin {
 ///
 ///   r_model(q) a f_l(l_model - l_ts; l_0 (1 + gamma (1 - a))) f_v F_max
 ///
-/// to the sum over a muscle's heads of r(q) F_t minus this sum at a = 0, over elbow angles from 15
-/// to 130 degrees, steady speeds up to 5 rad/s in either direction and activations from 0.1 to 0.9.
-/// As in a study, one gamma shifts the optimum of all muscles with activation. The torque of
-/// unexcited muscles, from stretched and damped fibers, counts as the joint's (as in passive trials
-/// and the joint's viscosity) and not as the muscle's. v_max and l_ts are held at the literature's
-/// values. Weak tethers keep the three numbers of f_v near the literature, because these speeds
-/// alone do not separate them. A perfect experiment with the fitted model would give this result,
-/// with wrong moment arms, stretching tendons and pennation. `misfit`, if not null, receives the
-/// root mean square of the rest over that of the torque.
-[[nodiscard]] HillSet effective_muscles(const TrueArm& person,
-                                        const VirtualArm& modelled,
-                                        PerMuscle* misfit = nullptr);
+/// to the sum over a muscle's heads of r(q) F_t minus this sum at a = 0, over elbow angles from 15 to 130 degrees,
+/// steady speeds up to 5 rad/s in either direction and activations from 0.1 to 0.9. As in a study, one gamma shifts the
+/// optimum of all muscles with activation. The torque of unexcited muscles, from stretched and damped fibers, counts as
+/// the joint's (as in passive trials and the joint's viscosity) and not as the muscle's. v_max and l_ts are held at the
+/// literature's values. Weak tethers keep the three numbers of f_v near the literature, because these speeds alone do
+/// not separate them. A perfect experiment with the fitted model would give this result, with wrong moment arms,
+/// stretching tendons and pennation. `misfit`, if not null, receives the root mean square of the rest over that of the
+/// torque.
+[[nodiscard]] HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, PerMuscle* misfit = nullptr);
 
 /// Returns the torque of a muscle's unexcited heads at this angle and speed [N m].
 [[nodiscard]] double resting_torque_nm(const TrueArm& person,

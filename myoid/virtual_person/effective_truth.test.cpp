@@ -43,10 +43,8 @@ TEST(EffectiveTruth, OfThePublishedArmItIsNearThePublishedMuscles) {
   const HillSet effective = effective_muscles(spread_arm(0.0, 1), modelled, &misfit);
   for (std::size_t m = 0; m < effective.size(); ++m) {
     const muscle::HillParameters<double>& literature = modelled.literature()[m];
-    EXPECT_NEAR(effective[m].max_isometric_force_n / literature.max_isometric_force_n, 1.0, 0.25)
-        << kArmMuscles[m];
-    EXPECT_NEAR(effective[m].optimal_fiber_length_m / literature.optimal_fiber_length_m, 1.0, 0.25)
-        << kArmMuscles[m];
+    EXPECT_NEAR(effective[m].max_isometric_force_n / literature.max_isometric_force_n, 1.0, 0.25) << kArmMuscles[m];
+    EXPECT_NEAR(effective[m].optimal_fiber_length_m / literature.optimal_fiber_length_m, 1.0, 0.25) << kArmMuscles[m];
     EXPECT_LT(misfit[m], 0.15) << kArmMuscles[m];
     EXPECT_GT(misfit[m], 0.001) << "the truth is to be harder than the model";
   }
@@ -56,8 +54,7 @@ TEST(EffectiveTruth, AnatomicalStrengthAddsTheHeadsAlongTheTendon) {
   const TrueArm person = spread_arm(0.0, 1);
   const PerMuscle strength_n = anatomical_strength_n(person);
   EXPECT_NEAR(strength_n[kBiceps], 624.30 + 435.56, 1e-9);
-  EXPECT_NEAR(strength_n[kTriceps], 798.52 * std::cos(0.2094) + 2.0 * 624.30 * std::cos(0.1571),
-              1e-9);
+  EXPECT_NEAR(strength_n[kTriceps], 798.52 * std::cos(0.2094) + 2.0 * 624.30 * std::cos(0.1571), 1e-9);
 }
 
 }  // namespace

@@ -16,8 +16,7 @@ void Tiredness<N>::rest(double interval_s) {
   constexpr double kRelaxing_s = 2.0;  // leaves e^-20 of the active share
   const double relaxing_s = std::min(interval_s, kRelaxing_s);
   work({}, relaxing_s);
-  const double decay =
-      std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
+  const double decay = std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
   for (muscle::FatigueState<double>& s : state) {
     s.fatigued *= decay;
     s.resting = 1.0 - s.active - s.fatigued;
@@ -53,8 +52,7 @@ ExactPerformance::ExactPerformance(const VirtualArm& arm,
       delay_s_(delay_s),
       effort_(effort) {
   if (!tiredness.rates) return;
-  const auto count =
-      static_cast<std::size_t>(std::ceil(this->script().duration_s / kFatigueStep_s)) + 1;
+  const auto count = static_cast<std::size_t>(std::ceil(this->script().duration_s / kFatigueStep_s)) + 1;
   strength_.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     strength_.push_back(tiredness.strength());
@@ -78,8 +76,7 @@ PerMuscle ExactPerformance::force_per_activation_n(const MuscleGeometry& geometr
                                                    const PerMuscle& tension_n) const {
   PerMuscle longer = {1.0, 1.0, 1.0, 1.0};
   if (beside_.length_activation != 0.0) {
-    for (std::size_t i = 0; i < longer.size(); ++i)
-      longer[i] = 1.0 + beside_.length_activation * (1.0 - activation[i]);
+    for (std::size_t i = 0; i < longer.size(); ++i) longer[i] = 1.0 + beside_.length_activation * (1.0 - activation[i]);
   }
   return body_.full_force_n(geometry, longer, tension_n);
 }
@@ -90,12 +87,10 @@ Instant ExactPerformance::at(double time_s) const {
   now.q = script.motion(time_s);
   const MuscleGeometry geometry = body_.geometry(now.q);
   const PerMuscle left = strength(time_s);
-  now.passive_torque_nm = beside_.joint_torque_nm -
-                          beside_.joint_stiffness_nm_per_rad * now.q.value -
+  now.passive_torque_nm = beside_.joint_torque_nm - beside_.joint_stiffness_nm_per_rad * now.q.value -
                           beside_.joint_viscosity_nms_per_rad * now.q.first;
   const double required_nm =
-      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) -
-      now.passive_torque_nm;
+      arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) - now.passive_torque_nm;
   const bool prescribed = script.against_dynamometer();
   if (prescribed) {
     now.activation = script.prescribed_activations(time_s);
@@ -116,8 +111,7 @@ Instant ExactPerformance::at(double time_s) const {
       full_n[i] *= left[i];
       capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
     }
-    if (!prescribed)
-      now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
+    if (!prescribed) now.activation = activations_for(required_nm, capacity_nm, script.coordination(time_s));
     double change = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
       change = std::max(change, std::abs(now.activation[i] - before[i]));

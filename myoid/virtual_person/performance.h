@@ -30,8 +30,7 @@ struct Instant {
   double external_torque_nm = 0.0;  ///< Torque of the dynamometer.
 };
 
-/// One person's performance of one trial: the truth at any time, also a little before the beginning
-/// and after the end.
+/// One person's performance of one trial: the truth at any time, also a little before the beginning and after the end.
 class Performance {
  public:
   explicit Performance(TrialScript script) : script_(std::move(script)) {}
@@ -47,18 +46,14 @@ class Performance {
   /// Returns the share of each muscle's strength that fatigue has taken by this time.
   [[nodiscard]] virtual PerMuscle fatigued(double time_s) const = 0;
   /// Returns the heads at this time; empty if the truth has none.
-  [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const {
-    return std::nullopt;
-  }
+  [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const { return std::nullopt; }
 
  private:
   TrialScript script_;
 };
 
 /// Interpolates by straight lines on an even clock from 0; the end values continue outside.
-[[nodiscard]] PerMuscle interpolated(const std::vector<PerMuscle>& values,
-                                     double step_s,
-                                     double time_s);
+[[nodiscard]] PerMuscle interpolated(const std::vector<PerMuscle>& values, double step_s, double time_s);
 
 /// Fatigue of N muscles or heads over the trials.
 template <std::size_t N>
@@ -73,8 +68,7 @@ struct Tiredness {
   }
   void work(const std::array<double, N>& activation, double interval_s) {
     if (!rates) return;
-    for (std::size_t i = 0; i < N; ++i)
-      state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
+    for (std::size_t i = 0; i < N; ++i) state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
   }
   /// Rests: active muscle relaxes first; then M_F decays with the rate r R.
   void rest(double interval_s);
@@ -122,8 +116,7 @@ class ExactPerformance : public Performance {
   std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.
 };
 
-/// Returns the greatest activation that a person at level L2 would foresee for a trial; 0 against a
-/// dynamometer.
+/// Returns the greatest activation that a person at level L2 would foresee for a trial; 0 against a dynamometer.
 [[nodiscard]] double foreseen_activation(const TrueArm& arm, const TrialScript& script);
 
 /// Level L2: a nervous system drives the arm forward in time (ArmStepper). It knows the intended

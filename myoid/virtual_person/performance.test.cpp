@@ -31,8 +31,7 @@ TEST(Performance, FatigueRestsAsItsDifferentialEquationSays) {
   tired.work({0.6, 0.3, 0.1, 0.9}, 40.0);
   Tiredness<4> stepped = tired;
   tired.rest(60.0);
-  // The reference takes the small steps of the library all the way. After two seconds nothing is
-  // active but e^-20.
+  // The reference takes the small steps of the library all the way. After two seconds nothing is active but e^-20.
   stepped.work({}, 60.0);
   for (std::size_t m = 0; m < 4; ++m) {
     EXPECT_NEAR(tired.state[m].fatigued, stepped.state[m].fatigued, 1e-8);
@@ -51,8 +50,8 @@ TEST(Performance, WithoutRatesNobodyTires) {
 TEST(Performance, TheElectrodeSeesTheActivationADelayBefore) {
   const VirtualArm arm{VirtualSubject{}};
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), make_script(swing(), {}, 4), 0.05,
-                                     {1.0, 1.0, 1.0, 1.0}, tireless);
+  const ExactPerformance performance(arm, arm.literature(), make_script(swing(), {}, 4), 0.05, {1.0, 1.0, 1.0, 1.0},
+                                     tireless);
   for (const double t : {0.5, 1.7, 3.1}) {
     const PerMuscle seen = performance.drive(t);
     const PerMuscle done = performance.at(t + 0.05).activation;
@@ -69,8 +68,8 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
   beside.joint_stiffness_nm_per_rad = 1.1;
   beside.joint_viscosity_nms_per_rad = 0.2;
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, muscles, make_script(swing(), {}, 4), 0.05,
-                                     {1.0, 1.0, 1.0, 1.0}, tireless, beside);
+  const ExactPerformance performance(arm, muscles, make_script(swing(), {}, 4), 0.05, {1.0, 1.0, 1.0, 1.0}, tireless,
+                                     beside);
   for (const double t : {0.5, 1.7, 3.1}) {
     const Instant now = performance.at(t);
     const MuscleGeometry geometry = arm.geometry(now.q);
@@ -79,16 +78,15 @@ TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
     for (std::size_t i = 0; i < 4; ++i) {
       muscle::HillParameters<double> p = muscles[i];
       p.optimal_fiber_length_m *= 1.0 + 0.15 * (1.0 - now.activation[i]);
-      torque_nm +=
-          geometry.moment_arm_m[i] *
-          muscle::hill_force(now.activation[i], geometry.length_m[i] - p.tendon_slack_length_m,
-                             geometry.velocity_mps[i], p);
+      torque_nm += geometry.moment_arm_m[i] * muscle::hill_force(now.activation[i],
+                                                                 geometry.length_m[i] - p.tendon_slack_length_m,
+                                                                 geometry.velocity_mps[i], p);
     }
     // Activations are turned in until they change by 1e-10, of some 100 N m at the most.
-    EXPECT_NEAR(torque_nm,
-                arm.required_torque_nm(now.q, performance.script().protocol.plane,
-                                       performance.script().protocol.held_mass_kg),
-                1e-7);
+    EXPECT_NEAR(
+        torque_nm,
+        arm.required_torque_nm(now.q, performance.script().protocol.plane, performance.script().protocol.held_mass_kg),
+        1e-7);
   }
 }
 
@@ -108,8 +106,7 @@ TEST(Performance, ASimulatedPersonFollowsTheMotionAboutAndIsNeverTheSameAsPlanne
 TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
   const TrueArm arm = arm_of_seed(5);
   Tiredness<7> tireless;
-  const SimulatedPerformance performance(arm, make_script(swing(), {}, 4), {1.0, 1.0, 1.0, 1.0},
-                                         0.05, tireless, 9);
+  const SimulatedPerformance performance(arm, make_script(swing(), {}, 4), {1.0, 1.0, 1.0, 1.0}, 0.05, tireless, 9);
   ASSERT_EQ(performance.failure(), "");
 
   // The same muscles, joint and excitations through the integrator of forward_simulation.h, with
@@ -140,9 +137,9 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
     input.excitation.push_back(std::move(signal));
   }
   const double first_s = performance.sample_time_s(0);
-  const simulation::Simulation simulated = simulation::simulate(
-      other, input, {.time_s = first_s, .q = {performance.sample(0).q.value}},
-      {.end_s = first_s + 2.5, .output_rate_hz = 100.0, .ode = {.relative_tolerance = 1e-6}});
+  const simulation::Simulation simulated =
+      simulation::simulate(other, input, {.time_s = first_s, .q = {performance.sample(0).q.value}},
+                           {.end_s = first_s + 2.5, .output_rate_hz = 100.0, .ode = {.relative_tolerance = 1e-6}});
   ASSERT_EQ(simulated.status, math::OdeStatus::done) << simulated.message;
   double moved_rad = 0.0;
   for (Eigen::Index k = 0; k < simulated.motion.sample_count(); ++k) {

@@ -43,17 +43,13 @@ std::vector<std::string> parameter_names() {
 }
 
 /// Overwrites `value` if the key exists; throws unless lower <= value <= upper.
-void number_into(TomlTable& table,
-                 std::string_view key,
-                 double& value,
-                 double lower,
-                 double upper,
-                 double scale = 1.0) {
+void number_into(
+    TomlTable& table, std::string_view key, double& value, double lower, double upper, double scale = 1.0) {
   const std::optional<double> found = table.number(key);
   if (!found) return;
   if (*found < lower || *found > upper) {
-    const std::string expected = upper < kInfinity ? fmt::format("from {:g} to {:g}", lower, upper)
-                                                   : fmt::format("of at least {:g}", lower);
+    const std::string expected =
+        upper < kInfinity ? fmt::format("from {:g} to {:g}", lower, upper) : fmt::format("of at least {:g}", lower);
     table.fail(key, fmt::format("found {:g}, expected a number {}", *found, expected));
   }
   value = *found * scale;
@@ -69,12 +65,10 @@ void count_into(TomlTable& table, std::string_view key, int& value, int lower, i
 }
 
 /// Reads a range [low, high].
-void range_into(
-    TomlTable& table, std::string_view key, double& low, double& high, double lower, double upper) {
+void range_into(TomlTable& table, std::string_view key, double& low, double& high, double lower, double upper) {
   if (!table.has(key)) return;
   const std::vector<double> found = table.numbers(key).value_or(std::vector<double>{});
-  if (found.size() != 2 || found.front() > found.back() || found.front() < lower ||
-      found.back() > upper) {
+  if (found.size() != 2 || found.front() > found.back() || found.front() < lower || found.back() > upper) {
     table.fail(key, fmt::format("found [{:g}], expected a range [low, high] between {:g} and {:g}",
                                 fmt::join(found, ", "), lower, upper));
   }
@@ -97,8 +91,8 @@ void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
     table.fail("curves",
                "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has "
                "\"de_groote\" or \"millard\"");
-  for (const char* key : {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise",
-                          "torque_scale", "torque_offset_nm"}) {
+  for (const char* key :
+       {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise", "torque_scale", "torque_offset_nm"}) {
     if (level == Level::noise_free && table.has(key))
       table.fail(key, "the sensors of level L0 are exact; remove the key, or choose level L1");
   }
@@ -123,10 +117,9 @@ void read_truth(TomlTable table, Level level, TruthSpec& truth) {
     auto values = table.table(muscle);
     if (!values) continue;
     if (level == Level::different)
-      table.fail(
-          muscle,
-          "values of single muscles are for levels L0 and L1: at L2 a person has seven heads "
-          "with other laws; remove them, or choose another level");
+      table.fail(muscle,
+                 "values of single muscles are for levels L0 and L1: at L2 a person has seven heads "
+                 "with other laws; remove them, or choose another level");
     for (const std::string& parameter : values->keys()) {
       check(parameter, muscle);
       const double value = values->number(parameter).value_or(0.0);
@@ -161,8 +154,7 @@ void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
 std::vector<double> read_angles_deg(TomlTable& table) {
   std::vector<double> angles = {table.number("angle_deg").value_or(70.0)};
   if (auto several = table.numbers("angles_deg")) {
-    if (table.has("angle_deg"))
-      table.fail("angles_deg", "angle_deg is there too; keep one of them");
+    if (table.has("angle_deg")) table.fail("angles_deg", "angle_deg is there too; keep one of them");
     if (several->empty()) table.fail("angles_deg", "expected at least one angle");
     angles = *std::move(several);
   }
@@ -215,8 +207,7 @@ TrialProtocol read_kind(TomlTable& table) {
   }
   std::vector<std::string> kind_names;
   for (const auto& kind : kKinds) kind_names.emplace_back(kind.first);
-  static_cast<void>(
-      table.require_text("kind", fmt::format("one of {}", fmt::join(kind_names, ", "))));
+  static_cast<void>(table.require_text("kind", fmt::format("one of {}", fmt::join(kind_names, ", "))));
   const std::string kind = table.choice("kind", "", kind_names);
   for (const auto& [word, value] : kKinds) {
     if (word == kind) trial.kind = value;
@@ -226,11 +217,9 @@ TrialProtocol read_kind(TomlTable& table) {
                             : trial.kind == TrialKind::mvc          ? "mvc"
                             : trial.kind == TrialKind::passive      ? "passive"
                                                                     : "calibration";
-  trial.use =
-      table.choice("use", usual, {"calibration", "validation", "mvc", "isometric", "passive"});
-  trial.plane = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal"
-                    ? Plane::horizontal
-                    : Plane::vertical;
+  trial.use = table.choice("use", usual, {"calibration", "validation", "mvc", "isometric", "passive"});
+  trial.plane = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal" ? Plane::horizontal
+                                                                                              : Plane::vertical;
   if (table.has("co_contraction")) {
     double low = 0.0;
     double high = 0.0;
@@ -275,11 +264,10 @@ void read_flexion(TomlTable& table, TrialProtocol& trial) {
   const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
   if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
       trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
-    table.fail("amplitude_deg",
-               fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
-                           "0 to 150: choose another centre_deg or a smaller amplitude",
-                           (trial.centre_rad - trial.amplitude_rad) / kDegree,
-                           (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
+    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
+                                            "0 to 150: choose another centre_deg or a smaller amplitude",
+                                            (trial.centre_rad - trial.amplitude_rad) / kDegree,
+                                            (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
   }
 }
 
@@ -292,8 +280,8 @@ void read_raising(TomlTable& table, TrialProtocol& trial) {
   number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
   count_into(table, "repetitions", trial.repetitions, 1, 100);
   if (!(trial.from_rad < trial.to_rad)) {
-    table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}",
-                                     trial.to_rad / kDegree, trial.from_rad / kDegree));
+    table.fail("to_deg", fmt::format("found {:g}, expected more than from_deg = {:g}", trial.to_rad / kDegree,
+                                     trial.from_rad / kDegree));
   }
 }
 
@@ -366,9 +354,7 @@ Protocol default_protocol(Level level) {
   return protocol;
 }
 
-Protocol parse_protocol(std::string_view text,
-                        const std::filesystem::path& file,
-                        std::optional<Level> level) {
+Protocol parse_protocol(std::string_view text, const std::filesystem::path& file, std::optional<Level> level) {
   const toml::table document = recording::parse_toml(text, file);
   TomlTable root(document, file, "protocol");
   const std::string word = root.choice("level", "L1", {"L0", "L1", "L2"});
@@ -382,8 +368,8 @@ Protocol parse_protocol(std::string_view text,
   if (auto table = root.table("subject")) read_subject(*std::move(table), protocol.subject);
   if (auto table = root.table("truth")) read_truth(*std::move(table), *level, protocol.truth);
   if (auto table = root.table("control")) {
-    range_into(*table, "co_contraction", protocol.control.co_contraction_min,
-               protocol.control.co_contraction_max, 0.0, 0.5);
+    range_into(*table, "co_contraction", protocol.control.co_contraction_min, protocol.control.co_contraction_max, 0.0,
+               0.5);
     number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
     number_into(*table, "brachialis_synergy", protocol.control.brachialis_synergy, 0.0, 1.0);
     number_into(*table, "motor_noise", protocol.control.motor_noise, 0.0, 0.3);
@@ -413,8 +399,8 @@ Protocol parse_protocol(std::string_view text,
   }
   if (auto table = root.table("fatigue")) {
     protocol.fatigue.on = table->flag("on").value_or(true);
-    protocol.fatigue.rates = table->choice(
-        "rates", protocol.fatigue.rates, {"elbow", "elbow_rest", "elbow_flexor", "elbow_extensor"});
+    protocol.fatigue.rates =
+        table->choice("rates", protocol.fatigue.rates, {"elbow", "elbow_rest", "elbow_flexor", "elbow_extensor"});
     number_into(*table, "rest_s", protocol.fatigue.rest_s, 0.0, 3600.0);
     table->finish();
   }
@@ -423,8 +409,7 @@ Protocol parse_protocol(std::string_view text,
   for (const TomlTable& table : root.tables("trial")) {
     for (TrialProtocol& trial : read_trial(table)) {
       if (!names.insert(trial.name).second) {
-        table.fail("name", fmt::format("found \"{}\" a second time; every trial needs its own name",
-                                       trial.name));
+        table.fail("name", fmt::format("found \"{}\" a second time; every trial needs its own name", trial.name));
       }
       protocol.trials.push_back(std::move(trial));
     }
@@ -441,11 +426,10 @@ void set_truth(Protocol& protocol, const std::vector<std::string>& settings) {
     // A word needs no quotes.
     const std::size_t value = setting.find('=') + 1;
     const std::string_view word = std::string_view(setting).substr(value);
-    const bool quote = value > 0 && !word.empty() &&
-                       std::isalpha(static_cast<unsigned char>(word[0])) != 0 && word != "true" &&
-                       word != "false";
-    const toml::table table = recording::parse_toml(
-        quote ? fmt::format("{}\"{}\"", setting.substr(0, value), word) : setting, "--truth");
+    const bool quote = value > 0 && !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0 &&
+                       word != "true" && word != "false";
+    const toml::table table =
+        recording::parse_toml(quote ? fmt::format("{}\"{}\"", setting.substr(0, value), word) : setting, "--truth");
     read_truth(TomlTable(table, "--truth", "[truth]"), protocol.level, protocol.truth);
   }
 }

@@ -23,9 +23,9 @@ enum class TrialKind {
   flexion,         ///< Sinusoidal flexion and extension.
   eccentric,       ///< A held mass is raised and lowered slowly.
   isometric_ramp,  ///< The forearm held at an angle; effort rises and falls; torque is measured.
-  isokinetic,  ///< A dynamometer moves the forearm at a constant speed against or with the effort.
-  mvc,         ///< As isometric_ramp, with the greatest effort kept for a while.
-  passive,     ///< Relaxed; a dynamometer moves the forearm slowly; torque is measured.
+  isokinetic,      ///< A dynamometer moves the forearm at a constant speed against or with the effort.
+  mvc,             ///< As isometric_ramp, with the greatest effort kept for a while.
+  passive,         ///< Relaxed; a dynamometer moves the forearm slowly; torque is measured.
 };
 [[nodiscard]] std::string_view name(TrialKind kind);
 
@@ -48,9 +48,9 @@ struct VirtualSubject {
 struct SensorTruth {
   std::optional<double> emg_exponent;  ///< p of every muscle, in place of EmgNoise's range.
   double crosstalk = 0.0;              ///< Share of every other channel's signal in each channel.
-  double emg_gain_drift = 0.0;  ///< Relative growth of the EMG per excitation over the session.
-  bool emg_noise = false;       ///< The EMG is independent of the muscles.
-  double torque_scale = 1.0;    ///< The dynamometer shows scale * torque + offset.
+  double emg_gain_drift = 0.0;         ///< Relative growth of the EMG per excitation over the session.
+  bool emg_noise = false;              ///< The EMG is independent of the muscles.
+  double torque_scale = 1.0;           ///< The dynamometer shows scale * torque + offset.
   double torque_offset_nm = 0.0;
 };
 
@@ -58,9 +58,8 @@ struct SensorTruth {
 struct TruthSpec {
   double spread = 1.0;  ///< In standard deviations of the prior about the literature value.
   /// Names of the parameters that differ from the literature.
-  std::vector<std::string> vary = {"max_isometric_force", "optimal_fiber_length",
-                                   "force_length_width",  "concentric_curvature",
-                                   "eccentric_plateau",   "eccentric_curvature_product"};
+  std::vector<std::string> vary = {"max_isometric_force",  "optimal_fiber_length", "force_length_width",
+                                   "concentric_curvature", "eccentric_plateau",    "eccentric_curvature_product"};
   /// Values that are set, not drawn, by muscle and parameter name; SI.
   std::map<std::string, std::map<std::string, double>> values;
   double emg_delay_min_s = 0.030;  ///< Range of the electromechanical delay.
@@ -89,21 +88,18 @@ struct ControlSpec {
   /// Standard deviation of ln(BRD / BIC activation), over trials and slowly within each. At 0 the
   /// two flexors' EMG would be one signal.
   double synergy = 0.35;
-  /// Standard deviation of ln(BRA / BIC activation). 0: the brachialis acts exactly as the biceps
-  /// does, and has no electrode. Above 0: the brachialis acts independently, and a wire electrode
-  /// records it.
+  /// Standard deviation of ln(BRA / BIC activation). 0: the brachialis acts exactly as the biceps does, and has no
+  /// electrode. Above 0: the brachialis acts independently, and a wire electrode records it.
   double brachialis_synergy = 0.0;
   /// Relative standard deviation of each muscle's unintended drive below 3 Hz. L2 only.
   double motor_noise = 0.08;
-  /// Unevenness of the movements, 1: as of people; 0: as of machines. Swings lead and lag by up to
-  /// a quarter of a radian. Lifts last some 10 % more or less and end some 2 degrees off, and slow
-  /// ones consist of several movements. The antagonist's co-contraction varies with the movement.
-  /// L2: 1.
+  /// Unevenness of the movements, 1: as of people; 0: as of machines. Swings lead and lag by up to a quarter of a
+  /// radian. Lifts last some 10 % more or less and end some 2 degrees off, and slow ones consist of several movements.
+  /// The antagonist's co-contraction varies with the movement. L2: 1.
   double irregularity = 0.0;
 };
 
-/// Fatigue: three compartments per muscle (muscle::published_fatigue_rates), which persist from
-/// trial to trial.
+/// Fatigue: three compartments per muscle (muscle::published_fatigue_rates), which persist from trial to trial.
 struct FatigueSpec {
   bool on = false;  ///< L2: true unless the protocol says otherwise.
   std::string rates = "elbow_rest";
@@ -163,8 +159,7 @@ struct TorqueNoise {
 struct TrialProtocol {
   std::string name;
   TrialKind kind = TrialKind::flexion;
-  std::string use =
-      "calibration";  ///< Use in the study: calibration, validation, mvc, isometric, passive.
+  std::string use = "calibration";  ///< Use in the study: calibration, validation, mvc, isometric, passive.
   Plane plane = Plane::vertical;
   double held_mass_kg = 0.0;
   std::vector<double> co_contraction;  ///< Empty: ControlSpec's range.
@@ -221,8 +216,7 @@ struct Protocol {
 /// the value found, the expectation and the remedy.
 ///
 /// The level determines the defaults of missing keys; `level` replaces the file's level.
-[[nodiscard]] Protocol read_protocol(const std::filesystem::path& file,
-                                     std::optional<Level> level = std::nullopt);
+[[nodiscard]] Protocol read_protocol(const std::filesystem::path& file, std::optional<Level> level = std::nullopt);
 [[nodiscard]] Protocol parse_protocol(std::string_view text,
                                       const std::filesystem::path& file,
                                       std::optional<Level> level = std::nullopt);

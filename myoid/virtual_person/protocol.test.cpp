@@ -27,10 +27,10 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(Protocol, ReadsAnglesInDegreesAndKeepsDefaults) {
-  const Protocol protocol = parse_protocol(
-      "name = \"n\"\nlevel = \"L0\"\n[truth]\nemg_delay_s = [0.04, 0.05]\n" + kTrial +
-          "centre_deg = 90\namplitude_deg = 30\nplane = \"horizontal\"\nheld_mass_kg = 2\n",
-      "p.toml");
+  const Protocol protocol =
+      parse_protocol("name = \"n\"\nlevel = \"L0\"\n[truth]\nemg_delay_s = [0.04, 0.05]\n" + kTrial +
+                         "centre_deg = 90\namplitude_deg = 30\nplane = \"horizontal\"\nheld_mass_kg = 2\n",
+                     "p.toml");
   EXPECT_EQ(protocol.name, "n");
   EXPECT_EQ(protocol.level, Level::noise_free);
   EXPECT_EQ(protocol.truth.emg_delay_max_s, 0.05);
@@ -43,8 +43,8 @@ TEST(Protocol, ReadsAnglesInDegreesAndKeepsDefaults) {
 }
 
 TEST(Protocol, SeveralAnglesAreSeveralTrials) {
-  const Protocol protocol = parse_protocol(
-      "[[trial]]\nname = \"iso\"\nkind = \"isometric_ramp\"\nangles_deg = [20, 70.5]\n", "p.toml");
+  const Protocol protocol =
+      parse_protocol("[[trial]]\nname = \"iso\"\nkind = \"isometric_ramp\"\nangles_deg = [20, 70.5]\n", "p.toml");
   ASSERT_EQ(protocol.trials.size(), 2U);
   EXPECT_EQ(protocol.trials[0].name, "iso_20");
   EXPECT_EQ(protocol.trials[1].name, "iso_70.5");
@@ -53,8 +53,7 @@ TEST(Protocol, SeveralAnglesAreSeveralTrials) {
 }
 
 TEST(Protocol, TakesValuesForSingleMuscles) {
-  const Protocol protocol =
-      parse_protocol("[truth.BRA]\noptimal_fiber_length = 0.09\n" + kTrial, "p.toml");
+  const Protocol protocol = parse_protocol("[truth.BRA]\noptimal_fiber_length = 0.09\n" + kTrial, "p.toml");
   EXPECT_EQ(protocol.truth.values.at("BRA").at("optimal_fiber_length"), 0.09);
 }
 
@@ -71,8 +70,7 @@ TEST(Protocol, AKeyOfAnotherKindOfTrialIsUnknown) {
 TEST(Protocol, SaysWhatWasFoundAndWhatIsExpected) {
   EXPECT_THAT(complaint(kTrial + "held_mass_kg = -1\n"),
               AllOf(HasSubstr("p.toml:4"), HasSubstr("found -1"), HasSubstr("from 0 to 50")));
-  EXPECT_THAT(complaint(kTrial + "centre_deg = 20\namplitude_deg = 60\n"),
-              HasSubstr("expected within 0 to 150"));
+  EXPECT_THAT(complaint(kTrial + "centre_deg = 20\namplitude_deg = 60\n"), HasSubstr("expected within 0 to 150"));
   EXPECT_THAT(complaint("[truth]\nvary = [\"optimal_fibre_length\"]\n" + kTrial),
               HasSubstr("did you mean 'optimal_fiber_length'"));
 }
@@ -81,14 +79,12 @@ TEST(Protocol, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint("level = \"L3\"\n" + kTrial), HasSubstr("L2"));
   EXPECT_THAT(complaint("level = \"L2\"\n[truth.BIC]\nmax_isometric_force = 900\n" + kTrial),
               HasSubstr("levels L0 and L1"));
-  EXPECT_THAT(
-      complaint("[[trial]]\nname = \"k\"\nkind = \"isokinetic\"\nfrom_deg = 90\nto_deg = 80\n"),
-      HasSubstr("more than from_deg"));
+  EXPECT_THAT(complaint("[[trial]]\nname = \"k\"\nkind = \"isokinetic\"\nfrom_deg = 90\nto_deg = 80\n"),
+              HasSubstr("more than from_deg"));
   EXPECT_THAT(complaint("name = \"x\"\n"), HasSubstr("no trial"));
   EXPECT_THAT(complaint(kTrial + kTrial), HasSubstr("a second time"));
   EXPECT_THAT(complaint("[[trial]]\nkind = \"mvc\"\n"), HasSubstr("'name' is missing"));
-  EXPECT_THAT(complaint("[[trial]]\nname = \"../x\"\nkind = \"mvc\"\n"),
-              HasSubstr("name of files"));
+  EXPECT_THAT(complaint("[[trial]]\nname = \"../x\"\nkind = \"mvc\"\n"), HasSubstr("name of files"));
   EXPECT_THAT(complaint("[[trial]]\nname = \"x\"\nkind = \"jump\"\n"), HasSubstr("flexion"));
   EXPECT_THAT(complaint("[[trial]\n"), HasSubstr("p.toml:1"));
 }
@@ -99,9 +95,8 @@ TEST(Protocol, TheLevelSaysWhatAbsentKeysStandFor) {
   EXPECT_EQ(noisy.motion.misplacement_m, 0.0);
   EXPECT_FALSE(noisy.fatigue.on);
   // The caller's level takes the place of the file's; what the file sets stays.
-  const Protocol different =
-      parse_protocol("level = \"L1\"\n[emg]\nhum = 0.02\ncrosstalk = [0.0, 0.0]\n" + kTrial,
-                     "p.toml", Level::different);
+  const Protocol different = parse_protocol("level = \"L1\"\n[emg]\nhum = 0.02\ncrosstalk = [0.0, 0.0]\n" + kTrial,
+                                            "p.toml", Level::different);
   EXPECT_EQ(different.level, Level::different);
   EXPECT_EQ(different.emg.hum, 0.02);
   EXPECT_EQ(different.emg.crosstalk_max, 0.0);

@@ -43,8 +43,7 @@ Section lead(double cutoff_hz, double rate_hz) {
   return {1.0 / (1.0 + k), -1.0 / (1.0 + k), (1.0 - k) / (1.0 + k)};
 }
 
-/// The recursion y_k + a1 y_{k-1} + a2 y_{k-2} + a3 y_{k-3} = b0 n_k + b1 n_{k-1} + b2 n_{k-2} + b3
-/// n_{k-3}.
+/// The recursion y_k + a1 y_{k-1} + a2 y_{k-2} + a3 y_{k-3} = b0 n_k + b1 n_{k-1} + b2 n_{k-2} + b3 n_{k-3}.
 struct Recursion {
   std::array<double, 4> a = {1.0, 0.0, 0.0, 0.0};
   std::array<double, 4> b = {1.0, 0.0, 0.0, 0.0};
@@ -62,8 +61,7 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
     const double pole = std::pow(section.p, kOversampling);
     for (std::size_t i = 3; i > 0; --i) result.a[i] -= pole * result.a[i - 1];
   }
-  const auto length =
-      static_cast<std::size_t>(kSettle_timeconstants * fine_hz / (2.0 * kPi * spectrum.low_hz));
+  const auto length = static_cast<std::size_t>(kSettle_timeconstants * fine_hz / (2.0 * kPi * spectrum.low_hz));
   std::vector<double> response(length);
   double input = 1.0;
   for (double& h : response) {
@@ -142,9 +140,7 @@ double power(const EmgSpectrum& spectrum, double frequency_hz) {
 }
 
 Eigen::Index emg_lead(const EmgSpectrum& spectrum, double rate_hz) {
-  return static_cast<Eigen::Index>(kSettle_timeconstants * rate_hz /
-                                   (2.0 * kPi * spectrum.low_hz)) +
-         1;
+  return static_cast<Eigen::Index>(kSettle_timeconstants * rate_hz / (2.0 * kPi * spectrum.low_hz)) + 1;
 }
 
 Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
@@ -163,8 +159,8 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
   Eigen::VectorXd result(innovations.size() - lead);
   for (Eigen::Index k = 0; k < innovations.size(); ++k) {
     const double n = innovations(k);
-    const double y = filter.b[0] * n + filter.b[1] * n1 + filter.b[2] * n2 + filter.b[3] * n3 -
-                     filter.a[1] * y1 - filter.a[2] * y2 - filter.a[3] * y3;
+    const double y = filter.b[0] * n + filter.b[1] * n1 + filter.b[2] * n2 + filter.b[3] * n3 - filter.a[1] * y1 -
+                     filter.a[2] * y2 - filter.a[3] * y3;
     n3 = n2, n2 = n1, n1 = n;
     y3 = y2, y2 = y1, y1 = y;
     if (k >= lead) result(k - lead) = y;
@@ -172,10 +168,7 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
   return result;
 }
 
-Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
-                          double rate_hz,
-                          Eigen::Index count,
-                          math::Random& random) {
+Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum, double rate_hz, Eigen::Index count, math::Random& random) {
   const Eigen::Index lead = emg_lead(spectrum, rate_hz);
   return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
 }
@@ -187,14 +180,11 @@ double discharges_hz(double motor_units, double excitation) {
   constexpr double kFastest_hz = 30.0;
   constexpr double kLeast = 2.0;  // least number of active units at any excitation
   const double u = std::clamp(excitation, 0.0, 1.0);
-  const double share =
-      std::log1p((kThresholds - 1.0) * std::min(1.0, u / kRecruited)) / std::log(kThresholds);
+  const double share = std::log1p((kThresholds - 1.0) * std::min(1.0, u / kRecruited)) / std::log(kThresholds);
   return std::max(motor_units * share, kLeast) * std::lerp(kSlowest_hz, kFastest_hz, u);
 }
 
-Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
-                                double rate_hz,
-                                math::Random& random) {
+Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second, double rate_hz, math::Random& random) {
   Eigen::VectorXd noise(per_second.size());
   for (Eigen::Index k = 0; k < per_second.size(); ++k) {
     const double mean = per_second(k) / rate_hz;
@@ -213,14 +203,10 @@ Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
   return noise;
 }
 
-Eigen::VectorXd lowpass_noise(double cutoff_hz,
-                              double rate_hz,
-                              Eigen::Index count,
-                              math::Random& random) {
+Eigen::VectorXd lowpass_noise(double cutoff_hz, double rate_hz, Eigen::Index count, math::Random& random) {
   if (!(cutoff_hz > 0.0 && cutoff_hz < 0.5 * rate_hz)) {
     throw InvalidInput(
-        fmt::format("noise below {} Hz needs samples at more than twice that rate, found {} Hz",
-                    cutoff_hz, rate_hz));
+        fmt::format("noise below {} Hz needs samples at more than twice that rate, found {} Hz", cutoff_hz, rate_hz));
   }
   const std::array<Section, 2> chain = {lag(cutoff_hz, rate_hz), lag(cutoff_hz, rate_hz)};
   const int settle = static_cast<int>(40.0 * rate_hz / (2.0 * kPi * cutoff_hz)) + 40;

@@ -16,11 +16,10 @@ struct EmgSpectrum {
 /// Returns the spectrum at a frequency, not normalized.
 [[nodiscard]] double power(const EmgSpectrum& spectrum, double frequency_hz);
 
-/// Returns `count` samples of Gaussian noise of unit variance with this spectrum: the samples of
-/// H(s) = s f_h^2 / ((s + f_l) (s + f_h)^2), driven by white noise, with frequencies above half the
-/// rate folded back as by a converter. Each sample takes one normal number, through the recursion
-/// of third order that has these samples' autocovariance (its moving average by Bauer's
-/// factorization). Throws InvalidInput if the rate is not above 4 f_h.
+/// Returns `count` samples of Gaussian noise of unit variance with this spectrum: the samples of H(s) = s f_h^2 / ((s +
+/// f_l) (s + f_h)^2), driven by white noise, with frequencies above half the rate folded back as by a converter. Each
+/// sample takes one normal number, through the recursion of third order that has these samples' autocovariance (its
+/// moving average by Bauer's factorization). Throws InvalidInput if the rate is not above 4 f_h.
 [[nodiscard]] Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
                                         double rate_hz,
                                         Eigen::Index count,
@@ -39,19 +38,13 @@ struct EmgSpectrum {
 /// units are active at a tenth; rates go from 8 to 30 1/s (after Fuglevand, Winter & Patla 1993).
 [[nodiscard]] double discharges_hz(double motor_units, double excitation);
 
-/// Returns white noise of unit variance made of discharges: in every sample a Poisson number of
-/// discharges, each of normal size, over the square root of their mean number. Few discharges make
-/// spikes (excess kurtosis 3 / number), many make Gaussian noise; the spectrum stays white.
-/// `per_second`: mean number, one value for each sample.
-[[nodiscard]] Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second,
-                                              double rate_hz,
-                                              math::Random& random);
+/// Returns white noise of unit variance made of discharges: in every sample a Poisson number of discharges, each of
+/// normal size, over the square root of their mean number. Few discharges make spikes (excess kurtosis 3 / number),
+/// many make Gaussian noise; the spectrum stays white. `per_second`: mean number, one value for each sample.
+[[nodiscard]] Eigen::VectorXd discharge_noise(const Eigen::VectorXd& per_second, double rate_hz, math::Random& random);
 
 /// Returns `count` samples of Gaussian noise of unit variance whose power falls with the fourth
 /// power of frequency above `cutoff_hz` (two equal first-order lags).
-[[nodiscard]] Eigen::VectorXd lowpass_noise(double cutoff_hz,
-                                            double rate_hz,
-                                            Eigen::Index count,
-                                            math::Random& random);
+[[nodiscard]] Eigen::VectorXd lowpass_noise(double cutoff_hz, double rate_hz, Eigen::Index count, math::Random& random);
 
 }  // namespace myoid::twin

@@ -11,9 +11,8 @@
 namespace myoid::twin {
 namespace {
 
-/// Power per band of `width_hz` from 0 to half the rate: squared Fourier coefficients of segments
-/// of 1/width seconds (an independent, slow way: no filter of ours is involved), relative to their
-/// sum.
+/// Power per band of `width_hz` from 0 to half the rate: squared Fourier coefficients of segments of 1/width seconds
+/// (an independent, slow way: no filter of ours is involved), relative to their sum.
 std::vector<double> band_shares(const Eigen::VectorXd& x, double rate_hz, double width_hz) {
   const auto length = static_cast<Eigen::Index>(rate_hz / width_hz);
   const auto bands = static_cast<std::size_t>(0.5 * rate_hz / width_hz);
@@ -23,14 +22,12 @@ std::vector<double> band_shares(const Eigen::VectorXd& x, double rate_hz, double
     Eigen::VectorXd c(length);
     Eigen::VectorXd s(length);
     for (Eigen::Index k = 0; k < length; ++k) {
-      const double angle =
-          2.0 * kPi * width_hz * static_cast<double>(band) * static_cast<double>(k) / rate_hz;
+      const double angle = 2.0 * kPi * width_hz * static_cast<double>(band) * static_cast<double>(k) / rate_hz;
       c(k) = std::cos(angle);
       s(k) = std::sin(angle);
     }
     for (Eigen::Index start = 0; start + length <= x.size(); start += length) {
-      result[band] += std::pow(c.dot(x.segment(start, length)), 2) +
-                      std::pow(s.dot(x.segment(start, length)), 2);
+      result[band] += std::pow(c.dot(x.segment(start, length)), 2) + std::pow(s.dot(x.segment(start, length)), 2);
     }
     sum += result[band];
   }
@@ -50,8 +47,7 @@ double median_hz(const std::vector<double>& shares, double width_hz) {
 }
 
 TEST(EmgNoise, HasUnitVariance) {
-  // 60 s hold about 2 B T = 2 x 150 Hz x 60 s independent values: sqrt(2/18000) = 1 %; four of
-  // them.
+  // 60 s hold about 2 B T = 2 x 150 Hz x 60 s independent values: sqrt(2/18000) = 1 %; four of them.
   math::Random random(11);
   const Eigen::VectorXd noise = emg_noise({}, 1000.0, 60000, random);
   EXPECT_NEAR(noise.squaredNorm() / 60000.0, 1.0, 0.042);
@@ -62,8 +58,7 @@ TEST(EmgNoise, HasTheSpectrumOfShwedyk) {
   math::Random random(12);
   const double rate_hz = 1000.0;
   const double width_hz = 10.0;
-  const std::vector<double> found =
-      band_shares(emg_noise({}, rate_hz, 120000, random), rate_hz, width_hz);
+  const std::vector<double> found = band_shares(emg_noise({}, rate_hz, 120000, random), rate_hz, width_hz);
   std::vector<double> expected(found.size());
   double sum = 0.0;
   for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -91,8 +86,7 @@ TEST(DischargeNoise, IsWhiteOfUnitVarianceAndSpikyWhereDischargesAreFew) {
   const double rate_hz = 1000.0;
   for (const double mean : {0.5, 5.0}) {
     const Eigen::Index n = 400000;
-    const Eigen::VectorXd noise =
-        discharge_noise(Eigen::VectorXd::Constant(n, mean * rate_hz), rate_hz, random);
+    const Eigen::VectorXd noise = discharge_noise(Eigen::VectorXd::Constant(n, mean * rate_hz), rate_hz, random);
     const double variance = noise.squaredNorm() / static_cast<double>(n);
     EXPECT_NEAR(variance, 1.0, 0.02);
     const double fourth = noise.array().pow(4).sum() / static_cast<double>(n);

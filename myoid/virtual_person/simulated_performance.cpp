@@ -46,8 +46,7 @@ double surplus_nm(const ArmStepper& stepper) {
   const ArmState& state = stepper.state();
   const ArmStepper::Foresight foresight = stepper.foresee({state.q.value, state.q.first, 0.0});
   double foreseen_nm = foresight.passive_nm;
-  for (std::size_t i = 0; i < kHeadCount; ++i)
-    foreseen_nm += foresight.capacity_nm[i] * state.activation[i];
+  for (std::size_t i = 0; i < kHeadCount; ++i) foreseen_nm += foresight.capacity_nm[i] * state.activation[i];
   return state.muscle_torque_nm - foreseen_nm;
 }
 
@@ -69,28 +68,22 @@ std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std
   std::array<Eigen::VectorXd, 4> factor;
   math::Random random(seed);
   for (Eigen::VectorXd& f : factor) {
-    const Eigen::VectorXd noise =
-        lowpass_noise(kMotorNoiseCutoff_hz, 1.0 / kSample_s, count, random);
+    const Eigen::VectorXd noise = lowpass_noise(kMotorNoiseCutoff_hz, 1.0 / kSample_s, count, random);
     f = (1.0 + sd * noise.array()).max(0.0).matrix();
   }
   return factor;
 }
 
-/// Chooses the muscles' activations: the ones foreseen for the movement, corrected by the seen and
-/// felt errors.
+/// Chooses the muscles' activations: the ones foreseen for the movement, corrected by the seen and felt errors.
 class Controller {
  public:
-  Controller(const TrueArm& arm,
-             const TrialScript& script,
-             const ArmStepper& stepper,
-             const PerMuscle& effort)
+  Controller(const TrueArm& arm, const TrialScript& script, const ArmStepper& stepper, const PerMuscle& effort)
       : arm_(arm),
         script_(script),
         stepper_(stepper),
         effort_(effort),
         lead_s_(arm.delay_s + arm.activation.excitation_time_s + arm.activation.activation_time_s) {
-    const double inertia_kgm2 =
-        required_torque_nm(arm, 0.0, 1.0, script.protocol.plane, script.protocol.held_mass_kg);
+    const double inertia_kgm2 = required_torque_nm(arm, 0.0, 1.0, script.protocol.plane, script.protocol.held_mass_kg);
     stiffness_ = inertia_kgm2 * kFeedback_radps * kFeedback_radps;
     viscosity_ = 2.0 * kDamping * inertia_kgm2 * kFeedback_radps;
   }
@@ -119,11 +112,9 @@ class Controller {
     if (!first) {
       held_nm_ += kIntegral * stiffness_ * kFeedback_radps * off_rad * kSample_s;
       felt_nm_ += kSample_s / kForceSense_s * (surplus_nm(stepper_) - felt_nm_);
-      correction_nm =
-          stiffness_ * off_rad + viscosity_ * (wanted.first - is.first) + held_nm_ - felt_nm_;
+      correction_nm = stiffness_ * off_rad + viscosity_ * (wanted.first - is.first) + held_nm_ - felt_nm_;
     }
-    return activations_for(later.torque_nm + correction_nm, later.capacity_nm,
-                           script_.coordination(t));
+    return activations_for(later.torque_nm + correction_nm, later.capacity_nm, script_.coordination(t));
   }
 
   const TrueArm& arm_;
@@ -146,8 +137,7 @@ PerHead excitation_of(const TrueArm& arm, const PerMuscle& command) {
 PerMuscle electrode_of(const TrueArm& arm, const PerMuscle& command) {
   PerMuscle power = {};
   const PerHead u = excitation_of(arm, command);
-  for (std::size_t i = 0; i < kHeadCount; ++i)
-    power[arm.heads[i].muscle] += arm.heads[i].electrode_share * u[i] * u[i];
+  for (std::size_t i = 0; i < kHeadCount; ++i) power[arm.heads[i].muscle] += arm.heads[i].electrode_share * u[i] * u[i];
   for (double& p : power) p = std::sqrt(p);
   return power;
 }
@@ -155,8 +145,7 @@ PerMuscle electrode_of(const TrueArm& arm, const PerMuscle& command) {
 /// Returns the reason why a movement has failed in this state; empty if it has not failed.
 std::string failure_of(const ArmState& state, const TrialScript& script, double t) {
   const double off_rad = state.q.value - script.motion(t).value;
-  if (!(std::abs(off_rad) < kLost_rad))
-    return fmt::format("the arm got out of hand at {:.2f} s", t);
+  if (!(std::abs(off_rad) < kLost_rad)) return fmt::format("the arm got out of hand at {:.2f} s", t);
   if (*std::max_element(state.activation.begin(), state.activation.end()) > kGreatestActivation)
     return fmt::format("an activation rose above {} at {:.2f} s", kGreatestActivation, t);
   return "";
@@ -200,8 +189,7 @@ PerMuscle SimulatedPerformance::delayed_command(double t) const {
   const double share = s - static_cast<double>(before);
   PerMuscle command;
   for (std::size_t m = 0; m < 4; ++m)
-    command[m] =
-        std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
+    command[m] = std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
   return command;
 }
 
@@ -217,13 +205,9 @@ void SimulatedPerformance::step_to_sample(std::size_t k, ArmStepper& stepper) co
   }
 }
 
-void SimulatedPerformance::tire(std::size_t k,
-                                PerHead& worked,
-                                Tiredness<7>& tiredness,
-                                ArmStepper& stepper) {
+void SimulatedPerformance::tire(std::size_t k, PerHead& worked, Tiredness<7>& tiredness, ArmStepper& stepper) {
   if (!tiredness.rates || sample_time_s(k) < 0.0) return;
-  for (std::size_t i = 0; i < kHeadCount; ++i)
-    worked[i] += samples_[k].arm.activation[i] / kSamplesPerFatigue;
+  for (std::size_t i = 0; i < kHeadCount; ++i) worked[i] += samples_[k].arm.activation[i] / kSamplesPerFatigue;
   if (k % kSamplesPerFatigue != 0) return;
   fatigued_.push_back(fatigue_of_muscles(*arm_, tiredness));
   tiredness.work(worked, kSamplesPerFatigue * kSample_s);
@@ -231,24 +215,18 @@ void SimulatedPerformance::tire(std::size_t k,
   stepper.set_strength(tiredness.strength());
 }
 
-void SimulatedPerformance::simulate(double motor_noise,
-                                    Tiredness<7>& tiredness,
-                                    std::uint64_t seed) {
+void SimulatedPerformance::simulate(double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed) {
   const TrialScript& script = this->script();
   const Surroundings surroundings{script.protocol.plane, script.protocol.held_mass_kg};
   ArmStepper stepper(*arm_, kStep_s);
   stepper.set_strength(tiredness.strength());
-  const auto count =
-      static_cast<std::size_t>(std::ceil((kBefore_s + script.duration_s + kAfter_s) / kSample_s)) +
-      1;
-  const std::array<Eigen::VectorXd, 4> noise =
-      motor_noise_of(motor_noise, static_cast<Eigen::Index>(count), seed);
+  const auto count = static_cast<std::size_t>(std::ceil((kBefore_s + script.duration_s + kAfter_s) / kSample_s)) + 1;
+  const std::array<Eigen::VectorXd, 4> noise = motor_noise_of(motor_noise, static_cast<Eigen::Index>(count), seed);
   Controller controller(*arm_, script, stepper, effort_);
   const auto command_at = [&](std::size_t k) {
     PerMuscle u = controller.command(sample_time_s(k), k == 0);
     // Limits the excitation to 0..1; failure_of() finds a movement that needs more.
-    for (std::size_t m = 0; m < 4; ++m)
-      u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
+    for (std::size_t m = 0; m < 4; ++m) u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
     return u;
   };
 
@@ -277,8 +255,7 @@ void SimulatedPerformance::simulate(double motor_noise,
 }
 
 SimulatedPerformance::Place SimulatedPerformance::place(double time_s) const {
-  const double s =
-      std::clamp((time_s + kBefore_s) / kSample_s, 0.0, static_cast<double>(samples_.size() - 1));
+  const double s = std::clamp((time_s + kBefore_s) / kSample_s, 0.0, static_cast<double>(samples_.size() - 1));
   const std::size_t before = std::min(static_cast<std::size_t>(s), samples_.size() - 2);
   double share = s - static_cast<double>(before);
   // Round-off does not move times on the grid off their samples.
@@ -319,8 +296,7 @@ std::optional<ArmState> SimulatedPerformance::heads(double time_s) const {
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     now.activation[i] = std::lerp(a.activation[i], b.activation[i], at.share);
     now.fiber_length_m[i] = std::lerp(a.fiber_length_m[i], b.fiber_length_m[i], at.share);
-    now.fiber_velocity_mps[i] =
-        std::lerp(a.fiber_velocity_mps[i], b.fiber_velocity_mps[i], at.share);
+    now.fiber_velocity_mps[i] = std::lerp(a.fiber_velocity_mps[i], b.fiber_velocity_mps[i], at.share);
     now.tendon_force_n[i] = std::lerp(a.tendon_force_n[i], b.tendon_force_n[i], at.share);
   }
   now.muscle_torque_nm = std::lerp(a.muscle_torque_nm, b.muscle_torque_nm, at.share);
@@ -349,8 +325,7 @@ Instant SimulatedPerformance::at(double time_s) const {
   result.passive_torque_nm = now.passive_torque_nm;
   if (script().against_dynamometer()) {
     result.external_torque_nm =
-        required_torque_nm(*arm_, now.q.value, now.q.second, script().protocol.plane,
-                           script().protocol.held_mass_kg) -
+        required_torque_nm(*arm_, now.q.value, now.q.second, script().protocol.plane, script().protocol.held_mass_kg) -
         now.muscle_torque_nm - now.passive_torque_nm;
   }
   return result;
@@ -365,8 +340,7 @@ PerMuscle SimulatedPerformance::drive(double time_s) const {
   const Place at = place(time_s);
   PerMuscle drive;
   for (std::size_t m = 0; m < 4; ++m)
-    drive[m] =
-        std::lerp(samples_[at.before].electrode[m], samples_[at.before + 1].electrode[m], at.share);
+    drive[m] = std::lerp(samples_[at.before].electrode[m], samples_[at.before + 1].electrode[m], at.share);
   return drive;
 }
 

@@ -31,14 +31,11 @@ Moment smooth_step(double time_s, double start_s, double duration_s) {
   if (x <= 0.0) return {};
   if (x >= 1.0) return {1.0, 0.0, 0.0};
   const double x4 = x * x * x * x;
-  const double value =
-      x4 * x * x *
-      (462.0 + x * (-1980.0 + x * (3465.0 + x * (-3080.0 + x * (1386.0 - 252.0 * x)))));
+  const double value = x4 * x * x * (462.0 + x * (-1980.0 + x * (3465.0 + x * (-3080.0 + x * (1386.0 - 252.0 * x)))));
   // S' = 2772 x^5 (1 - x)^5.
   const double y = x * (1.0 - x);
   const double y4 = y * y * y * y;
-  return {value, 2772.0 * y4 * y / duration_s,
-          13860.0 * y4 * (1.0 - 2.0 * x) / (duration_s * duration_s)};
+  return {value, 2772.0 * y4 * y / duration_s, 13860.0 * y4 * (1.0 - 2.0 * x) / (duration_s * duration_s)};
 }
 
 Moment smooth_ramp(double time_s, double start_s, double duration_s) {
@@ -46,8 +43,7 @@ Moment smooth_ramp(double time_s, double start_s, double duration_s) {
   if (x <= 0.0) return {};
   if (x >= 1.0) return {time_s - start_s - 0.5 * duration_s, 1.0, 0.0};
   const double x4 = x * x * x * x;
-  const double integral =
-      x4 * x * x * x * (66.0 + x * (-247.5 + x * (385.0 + x * (-308.0 + x * (126.0 - 21.0 * x)))));
+  const double integral = x4 * x * x * x * (66.0 + x * (-247.5 + x * (385.0 + x * (-308.0 + x * (126.0 - 21.0 * x)))));
   const Moment step = smooth_step(time_s, start_s, duration_s);
   return {integral * duration_s, step.value, step.first};
 }
@@ -61,27 +57,24 @@ Moment SmoothMotion::operator()(double time_s) const {
   }
   for (const Sweep& sweep : sweeps) {
     const double travel_s = std::abs(sweep.by_rad) / sweep.speed_radps;
-    q = q + std::copysign(sweep.speed_radps, sweep.by_rad) *
-                (smooth_ramp(time_s, sweep.start_s, sweep.pace_s) -
-                 smooth_ramp(time_s, sweep.start_s + travel_s, sweep.pace_s));
+    q = q +
+        std::copysign(sweep.speed_radps, sweep.by_rad) * (smooth_ramp(time_s, sweep.start_s, sweep.pace_s) -
+                                                          smooth_ramp(time_s, sweep.start_s + travel_s, sweep.pace_s));
   }
   if (cycles == 0) return q;
 
   // The pace, 0..1, is a step up and a step down; the phase is its integral.
   const double stop_s = end_s() - pace_s;
-  Moment phase = (2.0 * kPi * frequency_hz) * (smooth_ramp(time_s, oscillation_start_s, pace_s) -
-                                               smooth_ramp(time_s, stop_s, pace_s));
+  Moment phase = (2.0 * kPi * frequency_hz) *
+                 (smooth_ramp(time_s, oscillation_start_s, pace_s) - smooth_ramp(time_s, stop_s, pace_s));
   if (wander_rad > 0.0) {
     const double rate_radps = 2.0 * kPi * wander_hz;
-    const Moment pace =
-        smooth_step(time_s, oscillation_start_s, pace_s) - smooth_step(time_s, stop_s, pace_s);
-    phase = phase +
-            wander_rad * (pace * cosine({rate_radps * time_s + wander_phase_rad, rate_radps, 0.0}));
+    const Moment pace = smooth_step(time_s, oscillation_start_s, pace_s) - smooth_step(time_s, stop_s, pace_s);
+    phase = phase + wander_rad * (pace * cosine({rate_radps * time_s + wander_phase_rad, rate_radps, 0.0}));
   }
   const double w_radps = 2.0 * kPi * variation_hz;
   const Moment variation = cosine({w_radps * time_s + variation_phase_rad, w_radps, 0.0});
-  const Moment amplitude =
-      amplitude_rad * (Moment{1.0, 0.0, 0.0} + amplitude_variation * variation);
+  const Moment amplitude = amplitude_rad * (Moment{1.0, 0.0, 0.0} + amplitude_variation * variation);
   return q + amplitude * (Moment{1.0, 0.0, 0.0} - cosine(phase));
 }
 

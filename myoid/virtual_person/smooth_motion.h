@@ -18,9 +18,8 @@ struct Moment {
 [[nodiscard]] Moment operator*(double a, const Moment& b);
 [[nodiscard]] Moment cosine(const Moment& x);
 
-/// Returns a step from 0 to 1 that starts at `start_s` and takes `duration_s`: x^6 (462 - 1980 x +
-/// 3465 x^2 - 3080 x^3 + 1386 x^4 - 252 x^5), whose first five derivatives vanish at both ends. 0
-/// before, 1 after.
+/// Returns a step from 0 to 1 that starts at `start_s` and takes `duration_s`: x^6 (462 - 1980 x + 3465 x^2 - 3080 x^3
+/// + 1386 x^4 - 252 x^5), whose first five derivatives vanish at both ends. 0 before, 1 after.
 [[nodiscard]] Moment smooth_step(double time_s, double start_s, double duration_s);
 
 /// Returns the integral of the step over time [s].

@@ -12,8 +12,7 @@ namespace {
 constexpr double kMarginOfFlexion_s = 0.5;  ///< time at rest before and after
 
 /// Adds a movement of an uneven person: several overlapping submovements.
-void add_uneven_move(
-    double start_s, double duration_s, double by_rad, SmoothMotion& motion, math::Random& random) {
+void add_uneven_move(double start_s, double duration_s, double by_rad, SmoothMotion& motion, math::Random& random) {
   constexpr double kOne_s = 0.9;  // duration of each submovement
   const int count = std::max(1, static_cast<int>(std::lround(duration_s / kOne_s)));
   std::vector<double> share;
@@ -21,8 +20,7 @@ void add_uneven_move(
   for (int i = 0; i < count; ++i) sum += share.emplace_back(random.uniform(0.7, 1.3));
   const double apart_s = duration_s / (count + 1);
   for (int i = 0; i < count; ++i)
-    motion.moves.push_back(
-        {start_s + i * apart_s, 2.0 * apart_s, by_rad * share[static_cast<std::size_t>(i)] / sum});
+    motion.moves.push_back({start_s + i * apart_s, 2.0 * apart_s, by_rad * share[static_cast<std::size_t>(i)] / sum});
 }
 
 /// Raises and lowers (eccentric, passive), or moves there and back.
@@ -49,9 +47,8 @@ void add_lifts(TrialScript& script, double irregularity, math::Random& random) {
   const auto go_to = [&](double usual_rad, double usual_s) {
     time_s += lasting_s(p.rest_s);
     const double duration_s = lasting_s(usual_s);
-    const double to_rad =
-        std::clamp(usual_rad + around(kReachSd_rad), std::min(usual_rad, 5.0 * kDegree),
-                   std::max(usual_rad, 140.0 * kDegree));
+    const double to_rad = std::clamp(usual_rad + around(kReachSd_rad), std::min(usual_rad, 5.0 * kDegree),
+                                     std::max(usual_rad, 140.0 * kDegree));
     move(time_s, duration_s, to_rad - at_rad);
     at_rad = to_rad;
     time_s += duration_s;
@@ -73,8 +70,8 @@ void add_oscillation(TrialScript& script, math::Random& random) {
   motion.frequency_hz = p.frequency_hz;
   motion.pace_s = std::max(0.6, 0.5 / p.frequency_hz);
   motion.cycles = std::max(
-      1, static_cast<int>(std::floor(
-             (p.duration_s - 2.0 * kMarginOfFlexion_s - motion.pace_s) * p.frequency_hz + 1e-9)));
+      1,
+      static_cast<int>(std::floor((p.duration_s - 2.0 * kMarginOfFlexion_s - motion.pace_s) * p.frequency_hz + 1e-9)));
   motion.amplitude_variation = p.variation;
   motion.variation_hz = 0.37 * p.frequency_hz;
   motion.variation_phase_rad = random.uniform(0.0, 2.0 * kPi);
@@ -92,17 +89,14 @@ void make_uneven(TrialScript& script, double irregularity, math::Random& random)
     script.motion.wander_hz = 0.23 * p.frequency_hz;
     script.motion.wander_phase_rad = wander_rad;
   }
-  const double cycle_s =
-      p.kind == TrialKind::flexion ? 1.0 / p.frequency_hz : p.raise_s + p.lower_s + 2.0 * p.rest_s;
+  const double cycle_s = p.kind == TrialKind::flexion ? 1.0 / p.frequency_hz : p.raise_s + p.lower_s + 2.0 * p.rest_s;
   if (p.kind == TrialKind::flexion || p.kind == TrialKind::eccentric) {
-    script.co_contraction_change = {.depth = std::min(0.9, 0.9 * irregularity),
-                                    .frequency_hz = 1.0 / cycle_s,
-                                    .phase_rad = phase_rad};
+    script.co_contraction_change = {
+        .depth = std::min(0.9, 0.9 * irregularity), .frequency_hz = 1.0 / cycle_s, .phase_rad = phase_rad};
   }
 }
 
-/// Returns flexor proportions that move around a circle from effort to effort, so that each leads
-/// in turn.
+/// Returns flexor proportions that move around a circle from effort to effort, so that each leads in turn.
 Coordination lead(const ControlSpec& control, double first_rad, int k, int count) {
   const double angle_rad = first_rad + 2.0 * kPi * k / std::max(count, 3);
   return {.brachioradialis = control.synergy * std::sqrt(2.0) * std::cos(angle_rad),
@@ -163,11 +157,9 @@ void add_efforts(TrialScript& script, const ControlSpec& control, math::Random& 
   for (int k = 0; k < p.repetitions; ++k) {
     for (const bool flexion : {true, false}) {
       if (p.direction == (flexion ? Direction::extension : Direction::flexion)) continue;
-      Effort effort{
-          .start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
+      Effort effort{.start_s = time_s + p.rest_s, .rise_s = p.rise_s, .hold_s = p.hold_s, .flexion = flexion};
       // At the greatest effort every muscle is fully active.
-      if (p.kind != TrialKind::mvc && flexion)
-        effort.coordination = lead(control, first_rad, k, p.repetitions);
+      if (p.kind != TrialKind::mvc && flexion) effort.coordination = lead(control, first_rad, k, p.repetitions);
       script.efforts.push_back(effort);
       time_s = effort.end_s();
     }
@@ -178,8 +170,7 @@ void add_efforts(TrialScript& script, const ControlSpec& control, math::Random& 
 }  // namespace
 
 double Effort::level(double time_s) const {
-  return smooth_step(time_s, start_s, rise_s).value -
-         smooth_step(time_s, start_s + rise_s + hold_s, rise_s).value;
+  return smooth_step(time_s, start_s, rise_s).value - smooth_step(time_s, start_s + rise_s + hold_s, rise_s).value;
 }
 
 double Modulation::operator()(double time_s) const {
@@ -196,11 +187,10 @@ double TrialScript::emg_gain(double time_s) const {
 }
 
 Coordination TrialScript::coordination(double time_s) const {
-  return {
-      .brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
-      .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
-      .co_contraction = mean.co_contraction * co_contraction_change(time_s) * (1.0 + cold(time_s)),
-      .eased = eased};
+  return {.brachioradialis = mean.brachioradialis + brachioradialis_change(time_s) - 1.0,
+          .brachialis = mean.brachialis + brachialis_change(time_s) - 1.0,
+          .co_contraction = mean.co_contraction * co_contraction_change(time_s) * (1.0 + cold(time_s)),
+          .eased = eased};
 }
 
 PerMuscle TrialScript::prescribed_activations(double time_s) const {
@@ -225,26 +215,20 @@ bool TrialScript::against_dynamometer() const {
          protocol.kind == TrialKind::isokinetic || protocol.kind == TrialKind::passive;
 }
 
-TrialScript make_script(const TrialProtocol& trial,
-                        const ControlSpec& control,
-                        std::uint64_t seed) {
+TrialScript make_script(const TrialProtocol& trial, const ControlSpec& control, std::uint64_t seed) {
   math::Random random(math::seed_for(seed, "script." + trial.name));
   TrialScript script;
   script.protocol = trial;
   math::Random uneven(math::seed_for(seed, "uneven." + trial.name));
   const bool own_range = !trial.co_contraction.empty();
-  script.mean.co_contraction =
-      random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,
-                     own_range ? trial.co_contraction.back() : control.co_contraction_max);
-  script.co_contraction_change = {.depth = 0.5,
-                                  .frequency_hz = random.uniform(0.07, 0.2),
-                                  .phase_rad = random.uniform(0.0, 2.0 * kPi)};
-  // About half of the variance of the flexors' proportions lies between trials (a place on a
-  // circle), half within.
+  script.mean.co_contraction = random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,
+                                              own_range ? trial.co_contraction.back() : control.co_contraction_max);
+  script.co_contraction_change = {
+      .depth = 0.5, .frequency_hz = random.uniform(0.07, 0.2), .phase_rad = random.uniform(0.0, 2.0 * kPi)};
+  // About half of the variance of the flexors' proportions lies between trials (a place on a circle), half within.
   const auto change = [&random](double sd) {
-    return Modulation{.depth = sd,
-                      .frequency_hz = random.uniform(0.05, 0.15),
-                      .phase_rad = random.uniform(0.0, 2.0 * kPi)};
+    return Modulation{
+        .depth = sd, .frequency_hz = random.uniform(0.05, 0.15), .phase_rad = random.uniform(0.0, 2.0 * kPi)};
   };
   const double angle_rad = random.uniform(0.0, 2.0 * kPi);
   const double brachioradialis = 0.5 * control.synergy;

@@ -64,8 +64,6 @@ struct TrialScript {
 
 /// Draws the random part of the protocol. The streams depend on the name of the trial, so that a
 /// further trial does not change the others.
-[[nodiscard]] TrialScript make_script(const TrialProtocol& trial,
-                                      const ControlSpec& control,
-                                      std::uint64_t seed);
+[[nodiscard]] TrialScript make_script(const TrialProtocol& trial, const ControlSpec& control, std::uint64_t seed);
 
 }  // namespace myoid::twin

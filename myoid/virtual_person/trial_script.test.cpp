@@ -121,11 +121,9 @@ TEST(TrialScript, AnotherNameIsAnotherDrawAnotherTrialIsNot) {
   TrialProtocol other = trial(TrialKind::flexion);
   other.name = "b";
   const TrialScript a = make_script(trial(TrialKind::flexion), {}, 1);
-  EXPECT_EQ(a.mean.brachioradialis,
-            make_script(trial(TrialKind::flexion), {}, 1).mean.brachioradialis);
+  EXPECT_EQ(a.mean.brachioradialis, make_script(trial(TrialKind::flexion), {}, 1).mean.brachioradialis);
   EXPECT_NE(a.mean.brachioradialis, make_script(other, {}, 1).mean.brachioradialis);
-  EXPECT_NE(a.mean.brachioradialis,
-            make_script(trial(TrialKind::flexion), {}, 2).mean.brachioradialis);
+  EXPECT_NE(a.mean.brachioradialis, make_script(trial(TrialKind::flexion), {}, 2).mean.brachioradialis);
 }
 
 }  // namespace

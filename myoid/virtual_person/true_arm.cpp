@@ -24,13 +24,11 @@ constexpr double kExcitationTimeSd = 0.2;
 constexpr double kActivationTimeSd = 0.25;
 constexpr double kHeadDriveSd = 0.08;
 constexpr double kMostPureDelay_s = 0.020;
-/// Passive strains at F_max. The published 0.6 and 0.7 would give the relaxed biceps of this arm,
-/// whose fibers are optimal at 85 degrees, several newton meters at 20 degrees; a relaxed elbow has
-/// about one.
+/// Passive strains at F_max. The published 0.6 and 0.7 would give the relaxed biceps of this arm, whose fibers are
+/// optimal at 85 degrees, several newton meters at 20 degrees; a relaxed elbow has about one.
 constexpr double kLeastPassiveStrain = 0.8;
 constexpr double kMostPassiveStrain = 1.2;
-/// Share of each head in the EMG of its muscle: both heads of the biceps, and mainly the lateral
-/// head of the triceps.
+/// Share of each head in the EMG of its muscle: both heads of the biceps, and mainly the lateral head of the triceps.
 constexpr PerHead kElectrodeShare = {0.5, 0.5, 1.0, 1.0, 0.3, 0.6, 0.1};
 
 /// The draws for one muscle, in standard deviations.
@@ -81,11 +79,9 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
     head.muscle = lump;
     head.electrode_share = kElectrodeShare[i];
     muscle::HillParameters<double> hill = from.hill;
-    hill.max_isometric_force_n *=
-        std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * d.strength +
-                 kHeadStrengthSd * z() + beliefs::kMaxForce.sd * spec.offset);
-    const double length =
-        std::max(0.5, 1.0 + kFiberLengthSd * d.fiber_length + kHeadFiberLengthSd * z());
+    hill.max_isometric_force_n *= std::exp(kSharedStrengthSd * shared_strength + kStrengthSd * d.strength +
+                                           kHeadStrengthSd * z() + beliefs::kMaxForce.sd * spec.offset);
+    const double length = std::max(0.5, 1.0 + kFiberLengthSd * d.fiber_length + kHeadFiberLengthSd * z());
     hill.optimal_fiber_length_m *= length;
     hill.force_length_width_m *= length;
     // v_max is a fixed number of fiber lengths per second.
@@ -102,10 +98,8 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
     scale_moment_arm(head.path, std::max(0.5, 1.0 + spec.moment_arm_sd * d.moment_arm));
     const double published_m = from.hill.optimal_fiber_length_m + from.hill.tendon_slack_length_m;
     const double wanted_m = hill.optimal_fiber_length_m * std::cos(from.pennation_at_optimal_rad) +
-                            hill.tendon_slack_length_m * (1.0 + 0.5 * d.strain) -
-                            kReachSd * d.reach * published_m;
-    head.path.constant_m +=
-        wanted_m - model::travel(head.path, model::kArmOptimalAt_rad[lump]).length_m;
+                            hill.tendon_slack_length_m * (1.0 + 0.5 * d.strain) - kReachSd * d.reach * published_m;
+    head.path.constant_m += wanted_m - model::travel(head.path, model::kArmOptimalAt_rad[lump]).length_m;
     raw_drive[i] = std::exp(kHeadDriveSd * z());
   }
   // A muscle's excitation is the mean of its heads', by strength.
@@ -142,22 +136,17 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
     PerMuscle slope_per_rad;
     for (double& slope : slope_per_rad) slope = spec.moment_arm_slope_sd * bounded_normal(random);
     for (TrueHead& head : arm.heads)
-      taper_moment_arm(head.path, slope_per_rad[head.muscle],
-                       model::kArmOptimalAt_rad[head.muscle]);
+      taper_moment_arm(head.path, slope_per_rad[head.muscle], model::kArmOptimalAt_rad[head.muscle]);
   }
   return arm;
 }
 
-double required_torque_nm(const TrueArm& arm,
-                          double elbow_flexion_rad,
-                          double acceleration_radps2,
-                          Plane plane,
-                          double held_mass_kg) {
+double required_torque_nm(
+    const TrueArm& arm, double elbow_flexion_rad, double acceleration_radps2, Plane plane, double held_mass_kg) {
   const double inertia_kgm2 = arm.inertia_kgm2 + held_mass_kg * arm.held_at_m * arm.held_at_m;
   const double moment_kgm = arm.static_moment_kgm + held_mass_kg * arm.held_at_m;
   const double gravity_mps2 = plane == Plane::vertical ? kStandardGravity : 0.0;
-  return inertia_kgm2 * acceleration_radps2 +
-         moment_kgm * gravity_mps2 * std::sin(elbow_flexion_rad);
+  return inertia_kgm2 * acceleration_radps2 + moment_kgm * gravity_mps2 * std::sin(elbow_flexion_rad);
 }
 
 }  // namespace myoid::twin

@@ -32,22 +32,18 @@ TEST(TrueArm, WithoutSpreadItIsThePublishedOneWithStretchedTendons) {
     EXPECT_DOUBLE_EQ(hill.optimal_fiber_length_m, published[i].hill.optimal_fiber_length_m);
     EXPECT_DOUBLE_EQ(head.drive, 1.0);
     for (const double q : {0.3, 1.1, 2.0})
-      EXPECT_DOUBLE_EQ(model::travel(head.path, q).moment_arm_m,
-                       model::travel(published[i].path, q).moment_arm_m);
+      EXPECT_DOUBLE_EQ(model::travel(head.path, q).moment_arm_m, model::travel(published[i].path, q).moment_arm_m);
     // With the tendon at half its strain at F_max the fiber is optimal at the angle of its lump.
     const double at_rad = model::kArmOptimalAt_rad[head.muscle];
     const double along_m = model::travel(head.path, at_rad).length_m -
                            hill.tendon_slack_length_m * (1.0 + 0.5 * head.parameters.tendon_strain);
-    EXPECT_NEAR(along_m,
-                hill.optimal_fiber_length_m * std::cos(head.parameters.pennation_at_optimal_rad),
-                1e-15);
+    EXPECT_NEAR(along_m, hill.optimal_fiber_length_m * std::cos(head.parameters.pennation_at_optimal_rad), 1e-15);
   }
 }
 
 TEST(TrueArm, PeopleSpreadAsThePriorsSay) {
-  // 400 people; the standard deviation of a standard deviation of normals is 1 / sqrt(2 n) = 3.5 %.
-  // ln F_max of a head: 0.2, 0.15 and 0.05 together are 0.255; normals cut at 2.5 have 0.954 of
-  // their width.
+  // 400 people; the standard deviation of a standard deviation of normals is 1 / sqrt(2 n) = 3.5 %. ln F_max of a head:
+  // 0.2, 0.15 and 0.05 together are 0.255; normals cut at 2.5 have 0.954 of their width.
   constexpr int kPeople = 400;
   Eigen::VectorXd strength(kPeople);
   Eigen::VectorXd length(kPeople);

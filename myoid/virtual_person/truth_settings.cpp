@@ -24,34 +24,29 @@ void range(SettingVisitor& v, std::string_view key, double& low, double& high, A
   std::vector<double> both = {low, high};
   about.count = 2;
   if (!v.numbers(key, both, about)) return;
-  v.must(both[0] <= both[1], key,
-         fmt::format("found [{:g}, {:g}], expected a range [low, high]", both[0], both[1]));
+  v.must(both[0] <= both[1], key, fmt::format("found [{:g}, {:g}], expected a range [low, high]", both[0], both[1]));
   low = both[0];
   high = both[1];
 }
 
 void visit_person(TruthSpec& truth, SettingVisitor& v) {
   v.number("spread", truth.spread,
-           {.says = "Standard deviations of the priors by which persons differ.",
-            .limits = within(0.0, 3.0)});
-  v.number("offset", truth.offset,
-           {.says = "Standard deviations of the priors by which the persons' mean is off.",
-            .limits = within(-3.0, 3.0)});
+           {.says = "Standard deviations of the priors by which persons differ.", .limits = within(0.0, 3.0)});
+  v.number(
+      "offset", truth.offset,
+      {.says = "Standard deviations of the priors by which the persons' mean is off.", .limits = within(-3.0, 3.0)});
   v.texts("vary", truth.vary,
           {.says = "Parameters that differ from the literature (L0, L1). A table `[truth.BIC]` "
                    "gives values of a single muscle.",
            .otherwise = "F_max, l_m⁰, l_mˢʰ, V_sh, V_ml, P",
            .words = kHillNames});
-  v.flag(
-      "beside_muscles", truth.beside_muscles,
-      {.says = "Draws the shift of the optimum with activation, the joint's own torque and the "
-               "exponents of the EMG as a fit expects them (L0, L1); otherwise there are none."});
+  v.flag("beside_muscles", truth.beside_muscles,
+         {.says = "Draws the shift of the optimum with activation, the joint's own torque and the "
+                  "exponents of the EMG as a fit expects them (L0, L1); otherwise there are none."});
   range(v, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s,
-        {.says = "Range of the electromechanical delay, within 0 to 0.2 s (L0, L1).",
-         .limits = within(0.0, 0.2, "s")});
+        {.says = "Range of the electromechanical delay, within 0 to 0.2 s (L0, L1).", .limits = within(0.0, 0.2, "s")});
   v.number("inertia_sd", truth.inertia_sd,
-           {.says = "Relative error of the model's inertia and weight (L2).",
-            .limits = within(0.0, 0.3)});
+           {.says = "Relative error of the model's inertia and weight (L2).", .limits = within(0.0, 0.3)});
 }
 
 void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
@@ -91,8 +86,7 @@ class FileRows : public FlatSettingVisitor {
 std::string text_of(const SettingValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "1" : "0";
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
-  if (const auto* list = std::get_if<std::vector<double>>(&value))
-    return fmt::format("{}", fmt::join(*list, " to "));
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return fmt::format("{}", fmt::join(*list, " to "));
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   return "";
 }
@@ -104,8 +98,7 @@ class Values : public FlatSettingVisitor {
  protected:
   bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
     const std::string_view unit = setting.about.limits.unit;
-    list.push_back(
-        {std::string(setting.key), unit.empty() ? "1" : std::string(unit), text_of(now)});
+    list.push_back({std::string(setting.key), unit.empty() ? "1" : std::string(unit), text_of(now)});
     return false;
   }
 };
@@ -149,9 +142,7 @@ SettingTable truth_reference() {
   TruthSpec usual = default_protocol(Level::noisy).truth;
   FileRows rows;
   visit(usual, rows);
-  return {"[truth]",
-          "The person, and the world where it is other than the identification believes.",
-          rows.rows};
+  return {"[truth]", "The person, and the world where it is other than the identification believes.", rows.rows};
 }
 
 std::vector<WorldSetting> stated_world(const Protocol& protocol) {

@@ -33,10 +33,9 @@ TEST(TruthSettings, AreTheOnesThatTheGuidePrints) {
 }
 
 TEST(TruthSettings, OptionsTakeThePlaceOfTheFilesKeys) {
-  Protocol protocol =
-      parse_protocol("[truth]\nspread = 0.5\nmoment_arm_sd = 0.1\n" + kEffort, "p.toml");
-  set_truth(protocol, {"moment_arm_sd=0.2", "curves=millard", "tendon_strain = [0.04, 0.08]",
-                       "emg_noise=true", "BIC.optimal_fiber_length=0.1"});
+  Protocol protocol = parse_protocol("[truth]\nspread = 0.5\nmoment_arm_sd = 0.1\n" + kEffort, "p.toml");
+  set_truth(protocol, {"moment_arm_sd=0.2", "curves=millard", "tendon_strain = [0.04, 0.08]", "emg_noise=true",
+                       "BIC.optimal_fiber_length=0.1"});
   EXPECT_EQ(protocol.truth.spread, 0.5);
   EXPECT_EQ(protocol.truth.moment_arm_sd, 0.2);
   EXPECT_EQ(protocol.truth.curves, "millard");

@@ -52,8 +52,7 @@ struct VirtualArm::Parts {
   std::vector<model::ArmHead> heads;  ///< Heads of the model file; empty: four muscles.
 };
 
-VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads)
-    : parts_(std::make_unique<Parts>()) {
+VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads) : parts_(std::make_unique<Parts>()) {
   const model::ArmOptions arm = arm_options(subject);
   parts_->elbow = model::planar_elbow(arm);
   parts_->literature = model::arm4_muscles(arm);
@@ -83,8 +82,7 @@ std::vector<MarkerSegment> VirtualArm::marker_segments() const {
   return segments;
 }
 
-model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle,
-                                                double elbow_flexion_rad) const {
+model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle, double elbow_flexion_rad) const {
   if (parts_->heads.empty()) return model::travel(parts_->elbow.muscles[muscle], elbow_flexion_rad);
   model::MuscleTravel mean;
   double strength_n = 0.0;
@@ -97,16 +95,14 @@ model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle,
     mean.moment_arm_m += force_n * now.moment_arm_m;
     mean.moment_arm_slope_mprad += force_n * now.moment_arm_slope_mprad;
   }
-  return {mean.length_m / strength_n, mean.moment_arm_m / strength_n,
-          mean.moment_arm_slope_mprad / strength_n};
+  return {mean.length_m / strength_n, mean.moment_arm_m / strength_n, mean.moment_arm_slope_mprad / strength_n};
 }
 
 VirtualArm::~VirtualArm() = default;
 VirtualArm::VirtualArm(VirtualArm&&) noexcept = default;
 VirtualArm& VirtualArm::operator=(VirtualArm&&) noexcept = default;
 
-MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
-                           const Moment& elbow_flexion_rad) {
+MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths, const Moment& elbow_flexion_rad) {
   MuscleGeometry result;
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     const model::MuscleTravel now = model::travel(paths[i], elbow_flexion_rad.value);
@@ -117,17 +113,13 @@ MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths,
   return result;
 }
 
-const std::array<model::PlanarMuscle, 4>& VirtualArm::paths() const {
-  return parts_->elbow.muscles;
-}
+const std::array<model::PlanarMuscle, 4>& VirtualArm::paths() const { return parts_->elbow.muscles; }
 
 MuscleGeometry VirtualArm::geometry(const Moment& elbow_flexion_rad) const {
   return geometry_of(paths(), elbow_flexion_rad);
 }
 
-double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad,
-                                      Plane plane,
-                                      double held_mass_kg) const {
+double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const {
   return model::required_torque_nm(parts_->elbow, elbow_flexion_rad.value, elbow_flexion_rad.second,
                                    plane == Plane::vertical ? kStandardGravity : 0.0, held_mass_kg);
 }
@@ -152,8 +144,7 @@ Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& e
   q(arm.coordinate_index("shoulder_adduction")) = shoulder_rad.y();
   q(arm.coordinate_index("shoulder_rotation")) = shoulder_rad.z();
 
-  Eigen::MatrixXd result(elbow_flexion_rad.size(),
-                         3 * static_cast<Eigen::Index>(arm.markers.size()));
+  Eigen::MatrixXd result(elbow_flexion_rad.size(), 3 * static_cast<Eigen::Index>(arm.markers.size()));
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
     q(parts_->elbow_coordinate) = elbow_flexion_rad(k);
     model::compute_poses(arm, q, state);
@@ -163,8 +154,7 @@ Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& e
       Vec3 p_BM = marker.p_BM;
       if (!errors.empty()) {
         const MarkerError& error = errors[static_cast<std::size_t>(column / 3)];
-        p_BM += error.misplaced_m +
-                std::sin(elbow_flexion_rad(k) + error.phase_rad) * error.soft_tissue_m;
+        p_BM += error.misplaced_m + std::sin(elbow_flexion_rad(k) + error.phase_rad) * error.soft_tissue_m;
       }
       result.block<1, 3>(k, column) = (X_GB * p_BM).transpose();
       column += 3;

@@ -55,11 +55,8 @@ class VirtualArm {
   [[nodiscard]] const std::array<model::PlanarMuscle, 4>& paths() const;
   [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const;
 
-  /// Returns the torque about the elbow that the motion requires of muscles and dynamometer
-  /// together [N m].
-  [[nodiscard]] double required_torque_nm(const Moment& elbow_flexion_rad,
-                                          Plane plane,
-                                          double held_mass_kg) const;
+  /// Returns the torque about the elbow that the motion requires of muscles and dynamometer together [N m].
+  [[nodiscard]] double required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const;
 
   /// Returns the model file of this subject with the literature's muscle parameters.
   [[nodiscard]] const std::string& osim() const;
@@ -69,14 +66,12 @@ class VirtualArm {
   [[nodiscard]] std::vector<MarkerSegment> marker_segments() const;
   /// Returns positions in ground: a row per angle, x y z of one marker after the other [m].
   /// `errors`: empty, or one per marker.
-  [[nodiscard]] Eigen::MatrixXd markers_m(
-      const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
-      Plane plane,
-      const std::vector<MarkerError>& errors = {}) const;
+  [[nodiscard]] Eigen::MatrixXd markers_m(const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
+                                          Plane plane,
+                                          const std::vector<MarkerError>& errors = {}) const;
 
   /// Returns the muscle's path in the model file; for heads, the mean by the literature's F_max.
-  [[nodiscard]] model::MuscleTravel modelled_travel(std::size_t muscle,
-                                                    double elbow_flexion_rad) const;
+  [[nodiscard]] model::MuscleTravel modelled_travel(std::size_t muscle, double elbow_flexion_rad) const;
 
   [[nodiscard]] const std::string& held_body() const;
   [[nodiscard]] Vec3 held_at_m() const;

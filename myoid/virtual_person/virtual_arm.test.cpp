@@ -43,8 +43,7 @@ TEST(VirtualArm, MuscleVelocityIsTheChangeOfLength) {
   const MuscleGeometry before = arm.geometry({1.1 - 2.5 * h, 2.5, 0.0});
   const MuscleGeometry after = arm.geometry({1.1 + 2.5 * h, 2.5, 0.0});
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR((after.length_m[i] - before.length_m[i]) / (2 * h),
-                arm.geometry(now).velocity_mps[i], 1e-9);
+    EXPECT_NEAR((after.length_m[i] - before.length_m[i]) / (2 * h), arm.geometry(now).velocity_mps[i], 1e-9);
   }
 }
 

@@ -11,9 +11,7 @@ namespace myoid::python {
 namespace {
 
 /// A number as text that gives the same number when it is read.
-std::string number_text(py::handle value) {
-  return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
-}
+std::string number_text(py::handle value) { return py::repr(py::float_(py::reinterpret_borrow<py::object>(value))); }
 
 }  // namespace
 
@@ -65,8 +63,7 @@ void Keywords::take(const char* name, std::vector<std::string>& values) {
   if (py::isinstance<py::dict>(*given)) {
     for (const auto& [key, value] : given->cast<py::dict>()) {
       const auto text = text_of(value);
-      values.push_back(fmt::format("{}={}", py::str(key).cast<std::string>(),
-                                   text ? *text : number_text(value)));
+      values.push_back(fmt::format("{}={}", py::str(key).cast<std::string>(), text ? *text : number_text(value)));
     }
     return;
   }
@@ -88,12 +85,10 @@ void Keywords::take(const char* name, bool& value) {
 std::optional<double> Keywords::number(const char* name) {
   const auto given = object(name);
   if (!given) return std::nullopt;
-  if (py::isinstance<py::bool_>(*given) || PyNumber_Check(given->ptr()) == 0 ||
-      py::isinstance<py::str>(*given))
+  if (py::isinstance<py::bool_>(*given) || PyNumber_Check(given->ptr()) == 0 || py::isinstance<py::str>(*given))
     refuse_kind(name, "a number", *given);
   const double value = py::float_(*given).cast<double>();
-  if (!std::isfinite(value))
-    throw InvalidInput(fmt::format("{}: found {}, expected a finite number", name, value));
+  if (!std::isfinite(value)) throw InvalidInput(fmt::format("{}: found {}, expected a finite number", name, value));
   return value;
 }
 
@@ -122,14 +117,12 @@ void Keywords::take(const char* name, std::vector<double>& values) {
 }
 
 void Keywords::take(const char* name, std::uint64_t& value) {
-  if (const auto given = whole(name, 0, std::numeric_limits<long>::max()))
-    value = static_cast<std::uint64_t>(*given);
+  if (const auto given = whole(name, 0, std::numeric_limits<long>::max())) value = static_cast<std::uint64_t>(*given);
 }
 
 void Keywords::above_zero(const char* name, double& value) {
   const auto given = number(name);
-  if (given && *given <= 0.0)
-    throw InvalidInput(fmt::format("{}: found {}, expected a number above 0", name, *given));
+  if (given && *given <= 0.0) throw InvalidInput(fmt::format("{}: found {}, expected a number above 0", name, *given));
   if (given) value = *given;
 }
 
@@ -155,21 +148,18 @@ std::optional<long> Keywords::whole(const char* name, long lower, long upper) {
   int overflow = 0;
   const long value = PyLong_AsLongAndOverflow(py::int_(*given).ptr(), &overflow);
   if (overflow != 0 || value < lower || value > upper)
-    throw InvalidInput(fmt::format("{}: found {}, expected {} to {}", name,
-                                   py::str(*given).cast<std::string>(), lower, upper));
+    throw InvalidInput(
+        fmt::format("{}: found {}, expected {} to {}", name, py::str(*given).cast<std::string>(), lower, upper));
   return value;
 }
 
-void Keywords::word(const char* name,
-                    std::string& value,
-                    std::initializer_list<std::string_view> words) {
+void Keywords::word(const char* name, std::string& value, std::initializer_list<std::string_view> words) {
   const auto given = object(name);
   if (!given) return;
   take(name, value);
   for (const std::string_view word : words)
     if (value == word) return;
-  throw InvalidInput(
-      fmt::format("{}: found '{}', expected {}", name, value, fmt::join(words, ", ")));
+  throw InvalidInput(fmt::format("{}: found '{}', expected {}", name, value, fmt::join(words, ", ")));
 }
 
 }  // namespace myoid::python

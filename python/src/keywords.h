@@ -19,8 +19,7 @@ namespace py = pybind11;
 /// kind, and InvalidInput for a number or word that the command line would refuse too.
 class Keywords {
  public:
-  Keywords(std::string function, py::dict given)
-      : function_(std::move(function)), given_(std::move(given)) {}
+  Keywords(std::string function, py::dict given) : function_(std::move(function)), given_(std::move(given)) {}
 
   [[nodiscard]] const std::string& function() const { return function_; }
 

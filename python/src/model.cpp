@@ -111,15 +111,13 @@ kinematics::JointMotion motion_of(const BodyModel& model,
   Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(postures, count);
   for (const auto& [name, given] : q) values.col(model.coordinate_index(name)) = given;
   for (const auto& [name, given] : speeds) rates.col(model.coordinate_index(name)) = given;
-  if (!values.allFinite() || !rates.allFinite())
-    throw InvalidInput("posture: a value is not finite");
+  if (!values.allFinite() || !rates.allFinite()) throw InvalidInput("posture: a value is not finite");
   for (Eigen::Index i = 0; i < postures; ++i) {
     Eigen::VectorXd row = values.row(i).transpose();
     model::apply_couplers(model, row);
     values.row(i) = row.transpose();
   }
-  const Eigen::VectorXd number =
-      Eigen::VectorXd::LinSpaced(postures, 0.0, static_cast<double>(postures - 1));
+  const Eigen::VectorXd number = Eigen::VectorXd::LinSpaced(postures, 0.0, static_cast<double>(postures - 1));
   const auto series = [&](int order, Eigen::MatrixXd numbers) {
     std::vector<Channel> channels;
     for (const model::Coordinate& c : model.coordinates)
@@ -135,11 +133,10 @@ kinematics::JointMotion motion_of(const BodyModel& model,
 std::map<std::string, Eigen::VectorXd> columns_of(const py::dict& given, Eigen::Index postures) {
   std::map<std::string, Eigen::VectorXd> columns;
   for (const auto& [name, values] : given) {
-    const auto array =
-        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
     if (!array || array.size() != postures)
-      throw InvalidInput(fmt::format("posture: {}: found {} numbers, expected {}",
-                                     name.cast<std::string>(), array ? array.size() : 0, postures));
+      throw InvalidInput(fmt::format("posture: {}: found {} numbers, expected {}", name.cast<std::string>(),
+                                     array ? array.size() : 0, postures));
     columns[name.cast<std::string>()] = Eigen::Map<const Eigen::VectorXd>(array.data(), postures);
   }
   return columns;
@@ -158,8 +155,7 @@ py::dict muscle_kinematics(const ReadModel& read,
     muscles = kinematics::muscle_kinematics(read.model, motion_of(read.model, q, rates, postures));
   }
   py::dict arms;
-  for (const auto& [coordinate, arm] : muscles.moment_arm)
-    arms[py::str(coordinate)] = to_array(arm.values());
+  for (const auto& [coordinate, arm] : muscles.moment_arm) arms[py::str(coordinate)] = to_array(arm.values());
   py::dict d;
   d["length"] = to_array(muscles.length.values());
   d["velocity"] = to_array(muscles.velocity.values());

@@ -11,9 +11,7 @@ namespace {
 
 py::object error_class(const char* name) { return py::module_::import("myoid.errors").attr(name); }
 
-void raise(const char* name, const char* message) {
-  PyErr_SetString(error_class(name).ptr(), message);
-}
+void raise(const char* name, const char* message) { PyErr_SetString(error_class(name).ptr(), message); }
 
 }  // namespace
 

@@ -169,8 +169,7 @@ py::dict simulate(py::dict given) {
   o.call = work.call();
   commands::SimulateResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty())
-      commands::protect_inputs(out, commands::kSimulateFiles, {o.model, o.excitations});
+    if (!out.empty()) commands::protect_inputs(out, commands::kSimulateFiles, {o.model, o.excitations});
     commands::SimulateResult r = commands::simulate(o);
     if (!out.empty()) commands::write_simulate(r, out);
     folder.finish();
@@ -193,9 +192,8 @@ py::dict simulate(py::dict given) {
   d["moment_arm"] = to_python(std::move(s.moment_arm));
   d["torque"] = to_python(std::move(s.torque));
   d["energy"] = o.energy ? to_python(std::move(s.energy)) : py::none();
-  d["sensitivities"] = result.sensitivities
-                           ? py::object(sensitivity_dict(std::move(*result.sensitivities)))
-                           : py::object(py::none());
+  d["sensitivities"] =
+      result.sensitivities ? py::object(sensitivity_dict(std::move(*result.sensitivities))) : py::object(py::none());
   d["remarks"] = to_python(result.remarks);
   return d;
 }

@@ -61,8 +61,7 @@ py::list event_list(const Recording& recording) {
 
 std::vector<std::pair<std::string, std::string>> channel_units(const AnalogChannels& channels) {
   std::vector<std::pair<std::string, std::string>> list;
-  for (const Channel& channel : channels.channels())
-    list.emplace_back(channel.name, std::string(symbol(channel.unit)));
+  for (const Channel& channel : channels.channels()) list.emplace_back(channel.name, std::string(symbol(channel.unit)));
   return list;
 }
 
@@ -128,10 +127,8 @@ void bind_recordings(py::module_& module) {
              return to_python(std::shared_ptr<recording::MarkerSeries>(r, &r->markers));
            })
       .def("clock_count", [](const Recording& r) { return r.clocks().size(); })
-      .def("channels",
-           [](const Recording& r, std::size_t clock) { return channel_units(clock_of(r, clock)); })
-      .def("series",
-           [](const Recording& r, std::size_t clock) { return to_python(series_of(r, clock)); })
+      .def("channels", [](const Recording& r, std::size_t clock) { return channel_units(clock_of(r, clock)); })
+      .def("series", [](const Recording& r, std::size_t clock) { return to_python(series_of(r, clock)); })
       .def("emg",
            [](const Recording& r) {
              const auto names = recording::emg_channels(r.analog.channels(), r.plates);
@@ -157,8 +154,7 @@ void bind_recordings(py::module_& module) {
     recording::Storage file = alone([&] { return recording::read_storage(path); });
     py::list units;
     for (const Channel& channel : file.data.channels())
-      units.append(recording::result_unit(std::filesystem::path(path).stem().string(), channel.name,
-                                          file.in_degrees));
+      units.append(recording::result_unit(std::filesystem::path(path).stem().string(), channel.name, file.in_degrees));
     py::object series = to_python(std::move(file.data));
     series.attr("units") = units;
     return series;

@@ -16,10 +16,7 @@ namespace myoid::python {
 /// The folder of a command's results; nothing where the user named none.
 class ResultOut {
  public:
-  ResultOut(const std::string& folder,
-            const commands::Call& call,
-            bool overwrite,
-            std::string_view unless_only = "") {
+  ResultOut(const std::string& folder, const commands::Call& call, bool overwrite, std::string_view unless_only = "") {
     if (folder.empty()) return;
     folder_.emplace(folder, call.command, overwrite, unless_only);
     if (!folder_->note().empty()) commands::Remarks(call).note(folder_->note());
@@ -35,8 +32,7 @@ class ResultOut {
 /// A point of three numbers [m].
 inline void take_point(Keywords& keywords, const char* name, std::vector<double>& point_m) {
   keywords.take(name, point_m);
-  if (point_m.size() != 3)
-    throw InvalidInput(std::string(name) + ": expected three numbers x, y, z");
+  if (point_m.size() != 3) throw InvalidInput(std::string(name) + ": expected three numbers x, y, z");
 }
 
 }  // namespace myoid::python

@@ -62,8 +62,7 @@ py::dict emg(py::dict given) {
   k.take("envelope", envelope);
   k.take("overwrite", overwrite);
   k.refuse_others();
-  if (whitening && no_whitening)
-    throw InvalidInput("whitening and no_whitening exclude each other");
+  if (whitening && no_whitening) throw InvalidInput("whitening and no_whitening exclude each other");
   o.chain.notch = !no_notch;
   if (whitening || no_whitening) o.chain.whitening = whitening;
   o.keep_envelopes = true;
@@ -148,9 +147,7 @@ py::dict id(py::dict given) {
   k.refuse_others();
   o.call = work.call();
   commands::IdResult result = work.run([&] {
-    if (!out.empty())
-      commands::check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads},
-                             overwrite);
+    if (!out.empty()) commands::check_output(out, {o.model, o.motion, o.speeds, o.accelerations, o.loads}, overwrite);
     commands::IdResult r = commands::id(o);
     if (!out.empty()) commands::write_id(r, out);
     return r;
@@ -180,16 +177,14 @@ py::dict paths(py::dict given) {
   o.call = work.call();
   commands::PathsResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty())
-      commands::protect_inputs(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
+    if (!out.empty()) commands::protect_inputs(out, commands::kPathsFiles, {o.model, o.motion, o.surrogates});
     commands::PathsResult r = commands::paths(o);
     if (!out.empty()) commands::write_paths(r, out);
     folder.finish();
     return r;
   });
   py::dict arms;
-  for (auto& [coordinate, arm] : result.muscles.moment_arm)
-    arms[py::str(coordinate)] = to_python(std::move(arm));
+  for (auto& [coordinate, arm] : result.muscles.moment_arm) arms[py::str(coordinate)] = to_python(std::move(arm));
   py::dict d;
   d["length"] = to_python(std::move(result.muscles.length));
   d["velocity"] = to_python(std::move(result.muscles.velocity));
@@ -223,8 +218,7 @@ py::dict so(py::dict given) {
   o.call = work.call();
   commands::SoResult result = work.run([&] {
     ResultOut folder(out, o.call, overwrite);
-    if (!out.empty())
-      commands::protect_inputs(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
+    if (!out.empty()) commands::protect_inputs(out, commands::kSoFiles, {o.model, o.motion, o.emg, o.loads});
     commands::SoResult r = commands::so(o);
     if (!out.empty()) commands::write_so(r, out);
     folder.finish();

@@ -133,8 +133,7 @@ class KeywordReader : public FlatSettingVisitor {
  private:
   SettingValue value(const Setting& setting, const char* key) {
     if (setting.kind == SettingKind::flag) return taken<bool>(key);
-    if (setting.kind == SettingKind::number || setting.kind == SettingKind::count)
-      return taken<double>(key);
+    if (setting.kind == SettingKind::number || setting.kind == SettingKind::count) return taken<double>(key);
     if (setting.kind == SettingKind::texts) return taken<std::vector<std::string>>(key);
     return taken<std::string>(key);
   }

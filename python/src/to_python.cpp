@@ -17,16 +17,11 @@ py::capsule keeper(std::shared_ptr<Value> value) {
                      [](void* kept) { delete static_cast<std::shared_ptr<Value>*>(kept); });
 }
 
-py::array_t<double> columns(const double* data,
-                            Eigen::Index rows,
-                            Eigen::Index cols,
-                            const py::capsule& owner) {
+py::array_t<double> columns(const double* data, Eigen::Index rows, Eigen::Index cols, const py::capsule& owner) {
   return py::array_t<double>({rows, cols}, {kDouble, kDouble * rows}, data, owner);
 }
 
-py::object attribute(const char* module, const char* name) {
-  return py::module_::import(module).attr(name);
-}
+py::object attribute(const char* module, const char* name) { return py::module_::import(module).attr(name); }
 
 }  // namespace
 
@@ -50,8 +45,7 @@ py::object to_python(TimeSeries series) {
   }
   return attribute("myoid.series", "TimeSeries")(
       py::array_t<double>({kept->time_s().size()}, {kDouble}, kept->time_s().data(), owner),
-      columns(kept->values().data(), kept->values().rows(), kept->values().cols(), owner), names,
-      units);
+      columns(kept->values().data(), kept->values().rows(), kept->values().cols(), owner), names, units);
 }
 
 py::object to_python(std::shared_ptr<recording::MarkerSeries> kept) {
@@ -60,8 +54,7 @@ py::object to_python(std::shared_ptr<recording::MarkerSeries> kept) {
   return attribute("myoid.series", "Markers")(
       py::array_t<double>({frames}, {kDouble}, kept->time_s.data(), owner),
       py::array_t<double>({frames, static_cast<py::ssize_t>(kept->marker_count()), py::ssize_t{3}},
-                          {kDouble, 3 * frames * kDouble, frames * kDouble},
-                          kept->positions_m.data(), owner),
+                          {kDouble, 3 * frames * kDouble, frames * kDouble}, kept->positions_m.data(), owner),
       kept->names);
 }
 

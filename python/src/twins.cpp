@@ -35,8 +35,7 @@ py::dict twin(py::dict given) {
   k.take("out", out);
   k.take("overwrite", overwrite);
   k.refuse_others();
-  if (o.truth_only && !many)
-    throw InvalidInput("truth_only needs subjects: one person's truth is in truth.csv");
+  if (o.truth_only && !many) throw InvalidInput("truth_only needs subjects: one person's truth is in truth.csv");
   o.twin.call = work.call();
   const commands::TwinPersonsResult result = work.run([&] {
     ResultOut folder(out, o.twin.call, overwrite);

@@ -21,8 +21,7 @@ Work::Work(Keywords& keywords) {
   keywords.take("start", start_s_);
   keywords.take("end", end_s_);
   if (start_s_ && end_s_ && !(*start_s_ < *end_s_))
-    throw InvalidInput(
-        fmt::format("end: expected a time after start {}, found {}", *start_s_, *end_s_));
+    throw InvalidInput(fmt::format("end: expected a time after start {}, found {}", *start_s_, *end_s_));
 }
 
 commands::Call Work::call() {
@@ -48,16 +47,14 @@ commands::Call Work::call() {
 }
 
 void Work::tell(const Told& told) const {
-  for (const Remark& remark : told.remarks)
-    hear_(std::string(name(remark.severity)), sentence(remark));
+  for (const Remark& remark : told.remarks) hear_(std::string(name(remark.severity)), sentence(remark));
   if (told.progress) progress_(told.progress->first, told.progress->second);
 }
 
 void Work::attend(const std::function<void()>& action) {
   using Limit = oneapi::tbb::global_control;
   std::optional<Limit> limit;
-  if (threads_ > 0)
-    limit.emplace(Limit::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+  if (threads_ > 0) limit.emplace(Limit::max_allowed_parallelism, static_cast<std::size_t>(threads_));
   std::exception_ptr failure;
   std::thread worker([&] {
     try {

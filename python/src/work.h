@@ -24,10 +24,9 @@ class InternalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One call of a command. The command works in a thread of its own. The thread that called waits
-/// without Python's lock. It passes remarks and progress to Python and asks for signals 20 times a
-/// second: Ctrl-C stops the command, and KeyboardInterrupt is raised when the command has ended. An
-/// exception of a listener stops the command likewise.
+/// One call of a command. The command works in a thread of its own. The thread that called waits without Python's lock.
+/// It passes remarks and progress to Python and asks for signals 20 times a second: Ctrl-C stops the command, and
+/// KeyboardInterrupt is raised when the command has ended. An exception of a listener stops the command likewise.
 class Work {
  public:
   /// Takes `command_line`, `progress`, `hear` (of a remark: severity, text), `threads`, `seed`,

@@ -113,8 +113,7 @@ TEST(Documentation, EveryOptionOfACommandIsInItsPage) {
     const fs::path page = kRoot / "docs" / "guide" / (command + ".md");
     const std::string explained = content(page);
     for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
-      EXPECT_NE(explained.find((*it)[1].str()), std::string::npos)
-          << page << " leaves out " << (*it)[1];
+      EXPECT_NE(explained.find((*it)[1].str()), std::string::npos) << page << " leaves out " << (*it)[1];
       ++seen;
     }
   }

@@ -31,8 +31,8 @@ void add_functions(const std::string& file,
     if (!lines[i].ends_with('{')) continue;
     std::size_t first = i;  // the head may have several lines
     while (first > 0 && !std::regex_match(lines[first - 1], kEndOfOther)) --first;
-    const bool here = lines[first].starts_with(indent) && lines[first].size() > depth &&
-                      lines[first][depth] != ' ' && !std::regex_match(lines[first], kOther);
+    const bool here = lines[first].starts_with(indent) && lines[first].size() > depth && lines[first][depth] != ' ' &&
+                      !std::regex_match(lines[first], kOther);
     std::string head;
     for (std::size_t k = first; k <= i; ++k) head += lines[k];
     static const std::regex kTable(R"(\s*(inline |static )*(constexpr|const) [^(]* = .*)");
@@ -83,15 +83,11 @@ TEST(Functions, AreAtMost100LinesAndFewAreAbove60) {
   for (const char* folder : {"myoid", "python/src"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       const fs::path& path = entry.path();
-      if ((path.extension() != ".h" && path.extension() != ".cpp") ||
-          path.string().ends_with(".test.cpp"))
-        continue;
-      for (const Function& function :
-           functions_of(fs::relative(path, kRoot).string(), content(path))) {
+      if ((path.extension() != ".h" && path.extension() != ".cpp") || path.string().ends_with(".test.cpp")) continue;
+      for (const Function& function : functions_of(fs::relative(path, kRoot).string(), content(path))) {
         ++all;
         EXPECT_LE(function.lines, 100U) << function.place;
-        if (function.lines > 60)
-          above_60.push_back(function.place + " " + std::to_string(function.lines));
+        if (function.lines > 60) above_60.push_back(function.place + " " + std::to_string(function.lines));
       }
     }
   }

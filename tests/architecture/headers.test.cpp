@@ -62,8 +62,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/identification/options.h", "plain values, exercised by the estimators"},
     {"myoid/identification/muscle_sample.h", "a plain value, exercised by the estimators"},
     {"myoid/intervals/result.h", "a plain value, exercised by the estimators"},
-    {"myoid/model/opensim_defects/compat.h",
-     "switches, exercised by muscle_path.test and the OpenSim table"},
+    {"myoid/model/opensim_defects/compat.h", "switches, exercised by muscle_path.test and the OpenSim table"},
     {"myoid/model/joint_posture.h", "exercised by kinematic_tree.test and body_accelerations.test"},
     {"myoid/model/path_stations.h", "exercised by muscle_path.test and path_exact.test"},
     {"myoid/opensim_tools/tool_result.h", "plain values, exercised by run_tool.test"},
@@ -76,8 +75,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"myoid/osim/osim_paths.h", "a part of the reader, tested as part of osim_reader"},
     {"myoid/osim/osim_update_parts.h", "a part of the updater, tested as part of osim_updater"},
     {"myoid/osim/osim_xml.h", "a part of the reader, tested as part of osim_reader"},
-    {"myoid/model/opensim_defects/path_opensim.h",
-     "a part of the paths, tested by the OpenSim table"},
+    {"myoid/model/opensim_defects/path_opensim.h", "a part of the paths, tested by the OpenSim table"},
     {"myoid/kinematics/lumped_muscles.h", "exercised by design_study.test"},
     {"myoid/design/movement.h", "exercised by design_study.test"},
     {"myoid/results/phases_report.h", "words and drawings, seen by running the program"},
@@ -118,8 +116,7 @@ TEST(Headers, EveryHeaderIsTheFirstThingThatSomeSourceIncludes) {
       const auto included = includes(source);
       first = first || (!included.empty() && included.front() == quoted(header));
     }
-    EXPECT_TRUE(first) << header
-                       << ": let its .cpp or its .test.cpp include it first, or name it in "
+    EXPECT_TRUE(first) << header << ": let its .cpp or its .test.cpp include it first, or name it in "
                        << "tests/architecture/CMakeLists.txt";
   }
 }
@@ -133,8 +130,7 @@ TEST(Headers, EveryHeaderIsIncludedByATestOrTheReasonIsGiven) {
   }
   for (const fs::path& header : files_below("myoid", ".h")) {
     EXPECT_TRUE(tested.contains(quoted(header)) || kWithoutTest.contains(header.generic_string()))
-        << header << " is included by no test: write "
-        << fs::path(header).replace_extension(".test.cpp");
+        << header << " is included by no test: write " << fs::path(header).replace_extension(".test.cpp");
   }
 }
 
@@ -147,8 +143,7 @@ TEST(Headers, EveryReasonForAMissingTestIsStillNeeded) {
   }
   for (const auto& [header, reason] : kWithoutTest) {
     EXPECT_TRUE(fs::exists(kRoot / header)) << header << " does not exist: strike it from the list";
-    EXPECT_FALSE(tested.contains('"' + header + '"'))
-        << header << " has a test: strike it from the list";
+    EXPECT_FALSE(tested.contains('"' + header + '"')) << header << " has a test: strike it from the list";
   }
 }
 
@@ -158,8 +153,7 @@ TEST(Headers, EveryHeaderHasAReaderInTheProgram) {
   for (const char* ending : {".h", ".cpp"}) {
     for (const fs::path& file : files_below("myoid", ending)) {
       if (file.filename().string().ends_with(".test.cpp")) continue;
-      for (const std::string& include : includes(file))
-        readers[include].insert(file.generic_string());
+      for (const std::string& include : includes(file)) readers[include].insert(file.generic_string());
     }
   }
   for (const fs::path& header : files_below("myoid", ".h")) {

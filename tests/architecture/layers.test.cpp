@@ -59,8 +59,7 @@ std::vector<SourceFile> sources() {
     const fs::path relative = fs::relative(path, kRoot / "myoid");
     result.push_back({fs::relative(path, kRoot), relative.begin()->string(), content(path)});
   }
-  std::sort(result.begin(), result.end(),
-            [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+  std::sort(result.begin(), result.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
   return result;
 }
 
@@ -77,10 +76,8 @@ TEST(Architecture, EveryIncludeReachesIntoALayerThatIsAllowed) {
   const std::regex include(R"(#include "myoid/(\w+)/[^"]*")");
   int seen = 0;
   for (const SourceFile& source : sources()) {
-    ASSERT_TRUE(layers.contains(source.layer))
-        << source.path << ": no such layer in cmake/layers.cmake";
-    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
-         ++it) {
+    ASSERT_TRUE(layers.contains(source.layer)) << source.path << ": no such layer in cmake/layers.cmake";
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end; ++it) {
       const std::string target = (*it)[1];
       EXPECT_TRUE(target == source.layer || layers.at(source.layer).contains(target))
           << source.path << " includes " << target << ", which " << source.layer << " may not use";
@@ -105,8 +102,7 @@ TEST(Architecture, EveryLayerThatIsListedIsUsed) {
   const std::regex include(R"(#include "myoid/(\w+)/[^"]*")");
   std::map<std::string, std::set<std::string>> used;
   for (const SourceFile& source : sources()) {
-    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
-         ++it)
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end; ++it)
       used[source.layer].insert((*it)[1]);
   }
   for (const auto& [layer, allowed] : allowed_layers()) {
@@ -141,8 +137,7 @@ std::map<std::string, std::set<std::string>> units() {
   std::map<std::string, std::set<std::string>> result;
   for (const SourceFile& source : sources()) {
     const std::string from = unit(source.path.generic_string());
-    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end;
-         ++it) {
+    for (std::sregex_iterator it(source.text.begin(), source.text.end(), include), end; it != end; ++it) {
       const std::string to = unit((*it)[1]);
       if (to != from) result[from].insert(to);
     }
@@ -150,8 +145,7 @@ std::map<std::string, std::set<std::string>> units() {
   return result;
 }
 
-std::set<std::string> reached_from(const std::string& start,
-                                   const std::map<std::string, std::set<std::string>>& uses) {
+std::set<std::string> reached_from(const std::string& start, const std::map<std::string, std::set<std::string>>& uses) {
   std::set<std::string> reached;
   std::vector<std::string> open{start};
   while (!open.empty()) {
@@ -166,8 +160,7 @@ std::set<std::string> reached_from(const std::string& start,
   return reached;
 }
 
-/// Units that all reach each other can only be understood together. The bound may only become
-/// smaller.
+/// Units that all reach each other can only be understood together. The bound may only become smaller.
 TEST(Architecture, NoKnotOfUnitsIsLarge) {
   constexpr std::size_t kLargest = 3;
   const auto uses = units();
@@ -195,23 +188,18 @@ TEST(Architecture, OnlyTheProgramPrints) {
   }
 }
 
-// nlohmann's dump() throws for a name that is no UTF-8; json_text does not. A parser takes 2 s to
-// compile.
+// nlohmann's dump() throws for a name that is no UTF-8; json_text does not. A parser takes 2 s to compile.
 TEST(Architecture, JsonIsRenderedAndParsedInOnePlace) {
   for (const SourceFile& source : sources()) {
     if (source.path.filename() == "json_text.cpp") continue;
-    EXPECT_EQ(source.text.find(".dump("), std::string::npos)
-        << source.path << ": json_text renders JSON";
-    EXPECT_EQ(source.text.find("json::parse("), std::string::npos)
-        << source.path << ": parse_json parses JSON";
+    EXPECT_EQ(source.text.find(".dump("), std::string::npos) << source.path << ": json_text renders JSON";
+    EXPECT_EQ(source.text.find("json::parse("), std::string::npos) << source.path << ": parse_json parses JSON";
   }
 }
 
 TEST(Architecture, OnlyReadersWritersAndTheTopTouchFiles) {
-  const std::set<std::string> rooms = {"files",  "tables",  "c3d", "recording",
-                                       "report", "results", "run", "cli"};
-  const std::set<std::string> doors = {"myoid/core/build_identity.cpp",
-                                       "myoid/design/earlier_run.cpp"};
+  const std::set<std::string> rooms = {"files", "tables", "c3d", "recording", "report", "results", "run", "cli"};
+  const std::set<std::string> doors = {"myoid/core/build_identity.cpp", "myoid/design/earlier_run.cpp"};
   for (const SourceFile& source : sources()) {
     if (rooms.contains(source.layer) || doors.contains(source.path.generic_string())) continue;
     EXPECT_EQ(source.text.find("#include <fstream>"), std::string::npos) << source.path;
@@ -229,8 +217,7 @@ TEST(Architecture, EveryHeaderIsListedForItsTarget) {
   for (const SourceFile& source : sources()) {
     const std::string list = content(kRoot / "myoid" / source.layer / "CMakeLists.txt");
     const fs::path unit = source.path.lexically_relative(fs::path("myoid") / source.layer);
-    std::string name =
-        std::regex_replace(unit.generic_string(), std::regex(R"((_inl)?\.\w+$)"), "");
+    std::string name = std::regex_replace(unit.generic_string(), std::regex(R"((_inl)?\.\w+$)"), "");
     if (source.layer == "cli") name = unit.filename().string();
     EXPECT_TRUE(std::regex_search(list, std::regex("(^|\\s)" + name + "(\\s|\\)|$)")))
         << source.path << " is not in the CMakeLists.txt of its folder";
@@ -241,8 +228,7 @@ TEST(Architecture, EveryRoomHasAGroupInTheApiReference) {
   const std::string groups = content(kRoot / "docs" / "api" / "rooms.dox");
   std::set<std::string> found;
   const std::regex group(R"(@defgroup (\w+) \w)");
-  for (std::sregex_iterator it(groups.begin(), groups.end(), group), end; it != end; ++it)
-    found.insert((*it)[1]);
+  for (std::sregex_iterator it(groups.begin(), groups.end(), group), end; it != end; ++it) found.insert((*it)[1]);
   std::set<std::string> rooms;
   for (const auto& [room, allowed] : allowed_layers()) rooms.insert(room);
   rooms.erase("cli");  // the program is no library

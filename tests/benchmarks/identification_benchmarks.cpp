@@ -43,34 +43,26 @@ BENCHMARK(identify_one_muscle)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-/// Nine trials of 15 s, four muscles; range(0): tendons that stretch by 3.3 % at F_max, or rigid
-/// ones.
+/// Nine trials of 15 s, four muscles; range(0): tendons that stretch by 3.3 % at F_max, or rigid ones.
 void identify_tendons(benchmark::State& state) {
-  StudyData data = test::elbow_study({.trials = 9,
-                                      .seconds = 15.0,
-                                      .rate_hz = 20.0,
-                                      .torque_sd_nm = 0.5,
-                                      .with_priors = true,
-                                      .seed = 2})
-                       .data;
+  StudyData data =
+      test::elbow_study(
+          {.trials = 9, .seconds = 15.0, .rate_hz = 20.0, .torque_sd_nm = 0.5, .with_priors = true, .seed = 2})
+          .data;
   for (identification::MuscleSetup& muscle : data.muscles)
     muscle.extras.tendon_strain = state.range(0) != 0 ? 0.033 : 0.0;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        identification::identify_torque_or_exact(data, {.predictions = false}));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque_or_exact(data, {.predictions = false}));
 }
 BENCHMARK(identify_tendons)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
-/// All four, with the delay: 25 unknowns. range(0): samples per second; range(1): bootstrap
-/// replicates.
+/// All four, with the delay: 25 unknowns. range(0): samples per second; range(1): bootstrap replicates.
 void identify_arm(benchmark::State& state) {
   identification::EstimatorOptions options;
   options.choose_lag = true;  // as `run` does
   options.max_rate_hz = static_cast<double>(state.range(0));
   options.intervals.bootstrap = static_cast<int>(state.range(1));
   options.predictions = false;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(identification::identify_torque(arm_study(), options));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::identify_torque(arm_study(), options));
 }
 BENCHMARK(identify_arm)
     ->Args({20, 0})

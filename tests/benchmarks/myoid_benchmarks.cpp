@@ -40,9 +40,7 @@ const model::BodyModel& arm() {
   return model;
 }
 
-kinematics::JointMotion arm_motion() {
-  return kinematics::joint_motion(arm(), elbow_motion()).motion;
-}
+kinematics::JointMotion arm_motion() { return kinematics::joint_motion(arm(), elbow_motion()).motion; }
 
 void force_law(benchmark::State& state) {
   const muscle::HillParameters<double> muscle = model::arm4_muscles()[0];
@@ -55,8 +53,7 @@ void force_law(benchmark::State& state) {
 BENCHMARK(force_law);
 
 void force_law_with_derivatives(benchmark::State& state) {
-  const identification::MuscleValues muscle =
-      identification::muscle_values(model::arm4_muscles()[0]);
+  const identification::MuscleValues muscle = identification::muscle_values(model::arm4_muscles()[0]);
   identification::Tension tension;
   double velocity_mps = -0.3;
   for (auto _ : state) {
@@ -89,8 +86,7 @@ BENCHMARK(inverse_kinematics)->Unit(benchmark::kMillisecond);
 
 void smooth_motion(benchmark::State& state) {
   const TimeSeries q = elbow_motion();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(kinematics::joint_motion(arm(), q, {.cutoff_hz = 6.0}));
+  for (auto _ : state) benchmark::DoNotOptimize(kinematics::joint_motion(arm(), q, {.cutoff_hz = 6.0}));
   state.SetItemsProcessed(state.iterations() * kFrames);
 }
 BENCHMARK(smooth_motion)->Unit(benchmark::kMillisecond);
@@ -117,8 +113,7 @@ void share_one_frame(benchmark::State& state) {
   problem.optimal_force.resize(muscles);
   for (Eigen::Index i = 0; i < muscles; ++i) {
     const double x = static_cast<double>(i + 1);
-    problem.moment_arm.col(i) << 0.04 * std::sin(2.1 * x), 0.03 * std::cos(3.7 * x),
-        0.02 * std::sin(5.3 * x);
+    problem.moment_arm.col(i) << 0.04 * std::sin(2.1 * x), 0.03 * std::cos(3.7 * x), 0.02 * std::sin(5.3 * x);
     problem.optimal_force[i] = 500.0 + 300.0 * std::sin(x);
   }
   problem.torque = Eigen::Vector3d(8.0, -3.0, 2.0);

@@ -61,8 +61,7 @@ struct Run {
 Run run_process(const fs::path& program, const fs::path& setup, int runs) {
   Run best;
   const std::string out = (setup.parent_path() / "stdout.json").string();
-  std::string words[] = {program.string(), "run-tool", setup.string(), "--threads", "1",
-                         "--json",         "--quiet"};
+  std::string words[] = {program.string(), "run-tool", setup.string(), "--threads", "1", "--json", "--quiet"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -89,8 +88,7 @@ Run run_process(const fs::path& program, const fs::path& setup, int runs) {
     const auto seconds_of = [](const timeval& t) {
       return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    best.processor =
-        std::min(best.processor, seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime));
+    best.processor = std::min(best.processor, seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime));
     best.seconds = std::min(best.seconds, seconds_since(start));
     posix_spawn_file_actions_destroy(&actions);
     if (!WIFEXITED(status) || (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 4)) {
@@ -123,8 +121,7 @@ std::optional<std::string> one_frame(std::string text) {
       }))
     return start.empty() ? std::nullopt : std::optional(text);
   replace_between(text, "initial_time", [&](const std::string& value) { return start = value; });
-  if (start.empty() || !replace_between(text, "final_time", [&](const auto&) { return start; }))
-    return {};
+  if (start.empty() || !replace_between(text, "final_time", [&](const auto&) { return start; })) return {};
   return text;
 }
 
@@ -133,8 +130,7 @@ void copy_files(const fs::path& from, const fs::path& to) {
   if (!fs::exists(from)) return;
   for (const auto& entry : fs::directory_iterator(from))
     if (entry.is_regular_file())
-      fs::copy_file(entry.path(), to / entry.path().filename(),
-                    fs::copy_options::overwrite_existing);
+      fs::copy_file(entry.path(), to / entry.path().filename(), fs::copy_options::overwrite_existing);
 }
 
 std::map<std::string, double> read_times(const fs::path& file) {
@@ -171,17 +167,15 @@ void print_floor(const std::string& name, const model::BodyModel& m) {
     model::compute_poses(m, q, state);
     model::compute_velocities(m, u, state);
   });
-  const double dynamics = microseconds(
-      m, [&](const Eigen::VectorXd& q) { (void)model::inverse_dynamics(m, q, u, u, {}, state); });
+  const double dynamics =
+      microseconds(m, [&](const Eigen::VectorXd& q) { (void)model::inverse_dynamics(m, q, u, u, {}, state); });
   const double paths = microseconds(m, [&](const Eigen::VectorXd& q) {
     model::compute_poses(m, q, state);
     model::compute_velocities(m, u, state);
-    for (const model::Muscle& muscle : m.muscles)
-      model::compute_path(m, muscle.path, state, workspace, path);
+    for (const model::Muscle& muscle : m.muscles) model::compute_path(m, muscle.path, state, workspace, path);
   });
-  fmt::print("| {} | {} | {} | {} | {:.1f} µs | {:.1f} µs | {:.1f} µs |\n", name,
-             m.bodies.size() - 1, m.coordinates.size(), m.muscles.size(), poses, dynamics,
-             paths - poses);
+  fmt::print("| {} | {} | {} | {} | {:.1f} µs | {:.1f} µs | {:.1f} µs |\n", name, m.bodies.size() - 1,
+             m.coordinates.size(), m.muscles.size(), poses, dynamics, paths - poses);
 }
 
 struct Options {
@@ -219,8 +213,7 @@ void time_case(const Options& o,
   copy_files(folder, scratch);
   std::vector<fs::path> setups;
   for (const auto& entry : fs::directory_iterator(scratch)) {
-    if (times.contains(name + "," + entry.path().filename().string()))
-      setups.push_back(entry.path());
+    if (times.contains(name + "," + entry.path().filename().string())) setups.push_back(entry.path());
   }
   std::sort(setups.begin(), setups.end());
   for (const fs::path& setup : setups) {
@@ -228,8 +221,7 @@ void time_case(const Options& o,
     copy_files(folder / "opensim", scratch / "out");  // what a stage takes from the one before
     const Run whole = run_process(o.program, setup, o.runs);
     if (!whole.failure.empty()) {
-      fmt::print("| {} | {} | failed: {} | | | | | |\n", name, setup.stem().string(),
-                 whole.failure);
+      fmt::print("| {} | {} | failed: {} | | | | | |\n", name, setup.stem().string(), whole.failure);
       continue;
     }
     std::string each;
@@ -238,12 +230,10 @@ void time_case(const Options& o,
       std::ofstream(cut, std::ios::binary) << *text;
       const Run one = run_process(o.program, cut, o.runs);
       if (one.failure.empty())
-        each = fmt::format(
-            "{:.0f} µs", 1e6 * std::max(0.0, whole.processor - one.processor) / (whole.frames - 1));
+        each = fmt::format("{:.0f} µs", 1e6 * std::max(0.0, whole.processor - one.processor) / (whole.frames - 1));
     }
-    fmt::print("| {} | {} | {} | {:.1f} ms | {:.1f} ms | {} | {:.0f} ms | {:.1f} |\n", name,
-               setup.stem().string(), whole.frames, 1e3 * whole.seconds, 1e3 * whole.processor,
-               each, 1e3 * theirs, theirs / whole.processor);
+    fmt::print("| {} | {} | {} | {:.1f} ms | {:.1f} ms | {} | {:.0f} ms | {:.1f} |\n", name, setup.stem().string(),
+               whole.frames, 1e3 * whole.seconds, 1e3 * whole.processor, each, 1e3 * theirs, theirs / whole.processor);
   }
 }
 
@@ -253,8 +243,7 @@ int main(int argc, char** argv) {
   const Options o = read_options(argc, argv);
   const std::map<std::string, double> times = read_times(o.folder / "times.csv");
   if (times.empty()) {
-    fmt::print(stderr, "{} has no times.csv; set MYOID_DATA or name the folder\n",
-               o.folder.string());
+    fmt::print(stderr, "{} has no times.csv; set MYOID_DATA or name the folder\n", o.folder.string());
     return 3;
   }
   std::vector<fs::path> cases;
@@ -277,8 +266,7 @@ int main(int argc, char** argv) {
       "|\n| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const fs::path& folder : cases) {
     if (!fs::exists(folder / "model.osim")) continue;
-    print_floor(folder.filename().string(),
-                model::read_osim(folder / "model.osim", {.compat = model::kOpenSim452}));
+    print_floor(folder.filename().string(), model::read_osim(folder / "model.osim", {.compat = model::kOpenSim452}));
   }
   return 0;
 }

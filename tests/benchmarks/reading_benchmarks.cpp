@@ -45,8 +45,7 @@ const fs::path& folder() {
 
 /// 100 MB: 60 markers at 200 Hz, 64 channels at 2 kHz.
 fs::path large_c3d(recording::C3dProcessor processor, bool integer) {
-  const fs::path path =
-      folder() / fmt::format("{}_{}.c3d", static_cast<int>(processor), integer ? "int" : "real");
+  const fs::path path = folder() / fmt::format("{}_{}.c3d", static_cast<int>(processor), integer ? "int" : "real");
   if (fs::exists(path)) return path;
   constexpr Eigen::Index kMarkers = 60;
   constexpr Eigen::Index kChannels = 64;
@@ -57,8 +56,7 @@ fs::path large_c3d(recording::C3dProcessor processor, bool integer) {
   file.analog_per_frame = 10;
   const Eigen::Index frames = 100'000'000 / ((4 * kMarkers + 10 * kChannels) * (integer ? 2 : 4));
   for (Eigen::Index m = 0; m < kMarkers; ++m) file.point_labels.push_back(fmt::format("M{}", m));
-  for (Eigen::Index c = 0; c < kChannels; ++c)
-    file.channels.push_back({fmt::format("A{}", c), "V", 0.0, 0x1p-10});
+  for (Eigen::Index c = 0; c < kChannels; ++c) file.channels.push_back({fmt::format("A{}", c), "V", 0.0, 0x1p-10});
   file.points.resize(frames, 4 * kMarkers);
   file.analog.resize(10 * frames, kChannels);
   unsigned state = 1;
@@ -66,8 +64,7 @@ fs::path large_c3d(recording::C3dProcessor processor, bool integer) {
     state = state * 1664525U + 1013904223U;
     return static_cast<float>(static_cast<int>(state >> 16U) - 32768);
   };
-  for (Eigen::Index i = 0; i < file.points.size(); ++i)
-    file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * next();
+  for (Eigen::Index i = 0; i < file.points.size(); ++i) file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * next();
   for (Eigen::Index i = 0; i < file.analog.size(); ++i) file.analog.data()[i] = next();
   recording::write_c3d(path, file, {processor, integer});
   return path;
@@ -121,12 +118,11 @@ const fs::path& large_edf() {
       for (int s = 0; s < kSignals; ++s) cells += fmt::format("{:<{}}", text, width);
       return cells;
     };
-    std::string text =
-        fmt::format("{:<8}{:<80}{:<80}01.01.2520.00.00{:<8}{:<44}{:<8}{:<8}{:<4}", 0, "X",
-                    "Startdate X", 256 * (kSignals + 1), "", kRecords, 1, kSignals);
+    std::string text = fmt::format("{:<8}{:<80}{:<80}01.01.2520.00.00{:<8}{:<44}{:<8}{:<8}{:<4}", 0, "X", "Startdate X",
+                                   256 * (kSignals + 1), "", kRecords, 1, kSignals);
     for (int s = 0; s < kSignals; ++s) text += fmt::format("EMG {:<12}", s);
-    text += all("", 80) + all("uV", 8) + all("-3276.8", 8) + all("3276.7", 8) + all("-32768", 8) +
-            all("32767", 8) + all("", 80) + all(std::to_string(kRate), 8) + all("", 32);
+    text += all("", 80) + all("uV", 8) + all("-3276.8", 8) + all("3276.7", 8) + all("-32768", 8) + all("32767", 8) +
+            all("", 80) + all(std::to_string(kRate), 8) + all("", 32);
     Counts counts;
     for (int i = 0; i < kRecords * kSignals * kRate; ++i) {
       const int count = counts.next();
@@ -179,8 +175,7 @@ void measure(benchmark::State& state, const fs::path& path, Read&& read) {
   benchmark::DoNotOptimize(read(path));
   state.counters["memory/size"] = (peak_bytes() - before) / size;
   for (auto _ : state) benchmark::DoNotOptimize(read(path));
-  state.counters["MB/s"] =
-      benchmark::Counter(size / kMegabyte, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["MB/s"] = benchmark::Counter(size / kMegabyte, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Channels into a storage file, as `myoid convert` writes them.
@@ -191,8 +186,8 @@ void to_storage(benchmark::State& state, const fs::path& path) {
                               recording::statement_of(recording.analog.channels(), in));
     return recording.analog.sample_count();
   });
-  state.counters["output/size"] = static_cast<double>(fs::file_size(folder() / "out.sto")) /
-                                  static_cast<double>(fs::file_size(path));
+  state.counters["output/size"] =
+      static_cast<double>(fs::file_size(folder() / "out.sto")) / static_cast<double>(fs::file_size(path));
 }
 void c3d_to_storage(benchmark::State& state, bool integer) {
   to_storage(state, large_c3d(recording::C3dProcessor::intel, integer));
@@ -228,8 +223,7 @@ void c3d_channels(benchmark::State& state) {
 BENCHMARK(c3d_channels);
 
 void storage(benchmark::State& state) {
-  measure(state, large_storage(),
-          [](const fs::path& path) { return recording::read_storage(path); });
+  measure(state, large_storage(), [](const fs::path& path) { return recording::read_storage(path); });
 }
 BENCHMARK(storage);
 

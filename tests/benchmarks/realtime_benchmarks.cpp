@@ -36,8 +36,7 @@ Predictor person(int muscles, int joints, int degree) {
     path.coefficient_m[0] = 0.3;
     p.paths.push_back(path);
     const auto k = static_cast<std::size_t>(m);
-    p.channels.push_back(
-        {"e", {0.0, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {{identification::kGain, 8 * m, 1.0}}});
+    p.channels.push_back({"e", {0.0, 0.9, 0.0, 0.04, 0.015, 0.05, 1.0}, {{identification::kGain, 8 * m, 1.0}}});
     p.muscles.push_back({"m", k, identification::muscle_values(hill), {{k, 1.0}}, {}});
     for (int f = 0; f < 7; ++f) p.muscles[k].chains.push_back({f, 8 * m + 1 + f, 1.0});
   }
@@ -54,19 +53,16 @@ void measure(const char* what, const std::function<void(int)>& evaluate) {
   for (int i = 0; i < kCount; ++i) {
     const auto begin = std::chrono::steady_clock::now();
     evaluate(i);
-    took_us.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-            .count());
+    took_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
   }
   std::sort(took_us.begin(), took_us.end());
-  std::printf("%-38s median %7.2f us, 99 %% %7.2f us, 99.9 %% %7.2f us\n", what,
-              took_us[kCount / 2], took_us[kCount / 100 * 99], took_us[kCount / 1000 * 999]);
+  std::printf("%-38s median %7.2f us, 99 %% %7.2f us, 99.9 %% %7.2f us\n", what, took_us[kCount / 2],
+              took_us[kCount / 100 * 99], took_us[kCount / 1000 * 999]);
 }
 
 void measure(const char* what, const Predictor& p, bool with_bands) {
   PredictorWorkspace w = workspace_for(p);
-  std::vector<double> envelope(p.channels.size(), 0.3), angle(p.joints.size()),
-      speed(p.joints.size(), 1.0);
+  std::vector<double> envelope(p.channels.size(), 0.3), angle(p.joints.size()), speed(p.joints.size(), 1.0);
   measure(what, [&](int i) {
     std::fill(angle.begin(), angle.end(), 1e-5 * i);
     (void)predict(p, envelope, angle, speed, w, with_bands);

@@ -27,8 +27,7 @@ void simulate_arm(benchmark::State& state) {
   const simulation::SimulationInput input = bursting();
   simulation::SimulationOptions options{.end_s = 10.0, .output_rate_hz = 100.0};
   options.energy = state.range(1) != 0;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(simulation::simulate(arm, input, {.q = {1.0}}, options));
+  for (auto _ : state) benchmark::DoNotOptimize(simulation::simulate(arm, input, {.q = {1.0}}, options));
 }
 BENCHMARK(simulate_arm)
     ->Args({0, 0})
@@ -44,22 +43,15 @@ BENCHMARK(simulate_arm)
 void simulate_arm_sensitivities(benchmark::State& state) {
   const auto mode = static_cast<muscle::TendonMode>(state.range(0));
   const simulation::Arm<double> arm = simulation::with_tendon_mode(simulation::make_arm(), mode);
-  const std::vector<std::string> names = {"BIC.max_isometric_force",  "BIC.optimal_fiber_length",
-                                          "BIC.concentric_curvature", "BIC.tendon_slack_length",
-                                          "TRI.max_isometric_force",  "TRI.optimal_fiber_length",
-                                          "TRI.concentric_curvature", "TRI.tendon_slack_length"};
+  const std::vector<std::string> names = {
+      "BIC.max_isometric_force", "BIC.optimal_fiber_length", "BIC.concentric_curvature", "BIC.tendon_slack_length",
+      "TRI.max_isometric_force", "TRI.optimal_fiber_length", "TRI.concentric_curvature", "TRI.tendon_slack_length"};
   const simulation::SimulationInput input = bursting();
   const simulation::SimulationOptions options{.end_s = 1.0, .output_rate_hz = 100.0};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        simulation::simulate_sensitivities(arm, input, {.q = {1.0}}, options, names));
+    benchmark::DoNotOptimize(simulation::simulate_sensitivities(arm, input, {.q = {1.0}}, options, names));
   }
 }
-BENCHMARK(simulate_arm_sensitivities)
-    ->Arg(0)
-    ->Arg(1)
-    ->Arg(2)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(simulate_arm_sensitivities)->Arg(0)->Arg(1)->Arg(2)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

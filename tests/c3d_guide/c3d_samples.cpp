@@ -43,12 +43,10 @@ int main(int argc, char** argv) {
   file.events = {{0.125, "On", "Left", "S"}};
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  for (const auto& [name, processor] :
-       {std::pair("intel", C3dProcessor::intel), std::pair("dec", C3dProcessor::dec),
-        std::pair("sgi", C3dProcessor::sgi)}) {
+  for (const auto& [name, processor] : {std::pair("intel", C3dProcessor::intel), std::pair("dec", C3dProcessor::dec),
+                                        std::pair("sgi", C3dProcessor::sgi)}) {
     for (const bool integer : {false, true})
-      write_c3d(folder / fmt::format("{}_{}.c3d", name, integer ? "integer" : "real"), file,
-                {processor, integer});
+      write_c3d(folder / fmt::format("{}_{}.c3d", name, integer ? "integer" : "real"), file, {processor, integer});
   }
   return 0;
 }

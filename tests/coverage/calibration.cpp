@@ -104,8 +104,8 @@ struct Row {
 };
 
 void print_header() {
-  fmt::print("{:36} {:>6} {:>9} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "parameter", "n", "p(chi2)",
-             "bias", "sd", "<2.5%", ">97.5%", "in50%");
+  fmt::print("{:36} {:>6} {:>9} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "parameter", "n", "p(chi2)", "bias", "sd", "<2.5%",
+             ">97.5%", "in50%");
 }
 
 /// Bias and spread are of (truth - mean)/sd: 0 and 1 of a posterior that is right.
@@ -119,9 +119,8 @@ void print_row(const Row& row) {
     above += (p.share > 0.975) / n;
     middle += (p.share > 0.25 && p.share < 0.75) / n;
   }
-  fmt::print("{:36} {:6} {:9.2g} {:7.2f} {:7.2f} {:7.1f} {:7.1f} {:7.1f}\n", row.name,
-             row.places.size(), row.p_value(), mean, std::sqrt(square - mean * mean), 100.0 * below,
-             100.0 * above, 100.0 * middle);
+  fmt::print("{:36} {:6} {:9.2g} {:7.2f} {:7.2f} {:7.1f} {:7.1f} {:7.1f}\n", row.name, row.places.size(), row.p_value(),
+             mean, std::sqrt(square - mean * mean), 100.0 * below, 100.0 * above, 100.0 * middle);
 }
 
 std::string histogram(const Row& row, double x0, double y0) {
@@ -169,10 +168,9 @@ void write_ranks(const std::string& path,
     for (std::size_t j = 0; j < persons[i].places.size(); ++j) {
       const PersonResult& person = persons[i];
       const Place& p = person.places[j];
-      file << fmt::format("{},{},{},{:.4f},{:.4f},{:.5g},{:.6g},{:.2f},{},{}\n",
-                          first + static_cast<int>(i) + 1, names[j], p.rank, p.share, p.score,
-                          p.shrunk, p.truth, person.rhat, static_cast<int>(person.approximate),
-                          static_cast<int>(person.converged));
+      file << fmt::format("{},{},{},{:.4f},{:.4f},{:.5g},{:.6g},{:.2f},{},{}\n", first + static_cast<int>(i) + 1,
+                          names[j], p.rank, p.share, p.score, p.shrunk, p.truth, person.rhat,
+                          static_cast<int>(person.approximate), static_cast<int>(person.converged));
     }
   }
 }
@@ -184,8 +182,7 @@ std::vector<std::string> names_of(const Settings& settings) {
   for (const identification::Unknown& u : map.free()) names.push_back(u.label);
   for (const char* name : {"noise.torque_sd", "noise.torque_time", "noise.emg", "noise.model"})
     names.emplace_back(name);
-  for (const identification::TrialData& trial : person.data.trials)
-    names.push_back(trial.name + ".torque_share");
+  for (const identification::TrialData& trial : person.data.trials) names.push_back(trial.name + ".torque_share");
   return names;
 }
 
@@ -216,16 +213,15 @@ int run(const Settings& settings) {
   for (std::size_t j = 0; j < names.size(); ++j) {
     Row& row = rows.emplace_back(Row{names[j], {}});
     const std::string kind = kind_of(names[j]);
-    auto at =
-        std::find_if(kinds.begin(), kinds.end(), [&](const Row& r) { return r.name == kind; });
+    auto at = std::find_if(kinds.begin(), kinds.end(), [&](const Row& r) { return r.name == kind; });
     if (at == kinds.end()) at = kinds.insert(kinds.end(), Row{kind, {}});
     for (const PersonResult& person : persons) {
       row.places.push_back(person.places[j]);
       at->places.push_back(person.places[j]);
     }
   }
-  fmt::print("{} persons; search not converged {:.0f}, chains that differ {:.0f}\n",
-             settings.persons, lost, approximate);
+  fmt::print("{} persons; search not converged {:.0f}, chains that differ {:.0f}\n", settings.persons, lost,
+             approximate);
   print_header();
   for (const Row& row : kinds) print_row(row);
   fmt::print("\n");
@@ -235,8 +231,7 @@ int run(const Settings& settings) {
     print_row(row);
     wrong += row.p_value() * static_cast<double>(rows.size()) < settings.limit;
   }
-  fmt::print("{} of {} parameters are not uniform at p = {} after Bonferroni\n", wrong, rows.size(),
-             settings.limit);
+  fmt::print("{} of {} parameters are not uniform at p = {} after Bonferroni\n", wrong, rows.size(), settings.limit);
   if (!settings.folder.empty()) {
     std::filesystem::create_directories(settings.folder);
     write_ranks(settings.folder + "/ranks.csv", names, persons, settings.first);
@@ -295,8 +290,7 @@ int main_of(int argc, char** argv) {
       }
     }
   }
-  if (settings.person.of_the_model)
-    settings.person.rate_hz = std::min(settings.person.rate_hz, 20.0);
+  if (settings.person.of_the_model) settings.person.rate_hz = std::min(settings.person.rate_hz, 20.0);
   return run(settings);
 }
 

@@ -32,8 +32,8 @@ constexpr double kLeastActivation = 0.02, kLogRange = 2.3, kLag_s = 0.15;
 /// Draws from the prior of the unknowns within their bounds.
 Eigen::VectorXd draw_unknowns(const std::vector<Unknown>& free, math::Random& random) {
   const auto p = static_cast<Eigen::Index>(free.size());
-  const Eigen::LLT<Eigen::MatrixXd> precision(prior_precision(
-      free, beliefs::kStrength.sd, std::exp(beliefs::kUnlikeness.sd * random.normal())));
+  const Eigen::LLT<Eigen::MatrixXd> precision(
+      prior_precision(free, beliefs::kStrength.sd, std::exp(beliefs::kUnlikeness.sd * random.normal())));
   for (int i = 0; i < 10000; ++i) {
     Eigen::VectorXd z(p);
     for (Eigen::Index j = 0; j < p; ++j) z[j] = random.normal();
@@ -51,8 +51,7 @@ Eigen::VectorXd draw_unknowns(const std::vector<Unknown>& free, math::Random& ra
 
 /// Weights of a Gaussian low-pass of -3 dB at this frequency.
 Eigen::VectorXd gaussian(double cutoff_hz, double rate_hz) {
-  const double width =
-      rate_hz * std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz);
+  const double width = rate_hz * std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * cutoff_hz);
   const auto reach = static_cast<Eigen::Index>(std::ceil(4.0 * width));
   Eigen::VectorXd h(2 * reach + 1);
   for (Eigen::Index i = 0; i < h.size(); ++i)
@@ -68,8 +67,7 @@ Eigen::VectorXd filtered(const Eigen::VectorXd& h, const Eigen::VectorXd& x) {
 }
 
 /// A positive process below some hertz, of mean `level` and a relative spread of about a half.
-Eigen::VectorXd drive(
-    Eigen::Index n, double level, double cutoff_hz, double rate_hz, math::Random& random) {
+Eigen::VectorXd drive(Eigen::Index n, double level, double cutoff_hz, double rate_hz, math::Random& random) {
   const Eigen::VectorXd h = gaussian(cutoff_hz, rate_hz);
   Eigen::VectorXd shots(n + h.size() - 1);
   const double spread = 0.5 / h.norm();  // of the shots, over their mean
@@ -90,10 +88,8 @@ struct Geometry {
 struct MuscleErrors {
   double arm = 0.0, arm_slope = 0.0, slack_m = 0.0, strain = 0.0;
   double shortest = 1e9, longest = -1e9, fastest = 1e-9;  ///< Recorded.
-  std::array<double, 7> model{};  ///< Strength, three of length, effort, speed, lag.
-  [[nodiscard]] double place(double l) const {
-    return 2.0 * (l - shortest) / (longest - shortest) - 1.0;
-  }
+  std::array<double, 7> model{};                          ///< Strength, three of length, effort, speed, lag.
+  [[nodiscard]] double place(double l) const { return 2.0 * (l - shortest) / (longest - shortest) - 1.0; }
 };
 
 class Maker {
@@ -157,9 +153,8 @@ class Maker {
       move(number, trial);
       Eigen::MatrixXd& drives = drives_.emplace_back(all, muscles());
       for (Eigen::Index c = 0; c < muscles(); ++c)
-        drives.col(c) =
-            drive(all, 0.12 + 0.25 * random_.uniform(),
-                  o_.drive_hz * (1.0 + 2.0 * random_.uniform()) / 3.0, o_.rate_hz, random_);
+        drives.col(c) = drive(all, 0.12 + 0.25 * random_.uniform(), o_.drive_hz * (1.0 + 2.0 * random_.uniform()) / 3.0,
+                              o_.rate_hz, random_);
       trial.activation = record(trial, drives);
       person_.data.trials.push_back(std::move(trial));
     }
@@ -167,10 +162,8 @@ class Maker {
 
   TimeSeries record(const TrialData& trial, const Eigen::MatrixXd& values) const {
     std::vector<Channel> channels;
-    for (const MuscleSetup& m : person_.data.muscles)
-      channels.push_back({m.emg_channel, Unit::dimensionless});
-    const double more =
-        0.5 * (static_cast<double>(values.rows() - trial.time_s.size())) / o_.rate_hz;
+    for (const MuscleSetup& m : person_.data.muscles) channels.push_back({m.emg_channel, Unit::dimensionless});
+    const double more = 0.5 * (static_cast<double>(values.rows() - trial.time_s.size())) / o_.rate_hz;
     return {Eigen::VectorXd::LinSpaced(values.rows(), -more, o_.seconds + more), channels, values};
   }
 
@@ -188,8 +181,7 @@ class Maker {
       const double q = 1.18 + 0.75 * std::sin(w1 * t + phase) + 0.25 * std::sin(w2 * t);
       const double rate = 0.75 * w1 * std::cos(w1 * t + phase) + 0.25 * w2 * std::cos(w2 * t);
       for (Eigen::Index k = 0; k < muscles(); ++k) {
-        const model::MuscleTravel travel =
-            model::travel(elbow_.muscles[of_arm_[static_cast<std::size_t>(k)]], q);
+        const model::MuscleTravel travel = model::travel(elbow_.muscles[of_arm_[static_cast<std::size_t>(k)]], q);
         trial.length_m(i, k) = travel.length_m;
         trial.moment_arm_m(i, k) = travel.moment_arm_m;
         trial.velocity_mps(i, k) = -travel.moment_arm_m * rate;
@@ -200,12 +192,10 @@ class Maker {
   void draw_noise() {
     NoiseValues& noise = person_.noise;
     noise.setZero(kNoiseFieldCount + o_.trials);
-    for (double& log_share : noise.tail(o_.trials))
-      log_share = beliefs::kTrialTorqueNoise.sd * random_.normal();
-    noise[kTorqueSd] = std::log(beliefs::kTorqueNoise.value) +
-                       beliefs::kTorqueNoise.sd * random_.normal();  // over the torque's size
-    noise[kTorqueTime] =
-        std::log(beliefs::kTorqueNoiseTime.value) + beliefs::kTorqueNoiseTime.sd * random_.normal();
+    for (double& log_share : noise.tail(o_.trials)) log_share = beliefs::kTrialTorqueNoise.sd * random_.normal();
+    noise[kTorqueSd] =
+        std::log(beliefs::kTorqueNoise.value) + beliefs::kTorqueNoise.sd * random_.normal();  // over the torque's size
+    noise[kTorqueTime] = std::log(beliefs::kTorqueNoiseTime.value) + beliefs::kTorqueNoiseTime.sd * random_.normal();
     noise[kEmgFactor] = beliefs::kEmgNoise.sd * random_.normal();
     noise[kModelErrorSize] = std::log(beliefs::kModelError.sd * std::abs(random_.normal()));
   }
@@ -220,15 +210,14 @@ class Maker {
         e.longest = std::max(e.longest, trial.length_m.col(column).maxCoeff());
         e.fastest = std::max(e.fastest, trial.velocity_mps.col(column).cwiseAbs().maxCoeff());
       }
-      const double more = std::max(0.0, 0.5 * person_.data.muscles[k].start.optimal_fiber_length_m -
-                                            (e.longest - e.shortest));
+      const double more =
+          std::max(0.0, 0.5 * person_.data.muscles[k].start.optimal_fiber_length_m - (e.longest - e.shortest));
       e.shortest -= 0.5 * more;
       e.longest += 0.5 * more;
       e.arm = beliefs::kMomentArm.sd * random_.normal();
       e.arm_slope = beliefs::kMomentArmSlope.sd * random_.normal();
       e.slack_m = held_slack_sd_m(person_.data, k) * random_.normal();
-      e.strain =
-          std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd) * random_.normal();
+      e.strain = std::hypot(beliefs::kTendonStretch.value, beliefs::kTendonStretch.sd) * random_.normal();
       for (double& x : e.model) x = s * random_.normal();
       e.model[3] *= 0.5;
       drift_.push_back(beliefs::kGainDrift.sd * random_.normal());
@@ -251,16 +240,15 @@ class Maker {
                        MuscleValues values) {
     const double l = trial.length_m(i, k), x = e.place(l), span = e.longest - e.shortest;
     const double grown = 1.0 + e.arm + e.arm_slope * x;
-    const double length = l + e.arm * (l - 0.5 * (e.shortest + e.longest)) +
-                          e.arm_slope * 0.25 * span * (x * x - 1.0 / 3.0);
+    const double length =
+        l + e.arm * (l - 0.5 * (e.shortest + e.longest)) + e.arm_slope * 0.25 * span * (x * x - 1.0 / 3.0);
     const double velocity = trial.velocity_mps(i, k) * grown;
     values[kSlack] += e.slack_m;
     double force = tension_n(a.value, length, velocity, values);
     // The tendon that is held rigid stretches: the fixed point of force and strain.
     for (int pass = 0; pass < 8; ++pass) {
-      const double stretch = values[kSlack] * e.strain *
-                             std::log(1.0 + 5.0 * std::max(0.0, force) / values[kMaxForce]) /
-                             std::log(6.0);
+      const double stretch =
+          values[kSlack] * e.strain * std::log(1.0 + 5.0 * std::max(0.0, force) / values[kMaxForce]) / std::log(6.0);
       force = 0.5 * (force + tension_n(a.value, length - stretch, velocity, values));
     }
     const double level = std::max(a.value, kLeastActivation);
@@ -284,13 +272,11 @@ class Maker {
       const auto column = static_cast<Eigen::Index>(k);
       ChannelValues channel = values.channels[k];
       channel[kGain] *= effort_[k] * (1.0 + drift_[k] * place);
-      std::vector<Activation> a = activation(Envelope(clock, drives_[number].col(column)),
-                                             trial.time_s, channel, EmgLag::delay);
-      for (Activation& at : a)
-        at.value = std::max(0.0, at.value + rise_and_fall_s_[k] * std::abs(at.by_field[kDelay]));
+      std::vector<Activation> a =
+          activation(Envelope(clock, drives_[number].col(column)), trial.time_s, channel, EmgLag::delay);
+      for (Activation& at : a) at.value = std::max(0.0, at.value + rise_and_fall_s_[k] * std::abs(at.by_field[kDelay]));
       for (Eigen::Index i = 0; i < trial.time_s.size(); ++i)
-        trial.torque_nm[i] +=
-            torque(trial, i, column, a[static_cast<std::size_t>(i)], errors_[k], values.muscles[k]);
+        trial.torque_nm[i] += torque(trial, i, column, a[static_cast<std::size_t>(i)], errors_[k], values.muscles[k]);
     }
   }
 
@@ -311,8 +297,8 @@ class Maker {
   void add_torque_errors() {
     const double kept = std::exp(-1.0 / (o_.rate_hz * std::exp(person_.noise[kTorqueTime])));
     for (std::size_t i = 0; i < person_.data.trials.size(); ++i) {
-      const double sd = std::exp(person_.noise[kTorqueSd] +
-                                 person_.noise[kNoiseFieldCount + static_cast<Eigen::Index>(i)]);
+      const double sd =
+          std::exp(person_.noise[kTorqueSd] + person_.noise[kNoiseFieldCount + static_cast<Eigen::Index>(i)]);
       double e = sd * random_.normal();
       for (double& t : person_.data.trials[i].torque_nm) {
         t += e;
@@ -340,8 +326,8 @@ class Maker {
     person_.noise[kTorqueSd] += 0.5 * std::log(squares / count);
     // The shapes of the joint have the size of the torque: the runs know it now.
     const std::vector<TrialRun> measured = trial_runs(data, person_.options, map);
-    const Unseen unseen = unseen_quantities(
-        data, person_.options, map, recorded(measured, map.held().muscles), measured, values, at);
+    const Unseen unseen =
+        unseen_quantities(data, person_.options, map, recorded(measured, map.held().muscles), measured, values, at);
     const double s = std::exp(person_.noise[kModelErrorSize]);
     Eigen::VectorXd x(static_cast<Eigen::Index>(unseen.quantities.size()));
     for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -355,8 +341,7 @@ class Maker {
     // The least error, independent behind L: white before.
     const double least_nm = Likelihood::kLeastTorqueError * std::sqrt(squares / count);
     for (const TrialRun& run : runs) {
-      for (double& t : torque_of(run))
-        t += least_nm / run.reduction.weights().norm() * random_.normal();
+      for (double& t : torque_of(run)) t += least_nm / run.reduction.weights().norm() * random_.normal();
     }
   }
 
@@ -376,26 +361,22 @@ class Maker {
       const Eigen::Index reach = h.size() / 2;
       Eigen::VectorXd white(n + 2 * reach);
       for (Eigen::Index j = 0; j < white.size(); ++j)
-        white[j] = random_.normal() *
-                   at.signals().by_noise(std::clamp<Eigen::Index>(j - reach, 0, n - 1), c);
-      error += std::exp(person_.noise[kEmgFactor]) * run.envelope_sd[c] * std::sqrt(of.share()) *
-               filtered(h, white);
+        white[j] = random_.normal() * at.signals().by_noise(std::clamp<Eigen::Index>(j - reach, 0, n - 1), c);
+      error += std::exp(person_.noise[kEmgFactor]) * run.envelope_sd[c] * std::sqrt(of.share()) * filtered(h, white);
     }
     return error;
   }
 
   static Eigen::Index first_of(const TrialRun& run, const TrialData& trial) {
-    return std::lower_bound(trial.time_s.begin(), trial.time_s.end(), run.time_s[0] - 1e-9) -
-           trial.time_s.begin();
+    return std::lower_bound(trial.time_s.begin(), trial.time_s.end(), run.time_s[0] - 1e-9) - trial.time_s.begin();
   }
 
   /// Cross-talk, and white noise times the envelope behind the envelope's filter.
   void make_envelopes() {
     const EnvelopeError error(person_.options.envelope_cutoff_hz, {0.0, 0.0});
     const Eigen::VectorXd h = error.from_white(1.0 / o_.rate_hz);
-    const double sd =
-        std::exp(person_.noise[kEmgFactor]) * 0.7555 /
-        std::sqrt(2.0 * o_.emg_bandwidth_hz * 0.4815 / person_.options.envelope_cutoff_hz);
+    const double sd = std::exp(person_.noise[kEmgFactor]) * 0.7555 /
+                      std::sqrt(2.0 * o_.emg_bandwidth_hz * 0.4815 / person_.options.envelope_cutoff_hz);
     const Eigen::Index reach = h.size() / 2;
     for (std::size_t i = 0; i < person_.data.trials.size(); ++i) {
       const Eigen::MatrixXd mixed = (drives_[i] * crosstalk_).cwiseMax(1e-4);

@@ -17,9 +17,8 @@ struct MadePersonOptions {
   double rate_hz = 100.0;
   double emg_bandwidth_hz = 150.0;
   bool two_muscles = false;  ///< Biceps and triceps alone.
-  /// The torque is drawn from the posterior's own model at the true unknowns: the drive is the one
-  /// that the estimator takes from the envelopes, its error and the unseen quantities act by their
-  /// columns.
+  /// The torque is drawn from the posterior's own model at the true unknowns: the drive is the one that the estimator
+  /// takes from the envelopes, its error and the unseen quantities act by their columns.
   bool of_the_model = false;
   double drive_hz = 1.2;  ///< Highest -3 dB frequency of a channel's drive; the lowest is a third.
   std::uint64_t seed = 1;

@@ -27,24 +27,20 @@ std::string json(const Eigen::VectorXd& v) {
 
 std::string json(const Eigen::MatrixXd& m) {
   std::string text = "[";
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    text += (i ? "," : "") + json(Eigen::VectorXd(m.row(i)));
+  for (Eigen::Index i = 0; i < m.rows(); ++i) text += (i ? "," : "") + json(Eigen::VectorXd(m.row(i)));
   return text + "]";
 }
 
-void write_run(const TrialRun& run,
-               const Eigen::MatrixXd& unseen,
-               const Eigen::MatrixXd& by_slope) {
+void write_run(const TrialRun& run, const Eigen::MatrixXd& unseen, const Eigen::MatrixXd& by_slope) {
   fmt::print(
       "{{\"time\":{},\"length\":{},\"velocity\":{},\"arm\":{},\"measured\":{},\"sd\":{},"
       "\"unseen\":{},\"by_slope\":{},\"trial\":{},\"first\":{},\"stride\":{},\"envelopes\":[",
-      json(run.time_s), json(run.length_m), json(run.velocity_mps), json(run.arm_m),
-      json(run.measured_nm), json(run.envelope_sd), json(unseen), json(by_slope), run.trial,
-      run.reduction.first(0), run.reduction.stride());
+      json(run.time_s), json(run.length_m), json(run.velocity_mps), json(run.arm_m), json(run.measured_nm),
+      json(run.envelope_sd), json(unseen), json(by_slope), run.trial, run.reduction.first(0), run.reduction.stride());
   for (std::size_t c = 0; c < run.envelopes.size(); ++c)
     fmt::print("{}{{\"time\":{},\"value\":{},\"share\":{:.17g},\"filter\":{}}}", c ? "," : "",
-               json(run.envelopes[c].time_s()), json(run.envelopes[c].samples()),
-               run.errors[c].share(), json(run.errors[c].from_white(run.interval_s)));
+               json(run.envelopes[c].time_s()), json(run.envelopes[c].samples()), run.errors[c].share(),
+               json(run.errors[c].from_white(run.interval_s)));
   fmt::print("]}}");
 }
 
@@ -64,22 +60,22 @@ void write(std::uint64_t seed, int draws) {
   density.integrate_unlikeness();
   const Likelihood& likelihood = density.likelihood();
   const ParameterMap& map = likelihood.parameters();
-  fmt::print("{{\"modes\":{},\"rhat\":{:.17g},\"approximate\":{},\"unknowns\":[",
-             explored.modes.size(), explored.sample.rhat, explored.sample.approximate);
+  fmt::print("{{\"modes\":{},\"rhat\":{:.17g},\"approximate\":{},\"unknowns\":[", explored.modes.size(),
+             explored.sample.rhat, explored.sample.approximate);
   for (std::size_t j = 0; j < map.free().size(); ++j) {
     const Unknown& u = map.free()[j];
     fmt::print(
         "{}{{\"label\":\"{}\",\"name\":\"{}\",\"owner\":{},\"lower\":{:.17g},"
         "\"upper\":{:.17g},\"mean\":{:.17g},\"sd\":{:.17g},\"logarithmic\":{},\"judgment\":{}}}",
-        j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower,
-        u.bounds.upper, u.prior.mean, u.prior.sd, u.field->logarithmic, spread_is_judgment(u));
+        j ? "," : "", u.label, u.field->name, u.targets.front().owner, u.bounds.lower, u.bounds.upper, u.prior.mean,
+        u.prior.sd, u.field->logarithmic, spread_is_judgment(u));
   }
-  fmt::print("],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"muscles\":[",
-             options.unseen.strength, options.unseen.independent_rows);
+  fmt::print("],\"strength_sd\":{:.17g},\"independent_rows\":{:.17g},\"muscles\":[", options.unseen.strength,
+             options.unseen.independent_rows);
   for (std::size_t k = 0; k < map.held().muscles.size(); ++k) {
     const MuscleValues& m = map.held().muscles[k];
-    fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}",
-               k ? "," : "", m[kSpeed], m[kSlack]);
+    fmt::print("{}{{\"max_shortening_speed\":{:.17g},\"tendon_slack_length\":{:.17g}}}", k ? "," : "", m[kSpeed],
+               m[kSlack]);
   }
   const Unseen& unseen = likelihood.unseen();
   Eigen::VectorXd weight(static_cast<Eigen::Index>(unseen.quantities.size())), model(weight);
@@ -107,9 +103,8 @@ void write(std::uint64_t seed, int draws) {
   values << sample.z, sample.noise;
   const Eigen::VectorXd mean = values * sample.weight;
   const Eigen::VectorXd sd = ((values.colwise() - mean).cwiseAbs2() * sample.weight).cwiseSqrt();
-  fmt::print(
-      "],\"mean\":{},\"sd\":{},\"best_x\":{},\"covariance\":{},\"density_at_best\":{:.17g}}}\n",
-      json(mean), json(sd), json(best.x), json(best.covariance), density.value(best.x));
+  fmt::print("],\"mean\":{},\"sd\":{},\"best_x\":{},\"covariance\":{},\"density_at_best\":{:.17g}}}\n", json(mean),
+             json(sd), json(best.x), json(best.covariance), density.value(best.x));
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ constexpr bool kSanitized = false;
 constexpr std::uint64_t kMemory_bytes = std::uint64_t{2} << 30U;
 constexpr unsigned kTime_s = 20;
 
-std::vector<std::vector<std::string>> commands_on(const std::string& file,
-                                                  const std::filesystem::path& folder) {
+std::vector<std::vector<std::string>> commands_on(const std::string& file, const std::filesystem::path& folder) {
   return {{"info", file},
           {"info", "--json", file},
           {"check", file},
@@ -35,10 +34,8 @@ std::vector<std::vector<std::string>> commands_on(const std::string& file,
 
 /// Empty, or how a command broke its promise.
 std::string broken_promise(const test::Finished& finished) {
-  if (finished.exit_code != 0 && finished.exit_code != 3)
-    return fmt::format("ends with {}", finished.exit_code);
-  if (finished.exit_code == 3 && finished.err.empty() && finished.out.empty())
-    return "refuses and does not say why";
+  if (finished.exit_code != 0 && finished.exit_code != 3) return fmt::format("ends with {}", finished.exit_code);
+  if (finished.exit_code == 3 && finished.err.empty() && finished.out.empty()) return "refuses and does not say why";
   if (!kSanitized && finished.most_memory_bytes > kMemory_bytes)
     return fmt::format("takes {} MB", finished.most_memory_bytes >> 20U);
   return "";
@@ -63,12 +60,10 @@ CommandRuns run_commands(const std::vector<Variant>& variants) {
         const std::string broken = broken_promise(finished);
         const std::lock_guard lock(mutex);
         ++all.runs;
-        all.most_memory_mb =
-            std::max(all.most_memory_mb, static_cast<double>(finished.most_memory_bytes) / 1e6);
+        all.most_memory_mb = std::max(all.most_memory_mb, static_cast<double>(finished.most_memory_bytes) / 1e6);
         if (!broken.empty())
-          all.failures.push_back(fmt::format("{}, {}, {}: myoid {} {}: {}", variant.kind->name,
-                                             variant.file.what, variant.file.detail, command[0],
-                                             broken, finished.err.substr(0, 400)));
+          all.failures.push_back(fmt::format("{}, {}, {}: myoid {} {}: {}", variant.kind->name, variant.file.what,
+                                             variant.file.detail, command[0], broken, finished.err.substr(0, 400)));
       }
     }
   };

@@ -113,9 +113,9 @@ bool is_the_value_itself(const Kind& kind, const Damaged& file, const Difference
       const std::size_t open = kind.bytes.rfind('<', at);
       const std::size_t close = kind.bytes.rfind('>', at);
       const bool in_text = close != std::string::npos && close > open && close != at;
-      const std::size_t quotes = static_cast<std::size_t>(
-          std::count(kind.bytes.begin() + static_cast<std::ptrdiff_t>(open),
-                     kind.bytes.begin() + static_cast<std::ptrdiff_t>(at), '"'));
+      const std::size_t quotes =
+          static_cast<std::size_t>(std::count(kind.bytes.begin() + static_cast<std::ptrdiff_t>(open),
+                                              kind.bytes.begin() + static_cast<std::ptrdiff_t>(at), '"'));
       return in_text || quotes % 2 == 1;
     }
     const std::size_t line = kind.bytes.rfind('\n', at);
@@ -125,9 +125,7 @@ bool is_the_value_itself(const Kind& kind, const Damaged& file, const Difference
   if (d.strange_instants > 0 || d.texts > 0) return false;
   // A marker that got another name is three columns.
   const bool renamed = d.lost.size() == d.added.size() && d.lost.size() <= 3 && d.samples == 0;
-  const auto stem = [](const std::string& name) {
-    return name.substr(0, name.find_first_of(".@"));
-  };
+  const auto stem = [](const std::string& name) { return name.substr(0, name.find_first_of(".@")); };
   std::set<std::string> channels;
   for (const std::string& name : d.columns) channels.insert(stem(name));
   const bool one_channel = d.lost.empty() && d.added.empty() && channels.size() == 1;
@@ -157,8 +155,7 @@ Judgement judge(const Kind& kind, const Content& good, const Damaged& file, cons
     if (std::find(good.notes.begin(), good.notes.end(), note) == good.notes.end())
       news += (news.empty() ? "" : "; ") + note;
   }
-  const bool other =
-      d.samples > 0 || d.strange_instants > 0 || d.texts > 0 || !d.lost.empty() || !d.added.empty();
+  const bool other = d.samples > 0 || d.strange_instants > 0 || d.texts > 0 || !d.lost.empty() || !d.added.empty();
   if (!other && d.missing == 0) return {Verdict::right, news};
   if (!news.empty()) {
     const bool numbers = d.samples > 0 || d.strange_instants > 0;
@@ -171,13 +168,11 @@ Judgement judge(const Kind& kind, const Content& good, const Damaged& file, cons
       kind.bytes[file.bytes.size() - (file.bytes.back() == '\n' ? 1 : 0)] == '\n')
     return {Verdict::itself, "cut off at the end of a line"};
   // A gap is a gap: NaN in a cell that says NaN.
-  if (!other && (file.what == "NaN text" || file.what == "no number"))
-    return {Verdict::right, "a gap"};
-  return {Verdict::wrong,
-          fmt::format("{} other numbers in {} columns, {} missing, {} strange instants, {} columns "
-                      "lost, {} added, {} texts",
-                      d.samples, d.columns.size(), d.missing, d.strange_instants, d.lost.size(),
-                      d.added.size(), d.texts)};
+  if (!other && (file.what == "NaN text" || file.what == "no number")) return {Verdict::right, "a gap"};
+  return {Verdict::wrong, fmt::format("{} other numbers in {} columns, {} missing, {} strange instants, {} columns "
+                                      "lost, {} added, {} texts",
+                                      d.samples, d.columns.size(), d.missing, d.strange_instants, d.lost.size(),
+                                      d.added.size(), d.texts)};
 }
 
 constexpr int kFewest = 1200;  ///< Damaged files; fewer are a fault of this test.
@@ -217,17 +212,14 @@ int main(int argc, char** argv) {
         command.push_back(path.string());
         const auto finished = myoid::test::myoid(command);
         if (finished.exit_code != 3 || !names_a_file(finished.err + finished.out, path))
-          j = {Verdict::wrong,
-               fmt::format("the program ends with {}: {}", finished.exit_code, finished.err)};
+          j = {Verdict::wrong, fmt::format("the program ends with {}: {}", finished.exit_code, finished.err)};
       }
-      if (std::find(columns.begin(), columns.end(), file.what) == columns.end())
-        columns.push_back(file.what);
+      if (std::find(columns.begin(), columns.end(), file.what) == columns.end()) columns.push_back(file.what);
       ++table[kind.name][file.what][j.verdict];
       ++sum[j.verdict];
       wrong += j.verdict == Verdict::wrong ? 1 : 0;
       if (listed || j.verdict == Verdict::wrong)
-        fmt::print("{:<8} {}, {}, {}: {}\n", word(j.verdict), kind.name, file.what, file.detail,
-                   j.reason);
+        fmt::print("{:<8} {}, {}, {}: {}\n", word(j.verdict), kind.name, file.what, file.detail, j.reason);
     }
   }
   if (listed) fmt::print("\n");

@@ -42,8 +42,7 @@ Lines cells_of(const std::string& line, char separator) {
 
 std::string of_cells(const Lines& cells, char separator) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    line += (i == 0 ? "" : std::string(1, separator)) + cells[i];
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : std::string(1, separator)) + cells[i];
   return line;
 }
 
@@ -73,8 +72,7 @@ class Damager {
  private:
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(engine_() % n); }
   void add(std::string what, std::string detail, std::string bytes, bool flipped = false) {
-    if (bytes != kind_.bytes)
-      list_.push_back({std::move(what), std::move(detail), std::move(bytes), flipped});
+    if (bytes != kind_.bytes) list_.push_back({std::move(what), std::move(detail), std::move(bytes), flipped});
   }
 
   [[nodiscard]] std::string utf16() const {
@@ -89,16 +87,14 @@ class Damager {
       add("truncated", fmt::format("after {} bytes", length), kind_.bytes.substr(0, length));
     }
     for (const std::size_t less : {1, 2, 3, 4, 7})
-      add("truncated", fmt::format("{} bytes less", less),
-          kind_.bytes.substr(0, kind_.bytes.size() - less));
+      add("truncated", fmt::format("{} bytes less", less), kind_.bytes.substr(0, kind_.bytes.size() - less));
   }
 
   void flipped() {
     const bool binary = kind_.shape == Shape::binary;
     for (int k = 0; k < 24; ++k) {
       // Of a binary file's bits most lie in samples: half of the flips go to what is before them.
-      std::size_t at =
-          binary && k % 2 == 0 ? below(kind_.data_bytes[0]) : below(kind_.bytes.size());
+      std::size_t at = binary && k % 2 == 0 ? below(kind_.data_bytes[0]) : below(kind_.bytes.size());
       if (binary && k % 4 == 0) at = below(24);
       std::string bytes = kind_.bytes;
       const auto bit = below(8);
@@ -157,8 +153,7 @@ class Damager {
             *it = cell;
             changed[h] = of_cells(cells, between);
           }
-          add("wrong counts", fmt::format("{} of line {} is {}", count, h + 1, cell),
-              joined(changed));
+          add("wrong counts", fmt::format("{} of line {} is {}", count, h + 1, cell), joined(changed));
         }
       }
       Lines changed = lines;
@@ -173,16 +168,13 @@ class Damager {
           with_row(n, lines[n].substr(0, lines[n].rfind(separator) + 1) + cell));
     if (separator != ',' && lines.back().find(',') == std::string::npos) {
       std::string rows;
-      for (std::size_t i = first; i < lines.size(); ++i)
-        rows += replaced(lines[i], ".", ",") + "\n";
+      for (std::size_t i = first; i < lines.size(); ++i) rows += replaced(lines[i], ".", ",") + "\n";
       add("comma decimals", "every row",
           joined({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)}) + rows);
-      add("comma decimals", fmt::format("only line {}", n + 1),
-          with_row(n, replaced(lines[n], ".", ",")));
+      add("comma decimals", fmt::format("only line {}", n + 1), with_row(n, replaced(lines[n], ".", ",")));
     } else if (separator == ',') {
       std::string rows;
-      for (std::size_t i = first; i < lines.size(); ++i)
-        rows += replaced(lines[i], ".", ",") + "\n";
+      for (std::size_t i = first; i < lines.size(); ++i) rows += replaced(lines[i], ".", ",") + "\n";
       add("comma decimals", "every row, separated by commas",
           joined({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)}) + rows);
     } else {
@@ -238,8 +230,7 @@ class Damager {
       }
       return joined(changed);
     };
-    add("swapped columns", "with their names",
-        exchanged(columns.head_line, before, last, columns.block));
+    add("swapped columns", "with their names", exchanged(columns.head_line, before, last, columns.block));
     for (const std::size_t clock : columns.clock) {
       add("swapped columns", fmt::format("column {} and another, without their names", clock + 1),
           exchanged(first, clock, last, 1));
@@ -280,8 +271,7 @@ class Damager {
     for (std::size_t i = 0; i < head.size(); ++i) {
       if (!head[i].empty()) filled.push_back(i);
     }
-    const bool triples =
-        filled.size() > 2 && filled[filled.size() - 1] - filled[filled.size() - 2] == 3;
+    const bool triples = filled.size() > 2 && filled[filled.size() - 1] - filled[filled.size() - 2] == 3;
     const std::size_t last = filled[filled.size() - 1];
     const std::size_t before = filled[filled.size() - 2];
     // A column with its name elsewhere: the same recording.
@@ -290,8 +280,7 @@ class Damager {
     changed[names] = of_cells(head, separator);
     for (std::size_t i = first; i < lines.size(); ++i) {
       Lines cells = cells_of(lines[i], separator);
-      for (std::size_t k = 0; k < (triples ? 3U : 1U); ++k)
-        std::swap(cells[before + k], cells[last + k]);
+      for (std::size_t k = 0; k < (triples ? 3U : 1U); ++k) std::swap(cells[before + k], cells[last + k]);
       changed[i] = of_cells(cells, separator);
     }
     add("swapped columns", "with their names", joined(changed));
@@ -337,8 +326,7 @@ class Damager {
       const auto names = [&](const std::string& from, const std::string& to, const char* what) {
         std::string bytes = kind_.bytes;
         const std::size_t at = bytes.find(from);
-        if (at != std::string::npos)
-          add(what, from + " is " + to, bytes.replace(at, to.size(), to));
+        if (at != std::string::npos) add(what, from + " is " + to, bytes.replace(at, to.size(), to));
       };
       names("ABC", "AAC", "duplicate labels");
       names("EF", "EE", "duplicate labels");
@@ -385,8 +373,7 @@ class Damager {
       std::size_t begin = i;
       std::size_t end = i;
       while (begin > 0 && std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0) --begin;
-      while (end + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[end + 1])) != 0)
-        ++end;
+      while (end + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[end + 1])) != 0) ++end;
       if (text[begin - 1] == '"') continue;
       numbers.push_back({begin, end + 1});
     }
@@ -399,10 +386,8 @@ class Damager {
       const std::string where = fmt::format("{} at byte {}", number, n.begin);
       add("comma decimals", where, with(n, replaced(number, ".", ",")));
       add("NaN text", where, with(n, k % 2 == 0 ? "nan" : "NaN"));
-      add("no number", where + (k % 2 == 0 ? " is 1.2.3" : " is empty"),
-          with(n, k % 2 == 0 ? "1.2.3" : ""));
-      add("wrong counts", where + " twice",
-          with(n, number + (kind_.shape == Shape::xml ? " " : ", ") + number));
+      add("no number", where + (k % 2 == 0 ? " is 1.2.3" : " is empty"), with(n, k % 2 == 0 ? "1.2.3" : ""));
+      add("wrong counts", where + " twice", with(n, number + (kind_.shape == Shape::xml ? " " : ", ") + number));
     }
     const Lines lines = lines_of(text);
     for (int k = 0; k < 6; ++k) {

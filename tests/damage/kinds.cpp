@@ -34,8 +34,7 @@ using recording::Repair;
 void add_columns(const TimeSeries& series, Content& content) {
   for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
     const auto column = series.values().col(c);
-    content.numbers[series.channels()[static_cast<std::size_t>(c)].name] = {column.begin(),
-                                                                            column.end()};
+    content.numbers[series.channels()[static_cast<std::size_t>(c)].name] = {column.begin(), column.end()};
   }
 }
 
@@ -74,9 +73,7 @@ Content read_c3d(const fs::path& path) {
     for (Eigen::Index s = 0; s < ratio; ++s) {
       std::vector<double> column;
       for (Eigen::Index k = 0; k < frames; ++k) column.push_back(analog.values()(k * ratio + s, c));
-      content
-          .numbers[fmt::format("{}@{}", analog.channels()[static_cast<std::size_t>(c)].name, s)] =
-          std::move(column);
+      content.numbers[fmt::format("{}@{}", analog.channels()[static_cast<std::size_t>(c)].name, s)] = std::move(column);
     }
   }
   return content;
@@ -101,8 +98,7 @@ Content read_orientations(const fs::path& path) {
   content.time_s = {file.time_s.begin(), file.time_s.end()};
   for (Eigen::Index c = 0; c < file.quaternions.cols(); ++c) {
     const auto column = file.quaternions.col(c);
-    content.numbers[file.names[static_cast<std::size_t>(c / 4)] + "." + "wxyz"[c % 4]] = {
-        column.begin(), column.end()};
+    content.numbers[file.names[static_cast<std::size_t>(c / 4)] + "." + "wxyz"[c % 4]] = {column.begin(), column.end()};
   }
   add_notes(file.repairs, content);
   return content;
@@ -122,19 +118,11 @@ Content read_model(const fs::path& path) {
   }
   for (const auto& muscle : m.muscles) {
     const auto& p = muscle.properties;
-    content.numbers[muscle.name] = {p.max_isometric_force_n,
-                                    p.optimal_fiber_length_m,
-                                    p.tendon_slack_length_m,
-                                    p.pennation_at_optimal_rad,
-                                    p.max_contraction_velocity,
-                                    p.active_shape,
-                                    p.passive_shape,
-                                    p.max_tendon_strain,
-                                    p.max_muscle_strain,
-                                    p.concentric_shape,
-                                    p.eccentric_plateau,
-                                    p.activation_time_s,
-                                    p.deactivation_time_s};
+    content.numbers[muscle.name] = {
+        p.max_isometric_force_n,    p.optimal_fiber_length_m, p.tendon_slack_length_m, p.pennation_at_optimal_rad,
+        p.max_contraction_velocity, p.active_shape,           p.passive_shape,         p.max_tendon_strain,
+        p.max_muscle_strain,        p.concentric_shape,       p.eccentric_plateau,     p.activation_time_s,
+        p.deactivation_time_s};
     content.texts[muscle.name] = muscle.class_name + (muscle.applies_force ? "" : ", off");
   }
   model::BodyState state = model::make_state(m);
@@ -173,8 +161,7 @@ Content read_study(const fs::path& path) {
 /// The motion that the tool's run gives.
 Content run_setup(const fs::path& path) {
   for (const auto& entry : fs::directory_iterator(path.parent_path())) {
-    if (entry.path().extension() == ".mot" || entry.path().extension() == ".sto")
-      fs::remove(entry.path());
+    if (entry.path().extension() == ".mot" || entry.path().extension() == ".sto") fs::remove(entry.path());
   }
   const auto stays = [&](const fs::path& file) {
     if (fs::weakly_canonical(file).parent_path() != fs::weakly_canonical(path.parent_path()))
@@ -196,8 +183,7 @@ Content run_setup(const fs::path& path) {
 class Maker {
  public:
   std::string number() {
-    return fmt::format("{:.4f}",
-                       static_cast<double>(engine_() % 2000000) / 1000.0 - 1000.0 + 0.00037);
+    return fmt::format("{:.4f}", static_cast<double>(engine_() % 2000000) / 1000.0 - 1000.0 + 0.00037);
   }
   std::string rows(int columns, char separator, bool frame, double dt, bool comma = false) {
     std::string text;
@@ -242,21 +228,17 @@ class Maker {
     file.analog.resize(Eigen::Index{2} * kRows, 2);
     for (int c = 0; c < 2; ++c) file.channels.push_back({c == 0 ? "E" : "F", "V", 0.0, 0.5});
     const auto step = [&] { return static_cast<float>(static_cast<int>(engine_() % 2000) + 1); };
-    for (Eigen::Index i = 0; i < file.points.size(); ++i)
-      file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * step();
+    for (Eigen::Index i = 0; i < file.points.size(); ++i) file.points.data()[i] = i % 4 == 3 ? 0.0F : 0.1F * step();
     for (Eigen::Index i = 0; i < file.analog.size(); ++i) file.analog.data()[i] = step();
     const auto made = recording::format_c3d(file, {recording::C3dProcessor::intel, integer});
     return {reinterpret_cast<const char*>(made.data()), made.size()};
   }
   std::string edf() {
-    const auto pad = [](std::string text, std::size_t n) {
-      return text.append(n - text.size(), ' ');
-    };
+    const auto pad = [](std::string text, std::size_t n) { return text.append(n - text.size(), ' '); };
     constexpr int kRecords = 4;
     constexpr int kSamples = 10;
-    std::string out = pad("0", 8) + pad("X X X X", 80) + pad("Startdate X X X X", 80) +
-                      "01.01.2520.00.00" + pad("1024", 8) + pad("EDF+C", 44) +
-                      pad(std::to_string(kRecords), 8) + pad("1", 8) + pad("3", 4);
+    std::string out = pad("0", 8) + pad("X X X X", 80) + pad("Startdate X X X X", 80) + "01.01.2520.00.00" +
+                      pad("1024", 8) + pad("EDF+C", 44) + pad(std::to_string(kRecords), 8) + pad("1", 8) + pad("3", 4);
     const auto fields = [&](std::initializer_list<const char*> texts, std::size_t width) {
       for (const char* text : texts) out += pad(text, width);
     };
@@ -321,20 +303,14 @@ std::vector<Kind> good_files(const fs::path& folder) {
   Maker make;
   std::vector<Kind> list;
   const std::vector<std::string> info{"info"};
-  const auto table = [&](const char* name, const char* file, const std::string& head,
-                         const std::string& rows, auto read, bool says_its_rows = true,
-                         const std::vector<std::string>& command = {"info"}) {
+  const auto table = [&](const char* name, const char* file, const std::string& head, const std::string& rows,
+                         auto read, bool says_its_rows = true, const std::vector<std::string>& command = {"info"}) {
     Kind kind{name, file, head + rows, Shape::table, read, command, says_its_rows};
     kind.first_row = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
     list.push_back(std::move(kind));
   };
   for (const bool integer : {true, false}) {
-    Kind kind{integer ? "C3D, integers" : "C3D, reals",
-              "f.c3d",
-              make.c3d(integer),
-              Shape::binary,
-              read_c3d,
-              info};
+    Kind kind{integer ? "C3D, integers" : "C3D, reals", "f.c3d", make.c3d(integer), Shape::binary, read_c3d, info};
     const std::size_t samples = static_cast<std::size_t>(kRows) * (12 + 4) * (integer ? 2 : 4);
     const auto block = static_cast<unsigned char>(kind.bytes[16]);
     const std::size_t begin = 512 * (static_cast<std::size_t>(block) - 1);
@@ -346,20 +322,17 @@ std::vector<Kind> good_files(const fs::path& folder) {
         "OrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n100\t100\t40\t3\tmm\t100\t1\t40\n"
         "Frame#\tTime\ta\t\t\tb\t\t\tc\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n",
         make.rows(9, '\t', true, 0.01), read_markers);
-  table("STO", "f.sto",
-        "x\nversion=1\nnRows=40\nnColumns=4\ninDegrees=no\n\nendheader\ntime\ta\tb\tc\n",
+  table("STO", "f.sto", "x\nversion=1\nnRows=40\nnColumns=4\ninDegrees=no\n\nendheader\ntime\ta\tb\tc\n",
         make.rows(3, '\t', false, 0.01), read_storage);
-  table("MOT of SIMM", "f.mot",
-        "name x\ndatacolumns 3\ndatarows 40\nrange 0 0.39\nendheader\ntime\ta\tb\n",
+  table("MOT of SIMM", "f.mot", "name x\ndatacolumns 3\ndatarows 40\nrange 0 0.39\nendheader\ntime\ta\tb\n",
         make.rows(2, '\t', false, 0.01), read_storage);
   table("STO of orientations", "f.sto",
         "DataRate=100.000000\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.5\nendheader\n"
         "time\ta_imu\tb_imu\n",
         make.orientations(), read_orientations, false);
-  table("CSV", "f.csv", "time,E1 [mV],E2 [mV]\n", make.rows(2, ',', false, 0.001), read_emg, false,
-        {"check"});
-  table("CSV, comma decimals", "f.csv", "time;E1 [mV];E2 [mV]\n",
-        make.rows(2, ';', false, 0.001, true), read_emg, false, {"check"});
+  table("CSV", "f.csv", "time,E1 [mV],E2 [mV]\n", make.rows(2, ',', false, 0.001), read_emg, false, {"check"});
+  table("CSV, comma decimals", "f.csv", "time;E1 [mV];E2 [mV]\n", make.rows(2, ';', false, 0.001, true), read_emg,
+        false, {"check"});
   table("ANC", "f.anc",
         "File_Type:\tAnalog R/C ASCII\tGeneration#:\t1\nBoard_Type:\tNational\tPolarity:\tBipolar\n"
         "Trial_Name:\tt\tTrial#:\t1\tDuration(Sec.):\t0.040\t#Channels:\t2\nBitDepth:\t12\t"

@@ -34,11 +34,11 @@ struct Kind {
   Shape shape = Shape::table;
   /// Reads it by the door that the commands use.
   std::function<Content(const std::filesystem::path&)> read;
-  std::vector<std::string> command;  ///< Of the program; the file's path is added.
-  bool says_its_rows = true;         ///< Otherwise rows lost at the end cannot be known.
-  std::size_t first_row = 0;         ///< Of a table: the line of its first row of numbers, from 0.
-  bool ordered = true;               ///< Otherwise nothing in a row says which one it is.
-  std::optional<Columns> columns{};  ///< Of a table whose names the damager does not find.
+  std::vector<std::string> command;       ///< Of the program; the file's path is added.
+  bool says_its_rows = true;              ///< Otherwise rows lost at the end cannot be known.
+  std::size_t first_row = 0;              ///< Of a table: the line of its first row of numbers, from 0.
+  bool ordered = true;                    ///< Otherwise nothing in a row says which one it is.
+  std::optional<Columns> columns{};       ///< Of a table whose names the damager does not find.
   std::vector<std::size_t> data_bytes{};  ///< Of a binary file: where the samples begin and end.
 };
 

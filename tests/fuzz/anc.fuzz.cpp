@@ -3,8 +3,6 @@
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  myoid::fuzz::read([&] {
-    static_cast<void>(myoid::recording::parse_anc(myoid::fuzz::text(data, size), "fuzz.anc"));
-  });
+  myoid::fuzz::read([&] { static_cast<void>(myoid::recording::parse_anc(myoid::fuzz::text(data, size), "fuzz.anc")); });
   return 0;
 }

@@ -44,8 +44,7 @@ inline constexpr std::string_view kNextFile = "\n%%%%\n";
 /// A folder of this process, in TMPDIR (a RAM disk is best), for readers that open files.
 inline const std::filesystem::path& folder() {
   static const std::filesystem::path path = [] {
-    auto made =
-        std::filesystem::temp_directory_path() / ("myoid_fuzz_" + std::to_string(::getpid()));
+    auto made = std::filesystem::temp_directory_path() / ("myoid_fuzz_" + std::to_string(::getpid()));
     std::filesystem::create_directories(made);
     return made;
   }();

@@ -41,8 +41,7 @@ C3dFile small_c3d() {
   };
   add("USED", C3dType::integer, {}, {1});
   add("TYPE", C3dType::integer, {1}, {2});
-  add("CORNERS", C3dType::real, {3, 4, 1},
-      {300, 200, 0, -300, 200, 0, -300, -200, 0, 300, -200, 0});
+  add("CORNERS", C3dType::real, {3, 4, 1}, {300, 200, 0, -300, 200, 0, -300, -200, 0, 300, -200, 0});
   add("ORIGIN", C3dType::real, {3, 1}, {0, 0, -40});
   add("CHANNEL", C3dType::integer, {6, 1}, {1, 2, 3, 4, 5, 6});
   file.groups = {group};
@@ -50,14 +49,11 @@ C3dFile small_c3d() {
 }
 
 std::string small_edf() {
-  const auto pad = [](std::string text, std::size_t n) {
-    return text.append(n - text.size(), ' ');
-  };
+  const auto pad = [](std::string text, std::size_t n) { return text.append(n - text.size(), ' '); };
   std::string out = pad("0", 8) + pad("X", 80) + pad("Startdate X", 80) + "01.01.2520.00.00";
   out += pad("768", 8) + pad("EDF+C", 44) + pad("2", 8) + pad("0.5", 8) + pad("2", 4);
   out += pad("EMG", 16) + pad("EDF Annotations", 16) + pad("", 160) + pad("uV", 8) + pad("", 8);
-  out += pad("-100", 8) + pad("-1", 8) + pad("100", 8) + pad("1", 8) + pad("-32768", 8) +
-         pad("-32768", 8);
+  out += pad("-100", 8) + pad("-1", 8) + pad("100", 8) + pad("1", 8) + pad("-32768", 8) + pad("-32768", 8);
   out += pad("32767", 8) + pad("32767", 8) + pad("", 160) + pad("4", 8) + pad("8", 8) + pad("", 64);
   for (int r = 0; r < 2; ++r) {
     std::string record(24, '\1');
@@ -110,26 +106,23 @@ int main(int argc, char** argv) {
         "time\ta_imu\tb_imu\n0\t0.6,0.8,0,0\t1,0,0,0\n0.01\tNaN,NaN,NaN,NaN\t0.6,0,0,-0.8\n");
   write(root / "csv", "1", "time,Biceps [mV]\n0,1\n0.5,2\n");
   write(root / "csv", "2", "Frequency;1500\n\ntime;LT BIC\ns;uV\n0,0;1,5\n0,1;2,5\n");
-  write(root / "csv", "3",
-        "X [s],\"EMG 1 [mV]\",X [s],\"ACC [g]\"\n0,1,0,2\n0.1,2,0.3,4\n0.2,3,,\n");
+  write(root / "csv", "3", "X [s],\"EMG 1 [mV]\",X [s],\"ACC [g]\"\n0,1,0,2\n0.1,2,0.3,4\n0.2,3,,\n");
   write(root / "anc", "1",
         "File_Type:\tAnalog R/C ASCII\nTrial_Name:\tt\tDuration(Sec.):\t0.002\t#Channels:\t1\n"
         "BitDepth:\t12\tPreciseRate:\t1000\n\nName\ta\nRate\t1000\nRange\t1000\n0\t5\n0.001\t6\n");
   write(root / "toml", "1", "a = 1\n[b]\nc = [1.5, 'x']\n[[d]]\ne = { f = true }\n");
-  write(
-      root / "osim", "1",
-      "<OpenSimDocument Version=\"40000\"><Model name=\"m\"><gravity>0 -9.81 0</gravity><BodySet>"
-      "<objects><Body name=\"b\"><mass>1</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 "
-      "0</inertia></Body></objects></BodySet><JointSet><objects><PinJoint name=\"j\">"
-      "<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b"
-      "</socket_child_frame><coordinates><Coordinate name=\"q\"/></coordinates></PinJoint>"
-      "</objects></JointSet></Model></OpenSimDocument>");
+  write(root / "osim", "1",
+        "<OpenSimDocument Version=\"40000\"><Model name=\"m\"><gravity>0 -9.81 0</gravity><BodySet>"
+        "<objects><Body name=\"b\"><mass>1</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 "
+        "0</inertia></Body></objects></BodySet><JointSet><objects><PinJoint name=\"j\">"
+        "<socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>/bodyset/b"
+        "</socket_child_frame><coordinates><Coordinate name=\"q\"/></coordinates></PinJoint>"
+        "</objects></JointSet></Model></OpenSimDocument>");
   const std::string next = "\n%%%%\n";
   write(root / "bids", "1",
         "name\tcomponent\ttype\ttracked_point\tunits\nax\tx\tPOS\ta\tmm\nay\ty\tPOS\ta\tmm\n"
         "az\tz\tPOS\ta\tmm\nq\tn/a\tJNTANG\tn/a\tdeg" +
-            next + R"({"SamplingFrequency": 100, "TaskName": "t"})" + next +
-            "1\t2\t3\tn/a\n1\tn/a\t3\t4\n");
+            next + R"({"SamplingFrequency": 100, "TaskName": "t"})" + next + "1\t2\t3\tn/a\n1\tn/a\t3\t4\n");
   const std::string loads =
       "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects><ExternalForce "
       "name=\"f\"><applied_to_body>forearm_hand</applied_to_body><force_expressed_in_body>ground"
@@ -212,15 +205,13 @@ int main(int argc, char** argv) {
   write(root / "markers", "qualisys",
         "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t2\nFREQUENCY\t200\nDATA_INCLUDED\t3D\nMARKER_NAMES\tA\t"
         "B\n1.5\t2.5\t3.5\t0.000\t0.000\t0.000\n1.5\t2.5\t3.5\t4\t5\t6\n");
-  write(
-      root / "markers", "bts",
-      "BTS ASCII format\n\nType:\tPoint 3D tracks\nMeasure unit:\tm\n\nTracks:\t1\nFrequency:\t100 "
-      "Hz\nFrames:\t2\nStart time:\t0.000\n\nFrame\tTime\tA.X\tA.Y\tA.Z\n1\t0.000\t0.1\t0.2\t0.3"
-      "\n2\t0.010\t0.4\t0.5\t0.6\n");
-  write(
-      root / "markers", "ndi",
-      "Number of frames:,2,Collection frequency:,100,Units:,cm\nFrame,M_1 x,M_1 y,M_1 z\n1,1,2,3\n"
-      "2,,,\n");
+  write(root / "markers", "bts",
+        "BTS ASCII format\n\nType:\tPoint 3D tracks\nMeasure unit:\tm\n\nTracks:\t1\nFrequency:\t100 "
+        "Hz\nFrames:\t2\nStart time:\t0.000\n\nFrame\tTime\tA.X\tA.Y\tA.Z\n1\t0.000\t0.1\t0.2\t0.3"
+        "\n2\t0.010\t0.4\t0.5\t0.6\n");
+  write(root / "markers", "ndi",
+        "Number of frames:,2,Collection frequency:,100,Units:,cm\nFrame,M_1 x,M_1 y,M_1 z\n1,1,2,3\n"
+        "2,,,\n");
   write_info_seeds(root);
   return 0;
 }

@@ -1,6 +1,5 @@
-// Set-up files of OpenSim's tools, run on a pendulum with three frames: results, or an error that
-// is the file's. The second part of the input is a task, marker or measurement set that it may
-// name.
+// Set-up files of OpenSim's tools, run on a pendulum with three frames: results, or an error that is the file's. The
+// second part of the input is a task, marker or measurement set that it may name.
 #include "myoid/opensim_tools/run_tool.h"
 
 #include "fuzz.h"
@@ -30,8 +29,8 @@ constexpr const char* kMotion =
 void claim(const std::filesystem::path& path) {
   const auto inside = std::filesystem::weakly_canonical(path);
   const auto home = std::filesystem::weakly_canonical(myoid::fuzz::folder());
-  if (inside.parent_path() != home || inside.filename() == "m.osim" ||
-      inside.filename() == "m.trc" || inside.filename() == "m.mot" || inside == home)
+  if (inside.parent_path() != home || inside.filename() == "m.osim" || inside.filename() == "m.trc" ||
+      inside.filename() == "m.mot" || inside == home)
     throw myoid::InvalidInput("outside");
 }
 

@@ -3,8 +3,7 @@
 #include "fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  myoid::fuzz::read([&] {
-    static_cast<void>(myoid::recording::parse_storage(myoid::fuzz::text(data, size), "fuzz.mot"));
-  });
+  myoid::fuzz::read(
+      [&] { static_cast<void>(myoid::recording::parse_storage(myoid::fuzz::text(data, size), "fuzz.mot")); });
   return 0;
 }

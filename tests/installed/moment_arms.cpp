@@ -1,6 +1,5 @@
-// Moment arms of the built-in arm by the installed library. On a motion of constant speed w the
-// rate of each muscle's length is -r w, r its moment arm: the greatest difference [m/s] must be
-// round-off and the spline's error.
+// Moment arms of the built-in arm by the installed library. On a motion of constant speed w the rate of each muscle's
+// length is -r w, r its moment arm: the greatest difference [m/s] must be round-off and the spline's error.
 #include <cmath>
 #include <cstdio>
 
@@ -17,7 +16,6 @@ int main(int argc, char** argv) {
   const auto& rate = result.muscles.velocity.values();
   const double speed = 0.5;  // [rad/s], of the file
   const double difference = (rate + speed * arm).cwiseAbs().maxCoeff();
-  std::printf("%s: %ld muscles, %g m/s\n", std::string(myoid::version()).c_str(), long(arm.cols()),
-              difference);
+  std::printf("%s: %ld muscles, %g m/s\n", std::string(myoid::version()).c_str(), long(arm.cols()), difference);
   return arm.cols() == 4 && arm.cwiseAbs().maxCoeff() > 0.01 && difference < 1e-9 ? 0 : 1;
 }

@@ -4,14 +4,13 @@
 //
 // (10 minutes of one processor for all public models; a line a muscle with --worst.)
 //
-// At N random postures (10 000): minus the derivative of the length along a random direction of all
-// coordinates, by differences, against the moment arms; and the lengthening speed of a motion in
-// that direction against the moment arms times its rates, so that the power of the muscles' forces
-// is that of their torques. "kinks" are samples where contact begins or ends within the difference
-// (the derivative of one side is met), "unsettled" where several wrap objects push the path off
-// each other (PathResult::settled), "jumps" where the length itself is another one on both sides;
-// none of them is in "worst". Along N / 50 straight lines between random postures: places where the
-// length jumps by more than a micrometer, narrowed down to 1e-9 of the line. Without models: all
+// At N random postures (10 000): minus the derivative of the length along a random direction of all coordinates, by
+// differences, against the moment arms; and the lengthening speed of a motion in that direction against the moment arms
+// times its rates, so that the power of the muscles' forces is that of their torques. "kinks" are samples where contact
+// begins or ends within the difference (the derivative of one side is met), "unsettled" where several wrap objects push
+// the path off each other (PathResult::settled), "jumps" where the length itself is another one on both sides; none of
+// them is in "worst". Along N / 50 straight lines between random postures: places where the length jumps by more than a
+// micrometer, narrowed down to 1e-9 of the line. Without models: all
 // of MYOID_DATA/opensim (../shared/data/opensim).
 #include <algorithm>
 #include <cmath>
@@ -84,8 +83,7 @@ void judge(const std::string& muscle, const Line& line, double h, const auto& ag
       ++row.jumps_of[muscle];
       return;
     }
-    for (const double finer : {0.1 * h, 0.03 * h})
-      error = std::min(error, error_of(again(finer), finer));
+    for (const double finer : {0.1 * h, 0.03 * h}) error = std::min(error, error_of(again(finer), finer));
   }
   row.worst_m = std::max(row.worst_m, error);
   double& worst = row.worst_of[muscle];
@@ -150,8 +148,7 @@ void follow_lines(const model::BodyModel& m, int count, Row& row) {
   model::PathResult path;
   for (int k = 0; k < count; ++k) {
     const Eigen::VectorXd from = model::random_posture(m, 9, static_cast<std::uint64_t>(k));
-    const Eigen::VectorXd along =
-        model::random_posture(m, 10, static_cast<std::uint64_t>(k)) - from;
+    const Eigen::VectorXd along = model::random_posture(m, 10, static_cast<std::uint64_t>(k)) - from;
     const auto at = [&](std::size_t muscle) {
       model::compute_path(m, m.muscles[muscle].path, state, workspace, path);
       return OnLine{path.length_m, path.moment_arm_m.dot(along), path.settled};
@@ -197,8 +194,7 @@ void print_greatest(const char* what, const std::map<std::string, Value>& by_mus
   for (const auto& [muscle, value] : by_muscle) sorted.push_back({value, muscle});
   std::sort(sorted.rbegin(), sorted.rend());
   for (std::size_t i = 0; i < sorted.size() && i < static_cast<std::size_t>(count); ++i)
-    fmt::print("| {} {}: {:.4g} | | | | | | | | |\n", what, sorted[i].second,
-               static_cast<double>(sorted[i].first));
+    fmt::print("| {} {}: {:.4g} | | | | | | | | |\n", what, sorted[i].second, static_cast<double>(sorted[i].first));
 }
 
 }  // namespace
@@ -238,11 +234,10 @@ int main(int argc, char** argv) {
       const model::BodyModel m = model::read_osim(file);
       Row row = survey(m, postures);
       follow_lines(m, postures / 50, row);
-      fmt::print("| {} | {} | {:.1e} | {:.0e} | {} | {} | {} | {} | {} |\n", name, row.samples,
-                 row.worst_m, row.power, row.kinks, row.unsettled, row.jumps, row.lines,
-                 row.jumps_on_lines == 0
-                     ? "0"
-                     : fmt::format("{}, up to {:.1e} m", row.jumps_on_lines, row.greatest_jump_m));
+      fmt::print(
+          "| {} | {} | {:.1e} | {:.0e} | {} | {} | {} | {} | {} |\n", name, row.samples, row.worst_m, row.power,
+          row.kinks, row.unsettled, row.jumps, row.lines,
+          row.jumps_on_lines == 0 ? "0" : fmt::format("{}, up to {:.1e} m", row.jumps_on_lines, row.greatest_jump_m));
       print_greatest("unsettled", row.unsettled_of, worst);
       print_greatest("jumps", row.jumps_of, worst);
       print_greatest("jumps on lines", row.line_jumps_of, worst);

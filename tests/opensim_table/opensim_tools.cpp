@@ -59,8 +59,7 @@ Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
     for (const model::Marker& marker : model.markers) {
       const auto it = std::find(markers.names.begin(), markers.names.end(), marker.name);
       const auto weight = ik.marker_weights.find(marker.name);
-      if (it == markers.names.end() || (weight == ik.marker_weights.end() && ik.only_named_markers))
-        continue;
+      if (it == markers.names.end() || (weight == ik.marker_weights.end() && ik.only_named_markers)) continue;
       const Eigen::Index m = it - markers.names.begin();
       if (markers.missing(frame, m)) continue;
       const double w = weight == ik.marker_weights.end() ? 1.0 : weight->second;
@@ -70,8 +69,7 @@ Eigen::VectorXd objective(const fs::path& setup_file, const fs::path& motion) {
     }
     result[i] = weights > 0.0 ? 0.5 * sum / weights : 0.0;
     for (const kinematics::CoordinateTask& task : ik.tasks) {
-      const double off =
-          q.column(task.coordinate)[i] - (task.values.size() > 0 ? task.values[frame] : task.value);
+      const double off = q.column(task.coordinate)[i] - (task.values.size() > 0 ? task.values[frame] : task.value);
       result[i] += 0.5 * task.weight * off * off;
     }
   }
@@ -94,10 +92,7 @@ struct Options {
   bool columns = false;
 };
 
-void compare_ik(const fs::path& setup_file,
-                const fs::path& ours_file,
-                const fs::path& reference,
-                const Rows& rows) {
+void compare_ik(const fs::path& setup_file, const fs::path& ours_file, const fs::path& reference, const Rows& rows) {
   fs::path tight = reference / (ours_file.stem().string() + "_tight.mot");
   if (!fs::exists(tight)) tight = reference / ours_file.filename();
   if (!fs::exists(tight)) return;
@@ -113,9 +108,7 @@ void compare_ik(const fs::path& setup_file,
            fmt::format("median {:.1e}", excess[excess.size() / 2]));
 }
 
-void compare_moment_arms(const std::vector<fs::path>& files,
-                         const fs::path& reference,
-                         const Rows& rows) {
+void compare_moment_arms(const std::vector<fs::path>& files, const fs::path& reference, const Rows& rows) {
   if (!fs::exists(reference)) return;
   const TimeSeries theirs = recording::read_storage(reference).data;
   Worst all;
@@ -124,9 +117,8 @@ void compare_moment_arms(const std::vector<fs::path>& files,
     const auto start = name.find("_MomentArm_");
     if (start == std::string::npos) continue;
     const std::string coordinate = name.substr(start + 11);
-    const Worst worst =
-        compare(recording::read_storage(file).data, theirs, 0,
-                [&](const std::string& muscle) { return muscle + "|" + coordinate; });
+    const Worst worst = compare(recording::read_storage(file).data, theirs, 0,
+                                [&](const std::string& muscle) { return muscle + "|" + coordinate; });
     all.any = all.any || worst.any;
     all.relative = std::max(all.relative, worst.relative);
     if (worst.error > all.error) {
@@ -151,10 +143,8 @@ void compare_file(const fs::path& file, const fs::path& theirs, bool dynamics, c
   const TimeSeries reference = recording::read_storage(theirs).data;
   const std::string name = file.filename().string();
   if (name.ends_with("_Outputs.sto")) {
-    rows.add(code(theirs) + " lengths", compare(ending(ours, "|length"), reference, 0, last_part),
-             "m");
-    rows.add(code(theirs) + " speeds",
-             compare(ending(ours, "|lengthening_speed"), reference, 0, last_part), "m/s");
+    rows.add(code(theirs) + " lengths", compare(ending(ours, "|length"), reference, 0, last_part), "m");
+    rows.add(code(theirs) + " speeds", compare(ending(ours, "|lengthening_speed"), reference, 0, last_part), "m/s");
   } else if (name.ends_with("_OutputsVec3.sto")) {
     rows.add(code(theirs) + " places", compare(ours, reference, 0, last_part), "m");
   } else {
@@ -168,8 +158,7 @@ void compare_scaled(const fs::path& ours, const fs::path& theirs, const Rows& ro
   if (!fs::exists(theirs)) return;
   if (ours.extension() == ".osim") {
     const model::OsimOptions as{.compat = model::kOpenSim452};
-    for (const ModelDifference& d :
-         compare_models(model::read_osim(ours, as), model::read_osim(theirs, as))) {
+    for (const ModelDifference& d : compare_models(model::read_osim(ours, as), model::read_osim(theirs, as))) {
       rows.add(code(theirs) + " " + d.property, fmt::format("{:.1e} ({})", d.error, d.where),
                fmt::format("{:.1e}", d.relative));
     }
@@ -194,8 +183,7 @@ void run_setup(const fs::path& setup, const fs::path& reference, const Options& 
     return;
   }
   if (result.frames_failed > 0)
-    rows.add("frames that failed", fmt::format("{} of {}", result.frames_failed, result.frames),
-             "");
+    rows.add("frames that failed", fmt::format("{} of {}", result.frames_failed, result.frames), "");
   if (options.columns)
     for (const std::string& note : result.notes) rows.add("note: " + note, "", "");
   for (const fs::path& file : result.files) {
@@ -206,14 +194,12 @@ void run_setup(const fs::path& setup, const fs::path& reference, const Options& 
       if (file.extension() == ".mot") compare_ik(setup, file, reference, rows);
     } else if (file.extension() == ".sto" && fs::exists(theirs)) {
       compare_file(file, theirs, result.tool == "InverseDynamicsTool", rows);
-      if (file.filename().string().ends_with("_activation.sto"))
-        compare_sharing(shared, theirs, rows);
+      if (file.filename().string().ends_with("_activation.sto")) compare_sharing(shared, theirs, rows);
     }
   }
   if (result.tool == "AnalyzeTool" && !result.files.empty()) {
     const std::string name = result.files.front().filename().string();
-    compare_moment_arms(result.files,
-                        reference / (name.substr(0, name.find('_')) + "_moment_arms.sto"), rows);
+    compare_moment_arms(result.files, reference / (name.substr(0, name.find('_')) + "_moment_arms.sto"), rows);
   }
   // The next stage reads what OpenSim left.
   for (const fs::path& file : result.files) {
@@ -240,18 +226,14 @@ void compare_rewritten(const fs::path& file) {
     std::vector<model::OsimChange> changes;
     for (const model::Muscle& muscle : model::parse_osim(text, file).muscles) {
       const model::MuscleProperties& p = muscle.properties;
-      changes.push_back(
-          {"ForceSet", muscle.name, "max_isometric_force", {p.max_isometric_force_n}});
-      changes.push_back(
-          {"ForceSet", muscle.name, "optimal_fiber_length", {p.optimal_fiber_length_m}});
-      changes.push_back(
-          {"ForceSet", muscle.name, "tendon_slack_length", {p.tendon_slack_length_m}});
+      changes.push_back({"ForceSet", muscle.name, "max_isometric_force", {p.max_isometric_force_n}});
+      changes.push_back({"ForceSet", muscle.name, "optimal_fiber_length", {p.optimal_fiber_length_m}});
+      changes.push_back({"ForceSet", muscle.name, "tendon_slack_length", {p.tendon_slack_length_m}});
     }
     const std::string written = model::changed_osim(text, file, changes);
     const model::BodyModel again = model::parse_osim(written, file);
-    rows.add(
-        "read, written, read again", written == text ? "0 bytes differ" : "BYTES DIFFER",
-        again.unsupported.empty() ? "" : fmt::format("{}", fmt::join(again.unsupported, "; ")));
+    rows.add("read, written, read again", written == text ? "0 bytes differ" : "BYTES DIFFER",
+             again.unsupported.empty() ? "" : fmt::format("{}", fmt::join(again.unsupported, "; ")));
   } catch (const std::exception& error) {
     rows.add(fmt::format("not read: {}", error.what()), "", "");
   }

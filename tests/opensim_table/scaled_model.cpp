@@ -26,8 +26,7 @@ class Difference {
   }
   template <typename A, typename B>
   void add_all(const std::string& where, const A& ours, const B& theirs) {
-    for (Eigen::Index i = 0; i < ours.size(); ++i)
-      add(where, ours.reshaped()[i], theirs.reshaped()[i]);
+    for (Eigen::Index i = 0; i < ours.size(); ++i) add(where, ours.reshaped()[i], theirs.reshaped()[i]);
   }
   void missing(const std::string& where) { add(where + " (missing)", INFINITY, 0.0); }
   [[nodiscard]] ModelDifference row() const {
@@ -43,18 +42,15 @@ class Difference {
 };
 
 Vec3 size_of(const model::WrapObject& wrap) {
-  if (const auto* c = std::get_if<model::CylinderShape>(&wrap.shape))
-    return {c->radius_m, c->length_m, 0.0};
+  if (const auto* c = std::get_if<model::CylinderShape>(&wrap.shape)) return {c->radius_m, c->length_m, 0.0};
   if (const auto* s = std::get_if<model::SphereShape>(&wrap.shape)) return {s->radius_m, 0.0, 0.0};
-  if (const auto* t = std::get_if<model::TorusShape>(&wrap.shape))
-    return {t->inner_radius_m, t->outer_radius_m, 0.0};
+  if (const auto* t = std::get_if<model::TorusShape>(&wrap.shape)) return {t->inner_radius_m, t->outer_radius_m, 0.0};
   return std::get<model::EllipsoidShape>(wrap.shape).radii_m;
 }
 
 }  // namespace
 
-std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
-                                            const model::BodyModel& theirs) {
+std::vector<ModelDifference> compare_models(const model::BodyModel& ours, const model::BodyModel& theirs) {
   Difference mass("masses [kg]"), center("mass centers [m]"), inertia("inertias [kg m^2]");
   Difference frames("joint frames [m, 1]"), places("bodies in 50 postures [m]");
   Difference points("path points [m]"), wraps("wrap objects [m, 1]");
@@ -79,8 +75,7 @@ std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
       frames.missing(joint.name);
       continue;
     }
-    for (const auto& [mine, other] :
-         {std::pair(&own->X_PF, &joint.X_PF), std::pair(&own->X_BM, &joint.X_BM)}) {
+    for (const auto& [mine, other] : {std::pair(&own->X_PF, &joint.X_PF), std::pair(&own->X_BM, &joint.X_BM)}) {
       frames.add_all(joint.name, mine->p, other->p);
       frames.add_all(joint.name, mine->R, other->R);
     }
@@ -92,10 +87,8 @@ std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
       continue;
     }
     const model::Coordinate& own = ours.coordinates[static_cast<std::size_t>(*k)];
-    coordinates.add_all(
-        c.name,
-        Eigen::Vector4d(own.default_value, own.lower, own.upper, own.locked + 2 * own.clamped),
-        Eigen::Vector4d(c.default_value, c.lower, c.upper, c.locked + 2 * c.clamped));
+    coordinates.add_all(c.name, Eigen::Vector4d(own.default_value, own.lower, own.upper, own.locked + 2 * own.clamped),
+                        Eigen::Vector4d(c.default_value, c.lower, c.upper, c.locked + 2 * c.clamped));
   }
   for (std::size_t w = 0; w < theirs.wrap_objects.size() && w < ours.wrap_objects.size(); ++w) {
     const model::WrapObject &own = ours.wrap_objects[w], &other = theirs.wrap_objects[w];
@@ -113,10 +106,8 @@ std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
     const model::MuscleProperties &a = own.properties, &b = muscle.properties;
     fibers.add(muscle.name, a.optimal_fiber_length_m, b.optimal_fiber_length_m);
     tendons.add(muscle.name, a.tendon_slack_length_m, b.tendon_slack_length_m);
-    forces.add_all(
-        muscle.name,
-        Vec3(a.max_isometric_force_n, a.pennation_at_optimal_rad, a.max_contraction_velocity),
-        Vec3(b.max_isometric_force_n, b.pennation_at_optimal_rad, b.max_contraction_velocity));
+    forces.add_all(muscle.name, Vec3(a.max_isometric_force_n, a.pennation_at_optimal_rad, a.max_contraction_velocity),
+                   Vec3(b.max_isometric_force_n, b.pennation_at_optimal_rad, b.max_contraction_velocity));
     for (std::size_t p = 0; p < muscle.path.points.size() && p < own.path.points.size(); ++p)
       points.add_all(muscle.name, own.path.points[p].p_BP, muscle.path.points[p].p_BP);
   }
@@ -137,8 +128,7 @@ std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
     for (std::size_t c = 0; c < theirs.coordinates.size(); ++c) {
       const model::Coordinate& k = theirs.coordinates[c];
       if (!theirs.is_constrained(static_cast<int>(c)) && k.lower < k.upper)
-        q[static_cast<Eigen::Index>(c)] =
-            std::uniform_real_distribution<>(k.lower, k.upper)(random);
+        q[static_cast<Eigen::Index>(c)] = std::uniform_real_distribution<>(k.lower, k.upper)(random);
     }
     q = model::assemble(theirs, q).q;
     model::compute_poses(theirs, q, at_theirs);
@@ -152,8 +142,8 @@ std::vector<ModelDifference> compare_models(const model::BodyModel& ours,
     }
   }
   std::vector<ModelDifference> rows;
-  for (const Difference* d : {&mass, &center, &inertia, &frames, &coordinates, &places, &points,
-                              &wraps, &lengths, &fibers, &tendons, &forces, &markers}) {
+  for (const Difference* d : {&mass, &center, &inertia, &frames, &coordinates, &places, &points, &wraps, &lengths,
+                              &fibers, &tendons, &forces, &markers}) {
     if (d->any()) rows.push_back(d->row());
   }
   return rows;

@@ -9,9 +9,7 @@
 
 namespace myoid::opensim_table {
 
-void compare_sharing(const SharedFrames& shared,
-                     const std::filesystem::path& reference,
-                     const Rows& rows) {
+void compare_sharing(const SharedFrames& shared, const std::filesystem::path& reference, const Rows& rows) {
   const TimeSeries theirs = recording::read_storage(reference).data;
   double residual_ours = 0.0, residual_theirs = 0.0, excess = -INFINITY, priced = -INFINITY;
   int residual_above = 0, cost_above = 0, priced_above = 0, count = 0;
@@ -23,8 +21,7 @@ void compare_sharing(const SharedFrames& shared,
       return control.cwiseAbs().array().pow(problem.exponent).sum();
     };
     const Eigen::VectorXd gap = problem.required - problem.forces * x;
-    const double mine =
-        (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff();
+    const double mine = (problem.required - problem.forces * solution.control).cwiseAbs().maxCoeff();
     const double other = gap.cwiseAbs().maxCoeff();
     residual_ours = std::max(residual_ours, mine);
     residual_theirs = std::max(residual_theirs, other);
@@ -38,11 +35,8 @@ void compare_sharing(const SharedFrames& shared,
     ++count;
   }
   if (count == 0) return;
-  const auto frames = [&](int above) {
-    return fmt::format("above in {} of {} frames", above, count);
-  };
-  rows.add("constraint residual",
-           fmt::format("{:.1e}, OpenSim's {:.1e} N m, N", residual_ours, residual_theirs),
+  const auto frames = [&](int above) { return fmt::format("above in {} of {} frames", above, count); };
+  rows.add("constraint residual", fmt::format("{:.1e}, OpenSim's {:.1e} N m, N", residual_ours, residual_theirs),
            frames(residual_above));
   rows.add("cost, ours above theirs", fmt::format("{:.1e}", excess), frames(cost_above));
   rows.add("the same, their residual charged", fmt::format("{:.1e}", priced), frames(priced_above));

@@ -17,8 +17,7 @@ struct SharedFrames {
   std::map<Eigen::Index, std::pair<forces::ActuatorProblem, forces::ActuatorSolution>> frames;
   std::mutex mutex;
   forces::InspectFrame keep() {
-    return [this](Eigen::Index i, const forces::ActuatorProblem& p,
-                  const forces::ActuatorSolution& s) {
+    return [this](Eigen::Index i, const forces::ActuatorProblem& p, const forces::ActuatorSolution& s) {
       const std::lock_guard lock(mutex);
       frames.insert_or_assign(i, std::pair(p, s));
     };
@@ -28,8 +27,6 @@ struct SharedFrames {
 /// Cost and constraint residual of every frame, ours against those of OpenSim's controls in the
 /// same problem. A residual buys cost: the last row charges theirs for it at the price of the
 /// multipliers, which makes a lower bound of the cost, since the problem is convex.
-void compare_sharing(const SharedFrames& shared,
-                     const std::filesystem::path& reference,
-                     const Rows& rows);
+void compare_sharing(const SharedFrames& shared, const std::filesystem::path& reference, const Rows& rows);
 
 }  // namespace myoid::opensim_table

@@ -20,10 +20,7 @@ struct Worst {
 };
 
 /// Worst difference of the columns that both have; `skip` rows at both ends are left out.
-inline Worst compare(const TimeSeries& ours,
-                     const TimeSeries& theirs,
-                     Eigen::Index skip,
-                     const auto& their_name) {
+inline Worst compare(const TimeSeries& ours, const TimeSeries& theirs, Eigen::Index skip, const auto& their_name) {
   Worst worst;
   for (const Channel& channel : ours.channels()) {
     const auto column = theirs.find(their_name(channel.name));
@@ -75,8 +72,6 @@ struct Rows {
   }
 };
 
-inline std::string code(const std::filesystem::path& file) {
-  return "`" + file.filename().string() + "`";
-}
+inline std::string code(const std::filesystem::path& file) { return "`" + file.filename().string() + "`"; }
 
 }  // namespace myoid::opensim_table

@@ -20,13 +20,10 @@ using nlohmann::json;
 constexpr int kPatience_ms = 60000;
 
 /// A driver's remark about its own speed is no complaint of the page.
-bool is_about_the_driver(const std::string& text) {
-  return text.find("GL Driver Message") != std::string::npos;
-}
+bool is_about_the_driver(const std::string& text) { return text.find("GL Driver Message") != std::string::npos; }
 
 std::string base64_decoded(const std::string& text) {
-  static const std::string digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   unsigned group = 0;
   unsigned bits = 0;
@@ -43,20 +40,16 @@ std::string base64_decoded(const std::string& text) {
 }
 
 /// The browser's side: it reads commands from descriptor 3 and writes answers to descriptor 4.
-[[noreturn]] void become_browser(int commands,
-                                 int answers,
-                                 const std::string& profile,
-                                 const std::string& size) {
+[[noreturn]] void become_browser(int commands, int answers, const std::string& profile, const std::string& size) {
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int fd : {0, 1, 2}) ::dup2(nothing, fd);
   const int c = ::fcntl(commands, F_DUPFD, 100), a = ::fcntl(answers, F_DUPFD, 100);
   ::dup2(c, 3);
   ::dup2(a, 4);
-  ::execlp("chromium", "chromium", "--headless", "--no-sandbox", "--disable-gpu",
-           "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage",
-           "--no-first-run", "--hide-scrollbars", "--remote-debugging-pipe",
-           ("--user-data-dir=" + profile).c_str(), ("--window-size=" + size).c_str(), "about:blank",
-           nullptr);
+  ::execlp("chromium", "chromium", "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
+           "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
+           "--remote-debugging-pipe", ("--user-data-dir=" + profile).c_str(), ("--window-size=" + size).c_str(),
+           "about:blank", nullptr);
   std::_Exit(127);
 }
 
@@ -80,10 +73,8 @@ Browser::Browser(int width, int height) {
   from_browser_ = answers[0];
   ::signal(SIGPIPE, SIG_IGN);
   const json target = call("Target.createTarget", {{"url", "about:blank"}});
-  session_ = call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})
-                 .at("sessionId");
-  for (const char* domain : {"Page", "Runtime", "Network", "Log"})
-    call(std::string(domain) + ".enable");
+  session_ = call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}}).at("sessionId");
+  for (const char* domain : {"Page", "Runtime", "Network", "Log"}) call(std::string(domain) + ".enable");
   resize(width, height);
 }
 
@@ -136,8 +127,7 @@ json Browser::call(const std::string& method, const json& parameters) {
 
 json Browser::evaluate(const std::string& expression) {
   const json answer =
-      call("Runtime.evaluate",
-           {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
+      call("Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
   if (answer.contains("exceptionDetails"))
     throw std::runtime_error(expression + ": " + answer["exceptionDetails"].dump());
   return answer["result"].value("value", json());
@@ -157,8 +147,7 @@ void Browser::wait_for(const std::string& expression) {
 }
 
 void Browser::open(const std::string& address) {
-  call("Page.navigate",
-       {{"url", "about:blank"}});  // an address that differs in its # alone loads too
+  call("Page.navigate", {{"url", "about:blank"}});  // an address that differs in its # alone loads too
   call("Page.navigate", {{"url", address}});
   wait_for(
       "location.href !== 'about:blank' && document.readyState === 'complete' && "
@@ -170,9 +159,7 @@ void Browser::resize(int width, int height) {
        {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
-void Browser::set_scripts(bool on) {
-  call("Emulation.setScriptExecutionDisabled", {{"value", !on}});
-}
+void Browser::set_scripts(bool on) { call("Emulation.setScriptExecutionDisabled", {{"value", !on}}); }
 
 void Browser::mouse(const std::string& type, double x, double y, int clicks, int buttons) {
   call("Input.dispatchMouseEvent", {{"type", type},
@@ -209,9 +196,7 @@ void Browser::press(const std::string& key) {
   call("Input.dispatchKeyEvent", {{"type", "keyUp"}, {"key", key}});
 }
 
-std::string Browser::pdf() {
-  return base64_decoded(call("Page.printToPDF", {{"preferCSSPageSize", true}}).at("data"));
-}
+std::string Browser::pdf() { return base64_decoded(call("Page.printToPDF", {{"preferCSSPageSize", true}}).at("data")); }
 
 std::vector<std::string> Browser::complaints() {
   evaluate("1");  // the events before are here now

@@ -48,8 +48,7 @@ class Browser {
   [[nodiscard]] std::vector<std::string> complaints();
 
  private:
-  nlohmann::json call(const std::string& method,
-                      const nlohmann::json& parameters = nlohmann::json::object());
+  nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
   nlohmann::json next_message();
   void mouse(const std::string& type, double x, double y, int clicks, int buttons);
 

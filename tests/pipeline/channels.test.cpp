@@ -27,8 +27,8 @@ std::string emg_table() {
   std::string text = "time,BIC [mV],FLAT [mV],TRI [mV],GAP [mV]\n";
   for (int i = 0; i < 4000; ++i) {
     const double effort = i < 1500 ? 0.01 : 0.5;
-    text += fmt::format("{:.3f},{:.5f},0.25,{:.5f},{}\n", 1e-3 * i, effort * noise(random),
-                        effort * noise(random), i == 2000 ? "" : fmt::format("{}", i % 7));
+    text += fmt::format("{:.3f},{:.5f},0.25,{:.5f},{}\n", 1e-3 * i, effort * noise(random), effort * noise(random),
+                        i == 2000 ? "" : fmt::format("{}", i % 7));
   }
   return text;
 }
@@ -66,9 +66,8 @@ TEST(Channels, ASensorThatNobodyNeedsIsLeftOutWithAWarning) {
   write_text(in, emg_table());
   const Finished finished = myoid({"emg", in, "--out", out});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.err,
-              AllOf(HasSubstr("e.csv: channel 'FLAT' has the same value throughout"),
-                    HasSubstr("e.csv: channel 'GAP' is not a number at 2 s (1 sample)")));
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("e.csv: channel 'FLAT' has the same value throughout"),
+                                  HasSubstr("e.csv: channel 'GAP' is not a number at 2 s (1 sample)")));
   EXPECT_THAT(read_text(out), HasSubstr("\ntime\tBIC\tTRI\n"));
 }
 
@@ -78,8 +77,7 @@ TEST(Channels, ThoseAskedForComeInTheirOrderAsIfThereWereNoOthers) {
   const std::string two = folder / "two.sto";
   const std::string all = folder / "all.sto";
   write_text(in, emg_table());
-  const Finished finished =
-      myoid({"emg", in, "--out", two, "--no-whitening", "--channel", "TRI", "--channel", "bic"});
+  const Finished finished = myoid({"emg", in, "--out", two, "--no-whitening", "--channel", "TRI", "--channel", "bic"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(finished.err, Not(HasSubstr("FLAT")));
   EXPECT_THAT(read_text(two), HasSubstr("\ntime\tTRI\tBIC\n"));
@@ -93,29 +91,25 @@ TEST(Channels, OneThatIsNotThereOrBrokenAndAskedForIsAnError) {
   const std::string in = folder / "e.csv";
   write_text(in, emg_table());
   const auto refusal = [&](const char* command, const std::string& channel) {
-    const Finished finished =
-        std::string(command) == "emg"
-            ? myoid({"emg", in, "--out", folder / "a.sto", "--channel", channel})
-            : myoid({"convert", in, folder / "a.sto", "--channel", channel});
+    const Finished finished = std::string(command) == "emg"
+                                  ? myoid({"emg", in, "--out", folder / "a.sto", "--channel", channel})
+                                  : myoid({"convert", in, folder / "a.sto", "--channel", channel});
     EXPECT_EQ(finished.exit_code, 3) << command << " " << channel;
     return finished.err;
   };
   for (const char* command : {"emg", "convert"})
     EXPECT_THAT(refusal(command, "TRY"),
-                AllOf(HasSubstr("e.csv: no channel 'TRY' (did you mean 'TRI'?)"),
-                      HasSubstr("BIC, FLAT, TRI, GAP")));
+                AllOf(HasSubstr("e.csv: no channel 'TRY' (did you mean 'TRI'?)"), HasSubstr("BIC, FLAT, TRI, GAP")));
   EXPECT_THAT(refusal("emg", "FLAT"), HasSubstr("the same value throughout"));
   EXPECT_THAT(refusal("convert", "GAP"), HasSubstr("a .csv file holds them"));
 }
 
 TEST(Channels, AGapInOneOfThemStopsNothingElseOfAC3d) {
   const TemporaryFolder folder;
-  write_text(
-      folder / "a.trc",
-      "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
-      "100\t100\t2\t1\tmm\nFrame#\tTime\tA\n\t\tX1\tY1\tZ1\n1\t0\t1\t2\t3\n2\t0.01\t1\t2\t4\n");
-  write_text(folder / "e.csv",
-             "time,BIC [V],GAP [V]\n0,0.25,\n0.005,0.5,1.5\n0.01,1,1.5\n0.015,2,1.5\n");
+  write_text(folder / "a.trc",
+             "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+             "100\t100\t2\t1\tmm\nFrame#\tTime\tA\n\t\tX1\tY1\tZ1\n1\t0\t1\t2\t3\n2\t0.01\t1\t2\t4\n");
+  write_text(folder / "e.csv", "time,BIC [V],GAP [V]\n0,0.25,\n0.005,0.5,1.5\n0.01,1,1.5\n0.015,2,1.5\n");
   const std::string c3d = folder / "a.c3d";
   ASSERT_EQ(myoid({"convert", folder / "a.trc", c3d, "--analog", folder / "e.csv"}).exit_code, 0);
   const Finished finished = myoid({"convert", c3d, folder / "all"});
@@ -152,16 +146,13 @@ TEST(Channels, FaultsThatAreAlikeAreSaidOnce) {
   std::mt19937_64 random(20261122);
   std::normal_distribution<double> noise;
   std::string text = "time,BIC [mV],A [mV],B [mV],C [mV],D [mV],ACC [g]\n";
-  for (int i = 0; i < 4000; ++i)
-    text += fmt::format("{:.3f},{:.5f},0,0,0,0,1\n", 1e-3 * i, noise(random));
+  for (int i = 0; i < 4000; ++i) text += fmt::format("{:.3f},{:.5f},0,0,0,0,1\n", 1e-3 * i, noise(random));
   for (const char* name : {"one.csv", "two.csv"}) write_text(folder / name, text);
-  const Finished done =
-      myoid({"emg", folder / "one.csv", folder / "two.csv", "--out", folder / "out"});
+  const Finished done = myoid({"emg", folder / "one.csv", folder / "two.csv", "--out", folder / "out"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto count = [&](const std::string& words) {
     std::size_t found = 0;
-    for (auto at = done.err.find(words); at != std::string::npos; at = done.err.find(words, at + 1))
-      ++found;
+    for (auto at = done.err.find(words); at != std::string::npos; at = done.err.find(words, at + 1)) ++found;
     return found;
   };
   EXPECT_EQ(count("has the same value throughout"), 1U) << done.err;
@@ -173,17 +164,13 @@ TEST(Channels, OfSeveralClocksThoseThatAreNotTakenAreNamed) {
   const TemporaryFolder folder;
   std::string text = "X[s],EMG 1 [mV],X[s],EMG 2 [mV]\n";
   for (int i = 0; i < 400; ++i)
-    text += fmt::format("{:.4f},{},{}\n", 5e-4 * i, i % 7,
-                        i < 200 ? fmt::format("{:.4f},{}", 1e-3 * i, i % 5) : ",");
+    text += fmt::format("{:.4f},{},{}\n", 5e-4 * i, i % 7, i < 200 ? fmt::format("{:.4f},{}", 1e-3 * i, i % 5) : ",");
   write_text(folder / "e.csv", text);
-  const std::vector<std::string> emg{"emg", folder / "e.csv", "--out", folder / "a.sto", "--window",
-                                     "0.05"};
+  const std::vector<std::string> emg{"emg", folder / "e.csv", "--out", folder / "a.sto", "--window", "0.05"};
   const Finished first = myoid(emg);
   const Finished converted = myoid({"convert", folder / "e.csv", folder / "e.sto"});
   for (const Finished& finished : {first, converted})
-    EXPECT_THAT(finished.err,
-                HasSubstr("only the channels of the first clock are taken, without EMG"))
-        << finished.out;
+    EXPECT_THAT(finished.err, HasSubstr("only the channels of the first clock are taken, without EMG")) << finished.out;
 }
 
 }  // namespace

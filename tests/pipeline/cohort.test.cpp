@@ -33,8 +33,8 @@ class Cohort : public testing::Test {
     write_text(folder / "p.toml",
                "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
                "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
-    const Finished twin = myoid(
-        {"twin", "--protocol", folder / "p.toml", "--subjects", "4", "--out", folder / "people"});
+    const Finished twin =
+        myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "4", "--out", folder / "people"});
     ASSERT_EQ(twin.exit_code, 0) << twin.err;
     fs::remove(folder / "people/person_000002/lift.trc");
     std::string table = "name,age,study\n";
@@ -56,8 +56,7 @@ class Cohort : public testing::Test {
     for (const auto& entry : fs::recursive_directory_iterator(folder / out)) {
       if (!entry.is_regular_file()) continue;
       std::string text = read_text(entry.path());
-      for (std::size_t at = text.find(folder / out); at != std::string::npos;
-           at = text.find(folder / out))
+      for (std::size_t at = text.find(folder / out); at != std::string::npos; at = text.find(folder / out))
         text.replace(at, (folder / out).string().size(), "OUT");
       result[fs::relative(entry.path(), folder / out).string()] = text;
     }
@@ -88,18 +87,14 @@ TEST_F(Cohort, HasTheSameBytesForOneJobAndForThreeAndNamesWhoFailed) {
   expect_same(first, files("three"));
 
   // The numbers are those of `run`.
-  ASSERT_NE(
-      myoid({"run", folder / "people/person_000003/study.toml", "--out", folder / "run"}).exit_code,
-      3);
+  ASSERT_NE(myoid({"run", folder / "people/person_000003/study.toml", "--out", folder / "run"}).exit_code, 3);
   EXPECT_EQ(first.at("persons/P3/parameters.csv"), read_text(folder / "run/parameters.csv"));
   const auto rows = read_rows(folder / "one/cohort.csv");
   std::size_t count = 0;
   for (const char* name : {"P1", "P3", "P4"})
     count += read_rows(folder / "one/persons" / name / "parameters.csv").size();
   EXPECT_EQ(rows.size(), count);
-  EXPECT_EQ(std::count_if(rows.begin(), rows.end(),
-                          [](const auto& row) { return row.at("person") == "P2"; }),
-            0);
+  EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.at("person") == "P2"; }), 0);
   EXPECT_EQ(rows.back().at("age"), "34");
   EXPECT_EQ(read_rows(folder / "one/persons.csv").at(1).at("outcome"), "failed");
 }
@@ -107,8 +102,7 @@ TEST_F(Cohort, HasTheSameBytesForOneJobAndForThreeAndNamesWhoFailed) {
 TEST_F(Cohort, AKilledCohortGoesOnWhereItStoppedWithTheSameBytes) {
   ASSERT_EQ(cohort("whole").exit_code, 5);
   {
-    myoid::test::Running running(
-        {"cohort", manifest(), "--out", folder / "killed", "--jobs", "1", "--threads", "1"});
+    myoid::test::Running running({"cohort", manifest(), "--out", folder / "killed", "--jobs", "1", "--threads", "1"});
     while (!running.ended() && !fs::exists(folder / "killed/persons/P1/outcome.json"))
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     running.send(SIGKILL);
@@ -121,8 +115,7 @@ TEST_F(Cohort, AKilledCohortGoesOnWhereItStoppedWithTheSameBytes) {
   expect_same(files("whole"), files("killed"));
 
   // A changed recording is computed again, an unchanged one is not.
-  myoid::test::replace_in(folder / "people/person_000004/study.toml", "mass_kg = 73.0",
-                          "mass_kg = 74.0");
+  myoid::test::replace_in(folder / "people/person_000004/study.toml", "mass_kg = 73.0", "mass_kg = 74.0");
   const std::string before = read_text(folder / "killed/persons/P4/outcome.json");
   const Finished again = cohort("killed", {"--person", "P3", "--person", "P4"});
   EXPECT_THAT(again.out, HasSubstr("P3"));
@@ -156,19 +149,15 @@ TEST_F(Cohort, ABidsDataSetIsAnsweredInTheFormOfABidsApp) {
   const fs::path data = folder / "data";
   fs::create_directories(data / "code");
   for (const char* n : {"1", "2", "3"})
-    fs::rename(folder / (std::string("people/person_00000") + n),
-               data / (std::string("sub-0") + n));
+    fs::rename(folder / (std::string("people/person_00000") + n), data / (std::string("sub-0") + n));
   std::string study = read_text(data / "sub-01/study.toml");
   const auto set = [&](const std::string& from, const std::string& to) {
-    for (std::size_t at = study.find(from); at != std::string::npos;
-         at = study.find(from, at + to.size()))
+    for (std::size_t at = study.find(from); at != std::string::npos; at = study.find(from, at + to.size()))
       study.replace(at, from.size(), to);
   };
   for (const char* file : {"model.osim", "mvc", "lift", "truth.csv"})
-    set("= \"" + std::string(file) +
-            (std::string(file).find('.') == std::string::npos ? "." : "\""),
-        "= \"../{name}/" + std::string(file) +
-            (std::string(file).find('.') == std::string::npos ? "." : "\""));
+    set("= \"" + std::string(file) + (std::string(file).find('.') == std::string::npos ? "." : "\""),
+        "= \"../{name}/" + std::string(file) + (std::string(file).find('.') == std::string::npos ? "." : "\""));
   set("\"mvc_", "\"../{name}/mvc_");
   set("\"lift_", "\"../{name}/lift_");
   set("73.0", "{weight}");
@@ -194,8 +183,7 @@ TEST_F(Cohort, ABidsDataSetIsAnsweredInTheFormOfABidsApp) {
 
   // The filled template is the person's own study: the same numbers.
   ASSERT_NE(myoid({"run", data / "sub-03/study.toml", "--out", folder / "run"}).exit_code, 3);
-  EXPECT_EQ(read_text(folder / "derivative/persons/sub-03/parameters.csv"),
-            read_text(folder / "run/parameters.csv"));
+  EXPECT_EQ(read_text(folder / "derivative/persons/sub-03/parameters.csv"), read_text(folder / "run/parameters.csv"));
 }
 
 }  // namespace

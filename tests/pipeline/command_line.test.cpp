@@ -1,5 +1,4 @@
-// What the program answers to a wrong command line, to files that are not what they should be, and
-// to Ctrl-C.
+// What the program answers to a wrong command line, to files that are not what they should be, and to Ctrl-C.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -26,17 +25,16 @@ using testing::Not;
 
 const std::string kProtocols = myoid::test::source_dir() / "examples/protocols/";
 
-constexpr const char* kCommands[] = {
-    "run",    "check",    "info",       "emg",  "ik",          "id",      "muscle",   "paths",
-    "so",     "predict",  "identify",   "twin", "report",      "convert", "simulate", "compare",
-    "design", "run-tool", "twin-study", "init", "update-file", "settings"};
+constexpr const char* kCommands[] = {"run",        "check",   "info",        "emg",     "ik",       "id",
+                                     "muscle",     "paths",   "so",          "predict", "identify", "twin",
+                                     "report",     "convert", "simulate",    "compare", "design",   "run-tool",
+                                     "twin-study", "init",    "update-file", "settings"};
 
 /// One second of elbow flexion from 0 to 90 degrees, written in degrees under this header value.
 std::string ramp_motion(const std::string& in_degrees) {
-  std::string text = "Coordinates\nversion=1\nnRows=101\nnColumns=2\ninDegrees=" + in_degrees +
-                     "\nendheader\ntime\telbow_flexion\n";
-  for (int i = 0; i <= 100; ++i)
-    text += std::to_string(0.01 * i) + "\t" + std::to_string(0.9 * i) + "\n";
+  std::string text =
+      "Coordinates\nversion=1\nnRows=101\nnColumns=2\ninDegrees=" + in_degrees + "\nendheader\ntime\telbow_flexion\n";
+  for (int i = 0; i <= 100; ++i) text += std::to_string(0.01 * i) + "\t" + std::to_string(0.9 * i) + "\n";
   return text;
 }
 
@@ -46,8 +44,7 @@ std::filesystem::path recording_in(const TemporaryFolder& folder) {
              "name = \"short\"\nlevel = \"L0\"\n[motion]\nrate_hz = 100\n[[trial]]\nname = "
              "\"slow\"\nkind = \"flexion\"\nfrequency_hz = 0.5\n"
              "centre_deg = 72\namplitude_deg = 40\nheld_mass_kg = 1.0\nduration_s = 4\n");
-  const Finished twin = myoid(
-      {"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
+  const Finished twin = myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
   EXPECT_EQ(twin.exit_code, 0) << twin.err;
   return folder / "rec";
 }
@@ -59,8 +56,8 @@ TEST(CommandLine, PrintedSettingsAreAStudyOfTheSameSettings) {
              "\"t\"\nmarkers = \"t.trc\"\nemg = \"t.sto\"\n");
   const Finished first = myoid({"settings", folder / "study.toml"});
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_THAT(first.out, AllOf(HasSubstr("lowpass_hz = 5.0"), HasSubstr("markers = \"t.trc\""),
-                               HasSubstr("loss = \"square\"")));
+  EXPECT_THAT(first.out,
+              AllOf(HasSubstr("lowpass_hz = 5.0"), HasSubstr("markers = \"t.trc\""), HasSubstr("loss = \"square\"")));
   write_text(folder / "again.toml", first.out);
   EXPECT_EQ(myoid({"settings", folder / "again.toml"}).out, first.out);
   EXPECT_THAT(myoid({"settings"}).out, HasSubstr("  rate_hz: 10 to 2000 Hz; default 100\n"));
@@ -78,14 +75,13 @@ TEST(CommandLine, HelpOfEveryCommandSucceedsAndShowsAnExample) {
 }
 
 TEST(CommandLine, IsWrongWithExitCodeTwoAndNothingOnStdout) {
-  const std::vector<std::vector<std::string>> wrong{
-      {"fly"},
-      {"run"},
-      {"run", "study.toml"},
-      {"twin", "--protocol", "p.toml", "--out", "x", "--colour"},
-      {"twin", "--out", "x"},
-      {"run", "study.toml", "--out", "x", "--threads", "many"},
-      {"identify", "--method", "guess"}};
+  const std::vector<std::vector<std::string>> wrong{{"fly"},
+                                                    {"run"},
+                                                    {"run", "study.toml"},
+                                                    {"twin", "--protocol", "p.toml", "--out", "x", "--colour"},
+                                                    {"twin", "--out", "x"},
+                                                    {"run", "study.toml", "--out", "x", "--threads", "many"},
+                                                    {"identify", "--method", "guess"}};
   for (const auto& arguments : wrong) {
     const Finished finished = myoid(arguments);
     EXPECT_EQ(finished.exit_code, 2) << testing::PrintToString(arguments) << finished.err;
@@ -116,19 +112,16 @@ TEST(CommandLine, AWrongPathIsNamedWithExitCodeThree) {
     const Finished finished = myoid(arguments);
     EXPECT_EQ(finished.exit_code, 3) << arguments[0] << finished.err;
     EXPECT_THAT(finished.err, AllOf(HasSubstr("error: "), HasSubstr(missing))) << arguments[0];
-    EXPECT_FALSE(std::filesystem::exists(folder / "out"))
-        << arguments[0] << " left a folder behind";
+    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments[0] << " left a folder behind";
   }
 }
 
 TEST(CommandLine, AnEmptyFileIsNamedWithExitCodeThree) {
   const TemporaryFolder folder;
-  for (const std::string name :
-       {"empty.toml", "empty.trc", "empty.sto", "empty.osim", "empty.csv"}) {
+  for (const std::string name : {"empty.toml", "empty.trc", "empty.sto", "empty.osim", "empty.csv"}) {
     write_text(folder / name, "");
-    const Finished finished = name == "empty.toml"
-                                  ? myoid({"run", folder / name, "--out", folder / "out"})
-                                  : myoid({"info", folder / name});
+    const Finished finished =
+        name == "empty.toml" ? myoid({"run", folder / name, "--out", folder / "out"}) : myoid({"info", folder / name});
     EXPECT_EQ(finished.exit_code, 3) << name << finished.err;
     EXPECT_THAT(finished.err, HasSubstr(name));
   }
@@ -147,9 +140,8 @@ TEST(CommandLine, AMissingEmgColumnIsNamedWithWhatWasFoundAndWhatToDo) {
   const TemporaryFolder folder;
   const auto rec = recording_in(folder);
   replace_in(rec / "study.toml", "emg = \"TRI\"", "emg = \"TRIC\"");
-  const auto message =
-      AllOf(HasSubstr("slow_emg.sto"), HasSubstr("no EMG channel 'TRIC'"), HasSubstr("found"),
-            HasSubstr("BRD"), HasSubstr("did you mean 'TRI'?"), HasSubstr("in the study"));
+  const auto message = AllOf(HasSubstr("slow_emg.sto"), HasSubstr("no EMG channel 'TRIC'"), HasSubstr("found"),
+                             HasSubstr("BRD"), HasSubstr("did you mean 'TRI'?"), HasSubstr("in the study"));
   const Finished check = myoid({"check", rec / "study.toml"});
   EXPECT_EQ(check.exit_code, 3);
   EXPECT_THAT(check.out, message);
@@ -165,9 +157,8 @@ TEST(CommandLine, DegreesThatAreCalledRadiansAreNoticed) {
   replace_in(rec / "study.toml", "markers = \"slow.trc\"", "motion = \"../motion.mot\"");
   const Finished run = myoid({"run", rec / "study.toml", "--out", folder / "out"});
   EXPECT_EQ(run.exit_code, 3) << run.err;
-  EXPECT_THAT(run.err,
-              AllOf(HasSubstr("motion.mot"), HasSubstr("elbow_flexion"), HasSubstr("reaches 90"),
-                    HasSubstr("degrees, not radians"), HasSubstr("inDegrees=yes")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("motion.mot"), HasSubstr("elbow_flexion"), HasSubstr("reaches 90"),
+                             HasSubstr("degrees, not radians"), HasSubstr("inDegrees=yes")));
 }
 
 TEST(CommandLine, ATrialWithoutEmgIsNamed) {
@@ -183,15 +174,12 @@ TEST(CommandLine, ResultsAreNotOverwrittenUnasked) {
   const TemporaryFolder folder;
   const auto rec = recording_in(folder);
   const std::string before = read_text(rec / "study.toml");
-  const Finished again =
-      myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "2", "--out", rec});
+  const Finished again = myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "2", "--out", rec});
   EXPECT_EQ(again.exit_code, 3);
   EXPECT_THAT(again.err, HasSubstr("--overwrite"));
   EXPECT_EQ(read_text(rec / "study.toml"), before);
-  EXPECT_EQ(myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "2", "--out", rec,
-                   "--overwrite"})
-                .exit_code,
-            0);
+  EXPECT_EQ(
+      myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "2", "--out", rec, "--overwrite"}).exit_code, 0);
 }
 
 TEST(CommandLine, StderrIsEmptyWhenQuietAndAFailureIsStillSaid) {
@@ -224,8 +212,8 @@ TEST(CommandLine, AResultNeverReplacesItsInput) {
   }
   EXPECT_EQ(read_text(folder / "e.sto"), emg_text("EMG microvolt"));
   write_text(folder / "m.mot", ramp_motion("yes"));
-  const Finished id = myoid({"id", "--model", "arm4", "--motion", folder / "m.mot", "--out",
-                             folder / "m.mot", "--overwrite"});
+  const Finished id =
+      myoid({"id", "--model", "arm4", "--motion", folder / "m.mot", "--out", folder / "m.mot", "--overwrite"});
   EXPECT_EQ(id.exit_code, 3);
   EXPECT_EQ(read_text(folder / "m.mot"), ramp_motion("yes"));
 }
@@ -237,8 +225,8 @@ TEST(CommandLine, AFolderThatIsMadeForAResultIsSaid) {
   EXPECT_EQ(emg.exit_code, 0) << emg.err;
   EXPECT_THAT(emg.err, AllOf(HasSubstr((folder / "new").string()), HasSubstr("it was made")));
   // Once, whatever the number of files; and not at all where nothing was made.
-  const Finished two = myoid(
-      {"emg", folder / "e.sto", "--out", folder / "two/a.sto", "--envelope", folder / "two/e.sto"});
+  const Finished two =
+      myoid({"emg", folder / "e.sto", "--out", folder / "two/a.sto", "--envelope", folder / "two/e.sto"});
   EXPECT_EQ(two.exit_code, 0) << two.err;
   EXPECT_EQ(two.err.find("it was made"), two.err.rfind("it was made"));
   const Finished none = myoid({"emg", folder / "none.sto", "--out", folder / "three/a.sto"});
@@ -260,10 +248,10 @@ TEST(CommandLine, NumbersOutOfRangeAreRefused) {
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
   write_text(folder / "m.mot", ramp_motion("yes"));
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"twin", "--protocol", kProtocols + "paper.toml", "--seed", "-1",
-                                 "--out", folder / "rec"},
-        {"identify", "--muscles", "m", "--activations", "a", "--lengths", "l", "--velocities", "v",
-         "--delay", "5", "--out", folder / "out"},
+       {std::vector<std::string>{"twin", "--protocol", kProtocols + "paper.toml", "--seed", "-1", "--out",
+                                 folder / "rec"},
+        {"identify", "--muscles", "m", "--activations", "a", "--lengths", "l", "--velocities", "v", "--delay", "5",
+         "--out", folder / "out"},
         {"emg", folder / "e.sto", "--out", folder / "a.sto", "--start", "1", "--end", "0.5"},
         {"emg", folder / "e.sto", "--out", folder / "a.sto", "--window", "-1"}}) {
     const Finished finished = myoid(arguments);
@@ -271,10 +259,8 @@ TEST(CommandLine, NumbersOutOfRangeAreRefused) {
     EXPECT_NE(finished.err, "");
   }
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"emg", folder / "e.sto", "--out", folder / "a.sto", "--window",
-                                 "100"},
-        {"id", "--model", "arm4", "--motion", folder / "m.mot", "--lowpass", "500", "--out",
-         folder / "id.sto"},
+       {std::vector<std::string>{"emg", folder / "e.sto", "--out", folder / "a.sto", "--window", "100"},
+        {"id", "--model", "arm4", "--motion", folder / "m.mot", "--lowpass", "500", "--out", folder / "id.sto"},
         {"emg", folder / "e.sto", "--out", ""},
         {"emg", folder / "e.sto", "--out", folder / "a.txt"}}) {
     const Finished finished = myoid(arguments);
@@ -288,18 +274,15 @@ TEST(Info, SaysTheUnitOfEmgThatTheTitleStatesAndNothingOfAngles) {
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
   write_text(folder / "m.mot", ramp_motion("yes"));
-  EXPECT_THAT(myoid({"info", folder / "e.sto"}).out,
-              AllOf(HasSubstr("emg unit: uV"), Not(HasSubstr("angles"))));
-  EXPECT_THAT(myoid({"info", folder / "m.mot"}).out,
-              AllOf(HasSubstr("angles: degrees"), Not(HasSubstr("emg unit"))));
+  EXPECT_THAT(myoid({"info", folder / "e.sto"}).out, AllOf(HasSubstr("emg unit: uV"), Not(HasSubstr("angles"))));
+  EXPECT_THAT(myoid({"info", folder / "m.mot"}).out, AllOf(HasSubstr("angles: degrees"), Not(HasSubstr("emg unit"))));
 }
 
 TEST(CommandLine, TheUnitThatAnEmgFileStatesHoldsWithAWarning) {
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
   const Finished as_said = myoid({"emg", folder / "e.sto", "--out", folder / "a.sto"});
-  const Finished other =
-      myoid({"emg", folder / "e.sto", "--unit", "V", "--out", folder / "a.sto", "--overwrite"});
+  const Finished other = myoid({"emg", folder / "e.sto", "--unit", "V", "--out", folder / "a.sto", "--overwrite"});
   EXPECT_EQ(other.out, as_said.out);
   EXPECT_THAT(other.err, AllOf(HasSubstr("warning"), HasSubstr("is not used")));
 }
@@ -311,8 +294,8 @@ TEST(CommandLine, WhatAReaderLeftOutIsSaidByTheStagesThatReadSeries) {
   for (int i = 0; i <= 110; ++i) cut += std::to_string(0.01 * i) + "\t0.10\t0.10\t0.10\t0.10\n";
   cut.resize(cut.size() - 3);
   write_text(folder / "cut.sto", cut);
-  const Finished so = myoid({"so", "--model", "arm4", "--motion", folder / "m.mot", "--out",
-                             folder / "so", "--emg", folder / "cut.sto", "--emg-weight", "1"});
+  const Finished so = myoid({"so", "--model", "arm4", "--motion", folder / "m.mot", "--out", folder / "so", "--emg",
+                             folder / "cut.sto", "--emg-weight", "1"});
   EXPECT_EQ(so.exit_code, 0) << so.err;
   EXPECT_THAT(so.err, AllOf(HasSubstr("cut.sto:114"), HasSubstr("left out")));
 }
@@ -331,8 +314,7 @@ TEST(Compare, OneFolderWithItselfIsRefused) {
 TEST(CommandLine, OfACommonOptionWithoutEffectTheHelpIsSilentAndAWarningSpeaks) {
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
-  EXPECT_THAT(myoid({"check", "--help"}).out,
-              AllOf(HasSubstr("--json"), Not(HasSubstr("--overwrite"))));
+  EXPECT_THAT(myoid({"check", "--help"}).out, AllOf(HasSubstr("--json"), Not(HasSubstr("--overwrite"))));
   const Finished check = myoid({"check", folder / "e.sto", "--overwrite"});
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_THAT(check.err, HasSubstr("--overwrite has no effect on check"));
@@ -360,13 +342,11 @@ TEST(CommandLine, ACutResultHasTheNumbersOfTheWholeFile) {
   const TemporaryFolder folder;
   std::string motion = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
   for (int i = 0; i <= 200; ++i)
-    motion +=
-        std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.1 * i)) + "\n";
+    motion += std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.1 * i)) + "\n";
   write_text(folder / "m.mot", motion);
   const auto id = [&](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"id",       "--model",        "arm4",
-                                       "--motion", folder / "m.mot", "--lowpass",
-                                       "6",        "--out",          folder / out};
+    std::vector<std::string> arguments{"id",        "--model", "arm4",  "--motion",  folder / "m.mot",
+                                       "--lowpass", "6",       "--out", folder / out};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Finished finished = myoid(arguments);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
@@ -385,8 +365,7 @@ TEST(CommandLine, AWarningOfAnInputIsSaidByCheckAndByRun) {
   std::string motion = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
   for (int i = 0; i <= 400; ++i) {
     if (i > 100 && i < 130) continue;
-    motion +=
-        std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.03 * i)) + "\n";
+    motion += std::to_string(0.01 * i) + "\t" + std::to_string(60.0 + 30.0 * std::sin(0.03 * i)) + "\n";
   }
   write_text(folder / "motion.mot", motion);
   replace_in(rec / "study.toml", "markers = \"slow.trc\"", "motion = \"../motion.mot\"");
@@ -400,16 +379,15 @@ TEST(CommandLine, AWarningOfAnInputIsSaidByCheckAndByRun) {
 TEST(CommandLine, AnUnknownModelIsAnsweredWithTheBuiltInOnes) {
   const TemporaryFolder folder;
   write_text(folder / "m.mot", ramp_motion("yes"));
-  const Finished unknown =
-      myoid({"id", "--model", "arm26", "--motion", folder / "m.mot", "--out", folder / "id.sto"});
+  const Finished unknown = myoid({"id", "--model", "arm26", "--motion", folder / "m.mot", "--out", folder / "id.sto"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, AllOf(HasSubstr("arm26"), HasSubstr("arm4")));
 }
 
 TEST(CommandLine, InterruptedItEndsWithHundredAndThirty) {
   const TemporaryFolder folder;
-  const Finished twin = myoid({"twin", "--protocol", kProtocols + "noise_free.toml", "--seed", "1",
-                               "--out", folder / "rec"});
+  const Finished twin =
+      myoid({"twin", "--protocol", kProtocols + "noise_free.toml", "--seed", "1", "--out", folder / "rec"});
   ASSERT_EQ(twin.exit_code, 0) << twin.err;
   // The whole study takes many seconds, so a signal after one second falls into the work.
   const Finished run = myoid({"run", folder / "rec/study.toml", "--out", folder / "out"}, 1.0);
@@ -421,11 +399,10 @@ TEST(CommandLine, InterruptedItEndsWithHundredAndThirty) {
 TEST(Twin, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
   const TemporaryFolder folder;
   for (const auto& [name, seed] : {std::pair{"a", "7"}, {"b", "7"}, {"c", "8"}}) {
-    ASSERT_EQ(
-        myoid({"twin", "--protocol", myoid::test::source_dir() / "examples/demo/protocol.toml",
-               "--seed", seed, "--out", folder / name})
-            .exit_code,
-        0);
+    ASSERT_EQ(myoid({"twin", "--protocol", myoid::test::source_dir() / "examples/demo/protocol.toml", "--seed", seed,
+                     "--out", folder / name})
+                  .exit_code,
+              0);
   }
   int files = 0, differing = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "a")) {

@@ -34,8 +34,7 @@ TEST(Convert, MarkersAndEmgGoIntoAC3dAndComeBack) {
              "time,Biceps [mV]\n0,1\n0.005,2\n0.01,3\n0.015,4\n0.02,5\n0.025,6\n"
              "0.03,7\n0.035,8\n");
   const std::string c3d = (folder / "a.c3d").string();
-  const Finished there =
-      myoid({"convert", (folder / "a.trc").string(), c3d, "--analog", (folder / "e.csv").string()});
+  const Finished there = myoid({"convert", (folder / "a.trc").string(), c3d, "--analog", (folder / "e.csv").string()});
   ASSERT_EQ(there.exit_code, 0) << there.err;
   const Finished back = myoid({"convert", c3d, (folder / "b.trc").string()});
   ASSERT_EQ(back.exit_code, 0) << back.err;
@@ -58,13 +57,11 @@ TEST(Convert, TurnsTheLaboratory) {
   const std::string out = (folder / "b.trc").string();
   ASSERT_EQ(myoid({"convert", (folder / "a.trc").string(), out, "--up", "z"}).exit_code, 0);
   EXPECT_THAT(read_text(out), HasSubstr("\n1\t0\t1.5\t3.5\t-2.5\t10\t30\t-20\n"));
-  ASSERT_EQ(myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--up", "z",
-                   "--rotate", "y:90"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--up", "z", "--rotate", "y:90"}).exit_code,
+      0);
   EXPECT_THAT(read_text(out), HasSubstr("\n1\t0\t-2.5\t3.5\t-1.5\t"));
-  const Finished wrong =
-      myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--rotate", "q:90"});
+  const Finished wrong = myoid({"convert", (folder / "a.trc").string(), out, "--overwrite", "--rotate", "q:90"});
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_THAT(wrong.err, HasSubstr("AXIS:DEGREES"));
 }
@@ -75,8 +72,8 @@ TEST(Convert, AUnitThatTheFileContradictsIsNotUsedAndThatIsSaid) {
   std::string emg = "EMG uV\nendheader\ntime\tBIC\n";
   for (int i = 0; i < 8; ++i) emg += std::to_string(0.005 * i) + "\t" + std::to_string(i) + "\n";
   write_text(folder / "e.sto", emg);
-  const Finished done = myoid({"convert", folder / "a.trc", folder / "a.c3d", "--analog",
-                               folder / "e.sto", "--unit", "mV"});
+  const Finished done =
+      myoid({"convert", folder / "a.trc", folder / "a.c3d", "--analog", folder / "e.sto", "--unit", "mV"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.err, HasSubstr("the unit given (mV) is not used"));
 }
@@ -95,12 +92,10 @@ TEST(Convert, EveryPlateNeedsABodyOrNone) {
   const std::string file = folder / "f.c3d";
   ::myoid::recording::write_c3d(file, ::myoid::test::plate_recording(2));
   for (const char* body : {"calcn_r", ""}) {
-    const Finished one =
-        myoid({"convert", file, folder / (std::string("one") + body), "--body", body});
+    const Finished one = myoid({"convert", file, folder / (std::string("one") + body), "--body", body});
     EXPECT_EQ(one.exit_code, 0) << one.err;
   }
-  const Finished two =
-      myoid({"convert", file, folder / "two", "--body", "calcn_r", "--body", "calcn_l"});
+  const Finished two = myoid({"convert", file, folder / "two", "--body", "calcn_r", "--body", "calcn_l"});
   EXPECT_EQ(two.exit_code, 3);
   EXPECT_THAT(two.err, HasSubstr("--body: 2 bodies for 1 force plate of"));
   EXPECT_FALSE(std::filesystem::exists(folder / "two"));

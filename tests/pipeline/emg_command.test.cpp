@@ -39,8 +39,8 @@ std::string raw_emg(unsigned seed, int begin, int end, double strength) {
   for (int c = 0; c < 2; ++c) {
     Eigen::VectorXd x(kSamples + 2 * kMargin);
     for (double& v : x) v = normal(engine);
-    for (const auto& [band, hz] : {std::pair{math::FilterBand::high_pass, 20.0},
-                                   std::pair{math::FilterBand::low_pass, 450.0}})
+    for (const auto& [band, hz] :
+         {std::pair{math::FilterBand::high_pass, 20.0}, std::pair{math::FilterBand::low_pass, 450.0}})
       x = math::zero_phase(math::design_butterworth(band, 2, hz, kRate_hz), x);
     Eigen::VectorXd emg = x.segment(kMargin, kSamples);
     emg *= 150.0 * strength / std::sqrt(emg.squaredNorm() / kSamples);
@@ -80,8 +80,7 @@ TEST(EmgCommand, AnEffortAtTheEndsOfAFileReadsOne) {
   const TemporaryFolder folder;
   for (const auto& [begin, end] : {std::pair{0, 14000}, {6000, 20000}, {0, 20000}}) {
     write_text(folder / "mvc.csv", raw_emg(static_cast<unsigned>(begin + end), begin, end, 1.0));
-    const Finished emg =
-        myoid({"emg", folder / "mvc.csv", "--out", folder / "a.sto", "--overwrite"});
+    const Finished emg = myoid({"emg", folder / "mvc.csv", "--out", folder / "a.sto", "--overwrite"});
     ASSERT_EQ(emg.exit_code, 0) << emg.err;
     for (const auto& a : columns_of(folder / "a.sto")) {
       EXPECT_LT(*std::max_element(a.begin(), a.end()), 1.3);
@@ -96,21 +95,18 @@ TEST(EmgCommand, SeveralFilesHaveOneReferenceAndTheHeaderSaysHow) {
   write_text(folder / "fifth.csv", raw_emg(2, 4000, 16000, 0.2));
   write_text(folder / "mvc_1.csv", raw_emg(3, 4000, 16000, 0.9));
   write_text(folder / "mvc_2.csv", raw_emg(4, 0, 14000, 1.0));
-  const Finished emg = myoid({"emg", folder / "half.csv", folder / "fifth.csv", "--mvc",
-                              folder / "mvc_1.csv", "--mvc", folder / "mvc_2.csv", "--out",
-                              folder / "out", "--envelope", folder / "envelopes"});
+  const Finished emg = myoid({"emg", folder / "half.csv", folder / "fifth.csv", "--mvc", folder / "mvc_1.csv", "--mvc",
+                              folder / "mvc_2.csv", "--out", folder / "out", "--envelope", folder / "envelopes"});
   ASSERT_EQ(emg.exit_code, 0) << emg.err;
   EXPECT_THAT(emg.out, HasSubstr("whitened, all channels"));
   EXPECT_THAT(emg.out, HasSubstr("For a methods section: Raw EMG was high-pass filtered"));
   // The efforts are 0.5 and 0.2 of the larger maximal contraction, known to 2 %.
   for (const auto& [name, expected] : {std::pair{"half", 0.5}, {"fifth", 0.2}}) {
     const std::filesystem::path file = folder / "out" / (std::string(name) + ".sto");
-    for (const auto& a : columns_of(file))
-      EXPECT_NEAR(mean_of(a, 5000, 15000), expected, 0.05 * expected) << name;
+    for (const auto& a : columns_of(file)) EXPECT_NEAR(mean_of(a, 5000, 15000), expected, 0.05 * expected) << name;
     const std::string text = read_text(file);
-    for (const char* said :
-         {"high-pass filter 20 Hz", "low-pass filter 6 Hz", "rectification",
-          "whitening of all channels", "channel left TA: reference", "mvc_2.csv"})
+    for (const char* said : {"high-pass filter 20 Hz", "low-pass filter 6 Hz", "rectification",
+                             "whitening of all channels", "channel left TA: reference", "mvc_2.csv"})
       EXPECT_THAT(text, HasSubstr(said));
   }
   const std::string envelope = read_text(folder / "envelopes" / "half.sto");
@@ -124,12 +120,10 @@ TEST(EmgCommand, WhatCannotBeWrittenIsRefusedBeforehand) {
   std::filesystem::create_directory(folder / "b");
   write_text(folder / "b" / "a.csv", raw_emg(2, 4000, 16000, 1.0));
   write_text(folder / "c.csv", raw_emg(2, 4000, 16000, 1.0));
-  const Finished same =
-      myoid({"emg", folder / "a.csv", folder / "b" / "a.csv", "--out", folder / "out"});
+  const Finished same = myoid({"emg", folder / "a.csv", folder / "b" / "a.csv", "--out", folder / "out"});
   EXPECT_EQ(same.exit_code, 3);
   EXPECT_THAT(same.err, HasSubstr("two inputs would be written to"));
-  const Finished file =
-      myoid({"emg", folder / "a.csv", folder / "c.csv", "--out", folder / "x.sto"});
+  const Finished file = myoid({"emg", folder / "a.csv", folder / "c.csv", "--out", folder / "x.sto"});
   EXPECT_EQ(file.exit_code, 3);
   EXPECT_THAT(file.err, HasSubstr("this is a folder"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));

@@ -29,8 +29,10 @@ void* counted(void* given) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int pthread_create(
-    pthread_t* thread, const pthread_attr_t* attributes, Body body, void* argument) {
+extern "C" __attribute__((visibility("default"))) int pthread_create(pthread_t* thread,
+                                                                     const pthread_attr_t* attributes,
+                                                                     Body body,
+                                                                     void* argument) {
   const char* const granted = std::getenv("MYOID_GRANTED");
   if (living++ >= (granted != nullptr ? std::atoi(granted) : 0)) {
     --living;

@@ -60,17 +60,15 @@ const std::string kRod =
 
 /// The rod held still.
 std::string still_motion() {
-  std::string text =
-      "Coordinates\nversion=1\nnRows=101\nnColumns=2\ninDegrees=no\nendheader\ntime\tq\n";
-  for (int k = 0; k <= 100; ++k)
-    text += std::to_string(0.01 * k) + "\t" + std::to_string(kAngle_rad) + "\n";
+  std::string text = "Coordinates\nversion=1\nnRows=101\nnColumns=2\ninDegrees=no\nendheader\ntime\tq\n";
+  for (int k = 0; k <= 100; ++k) text += std::to_string(0.01 * k) + "\t" + std::to_string(kAngle_rad) + "\n";
   return text;
 }
 
 /// What the pin must give: it holds the weight, which pulls the rod down, against the plate's load.
 double moment_nm(double t) {
-  const Vec3 moment = y_up(PlateLoad::point_m(t)).cross(y_up(PlateLoad::force_n(t))) +
-                      y_up(Vec3(0, 0, PlateLoad::free_nm(t)));
+  const Vec3 moment =
+      y_up(PlateLoad::point_m(t)).cross(y_up(PlateLoad::force_n(t))) + y_up(Vec3(0, 0, PlateLoad::free_nm(t)));
   return kMass_kg * kGravity * std::sin(kAngle_rad) - moment.z();
 }
 
@@ -90,16 +88,15 @@ TEST_P(PlatesOfType, ConvertedTheyLoadTheJointAsTheClosedFormSays) {
   for (Eigen::Index i = 0; i < load.sample_count(); i += 101) {
     const double t = load.time_s()[i];
     const auto vector = [&](const std::string& name) {
-      return Vec3(load.column(name + "x")[i], load.column(name + "y")[i],
-                  load.column(name + "z")[i]);
+      return Vec3(load.column(name + "x")[i], load.column(name + "y")[i], load.column(name + "z")[i]);
     };
     // Channels are reals of 24 bits: 1e-7 of 700 N, and of 300 000 N mm over 540 N.
     EXPECT_LT((vector("ground_force_1_v") - y_up(PlateLoad::force_n(t))).norm(), 3e-4);
     EXPECT_LT((vector("ground_force_1_p") - y_up(PlateLoad::point_m(t))).norm(), 1e-6);
     EXPECT_LT((vector("ground_torque_1_") - y_up(Vec3(0, 0, PlateLoad::free_nm(t)))).norm(), 3e-4);
   }
-  const Finished solved = myoid({"id", "--model", at("rod.osim"), "--motion", at("q.mot"),
-                                 "--loads", at("out/f_grf.xml"), "--out", at("id.sto")});
+  const Finished solved = myoid({"id", "--model", at("rod.osim"), "--motion", at("q.mot"), "--loads",
+                                 at("out/f_grf.xml"), "--out", at("id.sto")});
   ASSERT_EQ(solved.exit_code, 0) << solved.err;
   const TimeSeries torque = ::myoid::recording::read_storage(at("id.sto")).data;
   ASSERT_EQ(torque.sample_count(), 101);
@@ -122,13 +119,12 @@ TEST_P(PlatesOfType, InAStudyTheyGiveTheSameMoment) {
            std::to_string(0.1 * std::cos(700.0 * t) * (1.2 + std::cos(5.0 * t))) + "\n";
   }
   write_text(at("emg.csv"), emg);
-  write_text(
-      at("study.toml"),
-      "[subject]\nname = \"P\"\n[model]\nfile = \"rod.osim\"\ncoordinate = \"q\"\n"
-      "[motion]\ncutoff_hz = 6\n"
-      "[[muscle]]\nname = \"FLX\"\nemg = \"FLX\"\n[[muscle]]\nname = \"EXT\"\nemg = \"EXT\"\n"
-      "[[trial]]\nname = \"hold\"\nmotion = \"q.mot\"\nemg = \"emg.csv\"\n"
-      "force_plates = { file = \"f.c3d\", bodies = [\"rod\"], lowpass_hz = 200 }\n");
+  write_text(at("study.toml"),
+             "[subject]\nname = \"P\"\n[model]\nfile = \"rod.osim\"\ncoordinate = \"q\"\n"
+             "[motion]\ncutoff_hz = 6\n"
+             "[[muscle]]\nname = \"FLX\"\nemg = \"FLX\"\n[[muscle]]\nname = \"EXT\"\nemg = \"EXT\"\n"
+             "[[trial]]\nname = \"hold\"\nmotion = \"q.mot\"\nemg = \"emg.csv\"\n"
+             "force_plates = { file = \"f.c3d\", bodies = [\"rod\"], lowpass_hz = 200 }\n");
   const Finished ran = myoid({"run", at("study.toml"), "--out", at("results")});
   ASSERT_TRUE(ran.exit_code == 0 || ran.exit_code == 4) << ran.exit_code << ran.err << ran.out;
   const TimeSeries torque = ::myoid::recording::read_storage(at("results/hold/id.sto")).data;

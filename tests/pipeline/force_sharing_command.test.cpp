@@ -24,18 +24,15 @@ using test::write_text;
 void write_motion(const std::string& file) {
   std::string text = "m\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
   for (int i = 0; i <= 60; ++i)
-    text +=
-        std::to_string(0.02 * i) + "\t" + std::to_string(70.0 + 25.0 * std::sin(0.12 * i)) + "\n";
+    text += std::to_string(0.02 * i) + "\t" + std::to_string(70.0 + 25.0 * std::sin(0.12 * i)) + "\n";
   write_text(file, text);
 }
 
 /// 20 N upward on the hand, at its center of mass and growing.
 std::vector<std::string> with_loads(const TemporaryFolder& folder) {
-  std::string data =
-      "loads\nversion=1\ninDegrees=no\nendheader\ntime\tf_x\tf_y\tf_z\tp_x\tp_y\tp_z\n";
+  std::string data = "loads\nversion=1\ninDegrees=no\nendheader\ntime\tf_x\tf_y\tf_z\tp_x\tp_y\tp_z\n";
   for (int i = 0; i <= 60; ++i)
-    data +=
-        std::to_string(0.02 * i) + "\t0\t" + std::to_string(10.0 + 0.1 * i) + "\t0\t0\t-0.2\t0\n";
+    data += std::to_string(0.02 * i) + "\t0\t" + std::to_string(10.0 + 0.1 * i) + "\t0\t0\t-0.2\t0\n";
   write_text(folder / "loads.mot", data);
   write_text(folder / "loads.xml",
              "<OpenSimDocument Version=\"40000\"><ExternalLoads name=\"l\"><objects>"
@@ -55,9 +52,7 @@ class ForceSharing : public ::testing::Test {
     (void)run("paths", "paths", {});
   }
 
-  Finished run(const std::string& command,
-               const std::string& out,
-               const std::vector<std::string>& more) const {
+  Finished run(const std::string& command, const std::string& out, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{command,           "--model", "arm4",       "--motion",
                                        folder_ / "m.mot", "--out",   folder_ / out};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -65,9 +60,7 @@ class ForceSharing : public ::testing::Test {
     EXPECT_EQ(finished.exit_code, 0) << command << ": " << finished.err;
     return finished;
   }
-  TimeSeries read(const std::string& file) const {
-    return recording::read_storage(folder_ / file).data;
-  }
+  TimeSeries read(const std::string& file) const { return recording::read_storage(folder_ / file).data; }
 
   /// sum r F and the reserve against the torque of inverse dynamics; returns the forces.
   TimeSeries check_torque(const std::string& name, const std::vector<std::string>& loads) const {
@@ -113,8 +106,8 @@ TEST_F(ForceSharing, AMeasuredLoadIsCarriedByTheMuscles) {
 }
 
 TEST_F(ForceSharing, AnUnknownTendonIsRefusedWithTheTwoThereAre) {
-  const Finished finished = myoid({"so", "--model", "arm4", "--motion", folder_ / "m.mot", "--out",
-                                   folder_ / "so", "--tendon", "soft"});
+  const Finished finished =
+      myoid({"so", "--model", "arm4", "--motion", folder_ / "m.mot", "--out", folder_ / "so", "--tendon", "soft"});
   EXPECT_EQ(finished.exit_code, 2);
   EXPECT_THAT(finished.err, ::testing::HasSubstr("elastic"));
 }

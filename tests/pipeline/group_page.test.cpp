@@ -28,14 +28,12 @@ void make_runs(const TemporaryFolder& folder) {
     const double strength = i == 5 ? 3000.0 : 600.0 + 10.0 * i;
     std::string rows = "muscle,parameter,unit,method,case,estimate,ci_low,ci_high,verdict\n";
     for (const char* muscle : {"BIC", "BRA", "BRD", "TRI"}) {
-      rows += fmt::format("{},max_isometric_force,N,torque,both,{},{},{},identified\n", muscle,
-                          strength, strength - 50.0, strength + 50.0);
-      rows += fmt::format("{},optimal_fiber_length,m,torque,both,0.1,0.05,0.15,prior_dominated\n",
-                          muscle);
+      rows += fmt::format("{},max_isometric_force,N,torque,both,{},{},{},identified\n", muscle, strength,
+                          strength - 50.0, strength + 50.0);
+      rows += fmt::format("{},optimal_fiber_length,m,torque,both,0.1,0.05,0.15,prior_dominated\n", muscle);
     }
     write_text(place + "/parameters.csv", rows);
-    write_text(place + "/report.html",
-               fmt::format("<!DOCTYPE html><title>{}</title><body>person {}</body>", i, i));
+    write_text(place + "/report.html", fmt::format("<!DOCTYPE html><title>{}</title><body>person {}</body>", i, i));
   }
 }
 
@@ -48,9 +46,8 @@ TEST(GroupPage, LeadsFromThePersonWhoIsFarFromTheOthersToTheReport) {
   EXPECT_THAT(done.out, HasSubstr("report.html"));
   Browser browser(1280, 900);
   browser.open("file://" + std::string(folder / "group/report.html"));
-  EXPECT_THAT(
-      browser.evaluate("document.querySelector('.headline').textContent").get<std::string>(),
-      HasSubstr("Person_5, BIC max isometric force"));
+  EXPECT_THAT(browser.evaluate("document.querySelector('.headline').textContent").get<std::string>(),
+              HasSubstr("Person_5, BIC max isometric force"));
   EXPECT_EQ(browser.evaluate("document.querySelectorAll('svg.strip .ring').length"), 4);
   // The mark lies where the number is: the outlier is right of everybody.
   const auto place = [&](int row) {
@@ -77,8 +74,7 @@ TEST(GroupPage, LeadsFromThePersonWhoIsFarFromTheOthersToTheReport) {
     EXPECT_LE(browser.evaluate("document.documentElement.scrollWidth").get<int>(), width);
   }
   EXPECT_THAT(browser.complaints(), IsEmpty());
-  browser.evaluate(
-      "[...document.querySelectorAll('a')].find((a) => a.textContent === 'Person_5').click()");
+  browser.evaluate("[...document.querySelectorAll('a')].find((a) => a.textContent === 'Person_5').click()");
   browser.wait_for("document.body.textContent.includes('person 5')");
 }
 

@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 std::set<std::string> all_matches(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);
   std::set<std::string> found;
-  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
-    found.insert((*it)[1]);
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it) found.insert((*it)[1]);
   return found;
 }
 
@@ -60,23 +59,19 @@ TEST_F(HelpFiles, NameEveryCommandAndEveryOptionOfItsHelp) {
   const std::string bash = read_text(folder / "help/bash/myoid");
   const std::string zsh = read_text(folder / "help/zsh/_myoid");
   const std::string fish = read_text(folder / "help/fish/myoid.fish");
-  const auto escaped = [](const std::string& text) {
-    return std::regex_replace(text, std::regex("-"), "\\-");
-  };
+  const auto escaped = [](const std::string& text) { return std::regex_replace(text, std::regex("-"), "\\-"); };
   std::size_t options = 0;
   ASSERT_GT(commands().size(), 20U);
   for (const std::string& command : commands()) {
     EXPECT_THAT(page, HasSubstr(".B " + escaped(command) + "\n"));
     const std::string own = read_text(folder / ("help/man1/myoid-" + command + ".1"));
-    const std::set<std::string> words =
-        all_matches(bash, "\n    " + command + "\\) words=\"([^\"]*)\"");
+    const std::set<std::string> words = all_matches(bash, "\n    " + command + "\\) words=\"([^\"]*)\"");
     ASSERT_EQ(words.size(), 1U) << command;
     const std::string of_bash = *words.begin() + " ";
     const std::size_t begin = zsh.find("\n    " + command + ")\n");
     ASSERT_NE(begin, std::string::npos) << command;
     const std::string of_zsh = zsh.substr(begin, zsh.find(";;", begin) - begin);
-    for (const std::string& option :
-         all_matches(myoid({command, "--help"}).out, "\n  (?:-\\w,)?--([\\w-]+)")) {
+    for (const std::string& option : all_matches(myoid({command, "--help"}).out, "\n  (?:-\\w,)?--([\\w-]+)")) {
       ++options;
       EXPECT_THAT(own, HasSubstr("\\fB\\-\\-" + escaped(option) + "\\fR")) << command;
       EXPECT_THAT(of_bash, HasSubstr("--" + option + " ")) << command;
@@ -89,16 +84,14 @@ TEST_F(HelpFiles, NameEveryCommandAndEveryOptionOfItsHelp) {
 
 TEST_F(HelpFiles, AreTheSameBytesEveryTime) {
   ASSERT_EQ(myoid({"help-files", folder / "again"}).exit_code, 0);
-  EXPECT_EQ(
-      said(folder, "diff -r " + (folder / "help").string() + " " + (folder / "again").string()),
-      "");
+  EXPECT_EQ(said(folder, "diff -r " + (folder / "help").string() + " " + (folder / "again").string()), "");
 }
 
 TEST_F(HelpFiles, ManFindsNothingToWarnOf) {
   if (!installed("man")) GTEST_SKIP() << "there is no man";
   for (const auto& entry : fs::directory_iterator(folder / "help/man1")) {
-    const std::string complaint = said(folder, "LC_ALL=C.UTF-8 MANWIDTH=100 man -l --warnings " +
-                                                   entry.path().string() + " 2>&1 >/dev/null");
+    const std::string complaint =
+        said(folder, "LC_ALL=C.UTF-8 MANWIDTH=100 man -l --warnings " + entry.path().string() + " 2>&1 >/dev/null");
     EXPECT_EQ(complaint, "") << entry.path();
   }
 }
@@ -106,8 +99,7 @@ TEST_F(HelpFiles, ManFindsNothingToWarnOf) {
 TEST_F(HelpFiles, BashCompletesCommandsOptionsAndWords) {
   if (!installed("bash")) GTEST_SKIP() << "there is no bash";
   const auto completed = [&](const std::string& words, int at) {
-    write_text(folder / "ask.bash", "source " + (folder / "help/bash/myoid").string() +
-                                        "\nCOMP_WORDS=(" + words +
+    write_text(folder / "ask.bash", "source " + (folder / "help/bash/myoid").string() + "\nCOMP_WORDS=(" + words +
                                         ")\nCOMP_CWORD=" + std::to_string(at) +
                                         "\n_myoid\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
     return said(folder, "bash " + (folder / "ask.bash").string());
@@ -124,10 +116,10 @@ TEST_F(HelpFiles, OtherShellsReadTheirCompletions) {
     EXPECT_EQ(said(folder, "zsh -n " + (folder / "help/zsh/_myoid").string()), "");
   }
   if (!installed("fish")) GTEST_SKIP() << "there is no fish (zsh was asked if it is there)";
-  EXPECT_THAT(said(folder, "cd / && XDG_CONFIG_HOME=" + folder.path().string() +
-                               " fish -c 'source " + (folder / "help/fish/myoid.fish").string() +
-                               "; complete -C \"myoid run --estimator p\"'"),
-              HasSubstr("posterior"));
+  EXPECT_THAT(
+      said(folder, "cd / && XDG_CONFIG_HOME=" + folder.path().string() + " fish -c 'source " +
+                       (folder / "help/fish/myoid.fish").string() + "; complete -C \"myoid run --estimator p\"'"),
+      HasSubstr("posterior"));
 }
 
 }  // namespace

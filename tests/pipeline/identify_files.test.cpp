@@ -32,9 +32,8 @@ struct Muscle {
   std::array<double, 6> x;
   double v_max, slack;
 };
-constexpr std::array<const char*, 6> kNames{"max_isometric_force",         "optimal_fiber_length",
-                                            "force_length_width",          "concentric_curvature",
-                                            "eccentric_curvature_product", "eccentric_plateau"};
+constexpr std::array<const char*, 6> kNames{"max_isometric_force",  "optimal_fiber_length",        "force_length_width",
+                                            "concentric_curvature", "eccentric_curvature_product", "eccentric_plateau"};
 
 double force(double a, double l_mt, double v, const Muscle& m) {
   const auto& [f_max, l0, l_sh, v_sh, product, v_ml] = m.x;
@@ -61,8 +60,8 @@ std::vector<Muscle> random_muscles(std::uint64_t seed) {
       return low + (high - low) * draw(seed, 10 * k + i);
     };
     const double l0 = between(1, 0.08, 0.16);
-    muscles.push_back({{between(0, 300.0, 2000.0), l0, l0 * between(2, 0.3, 0.55),
-                        between(3, 0.18, 0.45), between(4, 0.06, 0.2), between(5, 1.2, 1.6)},
+    muscles.push_back({{between(0, 300.0, 2000.0), l0, l0 * between(2, 0.3, 0.55), between(3, 0.18, 0.45),
+                        between(4, 0.06, 0.2), between(5, 1.2, 1.6)},
                        l0 * between(6, 7.0, 11.0),
                        k == 0 ? 0.0 : 0.2});
   }
@@ -80,18 +79,14 @@ struct Layout {
 
 std::string sto(const std::string& columns, const std::vector<std::string>& rows, const Layout& o) {
   const auto count = std::count(columns.begin(), columns.end(), '\t') + 1;
-  std::string text =
-      fmt::format("made elsewhere\nversion=1\nnRows={}\nnColumns={}\n{}\nendheader\n{}\n",
-                  rows.size(), count, o.title, columns);
+  std::string text = fmt::format("made elsewhere\nversion=1\nnRows={}\nnColumns={}\n{}\nendheader\n{}\n", rows.size(),
+                                 count, o.title, columns);
   for (const std::string& row : rows) text += row + "\n";
   return text;
 }
 
 /// a1.sto, l1.sto, v1.sto, f1.sto, r1.sto, t1.sto (or a1.csv) of trial `number`.
-void write_trial(const TemporaryFolder& folder,
-                 const std::vector<Muscle>& muscles,
-                 int number,
-                 const Layout& o = {}) {
+void write_trial(const TemporaryFolder& folder, const std::vector<Muscle>& muscles, int number, const Layout& o = {}) {
   std::vector<std::string> a, l, v, f, r, t;
   const double w = 1.6 + 0.9 * number;
   const auto activation = [&](std::size_t k, double time) {
@@ -105,8 +100,8 @@ void write_trial(const TemporaryFolder& folder,
     for (std::size_t k = 0; k < 2; ++k) {
       const double l0 = muscles[k].x[1], sign = k == 0 ? 1.0 : -1.0;
       const double swing = 0.28 * l0, quick = 0.1 * l0;
-      length[k] = muscles[k].slack + l0 * 1.02 + sign * swing * std::sin(w * time) +
-                  quick * std::sin(3.7 * time + number);
+      length[k] =
+          muscles[k].slack + l0 * 1.02 + sign * swing * std::sin(w * time) + quick * std::sin(3.7 * time + number);
       rate[k] = sign * swing * w * std::cos(w * time) + 3.7 * quick * std::cos(3.7 * time + number);
       pull[k] = force(activation(k, time), length[k], rate[k], muscles[k]);
     }
@@ -117,13 +112,11 @@ void write_trial(const TemporaryFolder& folder,
     r.push_back(fmt::format("{}\t{}\t{}", time, arm, other));
     t.push_back(fmt::format("{}\t{}\t0.5", time, arm * pull[0] + other * pull[1]));
   }
-  const auto moments =
-      static_cast<int>(std::lround((o.seconds - o.activation_start_s) * o.activation_rate_hz));
+  const auto moments = static_cast<int>(std::lround((o.seconds - o.activation_start_s) * o.activation_rate_hz));
   for (int i = 0; i <= moments; ++i) {
     const double time = o.activation_start_s + i / o.activation_rate_hz;
-    a.push_back(o.activations_as_csv
-                    ? fmt::format("{},{},0.1,{}", time, activation(1, time), activation(0, time))
-                    : fmt::format("{}\t{}\t{}", time, activation(0, time), activation(1, time)));
+    a.push_back(o.activations_as_csv ? fmt::format("{},{},0.1,{}", time, activation(1, time), activation(0, time))
+                                     : fmt::format("{}\t{}\t{}", time, activation(0, time), activation(1, time)));
   }
   const std::string n = std::to_string(number);
   if (o.activations_as_csv) {
@@ -154,8 +147,7 @@ void write_muscles(const TemporaryFolder& folder,
       more_columns + "\n";
   for (std::size_t k = 0; k < 2; ++k) {
     text += k == 0 ? "A" : "B";
-    for (std::size_t i = 0; i < 6; ++i)
-      text += fmt::format(",{}", muscles[k].x[i] * (k == 0 ? off[i] : 2.0 - off[i]));
+    for (std::size_t i = 0; i < 6; ++i) text += fmt::format(",{}", muscles[k].x[i] * (k == 0 ? off[i] : 2.0 - off[i]));
     text += fmt::format(",{},{},true{}\n", muscles[k].v_max, muscles[k].slack, more[k]);
   }
   write_text(folder / "muscles.csv", text);
@@ -165,13 +157,11 @@ std::vector<std::string> command(const TemporaryFolder& folder,
                                  const std::string& method,
                                  int trials,
                                  const std::string& activations = ".sto") {
-  std::vector<std::string> arguments{
-      "identify", "--method", method, "--muscles", folder / "muscles.csv", "--out", folder / "out"};
-  const auto add = [&](const std::string& option, const std::string& letter,
-                       const std::string& extension = ".sto") {
+  std::vector<std::string> arguments{"identify", "--method",    method, "--muscles", folder / "muscles.csv",
+                                     "--out",    folder / "out"};
+  const auto add = [&](const std::string& option, const std::string& letter, const std::string& extension = ".sto") {
     arguments.push_back(option);
-    for (int i = 1; i <= trials; ++i)
-      arguments.push_back(folder / (letter + std::to_string(i) + extension));
+    for (int i = 1; i <= trials; ++i) arguments.push_back(folder / (letter + std::to_string(i) + extension));
   };
   add("--activations", "a", activations);
   add("--lengths", "l");
@@ -244,9 +234,9 @@ TEST(IdentifyFromFiles, VelocitiesAreTheRatesOfTheLengthsWhereNoneAreGiven) {
   const std::vector<Muscle> muscles = random_muscles(6);
   write_trial(folder, muscles, 1);
   write_muscles(folder, muscles, false);
-  const Finished run = myoid({"identify", "--method", "force", "--muscles", folder / "muscles.csv",
-                              "--activations", folder / "a1.sto", "--lengths", folder / "l1.sto",
-                              "--forces", folder / "f1.sto", "--out", folder / "out"});
+  const Finished run =
+      myoid({"identify", "--method", "force", "--muscles", folder / "muscles.csv", "--activations", folder / "a1.sto",
+             "--lengths", folder / "l1.sto", "--forces", folder / "f1.sto", "--out", folder / "out"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   // The natural quintic errs by some 1e-4 of the speed near the ends of the record, of which a
   // tenth of a second is left out.
@@ -300,8 +290,7 @@ TEST(IdentifyFromFiles, SeveralTrialsOfForcesPredictEachOther) {
   for (int i = 1; i <= 3; ++i) write_trial(folder, muscles, i, {.seconds = 5.0});
   // Data that are not exact: the force of trial 1 is of no such muscle.
   std::string forces = "time,A,B\n";
-  for (int i = 0; i <= 500; ++i)
-    forces += fmt::format("{},{},{}\n", 0.01 * i, 100 + i % 7, 200 + i % 5);
+  for (int i = 0; i <= 500; ++i) forces += fmt::format("{},{},{}\n", 0.01 * i, 100 + i % 7, 200 + i % 5);
   write_text(folder / "f1.sto", forces);
   std::filesystem::rename(folder / "f1.sto", folder / "f1.csv");
   write_muscles(folder, muscles, false);
@@ -334,16 +323,13 @@ struct OneShortTrial {
 
 TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
   const OneShortTrial trial;
-  for (const auto& [method, more, said] :
-       std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
+  for (const auto& [method, more, said] : std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
            {"paper", {"--free", "emg_shape"}, "--free emg_shape: the published method has none"},
            {"paper", {"--loss", "huber", "--profile"}, "--loss, --profile: the published method"},
            {"paper", {"--lag", "shared"}, "--lag shared: the published method has none"},
            {"force", {"--lag", "automatic"}, "give --lag delay or shared"},
            {"torque", {"--lag", "shared", "--free", "activation_time"}, "leave one of both out"},
-           {"torque",
-            {"--residual-cutoff", "12"},
-            "--residual-cutoff 12: samples are thinned to 20"},
+           {"torque", {"--residual-cutoff", "12"}, "--residual-cutoff 12: samples are thinned to 20"},
            {"force", {"--free", "joint_viscosity"}, "use --method torque"},
            {"torque", {"--free", "joint_viscosity"}, "give its angles with --motion"}}) {
     const Finished run = trial.identified(method, more);
@@ -354,8 +340,7 @@ TEST(IdentifyFromFiles, WhatTheMethodCannotGiveIsRefusedByName) {
 
 TEST(IdentifyFromFiles, WhatHasNoEffectIsNamedAndWarningsAreNoResult) {
   const OneShortTrial trial;
-  const Finished paper =
-      trial.identified("paper", {"--no-priors", "--torques", trial.folder / "t1.sto"});
+  const Finished paper = trial.identified("paper", {"--no-priors", "--torques", trial.folder / "t1.sto"});
   EXPECT_EQ(paper.exit_code, 0) << paper.err;
   EXPECT_THAT(paper.err, HasSubstr("--no-priors has no effect"));
   EXPECT_THAT(paper.err, HasSubstr("--torques has no effect"));
@@ -414,8 +399,7 @@ TEST(IdentifyFromFiles, SamplesAreThinnedAsARunThinsThemAndItIsSaid) {
     all.insert(all.end(), {"--overwrite", "--folds", "none"});
     return myoid(all);
   };
-  // 10 s less 0.1 s on either end and the 0.15 s that EMG must reach back: at 20 Hz 0.15 s to 9.9
-  // s.
+  // 10 s less 0.1 s on either end and the 0.15 s that EMG must reach back: at 20 Hz 0.15 s to 9.9 s.
   const Finished usual = with({});
   EXPECT_THAT(usual.out, HasSubstr("196 of 2001 samples are fitted: at most 20 a second"));
   const std::string json = myoid::test::read_text(folder / "out/parameters.json");
@@ -435,8 +419,7 @@ TEST(IdentifyFromFiles, MethodPaperHoldsWhatIsFixedAndComparesItsOwnProblem) {
   for (const Row& row : myoid::test::read_rows(folder / "out/parameters.csv"))
     EXPECT_FALSE(row.at("muscle") == "A" && row.at("parameter") == "force_length_width");
   std::vector<std::string> fits;
-  for (const Row& row : myoid::test::read_rows(folder / "out/solvers.csv"))
-    fits.push_back(row.at("fit"));
+  for (const Row& row : myoid::test::read_rows(folder / "out/solvers.csv")) fits.push_back(row.at("fit"));
   EXPECT_EQ(fits.size(), 16u);  // two muscles, two branches, four solvers
   EXPECT_EQ(std::count(fits.begin(), fits.end(), "B lengthening"), 4);
 }
@@ -448,8 +431,7 @@ TEST(IdentifyFromFiles, LagsThatAreFreedActAndAVmaxThatNobodyStatesIsFree) {
   write_muscles(folder, muscles, false);
   // Not exact: one force is 3 % off here and there.
   std::string forces = "time,A,B\n";
-  for (int i = 0; i <= 600; ++i)
-    forces += fmt::format("{},{},{}\n", 0.01 * i, 100 + i % 7, 200 + i % 5);
+  for (int i = 0; i <= 600; ++i) forces += fmt::format("{},{},{}\n", 0.01 * i, 100 + i % 7, 200 + i % 5);
   write_text(folder / "f1.csv", forces);
   std::vector<std::string> arguments = command(folder, "force", 1);
   for (std::string& argument : arguments) {
@@ -476,8 +458,7 @@ TEST(IdentifyFromFiles, LagsThatAreFreedActAndAVmaxThatNobodyStatesIsFree) {
   std::filesystem::remove_all(folder / "out");
   std::string text = myoid::test::read_text(folder / "muscles.csv");
   text.erase(text.find(",max_shortening_speed_fixed"), 27);
-  for (std::size_t at = text.find(",true"); at != std::string::npos; at = text.find(",true"))
-    text.erase(at, 5);
+  for (std::size_t at = text.find(",true"); at != std::string::npos; at = text.find(",true")) text.erase(at, 5);
   write_text(folder / "muscles.csv", text);
   const Finished free = myoid(arguments);
   EXPECT_EQ(speeds(), 2) << free.err;

@@ -29,15 +29,14 @@ constexpr Truth kOneJoint{1500.0, 0.09, 0.040};
 double law(double a, double l, double v, const Truth& p) {
   const double f_l = std::exp(-std::pow((l - p.length_m) / p.width_m, 2));
   const double v_max = 1.0, v_sh = 0.3, product = 0.12, v_ml = 1.35;
-  const double f_v = v <= 0.0 ? v_sh * (v_max + v) / (v_sh * v_max - v)
-                              : (product * v_max + v_ml * v) / (product * v_max + v);
+  const double f_v =
+      v <= 0.0 ? v_sh * (v_max + v) / (v_sh * v_max - v) : (product * v_max + v_ml * v) / (product * v_max + v);
   return a * f_l * f_v * p.force_n;
 }
 
 /// Every file's first lines; then the rows.
 std::string header(const std::string& columns, int count) {
-  return fmt::format("x\nversion=1\nnRows=801\nnColumns={}\ninDegrees=no\nendheader\ntime\t{}\n",
-                     count + 1, columns);
+  return fmt::format("x\nversion=1\nnRows=801\nnColumns={}\ninDegrees=no\nendheader\ntime\t{}\n", count + 1, columns);
 }
 
 void write_files(const TemporaryFolder& folder) {
@@ -113,10 +112,9 @@ TEST(IdentifyTwoJoints, AMomentArmFileTooFewIsNamedWithTheOrderExpected) {
   const TemporaryFolder folder;
   write_files(folder);
   const Finished run =
-      myoid({"identify", "--muscles", folder / "muscles.csv", "--activations", folder / "a.sto",
-             "--lengths", folder / "l.sto", "--velocities", folder / "v.sto", "--moment-arms",
-             folder / "hip.sto", "--torques", folder / "id.sto", "--coordinate", "hip", "knee",
-             "--out", folder / "out"});
+      myoid({"identify", "--muscles", folder / "muscles.csv", "--activations", folder / "a.sto", "--lengths",
+             folder / "l.sto", "--velocities", folder / "v.sto", "--moment-arms", folder / "hip.sto", "--torques",
+             folder / "id.sto", "--coordinate", "hip", "knee", "--out", folder / "out"});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.err, HasSubstr("in the order of --coordinate"));
 }

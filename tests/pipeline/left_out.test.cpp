@@ -75,16 +75,15 @@ std::vector<double> predicted(const TrialFiles& trial,
                               const fs::path& parameters_csv,
                               bool shared) {
   const std::map<std::string, Numbers> fitted = estimates(parameters_csv);
-  const Table a = read_table(trial.activations), l = read_table(trial.lengths),
-              v = read_table(trial.velocities), r = read_table(trial.arms);
+  const Table a = read_table(trial.activations), l = read_table(trial.lengths), v = read_table(trial.velocities),
+              r = read_table(trial.arms);
   const std::vector<double>& time = l.of("time");
   std::vector<double> torque(time.size(), 0.0);
   for (const Row& row : read_rows(muscles_csv)) {
     const std::string& name = row.at("muscle");
     Numbers m;
     for (const auto& [key, cell] : row) {
-      if (key != "muscle" && key != "emg" && !cell.empty() && cell != "true")
-        m.value[key] = std::stod(cell);
+      if (key != "muscle" && key != "emg" && !cell.empty() && cell != "true") m.value[key] = std::stod(cell);
     }
     for (const auto& [key, value] : fitted.at(name).value) m.value[key] = value;
     const double delay_s = fitted.at("subject").value.at("emg_delay");
@@ -102,8 +101,7 @@ Finished identify(const fs::path& muscles_csv,
                   const std::string& out,
                   const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{
-      "identify", "--muscles", muscles_csv.string(), "--coordinate", trials[0].torque_column,
-      "--out",    out};
+      "identify", "--muscles", muscles_csv.string(), "--coordinate", trials[0].torque_column, "--out", out};
   const auto add = [&](const char* option, fs::path TrialFiles::*file) {
     arguments.emplace_back(option);
     for (const TrialFiles& t : trials) arguments.push_back((t.*file).string());
@@ -130,16 +128,14 @@ void expect_reproducible(const fs::path& muscles_csv,
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left));
     const std::string out = folder / fmt::format("without_{}", left);
     ASSERT_NE(identify(muscles_csv, others, out, {"--folds", "none"}).exit_code, 3);
-    const std::vector<double> torque =
-        predicted(trials[left], muscles_csv, fs::path(out) / "parameters.csv",
-                  shares_lags(fs::path(out) / "parameters.json"));
+    const std::vector<double> torque = predicted(trials[left], muscles_csv, fs::path(out) / "parameters.csv",
+                                                 shares_lags(fs::path(out) / "parameters.json"));
     const Table measured = read_table(trials[left].torques);
     std::vector<double> on_clock;
     const Table lengths = read_table(trials[left].lengths);
     for (const double t : lengths.of("time"))
       on_clock.push_back(between(measured.of("time"), measured.of(trials[left].torque_column), t));
-    EXPECT_NEAR(folds[left].at("identified").at("r2").get<double>(),
-                myoid::test::r2_of(on_clock, torque), kSame)
+    EXPECT_NEAR(folds[left].at("identified").at("r2").get<double>(), myoid::test::r2_of(on_clock, torque), kSame)
         << "without trial " << left + 1;
     // fold_parameters.csv has the same numbers.
     const std::string name = folds[left].at("trial");
@@ -155,8 +151,7 @@ void expect_reproducible(const fs::path& muscles_csv,
     if (left > 0) continue;
     // --validate is the same fit, and predicts the trial by the law.
     const std::string held = folder / "held";
-    ASSERT_NE(identify(muscles_csv, trials, held, {"--folds", "none", "--validate", "1"}).exit_code,
-              3);
+    ASSERT_NE(identify(muscles_csv, trials, held, {"--folds", "none", "--validate", "1"}).exit_code, 3);
     const std::map<std::string, Numbers> fitted = estimates(fs::path(held) / "parameters.csv");
     ASSERT_EQ(fitted.size(), alone.size());
     for (const auto& [owner, numbers] : alone) {
@@ -179,8 +174,7 @@ std::string storage(const std::string& names, const std::vector<std::string>& ro
   return text;
 }
 
-/// Two muscles against each other whose torque this law makes, and something that is none of
-/// theirs.
+/// Two muscles against each other whose torque this law makes, and something that is none of theirs.
 TrialFiles write_trial(const TemporaryFolder& folder, int number) {
   const std::string n = std::to_string(number);
   const std::vector<Numbers> muscles{{{{"max_isometric_force", 900.0},
@@ -217,9 +211,8 @@ TrialFiles write_trial(const TemporaryFolder& folder, int number) {
     r.push_back(fmt::format("{}\t{}\t-0.024", s, arm));
     t.push_back(fmt::format("{}\t{}", s, torque));
   }
-  const TrialFiles files{folder / ("a" + n + ".sto"), folder / ("l" + n + ".sto"),
-                         folder / ("v" + n + ".sto"), folder / ("r" + n + ".sto"),
-                         folder / ("t" + n + ".sto"), "elbow"};
+  const TrialFiles files{folder / ("a" + n + ".sto"), folder / ("l" + n + ".sto"), folder / ("v" + n + ".sto"),
+                         folder / ("r" + n + ".sto"), folder / ("t" + n + ".sto"), "elbow"};
   const std::string names = "time\tA\tB";
   write_text(files.activations, storage(names, a));
   write_text(files.lengths, storage(names, l));
@@ -248,9 +241,9 @@ TEST(LeftOut, R2OfAWalkingLegIsThatOfAFitWithoutTheTrial) {
   std::vector<TrialFiles> trials;
   for (const std::string walk : {"walk36", "walk45"}) {
     const fs::path out = folder / walk;
-    const Finished paths = myoid({"paths", "--model", (data / "gait2392.osim").string(), "--motion",
-                                  (data / walk / "ik.sto").string(), "--lowpass", "6", "--start",
-                                  "5", "--end", "13", "--out", out.string()});
+    const Finished paths =
+        myoid({"paths", "--model", (data / "gait2392.osim").string(), "--motion", (data / walk / "ik.sto").string(),
+               "--lowpass", "6", "--start", "5", "--end", "13", "--out", out.string()});
     ASSERT_EQ(paths.exit_code, 0) << paths.err;
     trials.push_back({data / walk / "emgFilt.sto", out / "MuscleAnalysis_Length.sto",
                       out / "MuscleAnalysis_MuscleTendonVelocity.sto",
@@ -265,8 +258,7 @@ TEST(LeftOut, R2OfAWalkingLegIsThatOfAFitWithoutTheTrial) {
 std::vector<TrialFiles> write_ankle_trials(const fs::path& data, const TemporaryFolder& folder) {
   constexpr double kEmg_hz = 2000.0, kStep_s = 0.01, kOffset_deg = 15.0;
   constexpr std::size_t kEmgPerStep = 20;
-  const std::vector<std::string> names{"PL_0_01",   "PL_50_01",    "PL_50_03",
-                                       "PL_100_01", "Ref_Long_01", "Ref_Long_02"};
+  const std::vector<std::string> names{"PL_0_01", "PL_50_01", "PL_50_03", "PL_100_01", "Ref_Long_01", "Ref_Long_02"};
   const TibialisTorque tibialis(data);
   const auto arm_cm = read_columns(data / "ta_moment_arm.csv", 1);
   std::vector<std::vector<double>> envelopes;
@@ -286,17 +278,14 @@ std::vector<TrialFiles> write_ankle_trials(const fs::path& data, const Temporary
     length = moving_mean(moving_mean(length, 10), 10);  // frames of 30 ms
     std::vector<std::string> a, l, v, r, t;
     for (std::size_t i = 0; kEmgPerStep * i < envelopes[k].size(); ++i)
-      a.push_back(fmt::format("{}\t{}", kStep_s * static_cast<double>(i),
-                              envelopes[k][kEmgPerStep * i] / most));
+      a.push_back(fmt::format("{}\t{}", kStep_s * static_cast<double>(i), envelopes[k][kEmgPerStep * i] / most));
     for (std::size_t i = 0; i < count; ++i) {
       const double s = f[0][0] + kStep_s * static_cast<double>(i), crank = between(d[0], d[2], s);
       const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(count - 1, i + 1);
-      const double rate =
-          (length[after] - length[before]) / (kStep_s * static_cast<double>(after - before));
+      const double rate = (length[after] - length[before]) / (kStep_s * static_cast<double>(after - before));
       l.push_back(fmt::format("{}\t{}", s, length[i]));
       v.push_back(fmt::format("{}\t{}", s, rate));
-      r.push_back(
-          fmt::format("{}\t{}", s, 1e-2 * between(arm_cm[0], arm_cm[2], crank + kOffset_deg)));
+      r.push_back(fmt::format("{}\t{}", s, 1e-2 * between(arm_cm[0], arm_cm[2], crank + kOffset_deg)));
       t.push_back(fmt::format("{}\t{}", s, tibialis(between(d[0], d[1], s), crank)));
     }
     const auto write = [&](const char* kind, const char* column, const auto& rows) {
@@ -304,8 +293,8 @@ std::vector<TrialFiles> write_ankle_trials(const fs::path& data, const Temporary
       write_text(file, storage(std::string("time\t") + column, rows));
       return file;
     };
-    trials.push_back({write("_a", "TA", a), write("_l", "TA", l), write("_v", "TA", v),
-                      write("_r", "TA", r), write("_t", "ankle", t), "ankle"});
+    trials.push_back({write("_a", "TA", a), write("_l", "TA", l), write("_v", "TA", v), write("_r", "TA", r),
+                      write("_t", "ankle", t), "ankle"});
   }
   return trials;
 }
@@ -370,8 +359,7 @@ double r2_by_law(const fs::path& run, const fs::path& model, const std::string& 
   const Table q = read_table(place / "ik.mot"), id = read_table(place / "id.sto");
   const std::vector<double>& time = l.of("time");
   std::vector<double> torque(time.size(), 0.0), measured;
-  for (const double t : time)
-    measured.push_back(between(id.of("time"), id.of(joint + "_moment"), t));
+  for (const double t : time) measured.push_back(between(id.of("time"), id.of(joint + "_moment"), t));
   for (const auto& [name, numbers] : fitted) {
     if (!numbers.value.contains("max_isometric_force")) continue;
     const bool own = std::find(a.names.begin(), a.names.end(), name) != a.names.end();
@@ -379,16 +367,14 @@ double r2_by_law(const fs::path& run, const fs::path& model, const std::string& 
     Numbers m = numbers;
     m.value["tendon_slack_length"] = property(osim, name, "tendon_slack_length");
     if (!m.value.contains("max_shortening_speed"))
-      m.value["max_shortening_speed"] = property(osim, name, "max_contraction_velocity") *
-                                        property(osim, name, "optimal_fiber_length");
-    const std::vector<double> u = follow(a.of("time"), a.of(electrode), time,
-                                         fitted.at("subject").value.at("emg_delay"), shared);
+      m.value["max_shortening_speed"] =
+          property(osim, name, "max_contraction_velocity") * property(osim, name, "optimal_fiber_length");
+    const std::vector<double> u =
+        follow(a.of("time"), a.of(electrode), time, fitted.at("subject").value.at("emg_delay"), shared);
     const Numbers& channel = fitted.at(electrode);
     for (std::size_t i = 0; i < time.size(); ++i) {
-      const double active =
-          channel.get("emg_gain", 1.0) * std::pow(u[i], channel.get("emg_exponent", 1.0));
-      torque[i] += between(r.of("time"), r.of(name), time[i]) *
-                   tension(active, l.of(name)[i], v.of(name)[i], m);
+      const double active = channel.get("emg_gain", 1.0) * std::pow(u[i], channel.get("emg_exponent", 1.0));
+      torque[i] += between(r.of("time"), r.of(name), time[i]) * tension(active, l.of(name)[i], v.of(name)[i], m);
     }
   }
   if (const auto of_joint = fitted.find(joint); of_joint != fitted.end()) {
@@ -406,9 +392,7 @@ double r2_by_law(const fs::path& run, const fs::path& model, const std::string& 
 TEST(LeftOut, R2OfRunIsThatOfAStudyThatHoldsTheTrialBack) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kProtocol);
-  ASSERT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--seed", "3", "--out", folder / "rec"})
-                .exit_code,
-            0);
+  ASSERT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--seed", "3", "--out", folder / "rec"}).exit_code, 0);
   const fs::path study = fs::path(folder / "rec") / "study.toml";
   const Finished whole = myoid({"run", study.string(), "--out", folder / "all"});
   ASSERT_NE(whole.exit_code, 3) << whole.err;
@@ -426,8 +410,7 @@ TEST(LeftOut, R2OfRunIsThatOfAStudyThatHoldsTheTrialBack) {
     const Finished done = myoid({"run", study.string(), "--out", run.string()});
     ASSERT_NE(done.exit_code, 3) << done.err;
     const double printed = fold.at("identified").at("r2").get<double>();
-    EXPECT_NEAR(printed, r2_by_law(run, fs::path(folder / "rec") / "model.osim", trial), kSame)
-        << trial;
+    EXPECT_NEAR(printed, r2_by_law(run, fs::path(folder / "rec") / "model.osim", trial), kSame) << trial;
     // The run that holds the trial back says the same of it.
     const nlohmann::json held_back = json_of(run / "parameters.json");
     for (const auto& method : held_back.at("methods")) {
@@ -448,12 +431,11 @@ TEST(LeftOut, BlocksOfTrialsThatAreTooShortAreRefusedWithTheReason) {
              "tendon_slack_length\n"
              "A,700,0.12,0.054,0.28,1.5,1.4,1.2,0.2\nB,1800,0.095,0.043,0.28,1.5,1.4,0.95,0.15\n");
   const std::vector<TrialFiles> trials{write_trial(folder, 1), write_trial(folder, 2)};
-  const Finished few = identify(folder / "muscles.csv", trials, folder / "few",
-                                {"--folds", "block", "--end", "2.5"});
+  const Finished few = identify(folder / "muscles.csv", trials, folder / "few", {"--folds", "block", "--end", "2.5"});
   EXPECT_NE(few.exit_code, 3) << few.err;
   EXPECT_NE(few.out.find("blocks need trials of 3.3 s or more"), std::string::npos) << few.out;
-  const Finished enough = identify(folder / "muscles.csv", trials, folder / "enough",
-                                   {"--folds", "block", "--end", "5"});
+  const Finished enough =
+      identify(folder / "muscles.csv", trials, folder / "enough", {"--folds", "block", "--end", "5"});
   EXPECT_NE(enough.out.find("block 5 of 5"), std::string::npos) << enough.out << enough.err;
 }
 

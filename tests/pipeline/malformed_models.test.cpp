@@ -1,5 +1,4 @@
-// Models and set-up files that are broken in the ways files break: a clear error, soon, and nothing
-// written.
+// Models and set-up files that are broken in the ways files break: a clear error, soon, and nothing written.
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -72,37 +71,34 @@ struct Broken {
 };
 
 std::vector<Broken> broken_models() {
-  return {
-      {"empty", "", "is empty"},
-      {"no XML", "Dear reader,\nthis is no model.\n", "not valid XML"},
-      {"truncated", kModel.substr(0, kModel.size() / 2), "cut off"},
-      {"cut after a tag", kModel.substr(0, kModel.find("<JointSet>")), "cut off"},
-      {"another document", "<?xml version=\"1.0\"?>\n<html><body/></html>\n", "<OpenSimDocument>"},
-      {"no model", "<OpenSimDocument Version=\"40000\"/>", "no <Model>"},
-      {"no bodies", "<OpenSimDocument Version=\"40000\"><Model name=\"m\"/></OpenSimDocument>",
-       "BodySet"},
-      {"10 MB of nesting", nested(10'000'000), "cut off"},
-      {"cyclic", with("/ground<", "/bodyset/lower<"), "hangs on"},
-      {"a frame on itself",
-       with("<socket_parent>/bodyset/upper<", "<socket_parent>elbow_in_upper<"),
-       "refers to itself"},
-      {"a body jointed to itself", with("/ground<", "/bodyset/upper<"), "with itself"},
-      {"missing socket", with("<socket_child_frame>/bodyset/lower</socket_child_frame>", ""),
-       "'child_frame' is missing"},
-      {"socket to nowhere", with("/bodyset/lower</socket_child", "/bodyset/none</socket_child"),
-       "no frame '/bodyset/none'"},
-      {"joint without parent", with("<socket_parent_frame>/ground</socket_parent_frame>", ""),
-       "'parent_frame' is missing"},
-      {"body without joint",
-       with("</objects></BodySet>",
-            "<Body name=\"alone\"><mass>1</mass><inertia>1 1 1 0 0 0</inertia>"
-            "</Body></objects></BodySet>"),
-       "'alone' is not connected"},
-      {"two bodies of one name", with("name=\"lower\"", "name=\"upper\""), "two bodies"},
-      {"negative mass", with("<mass>1<", "<mass>-1<"), "0 or more"},
-      {"mass that is no number", with("<mass>1<", "<mass>heavy<"), "'heavy'"},
-      {"vector of two numbers", with("0 -0.1 0<", "0 -0.1<"), "three numbers"},
-      {"marker at infinity", with("0 -0.2 0<", "0 inf 0<"), "finite"}};
+  return {{"empty", "", "is empty"},
+          {"no XML", "Dear reader,\nthis is no model.\n", "not valid XML"},
+          {"truncated", kModel.substr(0, kModel.size() / 2), "cut off"},
+          {"cut after a tag", kModel.substr(0, kModel.find("<JointSet>")), "cut off"},
+          {"another document", "<?xml version=\"1.0\"?>\n<html><body/></html>\n", "<OpenSimDocument>"},
+          {"no model", "<OpenSimDocument Version=\"40000\"/>", "no <Model>"},
+          {"no bodies", "<OpenSimDocument Version=\"40000\"><Model name=\"m\"/></OpenSimDocument>", "BodySet"},
+          {"10 MB of nesting", nested(10'000'000), "cut off"},
+          {"cyclic", with("/ground<", "/bodyset/lower<"), "hangs on"},
+          {"a frame on itself", with("<socket_parent>/bodyset/upper<", "<socket_parent>elbow_in_upper<"),
+           "refers to itself"},
+          {"a body jointed to itself", with("/ground<", "/bodyset/upper<"), "with itself"},
+          {"missing socket", with("<socket_child_frame>/bodyset/lower</socket_child_frame>", ""),
+           "'child_frame' is missing"},
+          {"socket to nowhere", with("/bodyset/lower</socket_child", "/bodyset/none</socket_child"),
+           "no frame '/bodyset/none'"},
+          {"joint without parent", with("<socket_parent_frame>/ground</socket_parent_frame>", ""),
+           "'parent_frame' is missing"},
+          {"body without joint",
+           with("</objects></BodySet>",
+                "<Body name=\"alone\"><mass>1</mass><inertia>1 1 1 0 0 0</inertia>"
+                "</Body></objects></BodySet>"),
+           "'alone' is not connected"},
+          {"two bodies of one name", with("name=\"lower\"", "name=\"upper\""), "two bodies"},
+          {"negative mass", with("<mass>1<", "<mass>-1<"), "0 or more"},
+          {"mass that is no number", with("<mass>1<", "<mass>heavy<"), "'heavy'"},
+          {"vector of two numbers", with("0 -0.1 0<", "0 -0.1<"), "three numbers"},
+          {"marker at infinity", with("0 -0.2 0<", "0 inf 0<"), "finite"}};
 }
 
 double children_cpu_s() {
@@ -119,8 +115,8 @@ TEST(MalformedModels, TheModelThatIsBrokenBelowWorks) {
   write_text(folder / "m.osim", kModel);
   write_text(folder / "m.trc", kMarkers);
   EXPECT_EQ(myoid({"info", folder / "m.osim"}).exit_code, 0);
-  const Finished ik = myoid({"ik", "--model", folder / "m.osim", "--markers", folder / "m.trc",
-                             "--out", folder / "ik.mot"});
+  const Finished ik =
+      myoid({"ik", "--model", folder / "m.osim", "--markers", folder / "m.trc", "--out", folder / "ik.mot"});
   EXPECT_EQ(ik.exit_code, 0) << ik.err;
 }
 
@@ -131,8 +127,7 @@ TEST(MalformedModels, AreAClearErrorInUnderASecond) {
     write_text(model, broken.text);
     write_text(folder / "m.trc", kMarkers);
     for (const auto& command : std::vector<std::vector<std::string>>{
-             {"info", model},
-             {"ik", "--model", model, "--markers", folder / "m.trc", "--out", folder / "ik.mot"}}) {
+             {"info", model}, {"ik", "--model", model, "--markers", folder / "m.trc", "--out", folder / "ik.mot"}}) {
       const double before = children_cpu_s();
       const Finished done = myoid(command);
       EXPECT_LT(children_cpu_s() - before, 1.0) << broken.how;

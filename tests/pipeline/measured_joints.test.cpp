@@ -44,14 +44,12 @@ class MeasuredJoints : public testing::TestWithParam<const char*> {
   }
   static void expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::string& who);
 };
-INSTANTIATE_TEST_SUITE_P(By,
-                         MeasuredJoints,
-                         testing::Values("least_squares", "posterior"),
-                         [](const auto& of) { return std::string(of.param); });
+INSTANTIATE_TEST_SUITE_P(By, MeasuredJoints, testing::Values("least_squares", "posterior"), [](const auto& of) {
+  return std::string(of.param);
+});
 
 /// Fits two muscles to two efforts at one angle; the verdicts of lengths and widths.
-void MeasuredJoints::expect_nothing_of_lengths(const std::vector<Effort>& efforts,
-                                               const std::string& who) {
+void MeasuredJoints::expect_nothing_of_lengths(const std::vector<Effort>& efforts, const std::string& who) {
   constexpr double kEmg_hz = 2000.0, kNewtonPerKgf = 9.80665, kLever_m = 0.3;
   const TemporaryFolder folder;
   double most[2] = {0.0, 0.0};
@@ -63,13 +61,11 @@ void MeasuredJoints::expect_nothing_of_lengths(const std::vector<Effort>& effort
              "muscle,max_isometric_force,optimal_fiber_length,force_length_width,"
              "concentric_curvature,eccentric_slope_ratio,eccentric_plateau,max_shortening_speed\n"
              "E,3000,0.1,0.045,0.28,1.5,1.4,1\nF,1500,0.09,0.0405,0.28,1.5,1.4,0.9\n");
-  std::vector<std::string> arguments{"--muscles", folder / "muscles.csv", "--folds", "none",
-                                     "--out",     folder / "out"};
+  std::vector<std::string> arguments{"--muscles", folder / "muscles.csv", "--folds", "none", "--out", folder / "out"};
   std::vector<std::string> a{"--activations"}, l{"--lengths"}, r{"--moment-arms"}, t{"--torques"};
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     const Effort& e = efforts[k];
-    const std::vector<double> one = envelope(e.extensor, kEmg_hz),
-                              two = envelope(e.flexor, kEmg_hz);
+    const std::vector<double> one = envelope(e.extensor, kEmg_hz), two = envelope(e.flexor, kEmg_hz);
     std::string active = "time,E,F\n", lengths = active, arms = active, torques = "time,joint\n";
     for (std::size_t i = 0; i < e.force.size() && 20 * i < one.size(); ++i) {
       const double s = 0.01 * static_cast<double>(i), sign = k == 0 ? 1.0 : -1.0;
@@ -91,14 +87,11 @@ void MeasuredJoints::expect_nothing_of_lengths(const std::vector<Effort>& effort
   ASSERT_NE(done.exit_code, 3) << who << ": " << done.err;
   int judged = 0;
   for (const Row& row : read_rows(folder / "out/parameters.csv")) {
-    if (row.at("parameter") != "optimal_fiber_length" &&
-        row.at("parameter") != "force_length_width")
-      continue;
+    if (row.at("parameter") != "optimal_fiber_length" && row.at("parameter") != "force_length_width") continue;
     ++judged;
     const std::string& verdict = row.at("verdict");
     EXPECT_TRUE(verdict == "prior_dominated" || verdict == "not_identifiable")
-        << who << " " << row.at("muscle") << " " << row.at("parameter") << ": " << verdict << ", "
-        << row.at("reason");
+        << who << " " << row.at("muscle") << " " << row.at("parameter") << ": " << verdict << ", " << row.at("reason");
   }
   EXPECT_EQ(judged, 4);
 }
@@ -116,12 +109,11 @@ TEST_P(MeasuredJoints, OneAngleTellsNothingOfTheForceLengthCurveForAnyOfTenPeopl
       return read_columns(data / (person + "_" + task + "_emg.csv"), 2);
     };
     const auto extension = emg("knee_extension"), flexion = emg("knee_flexion");
-    expect_nothing_of_lengths(
-        {{extension[0], extension[1], force[0]}, {flexion[0], flexion[1], force[1]}},
-        person + " knee");
+    expect_nothing_of_lengths({{extension[0], extension[1], force[0]}, {flexion[0], flexion[1], force[1]}},
+                              person + " knee");
     const auto plantar = emg("plantarflexion"), dorsal = emg("dorsiflexion");
-    expect_nothing_of_lengths(
-        {{plantar[3], plantar[2], force[3]}, {dorsal[3], dorsal[2], force[2]}}, person + " ankle");
+    expect_nothing_of_lengths({{plantar[3], plantar[2], force[3]}, {dorsal[3], dorsal[2], force[2]}},
+                              person + " ankle");
     ++people;
   }
   EXPECT_EQ(people, 10);
@@ -134,8 +126,7 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
   MYOID_REQUIRE_DATA(model);
   constexpr double kEmg_hz = 2000.0;
   const TibialisTorque tibialis(data);
-  const std::vector<std::string> trials{"PL_0_01", "PL_50_01", "PL_100_01", "Ref_Long_01",
-                                        "Ref_Long_02"};
+  const std::vector<std::string> trials{"PL_0_01", "PL_50_01", "PL_100_01", "Ref_Long_01", "Ref_Long_02"};
   const TemporaryFolder folder;
   double most = 0.0;
   std::vector<std::vector<double>> envelopes;
@@ -143,8 +134,7 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
     envelopes.push_back(envelope(read_columns(data / (trial + "_emg.csv"), 1)[1], kEmg_hz));
     most = std::max(most, greatest(envelopes.back(), kEmg_hz));
   }
-  std::vector<std::string> a{"--activations"}, l{"--lengths"}, v{"--velocities"},
-      r{"--moment-arms"}, t{"--torques"};
+  std::vector<std::string> a{"--activations"}, l{"--lengths"}, v{"--velocities"}, r{"--moment-arms"}, t{"--torques"};
   for (std::size_t k = 0; k < trials.size(); ++k) {
     const auto d = read_columns(data / (trials[k] + "_dynamometer.csv"), 1);
     std::string angles, torques = "time,ankle_angle_r\n", active = "time,tib_ant_r\n";
@@ -157,13 +147,12 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
     for (std::size_t i = 0; i < envelopes[k].size(); i += 10)
       active += fmt::format("{},{}\n", static_cast<double>(i) / kEmg_hz, envelopes[k][i] / most);
     const std::string n = std::to_string(k);
-    write_text(folder / ("q" + n + ".mot"),
-               fmt::format("q\nversion=1\nnRows={}\nnColumns=2\ninDegrees=yes\nendheader\n"
-                           "time\tankle_angle_r\n{}",
-                           rows, angles));
+    write_text(folder / ("q" + n + ".mot"), fmt::format("q\nversion=1\nnRows={}\nnColumns=2\ninDegrees=yes\nendheader\n"
+                                                        "time\tankle_angle_r\n{}",
+                                                        rows, angles));
     const std::string out = folder / ("p" + n);
-    ASSERT_EQ(myoid({"paths", "--model", model.string(), "--motion", folder / ("q" + n + ".mot"),
-                     "--lowpass", "6", "--out", out})
+    ASSERT_EQ(myoid({"paths", "--model", model.string(), "--motion", folder / ("q" + n + ".mot"), "--lowpass", "6",
+                     "--out", out})
                   .exit_code,
               0);
     a.push_back(folder / ("a" + n + ".csv"));
@@ -179,13 +168,11 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
                "muscle,max_isometric_force,optimal_fiber_length,tendon_slack_length,"
                "force_length_width,concentric_curvature,eccentric_slope_ratio,eccentric_plateau,"
                "max_shortening_speed" +
-                   more_names + "\ntib_ant_r,905,0.098,0.223,0.0441,0.28,1.5,1.4,0.98" + more +
-                   "\n");
+                   more_names + "\ntib_ant_r,905,0.098,0.223,0.0441,0.28,1.5,1.4,0.98" + more + "\n");
     std::vector<std::string> arguments{
         "--muscles", folder / "muscles.csv", "--coordinate", "ankle_angle_r", "--folds", "none",
         "--out",     folder / "out",         "--overwrite"};
-    for (const auto& list : {a, l, v, r, t})
-      arguments.insert(arguments.end(), list.begin(), list.end());
+    for (const auto& list : {a, l, v, r, t}) arguments.insert(arguments.end(), list.begin(), list.end());
     const Finished done = identify(arguments);
     EXPECT_NE(done.exit_code, 3) << done.err;
     for (const Row& row : read_rows(folder / "out/parameters.csv")) {
@@ -198,8 +185,7 @@ TEST_P(MeasuredJoints, AGenericTendonLeavesRoomForTheFiberLengthThatUltrasoundSe
   const auto [low, high] = interval("", "");
   EXPECT_LT(low, kByUltrasound_m);
   EXPECT_GT(high, kByUltrasound_m);
-  // Stated as measured, it is taken at its word. A posterior may be sharper where a free tendon
-  // moves to.
+  // Stated as measured, it is taken at its word. A posterior may be sharper where a free tendon moves to.
   const auto [sure_low, sure_high] = interval(",tendon_slack_length_fixed", ",true");
   if (std::string(GetParam()) == "least_squares") {
     EXPECT_LT(sure_high - sure_low, 0.6 * (high - low));
@@ -217,20 +203,12 @@ struct Walks {
   std::string warnings;
 };
 
-Walks leave_out_walks(const fs::path& data,
-                      const TemporaryFolder& folder,
-                      const std::vector<std::string>& part) {
-  std::vector<std::string> arguments{"identify",
-                                     "--muscles",
-                                     (data / "muscles.csv").string(),
-                                     "--coordinate",
-                                     "ankle_angle_r_moment",
-                                     "--out",
-                                     folder / "out",
-                                     "--overwrite"};
+Walks leave_out_walks(const fs::path& data, const TemporaryFolder& folder, const std::vector<std::string>& part) {
+  std::vector<std::string> arguments{
+      "identify",     "--muscles",  (data / "muscles.csv").string(), "--coordinate", "ankle_angle_r_moment", "--out",
+      folder / "out", "--overwrite"};
   arguments.insert(arguments.end(), part.begin(), part.end());
-  std::vector<std::string> a{"--activations"}, l{"--lengths"}, v{"--velocities"},
-      r{"--moment-arms"}, t{"--torques"};
+  std::vector<std::string> a{"--activations"}, l{"--lengths"}, v{"--velocities"}, r{"--moment-arms"}, t{"--torques"};
   for (const std::string walk : {"walk36", "walk45"}) {
     a.push_back((data / walk / "emgFilt.sto").string());
     t.push_back((data / walk / "id.sto").string());
@@ -238,16 +216,14 @@ Walks leave_out_walks(const fs::path& data,
     v.push_back(folder / (walk + "/MuscleAnalysis_MuscleTendonVelocity.sto"));
     r.push_back(folder / (walk + "/MuscleAnalysis_MomentArm_ankle_angle_r.sto"));
   }
-  for (const auto& list : {a, l, v, r, t})
-    arguments.insert(arguments.end(), list.begin(), list.end());
+  for (const auto& list : {a, l, v, r, t}) arguments.insert(arguments.end(), list.begin(), list.end());
   const Finished done = myoid(arguments);
   EXPECT_NE(done.exit_code, 3) << done.err;
   Walks found;
   found.warnings = done.err;
   std::ifstream stream(folder / "out/parameters.json");
   const nlohmann::json parameters = nlohmann::json::parse(stream);
-  for (const auto& fold : parameters.at("leave_one_trial_out"))
-    found.r2.push_back(fold.at("identified").at("r2"));
+  for (const auto& fold : parameters.at("leave_one_trial_out")) found.r2.push_back(fold.at("identified").at("r2"));
   return found;
 }
 
@@ -269,8 +245,7 @@ TEST(MeasuredWalk, ThePosteriorOfOneSpeedPredictsTheOtherAsCeinmsSubjectDoes) {
   MYOID_REQUIRE_DATA(data);
   const TemporaryFolder folder;
   add_paths_of_walks(data, folder);
-  const Walks walks =
-      leave_out_walks(data, folder, {"--start", "19", "--end", "24", "--estimator", "posterior"});
+  const Walks walks = leave_out_walks(data, folder, {"--start", "19", "--end", "24", "--estimator", "posterior"});
   ASSERT_EQ(walks.r2.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_GT(walks.r2[k], kCeinms[k]) << k;
 }

@@ -43,15 +43,13 @@ std::string displacement() {
 TEST(MuscleCommand, WritesTheForceUnderAnImposedLength) {
   const TemporaryFolder folder;
   write_text(folder / "d.csv", displacement());
-  const std::vector<std::string> command{"muscle",         "--muscle",     kSoleus, "--length",
-                                         folder / "d.csv", "--scale",      "0.001", "--offset",
-                                         "0.0321",         "--excitation", "1",     "--out",
-                                         folder / "f.sto"};
+  const std::vector<std::string> command{"muscle",  "--muscle", kSoleus,         "--length", folder / "d.csv",
+                                         "--scale", "0.001",    "--offset",      "0.0321",   "--excitation",
+                                         "1",       "--out",    folder / "f.sto"};
   const Finished done = myoid(command);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, AllOf(HasSubstr("rat soleus: 101 samples"), HasSubstr("f.sto")));
-  EXPECT_THAT(read_text(folder / "f.sto"),
-              AllOf(HasSubstr("tendon_force"), HasSubstr("activation")));
+  EXPECT_THAT(read_text(folder / "f.sto"), AllOf(HasSubstr("tendon_force"), HasSubstr("activation")));
   // Not twice, and what it wrote it can compare with.
   EXPECT_EQ(myoid(command).exit_code, 3);
 }
@@ -61,9 +59,8 @@ TEST(MuscleCommand, ComparesWithAMeasuredForce) {
   write_text(folder / "d.csv", displacement());
   write_text(folder / "f.csv", "time,force\n0.1,1.0\n0.2,1.1\n0.3,1.0\n");
   const Finished done =
-      myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", "0.001",
-             "--offset", "0.0321", "--activation", "1", "--measured", folder / "f.csv",
-             "--isometric-force", "1.17", "--json"});
+      myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", "0.001", "--offset", "0.0321",
+             "--activation", "1", "--measured", folder / "f.csv", "--isometric-force", "1.17", "--json"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, AllOf(HasSubstr("\"samples\": 3"), HasSubstr("mean_absolute_error")));
 }
@@ -72,15 +69,14 @@ TEST(MuscleCommand, ExchangedFilesOfLengthAndForceAreNoticed) {
   const TemporaryFolder folder;
   std::string length = "time,length\n", force = "time,force\n";
   for (int k = 0; k <= 100; ++k) {
-    length +=
-        std::to_string(0.005 * k) + "," + std::to_string(0.0321 + 0.001 * std::sin(0.1 * k)) + "\n";
+    length += std::to_string(0.005 * k) + "," + std::to_string(0.0321 + 0.001 * std::sin(0.1 * k)) + "\n";
     force += std::to_string(0.005 * k) + "," + std::to_string(0.6 + 0.5 * std::sin(0.1 * k)) + "\n";
   }
   write_text(folder / "l.csv", length);
   write_text(folder / "f.csv", force);
   const auto run = [&](const char* lengths, const char* measured) {
-    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / lengths, "--activation", "1",
-                  "--measured", folder / measured});
+    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / lengths, "--activation", "1", "--measured",
+                  folder / measured});
   };
   EXPECT_EQ(run("l.csv", "f.csv").err, "");
   const Finished exchanged = run("f.csv", "l.csv");
@@ -94,9 +90,8 @@ TEST(MuscleCommand, ForcesInMillinewtonsOrInAnotherOrderAreNoFit) {
   const TemporaryFolder folder;
   write_text(folder / "d.csv", displacement());
   const auto force_at = [&](const std::string& scale, const std::string& name) {
-    const Finished done =
-        myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", scale,
-               "--offset", "0.0321", "--activation", "1", "--out", folder / (name + ".sto")});
+    const Finished done = myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", "--scale", scale,
+                                 "--offset", "0.0321", "--activation", "1", "--out", folder / (name + ".sto")});
     ASSERT_EQ(done.exit_code, 0) << done.err;
   };
   force_at("0.0002", "small");
@@ -109,8 +104,7 @@ TEST(MuscleCommand, ForcesInMillinewtonsOrInAnotherOrderAreNoFit) {
       std::vector<std::string> cells;
       for (std::istringstream row(line); row >> cell;) cells.push_back(cell);
       if (at >= 0) {
-        text += cells[0] + "," +
-                std::to_string(scale * std::stod(cells[static_cast<std::size_t>(at)])) + "\n";
+        text += cells[0] + "," + std::to_string(scale * std::stod(cells[static_cast<std::size_t>(at)])) + "\n";
       } else if (!cells.empty() && cells[0] == "time") {
         at = std::find(cells.begin(), cells.end(), "tendon_force") - cells.begin();
       }
@@ -121,15 +115,14 @@ TEST(MuscleCommand, ForcesInMillinewtonsOrInAnotherOrderAreNoFit) {
   column("large", 1.0);
   column("large", 1000.0);
   const auto fit = [&](const std::string& first, const std::string& second) {
-    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", folder / "d.csv",
-                  "--scale", "0.0002", "0.001", "--offset", "0.0321", "--activation", "1",
-                  "--measured", folder / first, folder / second, "--fit", "max_isometric_force"});
+    return myoid({"muscle", "--muscle", kSoleus, "--length", folder / "d.csv", folder / "d.csv", "--scale", "0.0002",
+                  "0.001", "--offset", "0.0321", "--activation", "1", "--measured", folder / first, folder / second,
+                  "--fit", "max_isometric_force"});
   };
   const Finished good = fit("small_n.csv", "large_n.csv");
   EXPECT_EQ(good.exit_code, 0) << good.err;
   EXPECT_EQ(good.err, "");
-  EXPECT_THAT(fit("large_n.csv", "small_n.csv").err,
-              HasSubstr("fit each other's length much better than their own"));
+  EXPECT_THAT(fit("large_n.csv", "small_n.csv").err, HasSubstr("fit each other's length much better than their own"));
   const Finished millinewtons = fit("small_n.csv", "large_mn.csv");
   EXPECT_EQ(millinewtons.exit_code, 3);
   EXPECT_THAT(millinewtons.err, AllOf(HasSubstr("large_mn.csv"), HasSubstr("are they in mN?")));
@@ -199,8 +192,7 @@ TEST(MuscleCommand, AStandardErrorHoldsWhatLeavingOutOneRecordingOfARatsSoleusSh
     for (const double x : values) mean += x / 4.0;
     for (const double x : values) squares += (x - mean) * (x - mean);
     EXPECT_GE(std_error[parameter], (1.0 - 1e-9) * std::sqrt(0.75 * squares)) << parameter;
-    for (const double x : values)
-      EXPECT_LT(std::abs(x - all[parameter]), 2.0 * std_error[parameter]) << parameter;
+    for (const double x : values) EXPECT_LT(std::abs(x - all[parameter]), 2.0 * std_error[parameter]) << parameter;
   }
   EXPECT_THAT(done.err, AllOf(HasSubstr("max_shortening_speed is"), HasSubstr("force_trial5.csv"),
                               HasSubstr("hangs on that recording")));

@@ -38,8 +38,7 @@ std::filesystem::path two_trials(const TemporaryFolder& folder) {
                 "\"\nkind = \"flexion\"\nfrequency_hz = " + (name == "slow" ? "0.5" : "0.8") +
                 "\ncentre_deg = 72\namplitude_deg = 40\nheld_mass_kg = 1.0\nduration_s = 6\n";
   write_text(folder / "protocol.toml", protocol);
-  const Finished twin = myoid(
-      {"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
+  const Finished twin = myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", "1", "--out", folder / "rec"});
   EXPECT_EQ(twin.exit_code, 0) << twin.err;
   return folder / "rec";
 }
@@ -49,8 +48,7 @@ TEST(PlausibleInput, EmgOfNoiseAloneIsSaid) {
   write_text(folder / "e.csv", noise_csv("mV", 1.0));
   const Finished emg = myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"});
   EXPECT_EQ(emg.exit_code, 0) << emg.err;
-  EXPECT_THAT(emg.err,
-              AllOf(HasSubstr("'BIC' rises to only"), HasSubstr("times its lowest level")));
+  EXPECT_THAT(emg.err, AllOf(HasSubstr("'BIC' rises to only"), HasSubstr("times its lowest level")));
   EXPECT_THAT(myoid({"check", folder / "e.csv"}).out, HasSubstr("'BIC' rises to only"));
 }
 
@@ -73,8 +71,7 @@ TEST(PlausibleInput, EnvelopesAreRefusedByTheCommandEmgOnce) {
   write_text(folder / "e.csv", text);
   const Finished emg = myoid({"emg", folder / "e.csv", "--out", folder / "a.sto"});
   EXPECT_EQ(emg.exit_code, 3);
-  EXPECT_THAT(emg.err, AllOf(HasSubstr("BIC, TRI are never negative and slow"),
-                             Not(HasSubstr("saturated"))));
+  EXPECT_THAT(emg.err, AllOf(HasSubstr("BIC, TRI are never negative and slow"), Not(HasSubstr("saturated"))));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.sto"));
 }
 
@@ -84,12 +81,11 @@ TEST(PlausibleInput, EmgThatDoesNotChangeOrHasOneSampleIsAnErrorInItsOwnWords) {
   write_text(folder / "one.csv", "time,BIC [mV]\n0,1\n");
   const Finished still = myoid({"emg", folder / "still.csv", "--out", folder / "a.sto"});
   EXPECT_EQ(still.exit_code, 3);
-  EXPECT_THAT(still.err, AllOf(HasSubstr("still.csv"), HasSubstr("the same value throughout"),
-                               Not(HasSubstr("quantile"))));
+  EXPECT_THAT(still.err,
+              AllOf(HasSubstr("still.csv"), HasSubstr("the same value throughout"), Not(HasSubstr("quantile"))));
   const Finished one = myoid({"emg", folder / "one.csv", "--out", folder / "a.sto"});
   EXPECT_EQ(one.exit_code, 3);
-  EXPECT_THAT(one.err, AllOf(HasSubstr("one.csv"), HasSubstr("only 1 sample"),
-                             Not(HasSubstr("Butterworth"))));
+  EXPECT_THAT(one.err, AllOf(HasSubstr("one.csv"), HasSubstr("only 1 sample"), Not(HasSubstr("Butterworth"))));
   EXPECT_EQ(myoid({"check", folder / "one.csv"}).exit_code, 3);
 }
 
@@ -112,8 +108,7 @@ TEST(PlausibleInput, AHeldMassWithoutItsDecimalPointIsSaidByCheckAndRun) {
   const auto rec = two_trials(folder);
   replace_in(rec / "study.toml", "held_mass_kg = 1", "held_mass_kg = 50");
   EXPECT_THAT(myoid({"check", rec / "study.toml"}).out, HasSubstr("decimal point"));
-  EXPECT_THAT(myoid({"run", rec / "study.toml", "--out", folder / "out"}).err,
-              HasSubstr("decimal point"));
+  EXPECT_THAT(myoid({"run", rec / "study.toml", "--out", folder / "out"}).err, HasSubstr("decimal point"));
 }
 
 }  // namespace

@@ -33,12 +33,11 @@ fs::path recording_in(const TemporaryFolder& folder, const std::string& name, in
            "frequency_hz = " +
            std::to_string(hz) + "\nheld_mass_kg = " + std::to_string(kg) + "\n";
   };
-  write_text(folder / "protocol.toml",
-             "name = \"short\"\nlevel = \"L1\"\n[motion]\nrate_hz = 100\n" +
-                 trial("slow", 0.4, 1.0) + trial("heavy", 0.5, 3.0) + trial("fast", 0.9, 1.5) +
-                 "use = \"validation\"\n");
-  const Finished twin = myoid({"twin", "--protocol", folder / "protocol.toml", "--seed",
-                               std::to_string(seed), "--out", folder / name});
+  write_text(folder / "protocol.toml", "name = \"short\"\nlevel = \"L1\"\n[motion]\nrate_hz = 100\n" +
+                                           trial("slow", 0.4, 1.0) + trial("heavy", 0.5, 3.0) +
+                                           trial("fast", 0.9, 1.5) + "use = \"validation\"\n");
+  const Finished twin =
+      myoid({"twin", "--protocol", folder / "protocol.toml", "--seed", std::to_string(seed), "--out", folder / name});
   EXPECT_EQ(twin.exit_code, 0) << twin.err;
   return folder / name;
 }
@@ -60,8 +59,7 @@ class Predict : public testing::TestWithParam<const char*> {};
 TEST_P(Predict, MakesTheNumbersOfTheRunsValidationFromItsFiles) {
   const TemporaryFolder folder;
   const fs::path recording = recording_in(folder, "rec", 3);
-  const Finished run = myoid(
-      {"run", recording / "study.toml", "--estimator", GetParam(), "--out", folder / "results"});
+  const Finished run = myoid({"run", recording / "study.toml", "--estimator", GetParam(), "--out", folder / "results"});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   const Finished predict = myoid({"predict", folder / "results", "--out", folder / "predicted"});
   ASSERT_EQ(predict.exit_code, 0) << predict.err;
@@ -78,8 +76,7 @@ TEST_P(Predict, MakesTheNumbersOfTheRunsValidationFromItsFiles) {
   EXPECT_GT(std::stod(rows[0].at("covered")), 0.6);
 
   // R2 is that of the columns in the file.
-  const auto torque =
-      myoid::test::read_table(folder / "predicted/fast/predicted_torque_elbow_flexion.sto");
+  const auto torque = myoid::test::read_table(folder / "predicted/fast/predicted_torque_elbow_flexion.sto");
   const auto& measured = torque.of("elbow_flexion_measured");
   const auto& predicted = torque.of("elbow_flexion_predicted");
   double mean = 0.0, sse = 0.0, sst = 0.0;
@@ -98,17 +95,15 @@ INSTANTIATE_TEST_SUITE_P(Estimators, Predict, testing::Values("least_squares", "
 
 TEST(PredictCommand, TakesTheTrialsOfAnotherStudyOfThePersonAndRefusesWhatIsNotThere) {
   const TemporaryFolder folder;
-  const fs::path first = recording_in(folder, "first", 3),
-                 second = recording_in(folder, "second", 3);
+  const fs::path first = recording_in(folder, "first", 3), second = recording_in(folder, "second", 3);
   const Finished run = myoid({"run", first / "study.toml", "--out", folder / "results"});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   const std::string results = folder / "results";
-  const Finished other = myoid({"predict", results, "--study", second / "study.toml", "--trials",
-                                "heavy", "--out", folder / "other"});
+  const Finished other =
+      myoid({"predict", results, "--study", second / "study.toml", "--trials", "heavy", "--out", folder / "other"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
   EXPECT_EQ(read_rows(folder / "other/predictions.csv").at(0).at("fitted"), "false");
-  const Finished unknown =
-      myoid({"predict", results, "--trials", "quick", "--out", folder / "unknown"});
+  const Finished unknown = myoid({"predict", results, "--trials", "quick", "--out", folder / "unknown"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("there are slow, heavy, fast"));
   EXPECT_FALSE(fs::exists(folder / "unknown/predictions.csv"));

@@ -33,9 +33,7 @@ Running::Running(const std::vector<std::string>& arguments,
   child_ = fork();
   if (child_ < 0) throw std::runtime_error("fork failed");
   if (child_ > 0) return;
-  const auto to = [](const char* path, int flags, int target) {
-    dup2(open(path, flags, 0600), target);
-  };
+  const auto to = [](const char* path, int flags, int target) { dup2(open(path, flags, 0600), target); };
   to("/dev/null", O_RDONLY, STDIN_FILENO);
   to(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   to(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);

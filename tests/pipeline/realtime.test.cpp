@@ -36,8 +36,7 @@ double value_at(const TimeSeries& series, const std::string& channel, double tim
   return series.values()(i - 1, c) * (1.0 - share) + series.values()(i, c) * share;
 }
 
-/// The forces at `time_s` by the example, beside `written`; the greatest difference over the
-/// largest.
+/// The forces at `time_s` by the example, beside `written`; the greatest difference over the largest.
 struct Compared {
   std::string muscle;
   double worst = 0.0, largest = 0.0;
@@ -50,10 +49,8 @@ class Realtime : public testing::TestWithParam<std::string> {
     write_text(folder / "p.toml",
                "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
                "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
-    EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--out", folder / "rec"}).exit_code,
-              0);
-    myoid::test::replace_in(folder / "rec/study.toml", "[identify]",
-                            "[identify]\nlag = \"" + GetParam() + "\"");
+    EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--out", folder / "rec"}).exit_code, 0);
+    myoid::test::replace_in(folder / "rec/study.toml", "[identify]", "[identify]\nlag = \"" + GetParam() + "\"");
     EXPECT_NE(myoid({"run", folder / "rec/study.toml", "--out", folder / "out"}).exit_code, 3);
     const auto json = nlohmann::json::parse(read_text(folder / "out/parameters.json"));
     for (const auto& method : json.at("methods")) {
@@ -70,10 +67,9 @@ class Realtime : public testing::TestWithParam<std::string> {
   }
 
   [[nodiscard]] int example(const std::string& results, double step_s) const {
-    const std::string command =
-        std::string(MYOID_REALTIME) + " " + (folder / results).string() + " " +
-        std::to_string(step_s) + " <" + (folder / "samples").string() + " >" +
-        (folder / "answers").string() + " 2>" + (folder / "errors").string();
+    const std::string command = std::string(MYOID_REALTIME) + " " + (folder / results).string() + " " +
+                                std::to_string(step_s) + " <" + (folder / "samples").string() + " >" +
+                                (folder / "answers").string() + " 2>" + (folder / "errors").string();
     return std::system(command.c_str());
   }
 
@@ -95,8 +91,7 @@ TEST_P(Realtime, TheCInterfaceGivesTheForcesThatTheRunWrote) {
   };
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     const double then = t[i] + pure_s;
-    for (const char* channel : {"BIC", "BRD", "TRI"})
-      samples << value_at(envelope, channel, t[i]) << ' ';
+    for (const char* channel : {"BIC", "BRD", "TRI"}) samples << value_at(envelope, channel, t[i]) << ' ';
     samples << angle(then) << ' ' << (angle(then + 0.01) - angle(then - 0.01)) / 0.02 << '\n';
   }
   write_text(folder / "samples", samples.str());
@@ -110,8 +105,7 @@ TEST_P(Realtime, TheCInterfaceGivesTheForcesThatTheRunWrote) {
     ASSERT_LT(low, middle);
     ASSERT_LT(middle, high);
     const double then = t[i] + pure_s;
-    const bool inside =
-        then > forces.time_s()[3] && then < forces.time_s()[forces.sample_count() - 3];
+    const bool inside = then > forces.time_s()[3] && then < forces.time_s()[forces.sample_count() - 3];
     for (Compared& c : compared) {
       answers >> middle >> low >> high;
       ASSERT_LE(low, middle);

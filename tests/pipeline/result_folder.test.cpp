@@ -30,9 +30,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A virtual recording of so many trials, and the command that makes it.
-std::vector<std::string> twin_command(const TemporaryFolder& folder,
-                                      const std::string& out,
-                                      int trials) {
+std::vector<std::string> twin_command(const TemporaryFolder& folder, const std::string& out, int trials) {
   std::string protocol = "name = \"short\"\nlevel = \"L0\"\n[motion]\nrate_hz = 100\n";
   for (int i = 0; i < trials; ++i) {
     protocol += "[[trial]]\nname = \"slow_" + std::to_string(i) +
@@ -46,8 +44,7 @@ std::vector<std::string> twin_command(const TemporaryFolder& folder,
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file())
-      files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
   }
   return files;
 }
@@ -61,8 +58,7 @@ void wait_until(Running& running, Condition holds) {
 TEST(ResultFolder, TwoCommandsAtTheSameTimeTheSecondIsRefusedAndTheFirstLosesNothing) {
   const TemporaryFolder folder;
   ASSERT_EQ(myoid(twin_command(folder, "rec", 1)).exit_code, 0);
-  const std::vector<std::string> study{"run", folder / "rec/study.toml", "--out",
-                                       folder / "results"};
+  const std::vector<std::string> study{"run", folder / "rec/study.toml", "--out", folder / "results"};
   Running first(study);
   // Its owner's name stands in the lock as soon as the folder is its own.
   std::error_code none;
@@ -77,8 +73,8 @@ TEST(ResultFolder, TwoCommandsAtTheSameTimeTheSecondIsRefusedAndTheFirstLosesNot
   for (const auto& arguments : {study, insisting, twin_command(folder, "results", 1)}) {
     const Finished second = myoid(arguments);
     EXPECT_EQ(second.exit_code, 3) << second.err;
-    EXPECT_THAT(second.err, AllOf(HasSubstr("another myoid is writing into the folder"),
-                                  HasSubstr("myoid run "), HasSubstr(" UTC")));
+    EXPECT_THAT(second.err, AllOf(HasSubstr("another myoid is writing into the folder"), HasSubstr("myoid run "),
+                                  HasSubstr(" UTC")));
   }
   first.send(SIGCONT);
   const Finished finished = first.wait();
@@ -106,8 +102,7 @@ TEST(ResultFolder, OfACommandThatWasKilledInTheMiddleTakesTheSameCommandAgain) {
   const Finished finished = myoid(again);
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(finished.err,
-              AllOf(HasSubstr("taken over from a command that did not finish (process "),
-                    HasSubstr("half-written")));
+              AllOf(HasSubstr("taken over from a command that did not finish (process "), HasSubstr("half-written")));
   EXPECT_EQ(files_in(folder / "killed"), files_in(folder / "whole"));
   const Finished third = myoid(again);
   EXPECT_EQ(third.exit_code, 3);
@@ -126,8 +121,7 @@ TEST(ResultFolder, OfACommandThatAFullDiskStoppedTakesTheSameCommandAgain) {
   const TemporaryFolder folder;
   ASSERT_EQ(myoid(twin_command(folder, "whole", 2)).exit_code, 0);
   const std::vector<std::string> again = twin_command(folder, "full", 2);
-  const Finished stopped =
-      myoid(again, 0.0, "", {.file_bytes = longest_file(folder / "whole") - 1});
+  const Finished stopped = myoid(again, 0.0, "", {.file_bytes = longest_file(folder / "whole") - 1});
   EXPECT_EQ(stopped.exit_code, 3);
   EXPECT_THAT(stopped.err, HasSubstr("writing failed"));
   ASSERT_FALSE(files_in(folder / "full").empty());
@@ -142,9 +136,7 @@ TEST(ResultFolder, OfACommandThatAFullDiskStoppedTakesTheSameCommandAgain) {
 
 /// The program under a system that grants so many threads at the same time.
 Finished with_threads(int granted, const std::vector<std::string>& arguments) {
-  return Running(arguments, "",
-                 {"LD_PRELOAD=" MYOID_FEW_THREADS, "MYOID_GRANTED=" + std::to_string(granted)})
-      .wait();
+  return Running(arguments, "", {"LD_PRELOAD=" MYOID_FEW_THREADS, "MYOID_GRANTED=" + std::to_string(granted)}).wait();
 }
 
 TEST(Threads, ThatTheSystemDoesNotGrantAreDoneWithout) {

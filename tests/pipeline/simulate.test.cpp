@@ -23,20 +23,20 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string excitations(const std::string& names, const std::string& row) {
-  return "controls\nversion=1\nnRows=2\nnColumns=5\ninDegrees=no\nendheader\ntime\t" + names +
-         "\n0\t" + row + "\n0.5\t" + row + "\n";
+  return "controls\nversion=1\nnRows=2\nnColumns=5\ninDegrees=no\nendheader\ntime\t" + names + "\n0\t" + row +
+         "\n0.5\t" + row + "\n";
 }
 
 TEST(Simulate, WritesAMotionThatInverseDynamicsTakes) {
   const TemporaryFolder folder;
-  const Finished run = myoid({"simulate", "--excite", "BIC=0.1@0.1+0.2", "--end", "0.5", "--energy",
-                              "--figures", "--json", "--out", folder / "sim"});
+  const Finished run = myoid({"simulate", "--excite", "BIC=0.1@0.1+0.2", "--end", "0.5", "--energy", "--figures",
+                              "--json", "--out", folder / "sim"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("\"finished\": true"), HasSubstr("worst_relative_gap")));
   EXPECT_EQ(run.out, read_text(folder / "sim/simulation.json"));
   EXPECT_THAT(read_text(folder / "sim/figures/movement.svg"), HasSubstr("<svg"));
-  const Finished id = myoid(
-      {"id", "--model", "arm4", "--motion", folder / "sim/motion.mot", "--out", folder / "id.sto"});
+  const Finished id =
+      myoid({"id", "--model", "arm4", "--motion", folder / "sim/motion.mot", "--out", folder / "id.sto"});
   EXPECT_EQ(id.exit_code, 0) << id.err;
 }
 
@@ -64,13 +64,12 @@ TEST(Simulate, ItsTorqueIsThatOfInverseDynamicsOfItsMotion) {
   const TemporaryFolder folder;
   for (const char* tendon : {"rigid", "equilibrium", "mass"}) {
     const std::string out = folder / tendon;
-    const Finished run = myoid({"simulate", "--excite", "all=0.03", "--excite", "BIC=0.2@0.1+0.2",
-                                "--tendon", tendon, "--held-mass", "1", "--initial",
-                                "elbow_flexion=50", "--end", "0.6", "--out", out});
+    const Finished run = myoid({"simulate", "--excite", "all=0.03", "--excite", "BIC=0.2@0.1+0.2", "--tendon", tendon,
+                                "--held-mass", "1", "--initial", "elbow_flexion=50", "--end", "0.6", "--out", out});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const Finished id = myoid({"id", "--model", "arm4", "--motion", out + "/motion.mot", "--speeds",
-                               out + "/speeds.sto", "--accelerations", out + "/accelerations.sto",
-                               "--held-mass", "1", "--out", out + "/id.sto"});
+    const Finished id =
+        myoid({"id", "--model", "arm4", "--motion", out + "/motion.mot", "--speeds", out + "/speeds.sto",
+               "--accelerations", out + "/accelerations.sto", "--held-mass", "1", "--out", out + "/id.sto"});
     ASSERT_EQ(id.exit_code, 0) << id.err;
     const std::vector<double> required = column(out + "/id.sto", "elbow_flexion_moment");
     const std::vector<double> given = column(out + "/torques.sto", "elbow_flexion_moment");
@@ -86,16 +85,16 @@ TEST(Simulate, ItsTorqueIsThatOfInverseDynamicsOfItsMotion) {
   // Speeds of another clock are not those of this motion.
   const std::string other = folder / "other";
   ASSERT_EQ(myoid({"simulate", "--end", "0.1", "--out", other}).exit_code, 0);
-  const Finished id = myoid({"id", "--model", "arm4", "--motion", folder / "mass/motion.mot",
-                             "--speeds", other + "/speeds.sto", "--out", folder / "id.sto"});
+  const Finished id = myoid({"id", "--model", "arm4", "--motion", folder / "mass/motion.mot", "--speeds",
+                             other + "/speeds.sto", "--out", folder / "id.sto"});
   EXPECT_EQ(id.exit_code, 3);
   EXPECT_THAT(id.err, AllOf(HasSubstr("speeds.sto"), HasSubstr("121")));
 }
 
 TEST(Simulate, WritesDerivativesByParameters) {
   const TemporaryFolder folder;
-  const Finished run = myoid({"simulate", "--excite", "BIC=0.2", "--end", "0.2", "--sensitivity",
-                              "BIC.*", "--sensitivity", "arm_inertia", "--out", folder / "s"});
+  const Finished run = myoid({"simulate", "--excite", "BIC=0.2", "--end", "0.2", "--sensitivity", "BIC.*",
+                              "--sensitivity", "arm_inertia", "--out", folder / "s"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string angle = folder / "s/sensitivities/angle.sto";
   EXPECT_GT(column(angle, "BIC.max_isometric_force").back(), 0.0);  // stronger: more flexed
@@ -108,8 +107,8 @@ TEST(Simulate, WritesDerivativesByParameters) {
 TEST(Simulate, TakesExcitationsFromAFileUntilItsEnd) {
   const TemporaryFolder folder;
   write_text(folder / "u.sto", excitations("TRI\tBIC\tBRA\tBRD", "0.05\t0.1\t0.1\t0.1"));
-  const Finished run = myoid({"simulate", "--excitations", folder / "u.sto", "--tendon", "rigid",
-                              "--initial", "elbow_flexion=60", "--out", folder / "sim"});
+  const Finished run = myoid({"simulate", "--excitations", folder / "u.sto", "--tendon", "rigid", "--initial",
+                              "elbow_flexion=60", "--out", folder / "sim"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(read_text(folder / "sim/motion.mot"), HasSubstr("nRows=101"));  // 0.5 s at 200 Hz
   EXPECT_THAT(read_text(folder / "sim/simulation.json"), HasSubstr("sha256"));
@@ -120,8 +119,7 @@ TEST(Simulate, DrawsThePapersFigures) {
   ASSERT_EQ(myoid({"simulate", "--paper-figures", "--out", folder / "f"}).exit_code, 0);
   for (const char* name : {"figure2", "figure4"}) {
     EXPECT_THAT(read_text(folder / (std::string("f/figures/") + name + ".svg")), HasSubstr("<svg"));
-    EXPECT_THAT(read_text(folder / (std::string("f/figures/") + name + ".csv")),
-                HasSubstr("panel"));
+    EXPECT_THAT(read_text(folder / (std::string("f/figures/") + name + ".csv")), HasSubstr("panel"));
   }
 }
 
@@ -129,8 +127,7 @@ TEST(Simulate, RefusesExcitationsThatCannotBeUsedAndNamesTheirFile) {
   const TemporaryFolder folder;
   const auto answer = [&](const std::string& text) {
     write_text(folder / "u.sto", text);
-    const Finished run =
-        myoid({"simulate", "--excitations", folder / "u.sto", "--out", folder / "sim"});
+    const Finished run = myoid({"simulate", "--excitations", folder / "u.sto", "--out", folder / "sim"});
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_THAT(run.err, HasSubstr("u.sto"));
     EXPECT_FALSE(std::filesystem::exists(folder / "sim/motion.mot"));
@@ -179,8 +176,8 @@ TEST(Simulate, EndsOnCtrlCWithoutFiles) {
     text += std::to_string(0.05 * k) + "\t0.05\t" + flex + "\t" + flex + "\t" + flex + "\n";
   }
   write_text(folder / "u.sto", text);
-  const Finished run = myoid({"simulate", "--excitations", folder / "u.sto", "--tendon", "mass",
-                              "--tolerance", "1e-10", "--rate", "10", "--out", folder / "sim"},
+  const Finished run = myoid({"simulate", "--excitations", folder / "u.sto", "--tendon", "mass", "--tolerance", "1e-10",
+                              "--rate", "10", "--out", folder / "sim"},
                              1.0);
   EXPECT_EQ(run.exit_code, 130) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "sim/motion.mot"));

@@ -37,8 +37,8 @@ TEST(TwinCommand, ManyPersonsAreTheSameToTheBitWithAnyNumberOfThreads) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
   for (const std::string threads : {"1", "3"}) {
-    const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "5",
-                                 "--seed", "7", "--threads", threads, "--out", folder / threads});
+    const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "5", "--seed", "7", "--threads",
+                                 threads, "--out", folder / threads});
     EXPECT_EQ(done.exit_code, 0) << done.err;
     EXPECT_THAT(done.out, HasSubstr("persons.csv"));
   }
@@ -54,39 +54,35 @@ TEST(TwinCommand, ManyPersonsAreTheSameToTheBitWithAnyNumberOfThreads) {
   EXPECT_EQ(read_rows(fs::path(folder / "1") / "persons.csv").size(), 5U);
 
   // One of them alone is the same person.
-  const Finished alone =
-      myoid({"twin", "--protocol", folder / "p.toml", "--seed", "9", "--out", folder / "alone"});
+  const Finished alone = myoid({"twin", "--protocol", folder / "p.toml", "--seed", "9", "--out", folder / "alone"});
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   for (const char* file : {"truth.csv", "lift.trc", "lift_emg.sto", "study.toml"})
-    EXPECT_EQ(read_text(fs::path(folder / "alone") / file),
-              read_text(fs::path(folder / "1") / "person_000009" / file));
+    EXPECT_EQ(read_text(fs::path(folder / "alone") / file), read_text(fs::path(folder / "1") / "person_000009" / file));
 }
 
 TEST(TwinCommand, TheTableOfTruthsNeedsNoRecordings) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
-  const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "3",
-                               "--truth-only", "--json", "--out", folder / "people"});
+  const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "3", "--truth-only", "--json",
+                               "--out", folder / "people"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("\"persons\": 3"));
   EXPECT_EQ(read_rows(fs::path(folder / "people") / "persons.csv").size(), 3U);
-  const Finished all = myoid(
-      {"twin", "--protocol", folder / "p.toml", "--subjects", "3", "--out", folder / "recorded"});
+  const Finished all =
+      myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "3", "--out", folder / "recorded"});
   EXPECT_EQ(all.exit_code, 0) << all.err;
   EXPECT_EQ(read_text(fs::path(folder / "people") / "persons.csv"),
             read_text(fs::path(folder / "recorded") / "persons.csv"));
   EXPECT_FALSE(fs::exists(fs::path(folder / "people") / "person_000001"));
-  EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--truth-only", "--out", folder / "x"})
-                .exit_code,
-            3);
+  EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--truth-only", "--out", folder / "x"}).exit_code, 3);
 }
 
 TEST(TwinCommand, AC3dRecordingOfSevenHeadsIsAnalysedAsItIs) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
   const std::string rec = folder / "rec";
-  const Finished twin = myoid({"twin", "--protocol", folder / "p.toml", "--model", "arm7",
-                               "--format", "c3d", "--json", "--out", rec});
+  const Finished twin =
+      myoid({"twin", "--protocol", folder / "p.toml", "--model", "arm7", "--format", "c3d", "--json", "--out", rec});
   ASSERT_EQ(twin.exit_code, 0) << twin.err;
   EXPECT_THAT(twin.out, HasSubstr("\"level\": \"L2\""));
   EXPECT_TRUE(fs::exists(fs::path(rec) / "lift.c3d"));
@@ -98,19 +94,16 @@ TEST(TwinCommand, AC3dRecordingOfSevenHeadsIsAnalysedAsItIs) {
 TEST(TwinCommand, SaysWhatItCannotDo) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
-  const Finished level = myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--model",
-                                "arm7", "--out", folder / "x"});
+  const Finished level =
+      myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--model", "arm7", "--out", folder / "x"});
   EXPECT_EQ(level.exit_code, 3);
   EXPECT_THAT(level.err, HasSubstr("only a person at level L2 has seven heads"));
   write_text(folder / "odd.toml", "[motion]\nrate_hz = 30\n" + kShort.substr(kShort.find("[[")));
-  const Finished rates =
-      myoid({"twin", "--protocol", folder / "odd.toml", "--format", "c3d", "--out", folder / "y"});
+  const Finished rates = myoid({"twin", "--protocol", folder / "odd.toml", "--format", "c3d", "--out", folder / "y"});
   EXPECT_EQ(rates.exit_code, 3);
   EXPECT_THAT(rates.err, HasSubstr("whole number"));
   EXPECT_FALSE(fs::exists(fs::path(folder / "y") / "study.toml"));
-  EXPECT_EQ(
-      myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "0", "--out", "z"}).exit_code,
-      2);
+  EXPECT_EQ(myoid({"twin", "--protocol", folder / "p.toml", "--subjects", "0", "--out", "z"}).exit_code, 2);
 }
 
 TEST(TwinCommand, APersonOfTwinStudyIsPredictedAsRunPredictsTheRecording) {
@@ -147,14 +140,12 @@ use = "validation"
   };
   ASSERT_EQ(with({"twin-study", "--subjects", "1"}, folder / "study").exit_code, 0);
   ASSERT_EQ(with({"twin"}, folder / "recording").exit_code, 0);
-  const Finished done =
-      myoid({"run", folder / "recording/study.toml", "--out", folder / "results"});
+  const Finished done = myoid({"run", folder / "recording/study.toml", "--out", folder / "results"});
   ASSERT_NE(done.exit_code, 3) << done.err;
   const auto rows = read_rows(fs::path(folder / "study") / "predictions.csv");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].at("trial"), "fast");
-  const nlohmann::json parameters =
-      nlohmann::json::parse(read_text(fs::path(folder / "results") / "parameters.json"));
+  const nlohmann::json parameters = nlohmann::json::parse(read_text(fs::path(folder / "results") / "parameters.json"));
   int compared = 0;
   for (const auto& method : parameters.at("methods")) {
     if (method.at("method") != "torque") continue;
@@ -164,8 +155,7 @@ use = "validation"
       // The files of the recording hold six digits.
       EXPECT_NEAR(std::stod(rows[0].at("r2")), trial.at("r2").get<double>(), 1e-4);
       EXPECT_NEAR(std::stod(rows[0].at("rmse_nm")), trial.at("rmse_nm").get<double>(), 1e-4);
-      EXPECT_NEAR(std::stod(rows[0].at("smoothed_r2")), trial.at("smoothed_r2").get<double>(),
-                  1e-4);
+      EXPECT_NEAR(std::stod(rows[0].at("smoothed_r2")), trial.at("smoothed_r2").get<double>(), 1e-4);
     }
   }
   EXPECT_EQ(compared, 1);
@@ -175,34 +165,29 @@ use = "validation"
 TEST(TwinCommand, AWorldIsSetByOptionsAndStated) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
-  const Finished done =
-      myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--truth", "curves=millard",
-             "tendon_strain=[0.08,0.08]", "torque_scale=1.05", "--out", folder / "wrong"});
+  const Finished done = myoid({"twin", "--protocol", folder / "p.toml", "--level", "L1", "--truth", "curves=millard",
+                               "tendon_strain=[0.08,0.08]", "torque_scale=1.05", "--out", folder / "wrong"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const std::string person = read_text(fs::path(folder / "wrong") / "truth" / "person.csv");
-  for (const char* row : {"world,curves,1,millard", "world,tendon_strain,1,0.08 to 0.08",
-                          "world,torque_scale,1,1.05"})
+  for (const char* row : {"world,curves,1,millard", "world,tendon_strain,1,0.08 to 0.08", "world,torque_scale,1,1.05"})
     EXPECT_THAT(person, HasSubstr(row));
   EXPECT_THAT(myoid({"twin", "--help"}).out, HasSubstr("moment_arm_slope_sd"));
-  const Finished refused = myoid({"twin", "--protocol", folder / "p.toml", "--truth",
-                                  "moment_arms=0.1", "--out", folder / "refused"});
+  const Finished refused =
+      myoid({"twin", "--protocol", folder / "p.toml", "--truth", "moment_arms=0.1", "--out", folder / "refused"});
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_THAT(refused.err, HasSubstr("did you mean 'moment_arm_sd'"));
   // The report reads a truth in which the curves' parameters are absent.
-  const Finished run =
-      myoid({"run", fs::path(folder / "wrong") / "study.toml", "--out", folder / "results"});
+  const Finished run = myoid({"run", fs::path(folder / "wrong") / "study.toml", "--out", folder / "results"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 TEST(TwinCommand, AStudyOfAWorldStatesItAndTellsErrorAndWidthOfEachParameter) {
   const TemporaryFolder folder;
   write_text(folder / "p.toml", kShort);
-  const Finished done =
-      myoid({"twin-study", "--protocol", folder / "p.toml", "--level", "L1", "--subjects", "2",
-             "--truth", "moment_arm_sd=0.15", "--out", folder / "study"});
+  const Finished done = myoid({"twin-study", "--protocol", folder / "p.toml", "--level", "L1", "--subjects", "2",
+                               "--truth", "moment_arm_sd=0.15", "--out", folder / "study"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  for (const char* column : {"error", "half w.", "identif.", "of these"})
-    EXPECT_THAT(done.out, HasSubstr(column));
+  for (const char* column : {"error", "half w.", "identif.", "of these"}) EXPECT_THAT(done.out, HasSubstr(column));
   const auto run = nlohmann::json::parse(read_text(fs::path(folder / "study") / "run.json"));
   EXPECT_EQ(run["world"]["moment_arm_sd"], "0.15");
   EXPECT_THAT(read_text(fs::path(folder / "study") / "summary.csv"), HasSubstr("median_error"));

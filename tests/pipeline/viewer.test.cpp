@@ -27,8 +27,7 @@ using testing::HasSubstr;
 std::string motion() {
   std::string text = "flexion\nversion=1\nnRows=101\nnColumns=2\ninDegrees=yes\nendheader\n";
   text += "time\telbow_flexion\n";
-  for (int k = 0; k <= 100; ++k)
-    text += fmt::format("{}\t{}\n", 0.01 * k, 45.0 - 45.0 * std::cos(M_PI * 0.01 * k));
+  for (int k = 0; k <= 100; ++k) text += fmt::format("{}\t{}\n", 0.01 * k, 45.0 - 45.0 * std::cos(M_PI * 0.01 * k));
   return text;
 }
 
@@ -47,8 +46,7 @@ std::string markers(const std::string& name, double x_mm, double y_mm, double z_
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
       "OrigNumFrames\n100\t100\t101\t1\tmm\t100\t1\t101\n";
   text += "Frame#\tTime\t" + name + "\n\t\tX1\tY1\tZ1\n\n";
-  for (int k = 0; k <= 100; ++k)
-    text += fmt::format("{}\t{}\t{}\t{}\t{}\n", k + 1, 0.01 * k, x_mm, y_mm, z_mm);
+  for (int k = 0; k <= 100; ++k) text += fmt::format("{}\t{}\t{}\t{}\t{}\n", k + 1, 0.01 * k, x_mm, y_mm, z_mm);
   return text;
 }
 
@@ -59,8 +57,7 @@ std::string opened(const TemporaryFolder& folder, const std::string& page, int v
       "--enable-unsafe-swiftshader --disable-dev-shm-usage --no-first-run "
       "--user-data-dir='{0}' --window-size=640,420 --virtual-time-budget={1} --dump-dom "
       "'file://{2}' > '{3}' 2> '{4}'",
-      std::string(folder / "profile"), virtual_ms, page, std::string(folder / "dom"),
-      std::string(folder / "log"));
+      std::string(folder / "profile"), virtual_ms, page, std::string(folder / "dom"), std::string(folder / "log"));
   if (std::system(("timeout 60 " + command).c_str()) != 0) return read_text(folder / "log");
   return read_text(folder / "dom");
 }
@@ -72,8 +69,7 @@ std::map<std::string, std::string> found_in(const std::string& document) {
   if (begin == std::string::npos) return found;
   const std::string text = document.substr(begin + 16, document.find("</pre>", begin) - begin - 16);
   const std::regex line("([^:\n]+): ?([^\n]*)");
-  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it)
-    found[(*it)[1]] = (*it)[2];
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found[(*it)[1]] = (*it)[2];
   return found;
 }
 
@@ -83,9 +79,8 @@ TEST(Viewer, ShowsAndPlaysTheModelInABrowser) {
   write_text(folder / "m.mot", motion());
   write_text(folder / "f.sto", forces());
   write_text(folder / "m.trc", markers("c7", -48.0, 1460.0, 0.0));
-  const Finished done =
-      myoid({"info", "arm4", "--html", folder / "arm.html", "--motion", folder / "m.mot",
-             "--forces", folder / "f.sto", "--markers", folder / "m.trc"});
+  const Finished done = myoid({"info", "arm4", "--html", folder / "arm.html", "--motion", folder / "m.mot", "--forces",
+                               folder / "f.sto", "--markers", folder / "m.trc"});
   if (done.err.find("built without three.js") != std::string::npos)
     GTEST_SKIP() << "needs a program built with the packages libjs-three and esbuild";
   ASSERT_EQ(done.exit_code, 0) << done.err;

@@ -29,16 +29,14 @@ TEST(ViewerModules, PassTheirOwnTests) {
   ASSERT_FALSE(modules.empty());
   std::string all;
   for (const std::string& module : modules) all += fmt::format("import '{}';\n", module);
-  all += fmt::format("import {{ results }} from '{}';\nwindow.tested = results();\n",
-                     (viewer / "testing.js").string());
+  all += fmt::format("import {{ results }} from '{}';\nwindow.tested = results();\n", (viewer / "testing.js").string());
   const myoid::test::TemporaryFolder folder;
   write_text(folder / "all.js", all);
-  write_text(
-      folder / "page.html",
-      "<!DOCTYPE html><body data-state=\"ready\"><script src=\"bundle.js\"></script></body>");
-  const std::string bundle = fmt::format(
-      "esbuild '{}' --bundle --format=iife --log-level=warning --alias:three='{}' --outfile='{}'",
-      std::string(folder / "all.js"), three, std::string(folder / "bundle.js"));
+  write_text(folder / "page.html",
+             "<!DOCTYPE html><body data-state=\"ready\"><script src=\"bundle.js\"></script></body>");
+  const std::string bundle =
+      fmt::format("esbuild '{}' --bundle --format=iife --log-level=warning --alias:three='{}' --outfile='{}'",
+                  std::string(folder / "all.js"), three, std::string(folder / "bundle.js"));
   ASSERT_EQ(std::system(bundle.c_str()), 0);
   myoid::test::Browser browser(800, 600);
   browser.open("file://" + std::string(folder / "page.html"));

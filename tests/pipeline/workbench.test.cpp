@@ -31,10 +31,9 @@ class WorkbenchPage : public testing::Test {
   static void SetUpTestSuite() {
     if (!::myoid::test::there_is("chromium")) return;
     folder_ = std::make_unique<::myoid::test::TemporaryFolder>();
-    const std::string protocol =
-        ::myoid::test::source_dir() / "examples/protocols/three_trials.toml";
-    const auto twin = myoid({"twin", "--model", "arm4", "--protocol", protocol, "--seed", "3",
-                             "--out", *folder_ / "rec"});
+    const std::string protocol = ::myoid::test::source_dir() / "examples/protocols/three_trials.toml";
+    const auto twin =
+        myoid({"twin", "--model", "arm4", "--protocol", protocol, "--seed", "3", "--out", *folder_ / "rec"});
     ASSERT_EQ(twin.exit_code, 0) << twin.err;
     myoid::recording::write_file(*folder_ / "rec/norm.csv",
                                  "percent,elbow_flexion_mean,elbow_flexion_sd\n"
@@ -42,8 +41,7 @@ class WorkbenchPage : public testing::Test {
     const std::string study = ::myoid::test::read_text(*folder_ / "rec/study.toml");
     myoid::recording::write_file(
         *folder_ / "rec/study.toml",
-        study +
-            "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
+        study + "\n[[norm]]\nname = \"adults, N = 24\"\nfile = \"norm.csv\"\ntrials = [\"ramp\"]\n");
     const auto run = myoid({"run", *folder_ / "rec/study.toml", "--out", *folder_ / "result"});
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
@@ -56,8 +54,7 @@ class WorkbenchPage : public testing::Test {
   }
 
   void SetUp() override {
-    if (!browser_)
-      GTEST_SKIP() << "needs the packages chromium, and libjs-three and esbuild in the build";
+    if (!browser_) GTEST_SKIP() << "needs the packages chromium, and libjs-three and esbuild in the build";
     browser_->resize(1280, 900);
     open();
   }
@@ -105,23 +102,22 @@ TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
   struct Case {
     const char *kind, *title, *line, *file, *column;
   };
-  for (const Case& c :
-       {Case{"angle", "elbow flexion", "angle", "ik.mot", "elbow_flexion"},
-        Case{"force", "BIC", "identified", "identified_forces.sto", "BIC_identified"},
-        Case{"force", "TRI", "shared", "identified_forces.sto", "TRI_reference"},
-        Case{"activation", "activation by EMG", "BRD", "activation.sto", "BRD"}}) {
+  for (const Case& c : {Case{"angle", "elbow flexion", "angle", "ik.mot", "elbow_flexion"},
+                        Case{"force", "BIC", "identified", "identified_forces.sto", "BIC_identified"},
+                        Case{"force", "TRI", "shared", "identified_forces.sto", "TRI_reference"},
+                        Case{"activation", "activation by EMG", "BRD", "activation.sto", "BRD"}}) {
     const auto file = myoid::recording::read_storage(*folder_ / "result/swing_2kg" / c.file).data;
     const Place place = plot(c.kind, c.title);
     for (const double t : {2.0, 3.76, 7.5}) {
       const double x = std::round(x_of(place, t));
       browser_->move(x, place.top + 0.5 * place.height);
-      const json read = js(fmt::format(
-          "(() => {{ const i = plot.curves.findIndex((c) => c.name === '{}'); const c = "
-          "plot.curves[i];"
-          " return [plot.readouts[i].value.textContent, plot.atPixel({} - "
-          "plot.svg.getBoundingClientRect().left), c.places, Math.max(...c.y) - Math.min(...c.y), "
-          "[...c.x]]; }})()",
-          c.line, x));
+      const json read =
+          js(fmt::format("(() => {{ const i = plot.curves.findIndex((c) => c.name === '{}'); const c = "
+                         "plot.curves[i];"
+                         " return [plot.readouts[i].value.textContent, plot.atPixel({} - "
+                         "plot.svg.getBoundingClientRect().left), c.places, Math.max(...c.y) - Math.min(...c.y), "
+                         "[...c.x]]; }})()",
+                         c.line, x));
       // The sample that is nearest to the mouse.
       const double at = read[1];
       double time = read[4][0];
@@ -131,12 +127,10 @@ TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
       (file.time_s().array() - time).abs().minCoeff(&row);
       ASSERT_NEAR(file.time_s()[row], time, 1e-6);
       // Half of the last digit, and half a step of the packing. An angle's file is in radians here.
-      const double scale = file.channels()[static_cast<std::size_t>(file.index(c.column))].unit ==
-                                   myoid::Unit::radian
+      const double scale = file.channels()[static_cast<std::size_t>(file.index(c.column))].unit == myoid::Unit::radian
                                ? 180.0 / M_PI
                                : 1.0;
-      const double tolerance =
-          0.5 * std::pow(10.0, -read[2].get<double>()) + read[3].get<double>() / 65534.0 + 1e-9;
+      const double tolerance = 0.5 * std::pow(10.0, -read[2].get<double>()) + read[3].get<double>() / 65534.0 + 1e-9;
       EXPECT_NEAR(number(read[0]), scale * file.column(c.column)[row], tolerance) << c.title;
     }
   }
@@ -144,8 +138,7 @@ TEST_F(WorkbenchPage, PointingShowsTheNumberOfTheFile) {
 
 TEST_F(WorkbenchPage, AClickAtAPeakMovesTheBodyThere) {
   const Place place = plot("angle", "elbow flexion");
-  const double peak_s =
-      js("plot.curves[0].x[plot.curves[0].y.indexOf(Math.max(...plot.curves[0].y))]");
+  const double peak_s = js("plot.curves[0].x[plot.curves[0].y.indexOf(Math.max(...plot.curves[0].y))]");
   const double peak_deg = js("Math.max(...plot.curves[0].y)");
   browser_->click(x_of(place, peak_s), place.top + 0.4 * place.height);
   browser_->wait_for("!myoid.replay.dirty");
@@ -154,10 +147,10 @@ TEST_F(WorkbenchPage, AClickAtAPeakMovesTheBodyThere) {
   EXPECT_EQ(js("Number(document.body.dataset.frame)").get<int>(), frame);
   const double frame_s = js(fmt::format("myoid.replay.trial.times[{}]", frame));
   EXPECT_NEAR(frame_s, peak_s, 0.03);
-  const double elbow_deg = js(fmt::format(
-      "myoid.replay.trial.coordinate({}, "
-      "myoid.replay.trial.model.coordinates.findIndex((c) => c.name === 'elbow_flexion'))",
-      frame));
+  const double elbow_deg =
+      js(fmt::format("myoid.replay.trial.coordinate({}, "
+                     "myoid.replay.trial.model.coordinates.findIndex((c) => c.name === 'elbow_flexion'))",
+                     frame));
   EXPECT_NEAR(elbow_deg, peak_deg, 0.5);
   EXPECT_NEAR(js("myoid.plots[1].cursor").get<double>(), js("myoid.t").get<double>(), 1e-12);
 }
@@ -245,8 +238,8 @@ TEST_F(WorkbenchPage, TheBandOfRepetitionsIsTheirMeanAndStandardDeviation) {
     Eigen::Vector3d values;
     for (int i = 0; i < 3; ++i) {
       const double from = trials[i][1], to = trials[i][2];
-      values[i] = value_at(*folder_ / "result" / trials[i][0].get<std::string>() / "ik.mot",
-                           "elbow_flexion", from + 0.01 * percent * (to - from));
+      values[i] = value_at(*folder_ / "result" / trials[i][0].get<std::string>() / "ik.mot", "elbow_flexion",
+                           from + 0.01 * percent * (to - from));
     }
     const double mean = values.mean();
     const double sd = std::sqrt((values.array() - mean).square().sum() / 2.0);
@@ -284,8 +277,7 @@ TEST_F(WorkbenchPage, TheChooserOpensATrialInEveryPart) {
   EXPECT_EQ(js("myoid.replay.trial.name"), "ramp");
   EXPECT_EQ(js("myoid.carpet.trial.name"), "ramp");
   // The virtual markers are off by millimeters: far from dark.
-  EXPECT_THAT(js("myoid.carpet.says.textContent").get<std::string>(),
-              HasSubstr("marker error 20 mm"));
+  EXPECT_THAT(js("myoid.carpet.says.textContent").get<std::string>(), HasSubstr("marker error 20 mm"));
   EXPECT_EQ(js("document.querySelectorAll('.chip[aria-pressed=true]').length"), 1);
   EXPECT_THAT(js("myoid.remarks.textContent").get<std::string>(), HasSubstr("ramp"));
 }
@@ -308,8 +300,7 @@ TEST_F(WorkbenchPage, SavesNumbersAndDrawings) {
   EXPECT_THAT(js("window.myoidSaved.blob.text()").get<std::string>(),
               HasSubstr("channel,kind,unit,begin_s,end_s,greatest"));
   js("myoid.picture()");
-  browser_->wait_for(
-      "window.myoidSaved.name.endsWith('.png') && window.myoidSaved.blob.size > 1000");
+  browser_->wait_for("window.myoidSaved.name.endsWith('.png') && window.myoidSaved.blob.size > 1000");
 }
 
 TEST_F(WorkbenchPage, SavesAFilmOfTheBodyThatPlays) {
@@ -430,19 +421,16 @@ TEST_F(WorkbenchPage, ThePosteriorsContoursHoldTheirSharesOfItsDraws) {
   EXPECT_THAT(js("myoid.learn.caption.textContent").get<std::string>(),
               testing::AllOf(HasSubstr("normal distribution"), HasSubstr("least squares")));
   const std::string out = *folder_ / "posterior";
-  const auto run =
-      myoid({"run", *folder_ / "rec/study.toml", "--estimator", "posterior", "--out", out});
+  const auto run = myoid({"run", *folder_ / "rec/study.toml", "--estimator", "posterior", "--out", out});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   browser_->open("file://" + out + "/report.html#trial=swing_2kg");
   const std::vector<myoid::test::Row> draws = myoid::test::read_rows(out + "/posterior.csv");
   EXPECT_THAT(js("myoid.learn.caption.textContent").get<std::string>(),
               HasSubstr(fmt::format("{} draws from the posterior", draws.size())));
   for (const std::string muscle : {"BIC", "TRI"}) {
-    js(fmt::format("myoid.learn.open(myoid.learn.muscles.findIndex((m) => m.name === '{}'))",
-                   muscle));
+    js(fmt::format("myoid.learn.open(myoid.learn.muscles.findIndex((m) => m.name === '{}'))", muscle));
     const auto share = [&](int path) {
-      return js(share_inside(path, draws, muscle + ".optimal_fiber_length",
-                             muscle + ".max_isometric_force"))
+      return js(share_inside(path, draws, muscle + ".optimal_fiber_length", muscle + ".max_isometric_force"))
           .get<double>();
     };
     // The contours go through a draw; pixels have a tenth, and a thousand draws lie near by.
@@ -476,8 +464,7 @@ TEST_F(WorkbenchPage, AFilmFollowsTheTimeOfTheBody) {
   myoid::recording::write_file(film, recorded_film(*browser_));
   const std::filesystem::path out = *folder_ / "filmed";
   std::filesystem::copy(*folder_ / "result", out, std::filesystem::copy_options::recursive);
-  const auto report =
-      myoid({"report", out, "--video", "swing_2kg=" + film, "--video-offset", "1.5"});
+  const auto report = myoid({"report", out, "--video", "swing_2kg=" + film, "--video-offset", "1.5"});
   ASSERT_EQ(report.exit_code, 0) << report.err;
   browser_->open("file://" + out.string() + "/report.html#trial=swing_2kg&t=2.5");
   browser_->wait_for("!myoid.video.film.hidden && !myoid.video.film.seeking");
@@ -530,9 +517,8 @@ TEST_F(WorkbenchPage, TheFirstPictureComesWithinASecondAndAHalf) {
   for (int i = 0; i < 3; ++i) {  // other programs may hold up one of them
     open();
     browser_->wait_for("performance.getEntriesByName('first-contentful-paint').length > 0");
-    best_s = std::min(
-        best_s, js("performance.getEntriesByName('first-contentful-paint')[0].startTime / 1000")
-                    .get<double>());
+    best_s = std::min(best_s,
+                      js("performance.getEntriesByName('first-contentful-paint')[0].startTime / 1000").get<double>());
   }
   EXPECT_LT(best_s, 1.5);
 }
@@ -566,8 +552,7 @@ TEST_F(WorkbenchPage, EveryPlotHasWordsForThoseWhoDoNotSeeIt) {
   EXPECT_EQ(js("[...document.querySelectorAll('.workbench .plot')].every((f) => "
                "[...f.querySelectorAll('button')].some((b) => b.textContent === '?'))"),
             true);
-  EXPECT_THAT(js("myoid.plots.find((p) => p.kind === 'torque').svg.getAttribute('aria-label')")
-                  .get<std::string>(),
+  EXPECT_THAT(js("myoid.plots.find((p) => p.kind === 'torque').svg.getAttribute('aria-label')").get<std::string>(),
               testing::AllOf(HasSubstr("measured"), HasSubstr("N m")));
 }
 

@@ -28,8 +28,7 @@ class CurveFunction : public SimTK::Function {
  public:
   explicit CurveFunction(Curve curve) : curve_(std::move(curve)) {}
   SimTK::Real calcValue(const SimTK::Vector& x) const override { return curve_(x[0], 0); }
-  SimTK::Real calcDerivative(const SimTK::Array_<int>& components,
-                             const SimTK::Vector& x) const override {
+  SimTK::Real calcDerivative(const SimTK::Array_<int>& components, const SimTK::Vector& x) const override {
     return curve_(x[0], static_cast<int>(components.size()));
   }
   int getArgumentSize() const override { return 1; }
@@ -44,8 +43,7 @@ SimTK::Body::Rigid rigid(const Link& link) {
   const SimTK::Inertia central(i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
   const SimTK::Vec3 c = vec(link.p_BBcm_B);
   // MassProperties wants the inertia about the body's origin.
-  return SimTK::Body::Rigid(
-      SimTK::MassProperties(link.mass_kg, c, central.shiftFromMassCenter(-c, link.mass_kg)));
+  return SimTK::Body::Rigid(SimTK::MassProperties(link.mass_kg, c, central.shiftFromMassCenter(-c, link.mass_kg)));
 }
 
 SimTK::MobilizedBody mobilized(SimTK::MobilizedBody& parent, const Link& link) {
@@ -75,8 +73,8 @@ SimTK::MobilizedBody mobilized(SimTK::MobilizedBody& parent, const Link& link) {
       functions.push_back(new CurveFunction(axis.curve));
     }
   }
-  return SimTK::MobilizedBody::FunctionBased(parent, X_PF, rigid(link), X_BM, link.coordinate_count,
-                                             functions, coordinates, axes);
+  return SimTK::MobilizedBody::FunctionBased(parent, X_PF, rigid(link), X_BM, link.coordinate_count, functions,
+                                             coordinates, axes);
 }
 
 SimTK::Vector vector_of(const std::vector<double>& values) {
@@ -98,9 +96,8 @@ Answer ask(const System& system,
   SimTK::Force::Gravity(forces, matter, vec(system.gravity_G));
   std::vector<SimTK::MobilizedBody> bodies;
   for (const Link& link : system.links) {
-    SimTK::MobilizedBody& parent = link.parent < 0
-                                       ? static_cast<SimTK::MobilizedBody&>(matter.Ground())
-                                       : bodies[static_cast<std::size_t>(link.parent)];
+    SimTK::MobilizedBody& parent = link.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.Ground())
+                                                   : bodies[static_cast<std::size_t>(link.parent)];
     bodies.push_back(mobilized(parent, link));
   }
   SimTK::State state = multibody.realizeTopology();
@@ -115,16 +112,13 @@ Answer ask(const System& system,
     answer.w_GB.push_back(plain(body.getBodyAngularVelocity(state)));
     answer.v_GB.push_back(plain(body.getBodyOriginVelocity(state)));
   }
-  SimTK::Vector_<SimTK::SpatialVec> body_forces =
-      multibody.getRigidBodyForces(state, SimTK::Stage::Dynamics);
+  SimTK::Vector_<SimTK::SpatialVec> body_forces = multibody.getRigidBodyForces(state, SimTK::Stage::Dynamics);
   for (const Wrench& wrench : wrenches) {
-    const SimTK::MobilizedBodyIndex index =
-        bodies[static_cast<std::size_t>(wrench.link)].getMobilizedBodyIndex();
+    const SimTK::MobilizedBodyIndex index = bodies[static_cast<std::size_t>(wrench.link)].getMobilizedBodyIndex();
     body_forces[index] += SimTK::SpatialVec(vec(wrench.m_G), vec(wrench.f_G));
   }
   SimTK::Vector residual;
-  matter.calcResidualForceIgnoringConstraints(state, SimTK::Vector(), body_forces, vector_of(qddot),
-                                              residual);
+  matter.calcResidualForceIgnoringConstraints(state, SimTK::Vector(), body_forces, vector_of(qddot), residual);
   SimTK::Matrix mass;
   matter.calcM(state, mass);
   for (int i = 0; i < residual.size(); ++i) {

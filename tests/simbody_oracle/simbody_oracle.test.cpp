@@ -122,29 +122,21 @@ BodyModel random_tree(std::uint64_t seed) {
       return c;
     };
     if (joint.class_name == "PinJoint") {
-      joint.rotation[0] = {
-          .axis = Vec3::UnitZ(), .coordinate = add_coordinate(), .function = Linear{1.0, 0.0}};
+      joint.rotation[0] = {.axis = Vec3::UnitZ(), .coordinate = add_coordinate(), .function = Linear{1.0, 0.0}};
     } else if (joint.class_name == "SliderJoint") {
-      joint.translation[0] = {
-          .axis = Vec3::UnitX(), .coordinate = add_coordinate(), .function = Linear{1.0, 0.0}};
+      joint.translation[0] = {.axis = Vec3::UnitX(), .coordinate = add_coordinate(), .function = Linear{1.0, 0.0}};
     } else if (joint.class_name == "CustomJoint") {
       const int a = add_coordinate();
       const int c = add_coordinate();
-      const auto spline = [&] {
-        return make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()});
-      };
-      joint.rotation[0] = {
-          .axis = u.vec().normalized(), .coordinate = a, .function = Linear{1.0 + 0.3 * u(), u()}};
-      joint.rotation[1] = {
-          .axis = u.vec().normalized(), .coordinate = c, .function = Function(spline(), 0.7)};
+      const auto spline = [&] { return make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()}); };
+      joint.rotation[0] = {.axis = u.vec().normalized(), .coordinate = a, .function = Linear{1.0 + 0.3 * u(), u()}};
+      joint.rotation[1] = {.axis = u.vec().normalized(), .coordinate = c, .function = Function(spline(), 0.7)};
       joint.rotation[2] = {.axis = u.vec().normalized(),
                            .coordinate = add_coordinate(),
                            .function = Function(Polynomial{{u(), u(), u()}}, 0.4)};
-      joint.translation[0] = {
-          .axis = u.vec().normalized(), .coordinate = c, .function = Function(spline(), 0.2)};
-      joint.translation[1] = {.axis = u.vec().normalized(),
-                              .coordinate = a,
-                              .function = Function(Polynomial{{u(), u(), u()}}, 0.2)};
+      joint.translation[0] = {.axis = u.vec().normalized(), .coordinate = c, .function = Function(spline(), 0.2)};
+      joint.translation[1] = {
+          .axis = u.vec().normalized(), .coordinate = a, .function = Function(Polynomial{{u(), u(), u()}}, 0.2)};
       joint.translation[2] = {.axis = u.vec().normalized(), .function = Constant{0.1 * u()}};
     }
     m.joints.push_back(joint);
@@ -164,26 +156,22 @@ void expect_agreement(const BodyModel& m, Uniform& u) {
     simbody_order.insert(simbody_order.end(), joint.coordinates.begin(), joint.coordinates.end());
   }
   ASSERT_EQ(simbody_order.size(), m.coordinates.size());
-  const auto told_values = [&](const Eigen::VectorXd& v) {
-    return plain(Eigen::VectorXd(v(simbody_order)));
-  };
+  const auto told_values = [&](const Eigen::VectorXd& v) { return plain(Eigen::VectorXd(v(simbody_order))); };
   const int tip = static_cast<int>(m.joints.size()) - 1;
   const Vec3 f_G = 20.0 * u.vec();
   const Vec3 m_G = 5.0 * u.vec();
-  const oracle::Answer simbody =
-      oracle::ask(told(m), told_values(q), told_values(qdot), told_values(qddot),
-                  {{.link = tip, .f_G = plain(f_G), .m_G = plain(m_G)}});
+  const oracle::Answer simbody = oracle::ask(told(m), told_values(q), told_values(qdot), told_values(qddot),
+                                             {{.link = tip, .f_G = plain(f_G), .m_G = plain(m_G)}});
   BodyState state = make_state(m);
   const Eigen::MatrixXd mass = mass_matrix(m, q, state);
-  const Eigen::VectorXd tau = inverse_dynamics(
-      m, q, qdot, qddot, {{.body = m.joints.back().child, .f_G = f_G, .m_G = m_G}}, state);
+  const Eigen::VectorXd tau =
+      inverse_dynamics(m, q, qdot, qddot, {{.body = m.joints.back().child, .f_G = f_G, .m_G = m_G}}, state);
 
   // Two orders of summation over a dozen products of numbers of this size: some hundred roundings.
   for (std::size_t j = 0; j < m.joints.size(); ++j) {
     const auto b = static_cast<std::size_t>(m.joints[j].child);
     SCOPED_TRACE(m.bodies[b].name);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(
-        simbody.X_GB[j].R.data());
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(simbody.X_GB[j].R.data());
     EXPECT_LT((state.X_GB[b].R - R).norm(), 1e-13);
     EXPECT_LT((state.X_GB[b].p - Eigen::Map<const Vec3>(simbody.X_GB[j].p.data())).norm(), 1e-13);
     EXPECT_LT((state.w_GB[b] - Eigen::Map<const Vec3>(simbody.w_GB[j].data())).norm(), 1e-12);
@@ -196,10 +184,8 @@ void expect_agreement(const BodyModel& m, Uniform& u) {
                                                                       << expected.transpose();
   for (Eigen::Index i = 0; i < tau.size(); ++i) {
     for (Eigen::Index k = 0; k < tau.size(); ++k) {
-      EXPECT_NEAR(mass(simbody_order[static_cast<std::size_t>(i)],
-                       simbody_order[static_cast<std::size_t>(k)]),
-                  simbody.mass[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)],
-                  1e-12 * mass.norm());
+      EXPECT_NEAR(mass(simbody_order[static_cast<std::size_t>(i)], simbody_order[static_cast<std::size_t>(k)]),
+                  simbody.mass[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)], 1e-12 * mass.norm());
     }
   }
 }

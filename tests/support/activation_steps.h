@@ -36,8 +36,7 @@ inline Point two_lags(double u, const Point& from, double tau_e, double tau_a, d
   return {e, e - decay_a * lead - c * share};
 }
 
-/// Returns the time at which e - a changes sign, or infinity. d = 0 <=> d0 + c (1 - exp(-k t)) / k
-/// = 0.
+/// Returns the time at which e - a changes sign, or infinity. d = 0 <=> d0 + c (1 - exp(-k t)) / k = 0.
 inline double switch_time(double u, const Point& from, double tau_e, double tau_a) {
   const double c = (u - from.filtered_excitation) / tau_e;
   const double lead = from.filtered_excitation - from.activation;
@@ -74,9 +73,7 @@ inline double runge_kutta(double u, double a, const Dynamics& d, double t) {
   const double longest = std::min(d.activation_time_s, d.deactivation_time_s) / 2.0 / 20.0;
   const double steps = std::max(1.0, std::ceil(t / longest));
   const double h = t / steps;
-  const auto rate = [&](double x) {
-    return muscle::activation_rate<double>(d, u, {0.0, x}).activation;
-  };
+  const auto rate = [&](double x) { return muscle::activation_rate<double>(d, u, {0.0, x}).activation; };
   for (double k = 0.0; k < steps; ++k) {
     const double k1 = rate(a);
     const double k2 = rate(a + 0.5 * h * k1);

@@ -48,19 +48,16 @@ inline model::BodyModel crooked_tree(std::uint64_t seed, bool shared = false, bo
       joint.rotation[static_cast<std::size_t>(k)] = {
           .axis = u.vec().normalized(),
           .coordinate = c,
-          .function = k == 1
-                          ? Function(make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()}))
-                          : Function(Linear{1.0 + 0.3 * u(), u()})};
-      joint.translation[static_cast<std::size_t>(k)] = {
-          .axis = u.vec().normalized(),
-          .coordinate = k == 2 ? c - 1 : c,
-          .function = Function(Polynomial{{u(), u(), u()}}, 0.1)};
+          .function = k == 1 ? Function(make_simm_spline({-2, -1, 0, 1, 2}, {u(), u(), u(), u(), u()}))
+                             : Function(Linear{1.0 + 0.3 * u(), u()})};
+      joint.translation[static_cast<std::size_t>(k)] = {.axis = u.vec().normalized(),
+                                                        .coordinate = k == 2 ? c - 1 : c,
+                                                        .function = Function(Polynomial{{u(), u(), u()}}, 0.1)};
     }
     if (shared) {
       const int sharing[4][3] = {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0, 0}};
       for (std::size_t k = 0; k < 3; ++k) {
-        joint.rotation[k].coordinate =
-            joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
+        joint.rotation[k].coordinate = joint.coordinates[static_cast<std::size_t>(sharing[b - 1][k])];
       }
     }
     if (bent && b == 2) {

@@ -11,16 +11,14 @@ namespace myoid::test {
 inline const identification::NoiseValues kNoise =
     (identification::NoiseValues(6) << -0.9, -1.4, 0.1, -3.0, 0.3, -0.4).finished();
 inline const identification::NoiseValues kNoiseOfLeg =
-    (identification::NoiseValues(6) << 1.5, -1.4, 0.1, -3.0, -0.2, 0.5)
-        .finished();  // of some 60 N m
+    (identification::NoiseValues(6) << 1.5, -1.4, 0.1, -3.0, -0.2, 0.5).finished();  // of some 60 N m
 
 /// Two muscles on one electrode, exponent, gain, offset and an elastic law of length free.
 inline ElbowStudy crowded_study() {
-  ElbowStudy study = elbow_study(
-      {.trials = 2, .seconds = 6.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
+  ElbowStudy study =
+      elbow_study({.trials = 2, .seconds = 6.0, .emg_cv = 0.08, .torque_sd_nm = 0.4, .with_priors = true});
   study.data.muscles[1].emg_channel = study.data.muscles[0].emg_channel;
-  study.data.rules = {freed("emg_exponent"), freed("length_activation"),
-                      freed("joint_torque_offset")};
+  study.data.rules = {freed("emg_exponent"), freed("length_activation"), freed("joint_torque_offset")};
   study.data.rules[0].value = 1.2;
   study.data.rules[1].tie = true;
   study.data.rules[1].value = 0.1;

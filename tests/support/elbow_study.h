@@ -44,15 +44,12 @@ class StudyNoise {
  public:
   explicit StudyNoise(std::uint64_t seed) : engine_(seed) {}
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  double normal() {
-    return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * kPi * uniform());
-  }
+  double normal() { return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * kPi * uniform()); }
   /// Unit variance, below `cutoff_hz`.
   Eigen::VectorXd band(Eigen::Index count, double cutoff_hz, double rate_hz) {
     Eigen::VectorXd x(count);
     for (double& v : x) v = normal();
-    x = math::zero_phase(
-        math::design_butterworth(math::FilterBand::low_pass, 2, cutoff_hz, rate_hz), x);
+    x = math::zero_phase(math::design_butterworth(math::FilterBand::low_pass, 2, cutoff_hz, rate_hz), x);
     return x / std::sqrt(x.squaredNorm() / static_cast<double>(count));
   }
 
@@ -60,9 +57,8 @@ class StudyNoise {
   std::mt19937_64 engine_;
 };
 
-/// Four muscles whose activations rise and fall independently of each other and of the movement
-/// (two sines and a level each), an elbow that moves between 10 and 125 degrees at up to some 7
-/// rad/s, and the torque the muscles then make.
+/// Four muscles whose activations rise and fall independently of each other and of the movement (two sines and a level
+/// each), an elbow that moves between 10 and 125 degrees at up to some 7 rad/s, and the torque the muscles then make.
 inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
   ElbowStudy study;
   study.delay_s = o.delay_s;
@@ -77,16 +73,16 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
     muscle::HillParameters<double> truth = start[k];
     for (std::size_t f = 0; f < 6; ++f) {
       const muscle::HillField& field = muscle::kHillFields[f];
-      const auto prior = identification::literature_prior(field.name, start[k].*field.member,
-                                                          start[k].optimal_fiber_length_m);
+      const auto prior =
+          identification::literature_prior(field.name, start[k].*field.member, start[k].optimal_fiber_length_m);
       if (o.with_priors && prior) setup.priors[std::string(field.name)] = *prior;
       double& value = truth.*field.member;
       if (o.truth_from_prior && prior) {
         const muscle::Range range = field.bounds;
         double drawn = 0.0;
         do {
-          drawn = prior->logarithmic ? value * std::exp(prior->sd * noise.normal())
-                                     : value + prior->sd * noise.normal();
+          drawn =
+              prior->logarithmic ? value * std::exp(prior->sd * noise.normal()) : value + prior->sd * noise.normal();
         } while (!(drawn > range.lower && drawn < range.upper));
         value = drawn;
       } else {
@@ -131,10 +127,8 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
                      2.0 * kPi * noise.uniform()};
       channels.push_back({study.data.muscles[k].name, Unit::dimensionless});
       const Eigen::VectorXd gain =
-          o.emg_cv > 0.0
-              ? Eigen::VectorXd(
-                    (1.0 + o.emg_cv * noise.band(clock.size(), 6.0, o.rate_hz).array()).max(0.0))
-              : Eigen::VectorXd::Ones(clock.size());
+          o.emg_cv > 0.0 ? Eigen::VectorXd((1.0 + o.emg_cv * noise.band(clock.size(), 6.0, o.rate_hz).array()).max(0.0))
+                         : Eigen::VectorXd::Ones(clock.size());
       for (Eigen::Index i = 0; i < clock.size(); ++i)
         recorded(i, static_cast<Eigen::Index>(k)) = envelope[k].at(clock[i]) * gain[i];
     }
@@ -149,9 +143,9 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
         trial.length_m(i, c) = travel.length_m;
         trial.moment_arm_m(i, c) = travel.moment_arm_m;
         trial.velocity_mps(i, c) = -travel.moment_arm_m * qdot;
-        trial.force_n(i, c) = muscle::hill_force(
-            envelope[k].at(t - o.delay_s), travel.length_m - study.truth[k].tendon_slack_length_m,
-            trial.velocity_mps(i, c), study.truth[k]);
+        trial.force_n(i, c) =
+            muscle::hill_force(envelope[k].at(t - o.delay_s), travel.length_m - study.truth[k].tendon_slack_length_m,
+                               trial.velocity_mps(i, c), study.truth[k]);
       }
     }
     trial.torque_nm = trial.moment_arm_m.cwiseProduct(trial.force_n).rowwise().sum();
@@ -162,8 +156,7 @@ inline ElbowStudy elbow_study(const ElbowStudyOptions& o = {}) {
 }
 
 /// That a parameter is to be found, of these owners or of all.
-inline identification::ParameterRule freed(const char* parameter,
-                                           std::vector<std::string> owners = {}) {
+inline identification::ParameterRule freed(const char* parameter, std::vector<std::string> owners = {}) {
   identification::ParameterRule rule;
   rule.parameter = parameter;
   rule.owners = std::move(owners);

@@ -66,8 +66,7 @@ inline void add_leg_muscles(ElbowStudy& study) {
     setup.fixed = {"max_shortening_speed", "tendon_slack_length"};
     study.truth.push_back(setup.start);
     for (std::size_t f = 0; f < deviation.size(); ++f)
-      study.truth.back().*muscle::kHillFields[f].member *=
-          1.0 + ((k + f) % 2 == 0 ? 1.0 : -1.0) * deviation[f];
+      study.truth.back().*muscle::kHillFields[f].member *= 1.0 + ((k + f) % 2 == 0 ? 1.0 : -1.0) * deviation[f];
     study.data.muscles.push_back(std::move(setup));
   }
 }
@@ -112,9 +111,8 @@ void add_leg_force(const ElbowStudy& study,
     }
     trial.length_m(i, column) = length;
     trial.velocity_mps(i, column) = velocity;
-    trial.force_n(i, column) =
-        muscle::hill_force(envelope(trial.time_s[i] - study.delay_s),
-                           length - truth.tendon_slack_length_m, velocity, truth);
+    trial.force_n(i, column) = muscle::hill_force(envelope(trial.time_s[i] - study.delay_s),
+                                                  length - truth.tendon_slack_length_m, velocity, truth);
   }
 }
 
@@ -131,8 +129,8 @@ inline identification::TrialData leg_trial(const ElbowStudy& study,
   trial.joint = "ankle";
   trial.more_joints.push_back({.name = "knee"});
   identification::JointData& knee = trial.more_joints.front();
-  for (Eigen::MatrixXd* of : {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m,
-                              &trial.force_n, &knee.moment_arm_m})
+  for (Eigen::MatrixXd* of :
+       {&trial.length_m, &trial.velocity_mps, &trial.moment_arm_m, &trial.force_n, &knee.moment_arm_m})
     of->setZero(n, kMuscles);
   const LegMotion motion = leg_motion(trial.time_s, number, noise);
   const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(n + 100, -0.5, o.seconds + 0.5);
@@ -141,8 +139,7 @@ inline identification::TrialData leg_trial(const ElbowStudy& study,
   for (std::size_t k = 0; k < kLegMuscles.size(); ++k) {
     channels.push_back({kLegMuscles[k].name, Unit::dimensionless});
     const double level = 0.15 + 0.2 * noise.uniform(), w1 = 1.3 + 3.0 * noise.uniform(),
-                 w2 = 5.0 + 5.0 * noise.uniform(), p1 = 6.0 * noise.uniform(),
-                 p2 = 6.0 * noise.uniform();
+                 w2 = 5.0 + 5.0 * noise.uniform(), p1 = 6.0 * noise.uniform(), p2 = 6.0 * noise.uniform();
     const auto envelope = [&](double t) {
       return level * (1.0 + 0.55 * std::sin(w1 * t + p1) + 0.35 * std::sin(w2 * t + p2));
     };
@@ -174,8 +171,7 @@ inline ElbowStudy leg_study(const LegStudyOptions& o = {}) {
   study.delay_s = 0.05;
   StudyNoise noise(o.seed);
   add_leg_muscles(study);
-  for (int number = 0; number < o.trials; ++number)
-    study.data.trials.push_back(leg_trial(study, o, number, noise));
+  for (int number = 0; number < o.trials; ++number) study.data.trials.push_back(leg_trial(study, o, number, noise));
   return study;
 }
 

@@ -17,8 +17,7 @@ namespace myoid::test {
 /// torques made from them by nothing of this project.
 
 /// Reads the columns of numbers behind `header` lines.
-inline std::vector<std::vector<double>> read_columns(const std::filesystem::path& file,
-                                                     int header) {
+inline std::vector<std::vector<double>> read_columns(const std::filesystem::path& file, int header) {
   std::ifstream stream(file);
   std::string line;
   for (int i = 0; i < header; ++i) std::getline(stream, line);

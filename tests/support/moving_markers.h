@@ -29,11 +29,9 @@ inline recording::MarkerSeries moving_markers(Eigen::Index frames = 400,
                                               std::uint64_t seed = 1) {
   math::Random random(seed);
   recording::MarkerSeries markers;
-  markers.time_s =
-      Eigen::VectorXd::LinSpaced(frames, 0.0, static_cast<double>(frames - 1) / rate_hz);
+  markers.time_s = Eigen::VectorXd::LinSpaced(frames, 0.0, static_cast<double>(frames - 1) / rate_hz);
   const Eigen::Matrix3Xd local = forearm_shape();
-  for (Eigen::Index m = 0; m < local.cols(); ++m)
-    markers.names.emplace_back(1, static_cast<char>('A' + m));
+  for (Eigen::Index m = 0; m < local.cols(); ++m) markers.names.emplace_back(1, static_cast<char>('A' + m));
   markers.positions_m.resize(frames, 3 * local.cols());
   for (Eigen::Index f = 0; f < frames; ++f) {
     const double t = markers.time_s[f];
@@ -43,17 +41,13 @@ inline recording::MarkerSeries moving_markers(Eigen::Index frames = 400,
     const Vec3 p(0.2 * std::sin(2.0 * t), 1.2 + 0.1 * std::cos(4.0 * t), 0.3 * t);
     for (Eigen::Index m = 0; m < local.cols(); ++m) {
       const Vec3 noise(random.normal(), random.normal(), random.normal());
-      markers.positions_m.block<1, 3>(f, 3 * m) =
-          (R * local.col(m) + p + noise_m * noise).transpose();
+      markers.positions_m.block<1, 3>(f, 3 * m) = (R * local.col(m) + p + noise_m * noise).transpose();
     }
   }
   return markers;
 }
 
-inline void hide(recording::MarkerSeries& markers,
-                 Eigen::Index marker,
-                 Eigen::Index begin,
-                 Eigen::Index end) {
+inline void hide(recording::MarkerSeries& markers, Eigen::Index marker, Eigen::Index begin, Eigen::Index end) {
   markers.positions_m.block(begin, 3 * marker, end - begin, 3).setConstant(std::nan(""));
 }
 

@@ -100,8 +100,7 @@ T nist_model(const std::string& name, const std::vector<T>& b, const std::vector
   if (name == "Misra1d") return b[0] * b[1] * x / (one + b[1] * x);
   if (name == "Chwirut1" || name == "Chwirut2") return exp(-b[0] * x) / (b[1] + b[2] * x);
   if (name == "DanWood") return b[0] * exp(b[1] * log(x));
-  if (name.starts_with("Lanczos"))
-    return b[0] * exp(-b[1] * x) + b[2] * exp(-b[3] * x) + b[4] * exp(-b[5] * x);
+  if (name.starts_with("Lanczos")) return b[0] * exp(-b[1] * x) + b[2] * exp(-b[3] * x) + b[4] * exp(-b[5] * x);
   if (name.starts_with("Gauss")) {
     const T u = (x - b[3]) / b[4];
     const T v = (x - b[6]) / b[7];
@@ -109,8 +108,7 @@ T nist_model(const std::string& name, const std::vector<T>& b, const std::vector
   }
   if (name == "Kirby2") return (b[0] + b[1] * x + b[2] * x * x) / (one + b[3] * x + b[4] * x * x);
   if (name == "Hahn1" || name == "Thurber") {
-    return (b[0] + b[1] * x + b[2] * x * x + b[3] * x * x * x) /
-           (one + b[4] * x + b[5] * x * x + b[6] * x * x * x);
+    return (b[0] + b[1] * x + b[2] * x * x + b[3] * x * x * x) / (one + b[4] * x + b[5] * x * x + b[6] * x * x * x);
   }
   if (name == "Nelson") return b[0] - b[1] * x * exp(-b[2] * static_cast<Number>(at[1]));
   if (name == "MGH09") return b[0] * (x * x + x * b[1]) / (x * x + x * b[2] + b[3]);
@@ -128,8 +126,8 @@ T nist_model(const std::string& name, const std::vector<T>& b, const std::vector
     const Number year = Number(2) * pi * x / Number(12);
     const T second = Number(2) * pi * x / b[3];
     const T third = Number(2) * pi * x / b[6];
-    return b[0] + b[1] * cos(year) + b[2] * sin(year) + b[4] * cos(second) + b[5] * sin(second) +
-           b[7] * cos(third) + b[8] * sin(third);
+    return b[0] + b[1] * cos(year) + b[2] * sin(year) + b[4] * cos(second) + b[5] * sin(second) + b[7] * cos(third) +
+           b[8] * sin(third);
   }
   throw std::runtime_error("no model of " + name);
 }
@@ -143,18 +141,15 @@ inline long double nist_response(const NistProblem& problem, std::size_t i) {
 inline math::LeastSquaresProblem least_squares(const NistProblem& nist) {
   math::LeastSquaresProblem problem;
   problem.residual_count = static_cast<Eigen::Index>(nist.response.size());
-  problem.evaluate = [&nist](const Eigen::VectorXd& b, Eigen::VectorXd& r,
-                             Eigen::MatrixXd* jacobian) {
+  problem.evaluate = [&nist](const Eigen::VectorXd& b, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     const std::vector<long double> exact(b.data(), b.data() + b.size());
     std::vector<NistJet> jets;
     for (Eigen::Index j = 0; j < b.size(); ++j) jets.emplace_back(b[j], static_cast<int>(j));
     for (std::size_t i = 0; i < nist.response.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      r[row] = static_cast<double>(nist_model(nist.name, exact, nist.predictors[i]) -
-                                   nist_response(nist, i));
+      r[row] = static_cast<double>(nist_model(nist.name, exact, nist.predictors[i]) - nist_response(nist, i));
       if (jacobian != nullptr)
-        jacobian->row(row) =
-            nist_model(nist.name, jets, nist.predictors[i]).v.head(b.size()).transpose();
+        jacobian->row(row) = nist_model(nist.name, jets, nist.predictors[i]).v.head(b.size()).transpose();
     }
   };
   return problem;
@@ -163,10 +158,9 @@ inline math::LeastSquaresProblem least_squares(const NistProblem& nist) {
 /// Names of all problems, in NIST's order of difficulty.
 inline const std::vector<std::string>& nist_names() {
   static const std::vector<std::string> names{
-      "Misra1a", "Chwirut2", "Chwirut1", "Lanczos3", "Gauss1", "Gauss2",   "DanWood",
-      "Misra1b", "Kirby2",   "Hahn1",    "Nelson",   "MGH17",  "Lanczos1", "Lanczos2",
-      "Gauss3",  "Misra1c",  "Misra1d",  "Roszman1", "ENSO",   "MGH09",    "Thurber",
-      "BoxBOD",  "Rat42",    "MGH10",    "Eckerle4", "Rat43",  "Bennett5"};
+      "Misra1a", "Chwirut2", "Chwirut1", "Lanczos3", "Gauss1",   "Gauss2", "DanWood",  "Misra1b", "Kirby2",
+      "Hahn1",   "Nelson",   "MGH17",    "Lanczos1", "Lanczos2", "Gauss3", "Misra1c",  "Misra1d", "Roszman1",
+      "ENSO",    "MGH09",    "Thurber",  "BoxBOD",   "Rat42",    "MGH10",  "Eckerle4", "Rat43",   "Bennett5"};
   return names;
 }
 

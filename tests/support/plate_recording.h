@@ -26,12 +26,12 @@ struct PlateLoad {
 /// How a plate and its laboratory are written down. The physics is that of `PlateLoad`, turned.
 struct PlateCase {
   int type = 2;
-  Mat3 R_LZ = Mat3::Identity();  ///< From the laboratory of `PlateLoad` to that of the file.
-  int first_corner = 0;          ///< The corner that the file names first, 0 to 3.
-  bool reversed = false;         ///< The corners go the other way round.
-  bool on_plate = false;         ///< The file holds the force on the plate.
-  std::string screen;            ///< POINT:Y_SCREEN, if not empty.
-  int markers = 1;               ///< "M", "M2", ... 10 mm apart.
+  Mat3 R_LZ = Mat3::Identity();          ///< From the laboratory of `PlateLoad` to that of the file.
+  int first_corner = 0;                  ///< The corner that the file names first, 0 to 3.
+  bool reversed = false;                 ///< The corners go the other way round.
+  bool on_plate = false;                 ///< The file holds the force on the plate.
+  std::string screen;                    ///< POINT:Y_SCREEN, if not empty.
+  int markers = 1;                       ///< "M", "M2", ... 10 mm apart.
   Vec3 marker_Z_m{0.001, 0.002, 0.003};  ///< Of the first one, in `PlateLoad`'s laboratory.
   bool loaded = true;
   std::vector<double> channel_order;  ///< Of FORCE_PLATFORM:CHANNEL, the first ones.
@@ -66,10 +66,8 @@ inline recording::C3dParameter c3d_text(const char* name, const std::string& tex
 }
 
 inline std::vector<std::pair<const char*, const char*>> plate_channels(int type) {
-  if (type == 1)
-    return {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"px", "mm"}, {"py", "mm"}, {"Tz", "Nmm"}};
-  if (type == 2)
-    return {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"Mx", "Nmm"}, {"My", "Nmm"}, {"Mz", "Nmm"}};
+  if (type == 1) return {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"px", "mm"}, {"py", "mm"}, {"Tz", "Nmm"}};
+  if (type == 2) return {{"Fx", "N"}, {"Fy", "N"}, {"Fz", "N"}, {"Mx", "Nmm"}, {"My", "Nmm"}, {"Mz", "Nmm"}};
   if (type == 3)
     return {{"Fx12", "N"}, {"Fx34", "N"}, {"Fy14", "N"}, {"Fy23", "N"},
             {"Fz1", "N"},  {"Fz2", "N"},  {"Fz3", "N"},  {"Fz4", "N"}};
@@ -87,21 +85,17 @@ inline Eigen::Matrix<double, 6, 6> plate_calibration() {
   return calibration;
 }
 
-/// One second at 100 frames and 1000 samples a second of one plate of type 1, 2, 3 or 4 under
-/// `PlateLoad`, its middle at (0.4, 1.2, 0.05) m. Every type's channels are made from first
-/// principles: what its sensors feel, in the frame that the corners give by the C3D guide (x from
-/// corner 2 to 1, y from 4 to 1), with the transducer below the surface.
+/// One second at 100 frames and 1000 samples a second of one plate of type 1, 2, 3 or 4 under `PlateLoad`, its middle
+/// at (0.4, 1.2, 0.05) m. Every type's channels are made from first principles: what its sensors feel, in the frame
+/// that the corners give by the C3D guide (x from corner 2 to 1, y from 4 to 1), with the transducer below the surface.
 inline recording::C3dFile plate_recording(const PlateCase& c) {
   using recording::C3dType;
   const Vec3 middle_Z(0.4, 1.2, 0.05);
   const std::array<Vec3, 4> rectangle{middle_Z + Vec3(0.2, 0.3, 0), middle_Z + Vec3(0.2, -0.3, 0),
-                                      middle_Z + Vec3(-0.2, -0.3, 0),
-                                      middle_Z + Vec3(-0.2, 0.3, 0)};
+                                      middle_Z + Vec3(-0.2, -0.3, 0), middle_Z + Vec3(-0.2, 0.3, 0)};
   Eigen::Matrix<double, 3, 4> corners_L;
   for (int k = 0; k < 4; ++k)
-    corners_L.col(k) =
-        c.R_LZ *
-        rectangle[static_cast<std::size_t>((c.first_corner + (c.reversed ? 4 - k : k)) % 4)];
+    corners_L.col(k) = c.R_LZ * rectangle[static_cast<std::size_t>((c.first_corner + (c.reversed ? 4 - k : k)) % 4)];
   Mat3 R_LP;
   R_LP.col(0) = (corners_L.col(0) - corners_L.col(1)).normalized();
   R_LP.col(1) = (corners_L.col(0) - corners_L.col(3)).normalized();
@@ -145,8 +139,8 @@ inline recording::C3dFile plate_recording(const PlateCase& c) {
       const double my = m.y() / (4.0 * a_m);
       const double dx = 5.0;  // any split between the two pairs that bear M_z
       const double dy = (m.z() + 2.0 * b_m * dx) / (2.0 * a_m);
-      v << f.x() / 2 + dx, f.x() / 2 - dx, f.y() / 2 + dy, f.y() / 2 - dy, fz + mx - my,
-          fz + mx + my, fz - mx + my, fz - mx - my;
+      v << f.x() / 2 + dx, f.x() / 2 - dx, f.y() / 2 + dy, f.y() / 2 - dy, fz + mx - my, fz + mx + my, fz - mx + my,
+          fz - mx - my;
     } else {
       const Vec3 m = (origin_P + p).cross(f) + twist;
       v << f, 1000.0 * m;
@@ -157,21 +151,18 @@ inline recording::C3dFile plate_recording(const PlateCase& c) {
   std::vector<double> corners;
   for (const double value : corners_L.reshaped()) corners.push_back(1000.0 * value);
   std::vector<double> channels = c.channel_order;
-  for (std::size_t k = channels.size() + 1; k <= names.size(); ++k)
-    channels.push_back(static_cast<double>(k));
+  for (std::size_t k = channels.size() + 1; k <= names.size(); ++k) channels.push_back(static_cast<double>(k));
   const auto count = static_cast<std::uint8_t>(names.size());
   recording::C3dGroup group{.id = 1, .name = "FORCE_PLATFORM"};
-  group.parameters = {
-      c3d_numbers("USED", C3dType::integer, {}, {1}),
-      c3d_numbers("TYPE", C3dType::integer, {1}, {static_cast<double>(c.type)}),
-      c3d_numbers("CORNERS", C3dType::real, {3, 4, 1}, corners),
-      c3d_numbers("ORIGIN", C3dType::real, {3, 1},
-                  {1000.0 * origin_P.x(), 1000.0 * origin_P.y(), 1000.0 * origin_P.z()}),
-      c3d_numbers("CHANNEL", C3dType::integer, {count, 1}, channels)};
+  group.parameters = {c3d_numbers("USED", C3dType::integer, {}, {1}),
+                      c3d_numbers("TYPE", C3dType::integer, {1}, {static_cast<double>(c.type)}),
+                      c3d_numbers("CORNERS", C3dType::real, {3, 4, 1}, corners),
+                      c3d_numbers("ORIGIN", C3dType::real, {3, 1},
+                                  {1000.0 * origin_P.x(), 1000.0 * origin_P.y(), 1000.0 * origin_P.z()}),
+                      c3d_numbers("CHANNEL", C3dType::integer, {count, 1}, channels)};
   if (c.type == 4)
-    group.parameters.push_back(
-        c3d_numbers("CAL_MATRIX", C3dType::real, {6, 6, 1},
-                    {calibration.data(), calibration.data() + calibration.size()}));
+    group.parameters.push_back(c3d_numbers("CAL_MATRIX", C3dType::real, {6, 6, 1},
+                                           {calibration.data(), calibration.data() + calibration.size()}));
   file.groups = {group};
   if (!c.screen.empty()) {
     recording::C3dGroup point{.id = 2, .name = "POINT"};

@@ -18,9 +18,7 @@ namespace myoid::test {
 /// Expects that a page of the documentation holds what the program prints, between the lines
 ///   <!-- printed: NAME --> and <!-- end of NAME -->.
 /// With MYOID_PRINT_PAGES set in the environment the page is written instead.
-inline void expect_printed(const std::string& page,
-                           const std::string& name,
-                           const std::string& printed) {
+inline void expect_printed(const std::string& page, const std::string& name, const std::string& printed) {
   const std::filesystem::path path = source_dir() / page;
   std::stringstream stream;
   stream << std::ifstream(path).rdbuf();

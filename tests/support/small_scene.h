@@ -18,10 +18,9 @@ inline report::Scene small_scene() {
                    .sticks_m = {{Vec3::Zero(), Vec3(0.0, -0.25, 0.0)}}}};
   scene.markers = {{"WRI", {1, {0.0, -0.25, 0.02}}}};
   scene.surfaces = {{.name = "elbow", .body = 0, .size_m = {0.02, 0.02, 0.1}}};
-  scene.muscles = {{.name = "BIC",
-                    .max_isometric_force_n = 600.0,
-                    .points = {{0, {0.03, 0.25, 0.0}}, {1, {0.02, -0.04, 0.0}}}},
-                   {.name = "TRI", .max_isometric_force_n = 900.0}};
+  scene.muscles = {
+      {.name = "BIC", .max_isometric_force_n = 600.0, .points = {{0, {0.03, 0.25, 0.0}}, {1, {0.02, -0.04, 0.0}}}},
+      {.name = "TRI", .max_isometric_force_n = 900.0}};
   scene.coordinates = {{"elbow", "deg"}};
   scene.time_s = Eigen::Vector2d(0.0, 0.02);
   scene.poses = {{Pose{}, Pose{}}, {Pose{}, Pose{rotation_body_xyz({0.0, 0.0, 0.5}), {}}}};

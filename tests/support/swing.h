@@ -16,8 +16,8 @@ inline identification::TrialData swing(double effort_nm) {
   trial.angle_rad = 1.2 + 0.8 * phase.sin();
   trial.velocity_radps = 0.8 * 2.0 * std::numbers::pi * phase.cos();
   trial.acceleration_radps2 = -0.8 * 4.0 * std::numbers::pi * std::numbers::pi * phase.sin();
-  trial.torque_nm = 0.08 * trial.acceleration_radps2.array() - 0.5 * trial.angle_rad.array() +
-                    effort_nm * (0.7 * phase).sin();
+  trial.torque_nm =
+      0.08 * trial.acceleration_radps2.array() - 0.5 * trial.angle_rad.array() + effort_nm * (0.7 * phase).sin();
   trial.moment_arm_m = Eigen::MatrixXd::Constant(kCount, 1, 0.04);
   return trial;
 }

@@ -25,9 +25,7 @@ class ToolFolder : public ::testing::Test {
     arm_ = model::parse_osim(model::arm4_osim(), "arm4.osim");
     write("arm.osim", model::arm4_osim());
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   [[nodiscard]] ToolResult run(const std::string& setup) const {
     write("setup.xml", "<OpenSimDocument Version=\"40000\">" + setup + "</OpenSimDocument>");
     return run_tool(folder_ / "setup.xml");
@@ -77,9 +75,7 @@ class ToolFolder : public ::testing::Test {
     for (int i = 0; i < frames; ++i) text += fmt::format("{}\t{}\n", 0.01 * i, elbow(i));
     write("motion.mot", text);
   }
-  [[nodiscard]] TimeSeries read(const std::string& name) const {
-    return recording::read_storage(folder_ / name).data;
-  }
+  [[nodiscard]] TimeSeries read(const std::string& name) const { return recording::read_storage(folder_ / name).data; }
 
   TemporaryFolder temporary_;
   std::filesystem::path folder_ = temporary_.path();

@@ -12,10 +12,9 @@
 
 namespace myoid::test {
 
-/// The law of the muscles once more, from science.md alone (equations 1 to 4, 5.4, 5.5), and files
-/// read by nothing of this project: numbers that the program prints are computed anew from what it
-/// wrote. Envelopes between samples by cubics, the rest by lines, equation (1) by exact steps of a
-/// tenth of a millisecond.
+/// The law of the muscles once more, from science.md alone (equations 1 to 4, 5.4, 5.5), and files read by nothing of
+/// this project: numbers that the program prints are computed anew from what it wrote. Envelopes between samples by
+/// cubics, the rest by lines, equation (1) by exact steps of a tenth of a millisecond.
 
 /// A storage file (.sto, .mot).
 struct Table {
@@ -42,8 +41,7 @@ inline Table read_table(const std::filesystem::path& file) {
   while (std::getline(stream, line)) {
     std::istringstream cells(line);
     double x = 0.0;
-    for (std::size_t c = 0; c < table.columns.size() && cells >> x; ++c)
-      table.columns[c].push_back(x);
+    for (std::size_t c = 0; c < table.columns.size() && cells >> x; ++c) table.columns[c].push_back(x);
   }
   return table;
 }
@@ -63,10 +61,10 @@ inline double curve(const std::vector<double>& t, const std::vector<double>& x, 
   if (k < 2 || k + 1 >= t.size()) return between(t, x, at);
   const double s = (at - t[k - 1]) / (t[k] - t[k - 1]);
   const double before = x[k - 2], left = x[k - 1], right = x[k], after = x[k + 1];
-  return left + 0.5 * s *
-                    (right - before +
-                     s * (2.0 * before - 5.0 * left + 4.0 * right - after +
-                          s * (3.0 * (left - right) + after - before)));
+  return left +
+         0.5 * s *
+             (right - before +
+              s * (2.0 * before - 5.0 * left + 4.0 * right - after + s * (3.0 * (left - right) + after - before)));
 }
 
 /// Parameters by their names in parameters.csv, with what stands for those that are absent.
@@ -78,8 +76,7 @@ struct Numbers {
   }
 };
 
-/// An envelope behind the delay, or behind delay and lags that share it as 10, 40, 15 (50 where it
-/// falls) ms of 82.5.
+/// An envelope behind the delay, or behind delay and lags that share it as 10, 40, 15 (50 where it falls) ms of 82.5.
 inline std::vector<double> follow(const std::vector<double>& clock,
                                   const std::vector<double>& envelope,
                                   const std::vector<double>& at,

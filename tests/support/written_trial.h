@@ -23,8 +23,7 @@ inline Study arm_study(const std::string& more = "") {
   std::string text = more + "[emg]\nkind = \"envelope\"\n";
   for (const char* muscle : {"BIC", "BRA", "BRD", "TRI"})
     text += fmt::format("[[muscle]]\nname = \"{0}\"\nemg = \"{0}\"\n", muscle);
-  return parse_study(text + "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n",
-                     "study.toml");
+  return parse_study(text + "[[trial]]\nname = \"t\"\nmotion = \"m.mot\"\nemg = \"e.sto\"\n", "study.toml");
 }
 
 inline const model::BodyModel& arm() {
@@ -40,8 +39,8 @@ struct WrittenTrial {
   WrittenTrial(double motion_step, double emg_s, double hole_s = 0.0) {
     std::string motion = "motion\nversion=1\ninDegrees=yes\nendheader\ntime\telbow_flexion\n";
     for (int i = 0; i < 500; ++i) {
-      motion += fmt::format("{:.6f}\t{:.4f}\n", motion_step * i + (i < 250 ? 0.0 : hole_s),
-                            40.0 + 30.0 * std::sin(0.02 * i));
+      motion +=
+          fmt::format("{:.6f}\t{:.4f}\n", motion_step * i + (i < 250 ? 0.0 : hole_s), 40.0 + 30.0 * std::sin(0.02 * i));
     }
     std::string emg = "EMG\nendheader\ntime\tBIC\tBRA\tBRD\tTRI\n";
     for (int i = 0; i <= static_cast<int>(100.0 * emg_s); ++i)
@@ -52,9 +51,7 @@ struct WrittenTrial {
     spec.motion = folder / "m.mot";
     spec.emg = folder / "e.sto";
   }
-  [[nodiscard]] TrialInput read(const Study& study) const {
-    return read_trial_input(study, spec, arm());
-  }
+  [[nodiscard]] TrialInput read(const Study& study) const { return read_trial_input(study, spec, arm()); }
 };
 
 }  // namespace myoid::test_trials

@@ -6,8 +6,7 @@ namespace myoid::model {
 
 /// Departures of OpenSim 4.5.2 from the geometry of a model, one switch each. With none set
 /// (`exact`, the default) lengths are continuous wherever the geometry is, and moment arms are
-/// -dl/dq. The switches from `stale_wrap_points` to `approximate_torus` act only if `opensim_paths`
-/// is set.
+/// -dl/dq. The switches from `stale_wrap_points` to `approximate_torus` act only if `opensim_paths` is set.
 struct Compat {
   /// Paths by OpenSim's constructions: tangent points on a cylinder by one slide along its
   /// generators (for several objects by at most 100 slides to 0.1 degree), an ellipsoid's arc as a
@@ -19,14 +18,12 @@ struct Compat {
   bool stale_wrap_points = false;
   /// A cylinder's long way round is 2 pi - theta also where theta is negative.
   bool long_turn_of_negative_angle = false;
-  /// The far side of a sphere has a negative arc, and a quadrant's decision takes 1 m for the
-  /// length of the segment.
+  /// The far side of a sphere has a negative arc, and a quadrant's decision takes 1 m for the length of the segment.
   bool negative_sphere_arc = false;
   /// The point of a torus nearest to a line comes from a residual that is too large by a factor of
   /// 2.
   bool approximate_torus = false;
-  /// An ellipsoid's quadrant with method midpoint or axial mirrors without returning to the
-  /// surface.
+  /// An ellipsoid's quadrant with method midpoint or axial mirrors without returning to the surface.
   bool mirrored_without_fan = false;
   /// A moving path point beside a point of the same body does not count in moment arms.
   bool unseen_moving_points = false;

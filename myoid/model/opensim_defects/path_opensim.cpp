@@ -12,10 +12,7 @@ namespace {
 /// The wrapping of one path at one posture.
 class Wrapping {
  public:
-  Wrapping(const BodyModel& model,
-           const MusclePath& path,
-           const BodyState& state,
-           PathWorkspace& workspace)
+  Wrapping(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace)
       : model_(model), path_(path), state_(state), w_(workspace) {
     w_.is_seen.assign(path.wraps.size(), 0);
     w_.first_seen_G.resize(path.wraps.size());
@@ -39,8 +36,7 @@ class Wrapping {
       const double length = length_of(w_.stations);
       if (std::abs(length - last) < kSettled_m) return;
       last = length;
-      // The first object has no contact because the second has a point inside: exchange their
-      // order.
+      // The first object has no contact because the second has a point inside: exchange their order.
       if (pass == 0 && passes > 1 && first == WrapAction::none && second == WrapAction::inside) {
         w_.order[0] = 1;
         w_.order[1] = 0;
@@ -56,12 +52,10 @@ class Wrapping {
 
   /// True if two neighbors are tangent points of one object.
   [[nodiscard]] bool on_one_object(const PathStation& a, const PathStation& b) const {
-    return a.wrap >= 0 && b.wrap >= 0 &&
-           path_.wraps[at(a.wrap)].wrap_object == path_.wraps[at(b.wrap)].wrap_object;
+    return a.wrap >= 0 && b.wrap >= 0 && path_.wraps[at(a.wrap)].wrap_object == path_.wraps[at(b.wrap)].wrap_object;
   }
 
-  /// Wraps the current path around one object. False: the range holds no active point, and OpenSim
-  /// changes nothing.
+  /// Wraps the current path around one object. False: the range holds no active point, and OpenSim changes nothing.
   bool apply(int number, WrapAction& action) {
     const PathWrap& wrap = path_.wraps[at(number)];
     const WrapObject& object = model_.wrap_objects[at(wrap.wrap_object)];
@@ -71,9 +65,7 @@ class Wrapping {
     if (end < 0) return false;
     const Pose X_GW = state_.X_GB[at(object.body)] * object.X_BW;
     const Pose X_WG = X_GW.inverse();
-    const auto in_wrap_frame = [&](const PathStation& s) -> Vec3 {
-      return X_WG * (state_.X_GB[at(s.body)] * s.p_B);
-    };
+    const auto in_wrap_frame = [&](const PathStation& s) -> Vec3 { return X_WG * (state_.X_GB[at(s.body)] * s.p_B); };
     double smallest = std::numeric_limits<double>::infinity();
     OpenSimContact best;
     int best_segment = -1;
@@ -81,9 +73,8 @@ class Wrapping {
       const PathStation& a = w_.stations[at(i)];
       const PathStation& b = w_.stations[at(i + 1)];
       if (on_one_object(a, b)) continue;
-      const OpenSimContact contact =
-          opensim_contact(object, wrap.method, in_wrap_frame(a), in_wrap_frame(b),
-                          path_.wraps.size() == 1, model_.compat);
+      const OpenSimContact contact = opensim_contact(object, wrap.method, in_wrap_frame(a), in_wrap_frame(b),
+                                                     path_.wraps.size() == 1, model_.compat);
       action = contact.action;
       if (action == WrapAction::mandatory) {
         best = contact;
@@ -105,13 +96,8 @@ class Wrapping {
     return true;
   }
 
-  void insert(int number,
-              const WrapObject& object,
-              const Pose& X_GW,
-              const OpenSimContact& contact,
-              int segment) {
-    auto stations = contact_stations(object, number, X_GW, contact.first_W, contact.second_W,
-                                     contact.arc_length_m);
+  void insert(int number, const WrapObject& object, const Pose& X_GW, const OpenSimContact& contact, int segment) {
+    auto stations = contact_stations(object, number, X_GW, contact.first_W, contact.second_W, contact.arc_length_m);
     auto& [first, second] = stations;
     auto& seen = w_.first_seen_G[at(number)];
     if (w_.is_seen[at(number)] == 0) {
@@ -132,10 +118,7 @@ class Wrapping {
 };
 
 /// Returns the velocity of a station: the body's at that point plus the station's in the body.
-Vec3 velocity(const BodyModel& model,
-              const MusclePath& path,
-              const BodyState& state,
-              const PathStation& s) {
+Vec3 velocity(const BodyModel& model, const MusclePath& path, const BodyState& state, const PathStation& s) {
   const std::size_t b = at(s.body);
   Vec3 v = state.v_GB[b] + state.w_GB[b].cross(state.X_GB[b].R * s.p_B);
   if (s.source < 0) return v;
@@ -171,8 +154,8 @@ void compute_opensim_path(const BodyModel& model,
     const bool one_body = a.body == b.body;
     if (one_body && model.compat.unseen_moving_points) continue;
     if (!one_body) {
-      add_pair_moment(model, state, a.body, state.X_GB[at(a.body)] * a.p_B, b.body,
-                      state.X_GB[at(b.body)] * b.p_B, u, result.moment_arm_m);
+      add_pair_moment(model, state, a.body, state.X_GB[at(a.body)] * a.p_B, b.body, state.X_GB[at(b.body)] * b.p_B, u,
+                      result.moment_arm_m);
     }
     add_moving_moments(model, path, state, a, b, u, true, result.moment_arm_m);
   }

@@ -4,8 +4,7 @@
 
 namespace myoid::model {
 
-/// Computes a path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches
-/// on.
+/// Computes a path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches on.
 void compute_opensim_path(const BodyModel& model,
                           const MusclePath& path,
                           const BodyState& state,

@@ -22,11 +22,7 @@ struct OpenSimContact {
 /// `compat` switches on (compat.h). `single`: the path has no other wrap object; with several, the
 /// tangent points on a cylinder slide until the helix meets the straight pieces within 0.1 degree,
 /// at most 100 times. Arguments of acos and roots are not limited: a NaN propagates to the length.
-[[nodiscard]] OpenSimContact opensim_contact(const WrapObject& object,
-                                             WrapMethod method,
-                                             const Vec3& p_W,
-                                             const Vec3& q_W,
-                                             bool single,
-                                             const Compat& compat);
+[[nodiscard]] OpenSimContact opensim_contact(
+    const WrapObject& object, WrapMethod method, const Vec3& p_W, const Vec3& q_W, bool single, const Compat& compat);
 
 }  // namespace myoid::model

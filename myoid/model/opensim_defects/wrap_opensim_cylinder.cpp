@@ -66,12 +66,10 @@ bool meets_plane(const Vec3& r, const Vec3& normal, double offset, Vec3& point) 
   return true;
 }
 
-/// Computes the length of the helix from first to second and adjusts both if asked; OpenSim's rule
-/// decides `long_way`.
+/// Computes the length of the helix from first to second and adjusts both if asked; OpenSim's rule decides `long_way`.
 class Helix {
  public:
-  Helix(double radius, bool long_way, const Compat& compat)
-      : radius_(radius), long_way_(long_way), compat_(compat) {}
+  Helix(double radius, bool long_way, const Compat& compat) : radius_(radius), long_way_(long_way), compat_(compat) {}
 
   double settle(const Vec3& p, const Vec3& q, bool single, Vec3& first, Vec3& second) {
     constexpr int kMostSlides = 100;
@@ -93,11 +91,10 @@ class Helix {
  private:
   void measure(const Vec3& first, const Vec3& second) {
     rise_ = second.z() - first.z();
-    theta_ = std::atan2(first.x() * second.y() - first.y() * second.x(),
-                        first.x() * second.x() + first.y() * second.y());
+    theta_ =
+        std::atan2(first.x() * second.y() - first.y() * second.x(), first.x() * second.x() + first.y() * second.y());
     if (long_way_) {
-      theta_ =
-          compat_.long_turn_of_negative_angle ? 2.0 * kPi - theta_ : 2.0 * kPi - std::abs(theta_);
+      theta_ = compat_.long_turn_of_negative_angle ? 2.0 * kPi - theta_ : 2.0 * kPi - std::abs(theta_);
     }
     length_ = std::sqrt(radius_ * theta_ * (radius_ * theta_) + rise_ * rise_);
   }
@@ -107,8 +104,7 @@ class Helix {
     const double s = std::sin(angle);
     return {c * first.x() - s * first.y(), s * first.x() + c * first.y(), first.z() + t * rise_};
   }
-  /// Slides r along z so that the angles of end - r and r - on_helix to the axis become nearly
-  /// equal.
+  /// Slides r along z so that the angles of end - r and r - on_helix to the axis become nearly equal.
   static bool slide(const Vec3& end, const Vec3& on_helix, Vec3& r) {
     constexpr double kTangency_rad = 0.1 * kDegree;
     const double straight = unit_or_zero(r - end).z();
@@ -117,8 +113,8 @@ class Helix {
     if (!(std::abs(straight - curved) > kTangency_rad) &&
         !(std::abs(std::acos(straight) - std::acos(curved)) > kTangency_rad))
       return false;
-    const NearestOfLines n = nearest_of_lines(end, on_helix, Vec3(r.x(), r.y(), end.z()),
-                                              Vec3(r.x(), r.y(), on_helix.z()));
+    const NearestOfLines n =
+        nearest_of_lines(end, on_helix, Vec3(r.x(), r.y(), end.z()), Vec3(r.x(), r.y(), on_helix.z()));
     if (!n.parallel) r += 1.5 * (n.on_second - r);
     return true;
   }
@@ -136,11 +132,8 @@ struct ChosenTangents {
 };
 
 /// Returns the pair of tangent points on the side that counts.
-ChosenTangents choose_on_side(const Side& side,
-                              const CylinderTangents& t1,
-                              const CylinderTangents& t2,
-                              const Vec3& p,
-                              const Vec3& q) {
+ChosenTangents choose_on_side(
+    const Side& side, const CylinderTangents& t1, const CylinderTangents& t2, const Vec3& p, const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const auto angle = [&](const Vec3& r1, const Vec3& r2) {
@@ -176,10 +169,7 @@ ChosenTangents choose_on_side(const Side& side,
   return c;
 }
 
-ChosenTangents choose_nearest(const CylinderTangents& t1,
-                              const CylinderTangents& t2,
-                              const Vec3& p,
-                              const Vec3& q) {
+ChosenTangents choose_nearest(const CylinderTangents& t1, const CylinderTangents& t2, const Vec3& p, const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const Vec3 a1 = unit_or_zero(t1.a - foot1);
@@ -232,18 +222,13 @@ void slide_to_plane(const Vec3& p, const Vec3& q, double radius, ChosenTangents&
   Vec3 second_moved;
   const bool second_meets = meets_plane(c.second, normal, offset, second_moved);
   if (first_meets && (foot_of(moved) - foot2).squaredNorm() < between) c.first = moved;
-  if (second_meets && (foot_of(second_moved) - foot1).squaredNorm() < between)
-    c.second = second_moved;
+  if (second_meets && (foot_of(second_moved) - foot1).squaredNorm() < between) c.second = second_moved;
 }
 
 }  // namespace
 
-OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
-                                        const Side& side,
-                                        const Vec3& p,
-                                        const Vec3& q,
-                                        bool single,
-                                        const Compat& compat) {
+OpenSimContact opensim_cylinder_contact(
+    const CylinderShape& cylinder, const Side& side, const Vec3& p, const Vec3& q, bool single, const Compat& compat) {
   OpenSimContact result;
   const double radius = cylinder.radius_m;
   const double r2 = radius * radius;
@@ -253,8 +238,8 @@ OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
   }
   const double half = 0.5 * cylinder.length_m;
   const NearestOfLines near = nearest_of_lines(p, q, Vec3(0.0, 0.0, -half), Vec3(0.0, 0.0, half));
-  const bool hit = !near.parallel && (near.on_first - near.on_second).squaredNorm() < r2 &&
-                   near.share > 0.0 && near.share < 1.0;
+  const bool hit =
+      !near.parallel && (near.on_first - near.on_second).squaredNorm() < r2 && near.share > 0.0 && near.share < 1.0;
   WrapAction action = WrapAction::wrapped;
   if (side.sign == 0) {
     if (!hit) return result;
@@ -268,8 +253,7 @@ OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
   }
   const CylinderTangents t1 = tangents_from(p, radius);
   const CylinderTangents t2 = tangents_from(q, radius);
-  ChosenTangents chosen =
-      side.sign != 0 ? choose_on_side(side, t1, t2, p, q) : choose_nearest(t1, t2, p, q);
+  ChosenTangents chosen = side.sign != 0 ? choose_on_side(side, t1, t2, p, q) : choose_nearest(t1, t2, p, q);
   slide_to_plane(p, q, radius, chosen);
   if (std::abs(chosen.first.z()) > half && std::abs(chosen.second.z()) > half) return result;
   Helix helix(radius, chosen.long_way, compat);

@@ -107,8 +107,8 @@ Vec3 nearest(const Vec3& a, const Vec3& p, Eigen::Index plane = -1) {
     const double PQ = P * Q;
     const double PR = P * R;
     const double QR = Q * R;
-    const double slope = 2.0 * (P * Q * R * (QR + PR + PQ) - ap[0] * QR * (Q + R) -
-                                ap[1] * PR * (P + R) - ap[2] * PQ * (P + Q));
+    const double slope =
+        2.0 * (P * Q * R * (QR + PR + PQ) - ap[0] * QR * (Q + R) - ap[1] * PR * (P + R) - ap[2] * PQ * (P + Q));
     t -= f / slope;
   }
   return c;
@@ -179,8 +179,7 @@ class TangentSearch {
   }
   double evaluate() {
     const Vec3 n = normal();
-    e_ << plane_.n.dot(r_) + plane_.d, r_.cwiseQuotient(a_).squaredNorm() - 1.0, n.dot(r_) + d_,
-        n.dot(p_) + d_;
+    e_ << plane_.n.dot(r_) + plane_.d, r_.cwiseQuotient(a_).squaredNorm() - 1.0, n.dot(r_) + d_, n.dot(p_) + d_;
     return e_.squaredNorm();
   }
   const Vec3& a_;
@@ -199,12 +198,7 @@ struct Polyline {
   Vec3 after_first, before_last;
 };
 
-Polyline polyline(const Vec3& r1,
-                  const Vec3& r2,
-                  const Vec3& a,
-                  const Plane& plane,
-                  bool far_side,
-                  double factor) {
+Polyline polyline(const Vec3& r1, const Vec3& r2, const Vec3& a, const Plane& plane, bool far_side, double factor) {
   constexpr double kChord_m = 0.001;
   Polyline line;
   const double chord_m = (r1 - r2).norm() / factor;
@@ -354,8 +348,7 @@ OpenSimContact opensim_ellipsoid_contact(const EllipsoidShape& ellipsoid,
   const double l1 = (-bb + std::sqrt(discriminant)) / (2.0 * aa);
   const double l2 = (-bb - std::sqrt(discriminant)) / (2.0 * aa);
   if (!(0.0 < l1 && l1 < 1.0) || !(0.0 < l2 && l2 < 1.0)) return result;
-  const PlanePoint point =
-      plane_point(a, quadrant, method, p, q, q + l1 * along, q + l2 * along, compat);
+  const PlanePoint point = plane_point(a, quadrant, method, p, q, q + l1 * along, q + l2 * along, compat);
   Plane plane;
   plane.n = along.cross(p - point.c).normalized();
   plane.d = -plane.n.dot(point.c);

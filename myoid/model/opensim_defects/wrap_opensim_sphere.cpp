@@ -14,11 +14,8 @@ struct SphereTangents {
 
 }  // namespace
 
-OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
-                                      const Side& side,
-                                      const Vec3& p,
-                                      const Vec3& q,
-                                      const Compat& compat) {
+OpenSimContact opensim_sphere_contact(
+    const SphereShape& sphere, const Side& side, const Vec3& p, const Vec3& q, const Compat& compat) {
   OpenSimContact result;
   const double radius = sphere.radius_m;
   if (p.norm() < radius || q.norm() < radius) {

@@ -19,8 +19,7 @@ struct Side {
   int sign = 0;
 
   explicit Side(Quadrant quadrant)
-      : axis(quadrant == 0 ? 0 : std::abs(quadrant) - 1),
-        sign(quadrant == 0 ? 0 : (quadrant > 0 ? 1 : -1)) {}
+      : axis(quadrant == 0 ? 0 : std::abs(quadrant) - 1), sign(quadrant == 0 ? 0 : (quadrant > 0 ? 1 : -1)) {}
   [[nodiscard]] bool has(const Vec3& p) const { return (p[axis] >= 0.0 ? 1 : -1) == sign; }
 };
 
@@ -31,16 +30,9 @@ struct Side {
                                                       const Vec3& q_W,
                                                       bool single,
                                                       const Compat& compat);
-[[nodiscard]] OpenSimContact opensim_sphere_contact(const SphereShape& sphere,
-                                                    const Side& side,
-                                                    const Vec3& p_W,
-                                                    const Vec3& q_W,
-                                                    const Compat& compat);
-[[nodiscard]] OpenSimContact opensim_torus_contact(const TorusShape& torus,
-                                                   const Side& side,
-                                                   const Vec3& p_W,
-                                                   const Vec3& q_W,
-                                                   bool single,
-                                                   const Compat& compat);
+[[nodiscard]] OpenSimContact opensim_sphere_contact(
+    const SphereShape& sphere, const Side& side, const Vec3& p_W, const Vec3& q_W, const Compat& compat);
+[[nodiscard]] OpenSimContact opensim_torus_contact(
+    const TorusShape& torus, const Side& side, const Vec3& p_W, const Vec3& q_W, bool single, const Compat& compat);
 
 }  // namespace myoid::model

@@ -32,8 +32,7 @@ TEST(OpenSimContact, AcrossACylinderTheWayIsThatRoundACircle) {
   EXPECT_EQ(c.action, WrapAction::mandatory);
   EXPECT_NEAR(length(kP, kQ, c), round_circle(0.04, kApart, kAngle), 1e-14);
   // On the other side it is longer.
-  const OpenSimContact below =
-      opensim_cylinder_contact(cylinder, Side(-2), kP, kQ, true, kOpenSim452);
+  const OpenSimContact below = opensim_cylinder_contact(cylinder, Side(-2), kP, kQ, true, kOpenSim452);
   EXPECT_NEAR(length(kP, kQ, below), round_circle(0.04, kApart, 2.0 * kPi - kAngle), 1e-14);
 }
 
@@ -45,12 +44,11 @@ TEST(OpenSimContact, OverASphereTheWayIsAGreatCircle) {
 
 // OpenSim's chords of 1 mm are shorter than the arc by its length times (chord / r)^2 / 24.
 TEST(OpenSimContact, OverARoundEllipsoidTheWayIsThatOverASphere) {
-  const OpenSimContact c = opensim_ellipsoid_contact({Vec3::Constant(0.04)}, 0,
-                                                     WrapMethod::midpoint, kP, kQ, kOpenSim452);
+  const OpenSimContact c =
+      opensim_ellipsoid_contact({Vec3::Constant(0.04)}, 0, WrapMethod::midpoint, kP, kQ, kOpenSim452);
   ASSERT_TRUE(c.has_points);
   const double way = round_circle(0.04, kApart, kAngle);
-  EXPECT_NEAR(length(kP, kQ, c), way,
-              1.5 * c.arc_length_m * std::pow(0.001 / 0.04, 2) / 24.0 + 1e-8);
+  EXPECT_NEAR(length(kP, kQ, c), way, 1.5 * c.arc_length_m * std::pow(0.001 / 0.04, 2) / 24.0 + 1e-8);
 }
 
 // Through a ring the path bends over the tube: a circle across it.
@@ -71,8 +69,7 @@ TEST(OpenSimContact, OverARingTheWayIsThatRoundItsTube) {
 TEST(OpenSimContact, APointInsideIsToldAsSuch) {
   WrapObject object;
   object.shape = CylinderShape{0.04, 1.0};
-  EXPECT_EQ(opensim_contact(object, WrapMethod::hybrid, Vec3(0.01, 0.0, 0.0), kQ, true, kOpenSim452)
-                .action,
+  EXPECT_EQ(opensim_contact(object, WrapMethod::hybrid, Vec3(0.01, 0.0, 0.0), kQ, true, kOpenSim452).action,
             WrapAction::inside);
 }
 

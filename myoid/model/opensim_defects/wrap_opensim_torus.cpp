@@ -55,9 +55,7 @@ double levenberg_marquardt_1(const Residual& residual) {
           scaled = std::abs(diag * step);
           const double before = excess;
           excess = scaled - delta;
-          if (std::abs(excess) <= 0.1 * delta ||
-              (lower == 0.0 && excess <= before && before < 0.0) || k == 10)
-            break;
+          if (std::abs(excess) <= 0.1 * delta || (lower == 0.0 && excess <= before && before < 0.0) || k == 10) break;
           const double w = diag / std::sqrt(damped);
           const double correction = excess / delta / w / w;
           if (excess > 0.0) lower = std::max(lower, par);
@@ -71,8 +69,7 @@ double levenberg_marquardt_1(const Residual& residual) {
       const double f_trial = residual(trial);
       ++calls;
       const double norm_trial = std::abs(f_trial);
-      const double actual =
-          0.1 * norm_trial < norm ? 1.0 - (norm_trial / norm) * (norm_trial / norm) : -1.0;
+      const double actual = 0.1 * norm_trial < norm ? 1.0 - (norm_trial / norm) * (norm_trial / norm) : -1.0;
       const double t1 = std::abs(slope * step) / norm;
       const double t2 = std::sqrt(par) * length / norm;
       const double predicted = t1 * t1 + t2 * t2 / 0.5;
@@ -99,8 +96,7 @@ double levenberg_marquardt_1(const Residual& residual) {
   }
 }
 
-/// The point of the circle of radius R about z in z = 0 nearest to the line from `begin`, by
-/// OpenSim's method.
+/// The point of the circle of radius R about z in z = 0 nearest to the line from `begin`, by OpenSim's method.
 struct NearCircle {
   Vec3 on_line;
   double distance = 0.0;
@@ -113,24 +109,18 @@ NearCircle near_circle(const Vec3& begin, const Vec3& end, double R, const Compa
   const double c5 = begin.head<2>().squaredNorm();
   const double factor = compat.approximate_torus ? 2.0 : 1.0;
   const double u = levenberg_marquardt_1([&](double s) {
-    return c2 + 2.0 * s -
-           2.0 * R * factor * (c4 * s + c3) / std::sqrt(s * s * c4 + 2.0 * c3 * s + c5);
+    return c2 + 2.0 * s - 2.0 * R * factor * (c4 * s + c3) / std::sqrt(s * s * c4 + 2.0 * c3 * s + c5);
   });
   NearCircle near;
   near.on_line = begin + u * n;
-  near.distance =
-      std::sqrt(near.on_line.squaredNorm() + R * R - 2.0 * R * near.on_line.head<2>().norm());
+  near.distance = std::sqrt(near.on_line.squaredNorm() + R * R - 2.0 * R * near.on_line.head<2>().norm());
   return near;
 }
 
 }  // namespace
 
-OpenSimContact opensim_torus_contact(const TorusShape& torus,
-                                     const Side& side,
-                                     const Vec3& p,
-                                     const Vec3& q,
-                                     bool single,
-                                     const Compat& compat) {
+OpenSimContact opensim_torus_contact(
+    const TorusShape& torus, const Side& side, const Vec3& p, const Vec3& q, bool single, const Compat& compat) {
   constexpr double kLong_m = 10000.0;
   OpenSimContact result;
   const NearCircle forth = near_circle(p, q, torus.outer_radius_m, compat);
@@ -143,16 +133,14 @@ OpenSimContact opensim_torus_contact(const TorusShape& torus,
     if (forth_counts != back_counts) take_forth = forth_counts;
   }
   const Vec3& chosen = take_forth ? forth.on_line : back.on_line;
-  const Vec3 on_circle =
-      Vec3(chosen.x(), chosen.y(), 0.0) * (torus.outer_radius_m / chosen.head<2>().norm());
+  const Vec3 on_circle = Vec3(chosen.x(), chosen.y(), 0.0) * (torus.outer_radius_m / chosen.head<2>().norm());
   // A cylinder along the circle there; its x axis points to the middle of the ring.
   Mat3 R;
   R.row(0) = -on_circle.normalized();
   R.row(1) = -Vec3::UnitZ();
   R.row(2) = R.row(0).cross(R.row(1));
-  const OpenSimContact c =
-      opensim_cylinder_contact(CylinderShape{torus.inner_radius_m, kLong_m}, Side(1),
-                               R * (p - on_circle), R * (q - on_circle), single, compat);
+  const OpenSimContact c = opensim_cylinder_contact(CylinderShape{torus.inner_radius_m, kLong_m}, Side(1),
+                                                    R * (p - on_circle), R * (q - on_circle), single, compat);
   result = c;
   result.action = WrapAction::wrapped;
   result.first_W = R.transpose() * c.first_W + on_circle;
