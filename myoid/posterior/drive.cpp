@@ -126,13 +126,9 @@ Spectra spectra_of(const Eigen::VectorXd& values,
   return of;
 }
 
-/// Returns cos(w j) and sin(w j), j = 0 ... n - 1, where w is the angle of one sample.
-Eigen::ArrayX2d turning(double angle, Eigen::Index n) {
-  Eigen::ArrayX2d turns(n, 2);
-  const std::complex<double> turn = std::polar(1.0, angle);
-  std::complex<double> phase = 1.0;
-  for (Eigen::Index j = 0; j < n; ++j, phase *= turn) turns.row(j) << phase.real(), phase.imag();
-  return turns;
+/// Returns exp(i w) for each frequency, where w is the angle of one sample.
+Eigen::ArrayXcd turns(const Eigen::VectorXd& frequency_hz, double interval_s) {
+  return (std::complex<double>(0.0, 2.0 * std::numbers::pi * interval_s) * frequency_hz.array()).exp();
 }
 
 /// Returns sum_f power cos(2 pi f j interval), j = 0 ... last; fades before the sum repeats.
@@ -140,13 +136,12 @@ Eigen::VectorXd covariances(const Eigen::VectorXd& power,
                             const EnvelopeError& error,
                             double interval_s,
                             Eigen::Index last) {
-  const Eigen::VectorXd angle = 2.0 * std::numbers::pi * interval_s * error.frequencies_hz();
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(last + 1);
-  for (Eigen::Index i = 0; i < power.size(); ++i)
-    c += power[i] * error.step_hz() * turning(angle[i], last + 1).col(0).matrix();
+  const Eigen::ArrayXcd turn = turns(error.frequencies_hz().head(power.size()), interval_s);
+  Eigen::ArrayXcd phase = (power * error.step_hz()).cast<std::complex<double>>();
   const double fade_s = kFade / error.step_hz();
-  for (Eigen::Index j = 0; j <= last; ++j)
-    c[j] *= std::exp(-0.5 * std::pow(static_cast<double>(j) * interval_s / fade_s, 2));
+  Eigen::VectorXd c(last + 1);
+  for (Eigen::Index j = 0; j <= last; ++j, phase *= turn)
+    c[j] = phase.real().sum() * std::exp(-0.5 * std::pow(static_cast<double>(j) * interval_s / fade_s, 2));
   return c;
 }
 
@@ -160,20 +155,52 @@ Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
   return m;
 }
 
-/// Returns columns h_j cos(w j) and h_j sin(w j) for each frequency, h a Hann window: summed over
-/// the two columns v, v' M v is the power there of an error of covariance M.
-Eigen::MatrixXd windowed_waves(const Eigen::VectorXd& frequency_hz, double interval_s, Eigen::Index n) {
-  const Eigen::ArrayXd window = hann_window(n);
-  Eigen::MatrixXd waves(n, 2 * frequency_hz.size());
-  for (Eigen::Index i = 0; i < frequency_hz.size(); ++i)
-    waves.middleCols<2>(2 * i) = turning(2.0 * std::numbers::pi * frequency_hz[i] * interval_s, n).colwise() * window;
-  return waves;
+/// Returns T e, e_j = exp(i w j), of the symmetric Toeplitz matrix T with first column c: with the sums
+/// A_k = c_0 + ... + c_k exp(i w k) row k is exp(i w k) (A_k* + A_n-1-k - c_0).
+Eigen::ArrayXcd product_with_wave(const Eigen::VectorXd& c, double angle) {
+  const Eigen::Index n = c.size();
+  const std::complex<double> turn = std::polar(1.0, angle);
+  Eigen::ArrayXcd wave(n), sum(n);
+  std::complex<double> phase = 1.0, so_far = 0.0;
+  for (Eigen::Index k = 0; k < n; ++k, phase *= turn) {
+    wave[k] = phase;
+    sum[k] = so_far += c[k] * phase;
+  }
+  return wave * (sum.conjugate() + sum.reverse() - c[0]);
 }
 
-/// Returns for each frequency the sum of the products of a and b over its two columns.
-Eigen::VectorXd power_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  const Eigen::VectorXd each = a.cwiseProduct(b).colwise().sum();
-  return each.reshaped(2, each.size() / 2).colwise().sum();
+/// Returns columns T v, v_j = h_j exp(i w j), for each frequency, real part and imaginary part: h is a Hann window,
+/// three waves, and T the symmetric Toeplitz matrix with first column c.
+Eigen::MatrixXd products_with_windowed_waves(const Eigen::VectorXd& c,
+                                             const Eigen::VectorXd& frequency_hz,
+                                             double interval_s) {
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(c.size());
+  const std::complex<double> side = std::polar(0.25, 0.5 * step);
+  Eigen::MatrixXd products(c.size(), 2 * frequency_hz.size());
+  for (Eigen::Index i = 0; i < frequency_hz.size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * frequency_hz[i] * interval_s;
+    const Eigen::ArrayXcd product = 0.5 * product_with_wave(c, angle) - side * product_with_wave(c, angle + step) -
+                                    std::conj(side) * product_with_wave(c, angle - step);
+    products.col(2 * i) = product.real();
+    products.col(2 * i + 1) = product.imag();
+  }
+  return products;
+}
+
+/// Returns v* T v, v_j = h_j exp(i w j), for each frequency: the power of an error whose covariance is the symmetric
+/// Toeplitz matrix T with first column c, behind a window h.
+Eigen::VectorXd windowed_power(const Eigen::VectorXd& c,
+                               const Eigen::VectorXd& window,
+                               const Eigen::VectorXd& frequency_hz,
+                               double interval_s) {
+  const Eigen::ArrayXcd turn = turns(frequency_hz, interval_s);
+  Eigen::ArrayXcd phase = Eigen::ArrayXcd::Ones(turn.size());
+  Eigen::VectorXd power = Eigen::VectorXd::Constant(turn.size(), c[0] * window.squaredNorm());
+  for (Eigen::Index d = 1; d < c.size(); ++d) {
+    phase *= turn;
+    power += 2.0 * c[d] * window.head(c.size() - d).dot(window.tail(c.size() - d)) * phase.real().matrix();
+  }
+  return power;
 }
 
 /// Returns the number of bands of kBand frequencies each, of which the last is whole.
@@ -191,9 +218,9 @@ Smoothed smooth(const Eigen::VectorXd& values,
                 double rest,
                 const EnvelopeError& error) {
   const Eigen::Index n = values.size();
-  const Eigen::MatrixXd prior = toeplitz(covariances(spectra.drive, error, interval_s, n - 1));
-  const Eigen::MatrixXd correlation =
-      toeplitz(covariances(error.spectrum() / error.step_hz(), error, interval_s, n - 1));
+  const Eigen::VectorXd of_drive = covariances(spectra.drive, error, interval_s, n - 1),
+                        of_noise = covariances(error.spectrum() / error.step_hz(), error, interval_s, n - 1);
+  const Eigen::MatrixXd prior = toeplitz(of_drive), correlation = toeplitz(of_noise);
   const double mean = values.mean(), least = 0.001 * values.maxCoeff();
   Smoothed result;
   result.drive = moving_mean(values, static_cast<Eigen::Index>(std::lround(0.25 / interval_s)));
@@ -208,12 +235,14 @@ Smoothed smooth(const Eigen::VectorXd& values,
     result.drive = mean + (prior * off).array();
     if (pass + 1 < kPasses) continue;
     // The drive's error has the covariance P - P (P + N)^-1 P, P the drive's and N the noise's.
-    const Eigen::VectorXd frequency = error.frequencies_hz();
-    const Eigen::MatrixXd waves =
-        windowed_waves(frequency(Eigen::seqN(kBand / 2, bands(spectra.drive.size()), kBand)), interval_s, n);
-    const Eigen::MatrixXd of_prior = prior * waves, half = factor.matrixL().solve(of_prior);
-    result.error = power_of(waves, of_prior) - power_of(half, half);
-    result.noise = power_of(waves, noise * waves);
+    const Eigen::VectorXd frequency =
+        error.frequencies_hz()(Eigen::seqN(kBand / 2, bands(spectra.drive.size()), kBand));
+    const Eigen::VectorXd window = hann_window(n);
+    const Eigen::MatrixXd half = factor.matrixL().solve(products_with_windowed_waves(of_drive, frequency, interval_s));
+    const Eigen::VectorXd known = half.colwise().squaredNorm();
+    result.error = windowed_power(of_drive, window, frequency, interval_s) -
+                   known.reshaped(2, frequency.size()).colwise().sum().transpose();
+    result.noise = windowed_power(of_noise, window.cwiseProduct(scale), frequency, interval_s);
   }
   return result;
 }
