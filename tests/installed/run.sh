@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# usage: tests/installed/run.sh BUILD PROGRAM   Installs headers and libraries of a build into an empty folder, builds the
-# project beside this script and the numbered examples against that folder alone, and runs their programs. BUILD `system`:
-# against what a package has installed.
+# usage: tests/installed/run.sh BUILD PROGRAM [FOLDER]   Installs headers and libraries of a build into an empty folder,
+# builds the project beside this script and the numbered examples against that folder alone, and runs their programs.
+# BUILD `system`: against what a package has installed. The examples' programs stay in FOLDER.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+built=${3:-$work/examples}
+rm -rf "$built"
 [ "$1" = system ] || cmake --install "$1" --component dev --prefix "$work/prefix" >"$work/log"
 [ ! -e "$work/prefix/bin" ] || { echo "the component dev holds programs"; exit 1; }
 cmake -S "$(dirname "$0")" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log"
@@ -19,8 +21,8 @@ grep -q "^$version: 4 muscles" "$work/said"
 "$work/build/real_time" | grep "^$version: "
 
 examples=$(dirname "$0")/../../examples
-cmake -S "$examples" -B "$work/examples" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Debug >"$work/log"
-cmake --build "$work/examples" >"$work/log" || { cat "$work/log"; exit 1; }
-[ "$(find "$work/examples" -maxdepth 1 -type f -executable | wc -l)" -eq 6 ] || { echo "not six examples"; exit 1; }
-"$work/examples/muscle_forces" "$examples/03_muscle_forces/triceps.toml" "$examples/03_muscle_forces/lengths.csv" >"$work/said"
+cmake -S "$examples" -B "$built" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Debug >"$work/log"
+cmake --build "$built" >"$work/log" || { cat "$work/log"; exit 1; }
+[ "$(find "$built" -maxdepth 1 -type f -executable | wc -l)" -eq 6 ] || { echo "not six examples"; exit 1; }
+"$built/muscle_forces" "$examples/03_muscle_forces/triceps.toml" "$examples/03_muscle_forces/lengths.csv" >"$work/said"
 grep -q '^at 0.0 s, fiber 0.1200 m, 0.0000 m/s: 1000.0000 N$' "$work/said"  # half active at the optimal length

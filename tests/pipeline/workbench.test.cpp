@@ -420,10 +420,15 @@ std::string share_inside(int path,
 TEST_F(WorkbenchPage, ThePosteriorsContoursHoldTheirSharesOfItsDraws) {
   EXPECT_THAT(js("myoid.learn.caption.textContent").get<std::string>(),
               testing::AllOf(HasSubstr("normal distribution"), HasSubstr("least squares")));
+  myoid::recording::write_file(*folder_ / "two.toml",
+                               "level = \"L1\"\n[[trial]]\nname = \"mvc\"\nkind = \"mvc\"\ndirection = \"both\"\n"
+                               "[[trial]]\nname = \"lift\"\nkind = \"eccentric\"\nheld_mass_kg = 1.0\n");
+  const auto twin = myoid({"twin", "--protocol", *folder_ / "two.toml", "--out", *folder_ / "two"});
+  ASSERT_EQ(twin.exit_code, 0) << twin.err;
   const std::string out = *folder_ / "posterior";
-  const auto run = myoid({"run", *folder_ / "rec/study.toml", "--estimator", "posterior", "--out", out});
+  const auto run = myoid({"run", *folder_ / "two/study.toml", "--estimator", "posterior", "--out", out});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
-  browser_->open("file://" + out + "/report.html#trial=swing_2kg");
+  browser_->open("file://" + out + "/report.html#trial=lift");
   const std::vector<myoid::test::Row> draws = myoid::test::read_rows(out + "/posterior.csv");
   EXPECT_THAT(js("myoid.learn.caption.textContent").get<std::string>(),
               HasSubstr(fmt::format("{} draws from the posterior", draws.size())));

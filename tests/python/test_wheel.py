@@ -1,4 +1,4 @@
-"""The wheel: what it needs, and the demo from it in an empty virtual environment."""
+"""The wheel: what it needs, and a study by it in an empty virtual environment."""
 
 import os
 import re
@@ -80,7 +80,7 @@ def test_a_second_wheel_has_the_same_bytes_and_the_sdist_the_sources(wheel, tmp_
     assert not any(name.startswith(f"{base}/build/") for name in names)
 
 
-def test_the_demo_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
+def test_a_study_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
     environment = tmp_path / "env"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
     pip("--python", environment / "bin/python", "install", "--no-index", "--no-deps", wheel)
@@ -92,7 +92,7 @@ def test_the_demo_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
         return done.stdout
 
     assert run("myoid", "--version") == program("--version")
-    run("myoid", "twin", "--model", "arm4", "--protocol", SOURCE / "examples/demo/protocol.toml", "--seed", "1",
+    run("myoid", "twin", "--model", "arm4", "--protocol", SOURCE / "examples/protocols/three_trials.toml", "--seed", "1",
         "--out", "recording", "--quiet")  # fmt: skip
     script = (
         "import myoid, warnings\n"
@@ -102,9 +102,9 @@ def test_the_demo_runs_from_the_wheel_in_an_empty_environment(wheel, tmp_path):
         "print(myoid.__file__, *{l.split()[-1] for l in open('/proc/self/maps') if 'tbb' in l or 'fmt' in l})\n"
     )
     identified, places = run("python", "-c", script).splitlines()
-    assert int(identified) >= 8
+    assert int(identified) >= 1
     assert all(place.startswith(str(environment)) for place in places.split())
     # The same study by the program of the build tree: the last bit of every number.
     program("run", tmp_path / "recording/study.toml", "--out", tmp_path / "program", "--quiet")
-    for file in ("parameters.csv", "medium_1p5kg/id.sto"):
+    for file in ("parameters.csv", "swing_2kg/id.sto"):
         assert (tmp_path / "results" / file).read_bytes() == (tmp_path / "program" / file).read_bytes()
