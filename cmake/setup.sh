@@ -129,3 +129,16 @@ myoid_build() {  # myoid_build [target...]
   [ "$#" -gt 0 ] && targets=(--target "$@")
   cmake --build "$MYOID_BUILD" "${targets[@]}" >&2
 }
+
+# Sets TMPDIR to a new folder in memory, where there is one with 2 GB free that may run programs: the tests write
+# thousands of files, and the program waits until each is on the disk.
+myoid_temporary_in_memory() {
+  local free folder
+  [ -z "${TMPDIR:-}" ] && free="$(df --output=avail -k /dev/shm 2>/dev/null | tail -1)" || return 0
+  [ "${free:-0}" -gt 2000000 ] && folder="$(mktemp -d /dev/shm/myoid.XXXXXX 2>/dev/null)" || return 0
+  trap 'rm -rf "$TMPDIR"' EXIT
+  export TMPDIR="$folder"
+  printf '#!/bin/sh\n' >"$TMPDIR/program"
+  chmod +x "$TMPDIR/program"
+  "$TMPDIR/program" 2>/dev/null || { rm -rf "$folder"; trap - EXIT; unset TMPDIR; }
+}
