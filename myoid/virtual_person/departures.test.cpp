@@ -134,8 +134,8 @@ TEST(Departures, MillardsCurvesTakeThePlaceOfThePapers) {
       const double l = now.fiber_length_m[m] / hill.optimal_fiber_length_m;
       const double v = geometry.velocity_mps[m] / hill.max_shortening_speed_mps;
       EXPECT_NEAR(now.force_n[m],
-                  now.activation[m] * hill.max_isometric_force_n * curves.force_length()(l).value *
-                      curves.force_velocity()(v).value,
+                  now.activation[m] * hill.max_isometric_force_n * curves.force_length(l).value *
+                      curves.force_velocity(v).value,
                   1e-9);
     }
   }
