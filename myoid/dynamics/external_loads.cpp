@@ -104,13 +104,8 @@ Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_lo
 using Clock = std::optional<math::SplineKnots>;
 
 LoadColumns fit(const Clock& clock, const Eigen::MatrixX3d& values) {
-  LoadColumns columns;
-  if (!clock) {
-    columns.constant = values.row(0).transpose();
-    return columns;
-  }
-  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(clock->interpolate(values.col(k)));
-  return columns;
+  if (clock) return LoadColumns::interpolate(*clock, values);
+  return {.constant = values.row(0).transpose()};
 }
 
 model::BodyIndex body_named(const OsimXml& xml,
@@ -191,6 +186,12 @@ ExternalForce read_force(const OsimXml& xml,
 }
 
 }  // namespace
+
+LoadColumns LoadColumns::interpolate(const math::SplineKnots& knots, const Eigen::MatrixX3d& values) {
+  LoadColumns columns;
+  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(knots.interpolate(values.col(k)));
+  return columns;
+}
 
 Vec3 LoadColumns::at(double time_s) const {
   if (splines.empty()) return constant;
