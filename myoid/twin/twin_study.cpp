@@ -47,11 +47,10 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
 std::vector<TrialInput> inputs_of(twin::VirtualRecording& recording) {
   std::vector<TrialInput> inputs;
   for (twin::VirtualTrial& trial : recording.trials) {
-    TrialInput input;
+    TrialInput& input = inputs.emplace_back();
     input.markers = std::move(trial.markers);
     input.emg = std::move(trial.emg);
     input.external_torque = std::move(trial.external_torque);
-    inputs.push_back(std::move(input));
   }
   return inputs;
 }
@@ -199,7 +198,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   });
   TwinStudyResult result;
   result.protocol = protocol.name;
-  result.level = name(protocol.level);
+  result.level = choice_name(protocol.level);
   result.world = stated_world(protocol);
   result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
   result.subjects = options.subjects;

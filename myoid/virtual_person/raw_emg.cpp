@@ -132,13 +132,6 @@ Eigen::VectorXd shaped_noise(const std::array<Section, N>& sections,
 
 }  // namespace
 
-double power(const EmgSpectrum& spectrum, double frequency_hz) {
-  const double f2 = frequency_hz * frequency_hz;
-  const double low2 = spectrum.low_hz * spectrum.low_hz;
-  const double high2 = spectrum.high_hz * spectrum.high_hz;
-  return f2 * high2 * high2 / ((f2 + low2) * (f2 + high2) * (f2 + high2));
-}
-
 Eigen::Index emg_lead(const EmgSpectrum& spectrum, double rate_hz) {
   return static_cast<Eigen::Index>(kSettle_timeconstants * rate_hz / (2.0 * kPi * spectrum.low_hz)) + 1;
 }
@@ -166,11 +159,6 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
     if (k >= lead) result(k - lead) = y;
   }
   return result;
-}
-
-Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum, double rate_hz, Eigen::Index count, math::Random& random) {
-  const Eigen::Index lead = emg_lead(spectrum, rate_hz);
-  return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
 }
 
 double discharges_hz(double motor_units, double excitation) {

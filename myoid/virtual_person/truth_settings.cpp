@@ -20,13 +20,12 @@ constexpr std::array<std::string_view, muscle::kHillFields.size()> hill_names() 
 constexpr std::array kHillNames = hill_names();
 
 /// Visits a setting [low, high].
-void range(SettingVisitor& v, std::string_view key, double& low, double& high, About about) {
-  std::vector<double> both = {low, high};
+void range(SettingVisitor& v, std::string_view key, Range& value, About about) {
+  std::vector<double> both = {value.lower, value.upper};
   about.count = 2;
   if (!v.numbers(key, both, about)) return;
   v.must(both[0] <= both[1], key, fmt::format("found [{:g}, {:g}], expected a range [low, high]", both[0], both[1]));
-  low = both[0];
-  high = both[1];
+  value = {both[0], both[1]};
 }
 
 void visit_person(TruthSpec& truth, SettingVisitor& v) {
@@ -43,7 +42,7 @@ void visit_person(TruthSpec& truth, SettingVisitor& v) {
   v.flag("beside_muscles", truth.beside_muscles,
          {.says = "Draws the shift of the optimum with activation, the joint's own torque and the "
                   "exponents of the EMG as a fit expects them (L0, L1); otherwise there are none."});
-  range(v, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s,
+  range(v, "emg_delay_s", truth.emg_delay_s,
         {.says = "Range of the electromechanical delay, within 0 to 0.2 s (L0, L1).", .limits = within(0.0, 0.2, "s")});
   v.number("inertia_sd", truth.inertia_sd,
            {.says = "Relative error of the model's inertia and weight (L2).", .limits = within(0.0, 0.3)});
@@ -70,18 +69,6 @@ void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
   v.number("torque_offset_nm", sensors.torque_offset_nm,
            {.says = "The offset of the above.", .limits = within(-20.0, 20.0, "N m")});
 }
-
-/// Collects the rows of the reference in the notation of a file.
-class FileRows : public FlatSettingVisitor {
- public:
-  std::vector<SettingRow> rows;
-
- protected:
-  bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
-    rows.push_back(setting_row(setting, now, SettingNotation::file));
-    return false;
-  }
-};
 
 std::string text_of(const SettingValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "1" : "0";
@@ -117,7 +104,7 @@ void visit_world(TruthSpec& truth, SettingVisitor& v) {
                   "Millard's by chance.",
           .otherwise = "`\"paper\"`; L2 `\"any\"`",
           .words = kCurves});
-  range(v, "tendon_strain", truth.tendon_strain_min, truth.tendon_strain_max,
+  range(v, "tendon_strain", truth.tendon_strain,
         {.says = "Range of the tendons' strain at F_max, within 0.005 to 0.15.",
          .limits = within(0.005, 0.15),
          .otherwise = "rigid; L2 `[0.03, 0.06]`"});
@@ -140,7 +127,7 @@ void visit(TruthSpec& truth, SettingVisitor& v) {
 
 SettingTable truth_reference() {
   TruthSpec usual = default_protocol(Level::noisy).truth;
-  FileRows rows;
+  OptionRows rows(SettingNotation::file);
   visit(usual, rows);
   return {"[truth]", "The person, and the world where it is other than the identification believes.", rows.rows};
 }
