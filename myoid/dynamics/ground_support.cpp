@@ -56,8 +56,8 @@ std::optional<Root> root_of(const model::BodyModel& model) {
 
 std::string UnsupportedWeight::sentence(const std::string& given_by) const {
   return fmt::format(
-      "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} "
-      "N); the torques between the ground and the trunk lack the ground reaction: give it by {}",
+      "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} N); the torques "
+      "between the ground and the trunk lack the ground reaction: give it by {}",
       coordinate, force_n, 100.0 * force_n / weight_n, weight_n, given_by);
 }
 
@@ -82,12 +82,9 @@ std::string UncarriedTime::sentence() const {
   std::vector<std::string> times;
   for (const Stretch& s : stretches) times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
   return fmt::format(
-      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "
-      "{:.0f} "
-      "N of a weight of {:.0f} N; was a foot beside the plates, or a hand on a rail? The torques "
-      "of "
-      "the legs are wrong there, so that those times are not fitted; start_s and end_s leave them "
-      "out altogether",
+      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to {:.0f} N of a weight of "
+      "{:.0f} N; was a foot beside the plates, or a hand on a rail? The torques of the legs are wrong there, so that "
+      "those times are not fitted; start_s and end_s leave them out altogether",
       100.0 * share, fmt::join(times, ", "), coordinate, force_n, weight_n);
 }
 

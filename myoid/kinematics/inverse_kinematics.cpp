@@ -56,8 +56,7 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
       return fmt::format("{}{}", fmt::join(head, ", "), all.size() > head.size() ? ", ..." : "");
     };
     throw InvalidInput(
-        fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] "
-                    "rename in a study)",
+        fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] rename in a study)",
                     some(markers.names), some(names)));
   }
   return pairs;

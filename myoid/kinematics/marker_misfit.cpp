@@ -83,15 +83,13 @@ MarkerMisfit marker_misfit(const model::BodyModel& model,
     misfit.warning = fmt::format("{}: {}", fault->says, fault->remedy);
   } else if (const auto shift = common_shift(markers, solved.marker_locations)) {
     misfit.warning = fmt::format(
-        "all markers lie about ({:.3f}, {:.3f}, {:.3f}) m from the model's: the laboratory's "
-        "origin "
-        "is not the model's, and no coordinate moves the model there; {:.1f} mm rms are left "
-        "without that shift",
+        "all markers lie about ({:.3f}, {:.3f}, {:.3f}) m from the model's: the laboratory's origin is not the "
+        "model's, and no coordinate moves the model there; {:.1f} mm rms are left without that shift",
         shift->mean_m[0], shift->mean_m[1], shift->mean_m[2], 1000.0 * shift->left_m);
   } else {
     misfit.warning =
-        "the markers lie far from the model's: another model, other units or swapped labels? The "
-        "angles may still fit, the marker errors do not";
+        "the markers lie far from the model's: another model, other units or swapped labels? The angles may still fit, "
+        "the marker errors do not";
   }
   return misfit;
 }

@@ -25,9 +25,8 @@ model::BodyModel turning_only(const model::BodyModel& model,
   for (const model::LoopConstraint& constraint : model.constraints) {
     if (!std::holds_alternative<model::FunctionConstraint>(constraint.law)) {
       throw ModelError(
-          fmt::format("orientations are fitted without places, but constraint '{}' ({}) closes a "
-                      "loop of bodies; "
-                      "use markers (InverseKinematicsTool), or a model without that constraint",
+          fmt::format("orientations are fitted without places, but constraint '{}' ({}) closes a loop of bodies; use "
+                      "markers (InverseKinematicsTool), or a model without that constraint",
                       constraint.name, constraint.class_name));
     }
   }

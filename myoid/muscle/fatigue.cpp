@@ -55,10 +55,8 @@ FatigueRates<double> published_fatigue_rates(std::string_view name) {
   if (name == "elbow_extensor") {
     return {.fatigue_per_s = 0.01559, .recovery_per_s = 0.00125, .rest_recovery_factor = 25.52};
   }
-  throw InvalidInput(
-      fmt::format("no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, "
-                  "elbow_extensor",
-                  name));
+  throw InvalidInput(fmt::format(
+      "no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, elbow_extensor", name));
 }
 
 }  // namespace myoid::muscle

@@ -34,10 +34,9 @@ void validate_excitation(const Signal& signal, std::string_view what) {
   validate(signal, what);
   for (std::size_t k = 0; k < signal.value.size(); ++k) {
     if (!(signal.value[k] >= 0.0 && signal.value[k] <= 1.0)) {
-      throw InvalidInput(
-          fmt::format("{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal "
-                      "effort first",
-                      what, signal.value[k], signal.time_s[k]));
+      throw InvalidInput(fmt::format(
+          "{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal effort first", what,
+          signal.value[k], signal.time_s[k]));
     }
   }
 }
@@ -100,8 +99,8 @@ struct Excitation {
 Excitation parse_excitation(const std::string& text) {
   const auto bad = [&] {
     return InvalidInput(
-        fmt::format("--excite '{}': expected MUSCLE=LEVEL, MUSCLE=LEVEL@START or MUSCLE=LEVEL@START+DURATION "
-                    "(level 0 to 1, seconds), such as BIC=0.3@0.2+0.25",
+        fmt::format("--excite '{}': expected MUSCLE=LEVEL, MUSCLE=LEVEL@START or MUSCLE=LEVEL@START+DURATION (level 0 "
+                    "to 1, seconds), such as BIC=0.3@0.2+0.25",
                     text));
   };
   const std::size_t equals = text.find('=');

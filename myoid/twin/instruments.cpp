@@ -107,9 +107,8 @@ Eigen::VectorXd signal_of(const Source& source,
 
   Eigen::VectorXd innovations;
   if (emg.motor_units > 0.0) {
-    Eigen::VectorXd per_second(source.excitation.size());
-    for (Eigen::Index k = 0; k < per_second.size(); ++k)
-      per_second(k) = discharges_hz(emg.motor_units, source.excitation(k));
+    const Eigen::VectorXd per_second =
+        source.excitation.unaryExpr([&](double u) { return discharges_hz(emg.motor_units, u); });
     Eigen::VectorXd rate_hz(lead + count);
     rate_hz.head(lead).setConstant(per_second(0));
     rate_hz.tail(count) = over_time(per_second);
@@ -323,8 +322,7 @@ TimeSeries record_emg(const Protocol& protocol,
         std::min(1.0, 0.5 * u[kBiceps] + 0.05 * script.protocol.held_mass_kg);
     speed(k) = performance.motion(t).first;
   }
-  Eigen::VectorXd true_time_s(n);
-  for (Eigen::Index k = 0; k < n; ++k) true_time_s(k) = emg_clock.true_time_s(time_s(k));
+  const Eigen::VectorXd true_time_s = time_s.unaryExpr([&](double t) { return emg_clock.true_time_s(t); });
   const bool mixed = *std::max_element(instruments.crosstalk.begin(), instruments.crosstalk.end()) > 0.0;
 
   std::array<Eigen::VectorXd, 5> signals;

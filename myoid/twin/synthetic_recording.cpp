@@ -223,12 +223,10 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
     if (session.too_hard.empty()) break;
   }
   if (!session.too_hard.empty()) {
-    throw InvalidInput(
-        fmt::format("none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
-                    "{}; the last one failed at trial \"{}\" ({}): choose a smaller held mass, a lower "
-                    "frequency "
-                    "or amplitude there",
-                    kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
+    throw InvalidInput(fmt::format(
+        "none of {} virtual persons could do every trial of protocol \"{}\" with activations up to {}; the last one "
+        "failed at trial \"{}\" ({}): choose a smaller held mass, a lower frequency or amplitude there",
+        kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
   }
   if (simulated) {
     truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);

@@ -122,9 +122,8 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
         r(row) = scale * t.force_n - point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
-            (*J)(row, first + static_cast<Eigen::Index>(i)) = scale *
-                                                              t.by_field[static_cast<std::size_t>(kFitted[i].field)] *
-                                                              literature[muscle].*(kFitted[i].row().member);
+            const double by_value = scale * t.by_field[static_cast<std::size_t>(kFitted[i].field)];
+            (*J)(row, first + static_cast<Eigen::Index>(i)) = by_value * literature[muscle].*(kFitted[i].row().member);
           }
           (*J)(row, gamma) = scale * t.by_field[identification::kLengthActivation];
         }

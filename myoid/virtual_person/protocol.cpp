@@ -25,12 +25,6 @@ namespace {
 
 using recording::TomlTable;
 
-std::vector<std::string> parameter_names() {
-  std::vector<std::string> names;
-  for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
-  return names;
-}
-
 /// Overwrites `value` if the key exists; throws unless lower <= value <= upper.
 void number_into(
     TomlTable& table, std::string_view key, double& value, double lower, double upper, double scale = 1.0) {
@@ -76,9 +70,9 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
 /// Throws if a key of [truth] has no meaning at the level.
 void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
   if (level == Level::different && truth.curves == "paper")
-    table.fail("curves",
-               "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has "
-               "\"de_groote\" or \"millard\"");
+    table.fail(
+        "curves",
+        "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has \"de_groote\" or \"millard\"");
   for (const char* key :
        {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise", "torque_scale", "torque_offset_nm"}) {
     if (level == Level::noise_free && table.has(key))
@@ -90,24 +84,23 @@ void read_truth(TomlTable table, Level level, TruthSpec& truth) {
   SettingReader reader(table, {});
   visit(truth, reader);
   check_level(table, level, truth);
-  const std::vector<std::string> known = parameter_names();
+  std::vector<std::string> known;
+  for (const muscle::HillField& field : muscle::kHillFields) known.emplace_back(field.name);
   const auto check = [&table, &known](const std::string& parameter, std::string_view key) {
     if (std::find(known.begin(), known.end(), parameter) != known.end()) return;
     const auto near = recording::nearest_word(parameter, known);
-    table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you "
-                                       "mean \"{}\"?",
+    table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you mean \"{}\"?",
                                        parameter, *near)
-                         : fmt::format("found \"{}\", which is no parameter of a muscle; they are "
-                                       "{}",
-                                       parameter, fmt::join(known, ", ")));
+                         : fmt::format("found \"{}\", which is no parameter of a muscle; they are {}", parameter,
+                                       fmt::join(known, ", ")));
   };
   for (const std::string_view muscle : {"BIC", "BRA", "BRD", "TRI"}) {
     auto values = table.table(muscle);
     if (!values) continue;
     if (level == Level::different)
       table.fail(muscle,
-                 "values of single muscles are for levels L0 and L1: at L2 a person has seven heads "
-                 "with other laws; remove them, or choose another level");
+                 "values of single muscles are for levels L0 and L1: at L2 a person has seven heads with other laws; "
+                 "remove them, or choose another level");
     for (const std::string& parameter : values->keys()) {
       check(parameter, muscle);
       const double value = values->number(parameter).value_or(0.0);
@@ -183,17 +176,17 @@ TrialProtocol read_kind(TomlTable& table) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
   if (trial.name.empty() || !plain || trial.name.front() == '.') {
-    table.fail("name", fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it "
-                                   "becomes the name of files",
-                                   trial.name));
+    table.fail("name",
+               fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it becomes the name of files",
+                           trial.name));
   }
   static_cast<void>(table.require_text("kind", fmt::format("one of {}", fmt::join(kTrialKindNames, ", "))));
   trial.kind = table.choice("kind", trial.kind);
-  const std::string usual = trial.kind == TrialKind::isometric_ramp ? "isometric"
-                            : trial.kind == TrialKind::isokinetic   ? "isometric"
-                            : trial.kind == TrialKind::mvc          ? "mvc"
-                            : trial.kind == TrialKind::passive      ? "passive"
-                                                                    : "calibration";
+  const bool isometric = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::isokinetic;
+  const std::string usual = isometric                          ? "isometric"
+                            : trial.kind == TrialKind::mvc     ? "mvc"
+                            : trial.kind == TrialKind::passive ? "passive"
+                                                               : "calibration";
   trial.use = table.choice("use", usual, {"calibration", "validation", "mvc", "isometric", "passive"});
   trial.plane = table.choice("plane", trial.plane);
   if (table.has("co_contraction")) range_into(table, "co_contraction", trial.co_contraction.emplace(), 0.0, 0.5);
@@ -235,8 +228,8 @@ void read_flexion(TomlTable& table, TrialProtocol& trial) {
   const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
   if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
       trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
-    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
-                                            "0 to 150: choose another centre_deg or a smaller amplitude",
+    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within 0 to "
+                                            "150: choose another centre_deg or a smaller amplitude",
                                             (trial.centre_rad - trial.amplitude_rad) / kDegree,
                                             (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
   }

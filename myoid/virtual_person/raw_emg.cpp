@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 
 namespace myoid::twin {
@@ -79,23 +80,19 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {
-        c[static_cast<std::size_t>(k)] += result.a[static_cast<std::size_t>(i)] *
-                                          result.a[static_cast<std::size_t>(j)] *
-                                          r[static_cast<std::size_t>(std::abs(k + i - j))] / r[0];
+        c[at(k)] += result.a[at(i)] * result.a[at(j)] * r[at(std::abs(k + i - j))] / r[0];
       }
     }
   }
   // Bauer: the rows of the Cholesky factor of its band matrix converge to the coefficients.
   constexpr int kRows = 5000;
   std::array<std::array<double, 4>, 4> rows = {};  // row n in rows[n % 4]; entry j: column n - j
-  const auto entry = [&rows](int n, int column) -> double& {
-    return rows[static_cast<std::size_t>(n % 4)][static_cast<std::size_t>(n - column)];
-  };
+  const auto entry = [&rows](int n, int column) -> double& { return rows[at(n % 4)][at(n - column)]; };
   for (int n = 0; n < kRows; ++n) {
-    rows[static_cast<std::size_t>(n % 4)] = {};
+    rows[at(n % 4)] = {};
     const int first = std::max(0, n - 3);
     for (int j = first; j <= n; ++j) {
-      double sum = c[static_cast<std::size_t>(n - j)];
+      double sum = c[at(n - j)];
       for (int m = first; m < j; ++m) sum -= entry(n, m) * entry(j, m);
       entry(n, j) = j < n ? sum / entry(j, j) : std::sqrt(sum);
     }
@@ -142,8 +139,7 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
                          Eigen::Index lead) {
   if (!(rate_hz > 4.0 * spectrum.high_hz)) {
     throw InvalidInput(
-        fmt::format("raw EMG at {} Hz cannot carry a spectrum that reaches beyond {} Hz; record at "
-                    "1000 Hz or more",
+        fmt::format("raw EMG at {} Hz cannot carry a spectrum that reaches beyond {} Hz; record at 1000 Hz or more",
                     rate_hz, 2.0 * spectrum.high_hz));
   }
   const Recursion filter = sampled_recursion(spectrum, rate_hz);
