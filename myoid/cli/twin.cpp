@@ -40,8 +40,8 @@ void make_one(commands::TwinOptions options, const std::string& out, Context& co
   const commands::TwinResult result = commands::twin(options);
   commands::write_twin(result, out);
   const twin::VirtualRecording& recording = result.recording;
-  context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(), twin::name(recording.protocol.level),
-                          context.seed));
+  context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
+                          choice_name(recording.protocol.level), context.seed));
   const std::string study = (fs::path(out) / "study.toml").string();
   if (!context.json) {
     fmt::print("{}\n", study);
@@ -49,7 +49,7 @@ void make_one(commands::TwinOptions options, const std::string& out, Context& co
   }
   nlohmann::ordered_json json;
   json["study"] = study;
-  json["level"] = twin::name(recording.protocol.level);
+  json["level"] = choice_name(recording.protocol.level);
   json["trials"] = nlohmann::ordered_json::array();
   for (const twin::VirtualTrial& trial : recording.trials) json["trials"].push_back(trial.protocol.name);
   fmt::print("{}\n", json_text(json));

@@ -13,7 +13,7 @@
 #include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
 #include "myoid/simulation/arm_parameters.h"
-#include "myoid/simulation/excitation_text.h"
+#include "myoid/simulation/excitation.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {

@@ -48,7 +48,8 @@ SoResult so(const SoOptions& o) {
   if (const auto weight = dynamics::unsupported_weight(model);
       weight && !loads && dynamics::stands(model, motion.q.values().row(0).transpose()))
     remarks.warn(weight->sentence("--loads"));
-  const forces::SharingInput input = forces::sharing_input(model, motion, o.coordinates, loads ? &*loads : nullptr);
+  const forces::SharingInput input = forces::sharing_input(model, motion, kinematics::muscle_kinematics(model, motion),
+                                                           o.coordinates, loads ? &*loads : nullptr);
   for (const std::string& note : input.notes) remarks.warn(note);
   SoResult result;
   result.shared = forces::share(input, sharing_options(o, model, input, remarks));

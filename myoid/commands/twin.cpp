@@ -26,7 +26,7 @@ twin::Protocol protocol_of(const TwinOptions& o) {
     throw InvalidInput(
         fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
                     "--level L2 or choose arm4",
-                    twin::name(protocol.level)));
+                    choice_name(protocol.level)));
   }
   return protocol;
 }
@@ -43,10 +43,7 @@ fs::path folder_of(const fs::path& out, std::uint64_t seed) { return out / fmt::
 std::optional<twin::Level> level_named(const std::string& name) {
   if (name.empty()) return std::nullopt;
   check_word("--level", name, {"L0", "L1", "L2"});
-  for (const twin::Level level : {twin::Level::noise_free, twin::Level::noisy, twin::Level::different}) {
-    if (name == twin::name(level)) return level;
-  }
-  return std::nullopt;
+  return choice_named<twin::Level>(name);
 }
 
 std::string truth_help() { return reference_text({twin::truth_reference()}); }

@@ -34,10 +34,6 @@ Touch touch_of(const model::Contact& c, const model::BodyState& state) {
   return t;
 }
 
-Vec3 velocity_at(const model::BodyState& state, model::BodyIndex body, const Vec3& p_G) {
-  return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
-}
-
 /// Combines two coefficients of friction by their harmonic mean.
 double together(double a, double b) { return a != 0.0 || b != 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
 
@@ -54,7 +50,7 @@ void append_contact(const model::Contact& c, const model::BodyState& state, std:
   const double k = k1 * share;
   const double dissipation = first.dissipation * share + second.dissipation * (1.0 - share);
   t.p_G += t.depth_m * (0.5 - share) * t.normal_G;
-  const Vec3 v = velocity_at(state, c.sphere_body, t.p_G) - velocity_at(state, c.other_body, t.p_G);
+  const Vec3 v = model::point_velocity(state, c.sphere_body, t.p_G) - model::point_velocity(state, c.other_body, t.p_G);
   const double approach = v.dot(t.normal_G);
   const Vec3 sliding = v - approach * t.normal_G;
   double force = 0.0, slip = sliding.norm();
@@ -80,11 +76,8 @@ void append_contact(const model::Contact& c, const model::BodyState& state, std:
         force * (std::min(relative, 1.0) * (ud + 2.0 * (us - ud) / (1.0 + relative * relative)) + uv * slip);
     on_other += friction / slip * sliding;
   }
-  const auto wrench = [&](model::BodyIndex body, const Vec3& f_G) {
-    return model::BodyWrench{body, f_G, (t.p_G - state.X_GB[at(body)].p).cross(f_G)};
-  };
-  wrenches.push_back(wrench(c.sphere_body, -on_other));
-  wrenches.push_back(wrench(c.other_body, on_other));
+  wrenches.push_back(model::wrench_at(state, c.sphere_body, t.p_G, -on_other));
+  wrenches.push_back(model::wrench_at(state, c.other_body, t.p_G, on_other));
 }
 
 }  // namespace myoid::dynamics

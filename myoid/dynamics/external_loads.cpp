@@ -63,10 +63,10 @@ Eigen::MatrixX3d values_of(const OsimXml& xml,
   if (identifier.empty() || identifier == "Unassigned") return {};
   const auto columns = columns_of(data, identifier);
   if (columns.size() != 3) {
-    xml.fail(node, fmt::format("{} '{}': the {} identifier '{}' begins {} columns of {}, expected 3; its "
-                               "columns are {}",
-                               node.name(), OsimXml::name_of(node), quantity, identifier, columns.size(), file.string(),
-                               channel_names(data)));
+    xml.fail(node,
+             fmt::format("{} '{}': the {} identifier '{}' begins {} columns of {}, expected 3; its columns are {}",
+                         node.name(), OsimXml::name_of(node), quantity, identifier, columns.size(), file.string(),
+                         channel_names(data)));
   }
   Eigen::MatrixX3d values(data.sample_count(), 3);
   for (Eigen::Index k = 0; k < 3; ++k) values.col(k) = data.values().col(columns[static_cast<std::size_t>(k)]);
@@ -104,13 +104,8 @@ Eigen::Index mend_points(Eigen::MatrixX3d& point, const std::vector<bool>& is_lo
 using Clock = std::optional<math::SplineKnots>;
 
 LoadColumns fit(const Clock& clock, const Eigen::MatrixX3d& values) {
-  LoadColumns columns;
-  if (!clock) {
-    columns.constant = values.row(0).transpose();
-    return columns;
-  }
-  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(clock->interpolate(values.col(k)));
-  return columns;
+  if (clock) return LoadColumns::interpolate(*clock, values);
+  return {.constant = values.row(0).transpose()};
 }
 
 model::BodyIndex body_named(const OsimXml& xml,
@@ -124,8 +119,7 @@ model::BodyIndex body_named(const OsimXml& xml,
   if (const auto body = model.find_body(name)) return *body;
   std::string names = "ground";
   for (std::size_t b = 1; b < model.bodies.size(); ++b) names += ", " + model.bodies[b].name;
-  xml.fail(node, fmt::format("ExternalForce '{}': <{}> names '{}', which is no body of the model; "
-                             "there are {}",
+  xml.fail(node, fmt::format("ExternalForce '{}': <{}> names '{}', which is no body of the model; there are {}",
                              OsimXml::name_of(node), property, name, names));
 }
 
@@ -179,8 +173,8 @@ ExternalForce read_force(const OsimXml& xml,
     }
     if (const Eigen::Index mended = mend_points(p, is_loaded); mended > 0) {
       notes.push_back(
-          fmt::format("{}: the point of '{}' means nothing in {} rows where no force acts; straight lines "
-                      "between the others stand there",
+          fmt::format("{}: the point of '{}' means nothing in {} rows where no force acts; straight lines between the "
+                      "others stand there",
                       file.string(), force.name, mended));
     }
     force.point = fit(clock, p);
@@ -191,6 +185,12 @@ ExternalForce read_force(const OsimXml& xml,
 }
 
 }  // namespace
+
+LoadColumns LoadColumns::interpolate(const math::SplineKnots& knots, const Eigen::MatrixX3d& values) {
+  LoadColumns columns;
+  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(knots.interpolate(values.col(k)));
+  return columns;
+}
 
 Vec3 LoadColumns::at(double time_s) const {
   if (splines.empty()) return constant;
@@ -271,8 +271,8 @@ ExternalLoads read_external_loads(const model::BodyModel& model, const std::file
     constexpr int kFirstOfExternalForces = 20301;
     if (is_old && xml.version() >= kFirstOfExternalForces) {
       loads.notes.push_back(
-          fmt::format("{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim "
-                      "converts it only where the document's version ({}) is before that",
+          fmt::format("{}: '{}' is a PrescribedForce, as in documents before {}, and acts as there; OpenSim converts "
+                      "it only where the document's version ({}) is before that",
                       path.string(), OsimXml::name_of(node), kFirstOfExternalForces, xml.version()));
     }
     loads.forces.push_back(read_force(xml, node, model, data, clock, file, loads.notes));

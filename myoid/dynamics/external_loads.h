@@ -15,8 +15,10 @@ namespace myoid::dynamics {
 /// Three columns of a loads file as functions of time: natural cubic splines (straight lines for
 /// two or three rows, a constant for one).
 struct LoadColumns {
-  std::vector<math::Spline> splines;  ///< Three, or none for a constant.
+  std::vector<math::Spline> splines{};  ///< Three, or none for a constant.
   Vec3 constant = Vec3::Zero();
+  /// Returns the columns of values on these knots.
+  [[nodiscard]] static LoadColumns interpolate(const math::SplineKnots& knots, const Eigen::MatrixX3d& values);
   [[nodiscard]] Vec3 at(double time_s) const;
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/dynamics/joint_capacity.h"
@@ -15,32 +16,39 @@
 namespace myoid::dynamics {
 namespace {
 
+/// The free translation along gravity of a joint to the ground.
 struct Root {
-  int coordinate = -1;
-  double weight_n = 0.0;
+  const model::Coordinate* coordinate;
+  double weight_n;  ///< Weight of all bodies.
+
+  /// Returns the column of its generalized force; empty if there is none.
+  [[nodiscard]] std::optional<Eigen::Index> column_in(const TimeSeries& generalized_forces) const {
+    return generalized_forces.find(generalized_force_name(*coordinate));
+  }
 };
 
-/// Returns the free translation along gravity of a joint to the ground; -1 if there is none.
-Root root_of(const model::BodyModel& model) {
-  Root root;
+/// Returns the translation that is nearest to gravity; empty if there is none, or no weight.
+std::optional<Root> root_of(const model::BodyModel& model) {
   const double g = model.gravity_G.norm();
-  if (!(g > 0.0)) return root;
+  if (!(g > 0.0)) return std::nullopt;
   const Vec3 down = model.gravity_G / g;
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, model.default_q(), state);
+  Root root{nullptr, 0.0};
   double best = 0.7;  // cosine of the axis with gravity: nearer than 45 degrees
   for (const model::Joint& joint : model.joints) {
     if (joint.parent != 0) continue;
     for (const int c : joint.coordinates) {
-      const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(c)];
+      const model::Coordinate& coordinate = model.coordinates[at(c)];
       if (coordinate.motion != model::MotionType::translational || model.is_constrained(c)) continue;
-      const double along = std::abs(state.H_v_G[static_cast<std::size_t>(c)].dot(down));
+      const double along = std::abs(state.H_v_G[at(c)].dot(down));
       if (along <= best) continue;
       best = along;
-      root.coordinate = c;
+      root.coordinate = &coordinate;
     }
   }
   for (const model::Body& body : model.bodies) root.weight_n += g * body.mass_kg;
+  if (root.coordinate == nullptr || !(root.weight_n > 0.0)) return std::nullopt;
   return root;
 }
 
@@ -48,41 +56,35 @@ Root root_of(const model::BodyModel& model) {
 
 std::string UnsupportedWeight::sentence(const std::string& given_by) const {
   return fmt::format(
-      "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} "
-      "N); the torques between the ground and the trunk lack the ground reaction: give it by {}",
+      "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} N); the torques "
+      "between the ground and the trunk lack the ground reaction: give it by {}",
       coordinate, force_n, 100.0 * force_n / weight_n, weight_n, given_by);
 }
 
 std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model,
                                                     const TimeSeries& generalized_forces) {
   constexpr double kMost = 0.5;
-  const Root root = root_of(model);
-  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
-  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(root.coordinate)];
-  const auto column = generalized_forces.find(dynamics::generalized_force_name(c));
+  const auto root = root_of(model);
+  const auto column = root ? root->column_in(generalized_forces) : std::nullopt;
   if (!column || generalized_forces.sample_count() == 0) return std::nullopt;
   const double force = std::abs(generalized_forces.values().col(*column).mean());
-  if (!(force >= kMost * root.weight_n)) return std::nullopt;
-  return UnsupportedWeight{c.name, force, root.weight_n};
+  if (!(force >= kMost * root->weight_n)) return std::nullopt;
+  return UnsupportedWeight{root->coordinate->name, force, root->weight_n};
 }
 
 std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model) {
-  const Root root = root_of(model);
-  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
-  return UnsupportedWeight{model.coordinates[static_cast<std::size_t>(root.coordinate)].name, root.weight_n,
-                           root.weight_n};
+  const auto root = root_of(model);
+  if (!root) return std::nullopt;
+  return UnsupportedWeight{root->coordinate->name, root->weight_n, root->weight_n};
 }
 
 std::string UncarriedTime::sentence() const {
   std::vector<std::string> times;
   for (const Stretch& s : stretches) times.push_back(fmt::format("{:.4g} to {:.4g} s", s.begin_s, s.end_s));
   return fmt::format(
-      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to "
-      "{:.0f} "
-      "N of a weight of {:.0f} N; was a foot beside the plates, or a hand on a rail? The torques "
-      "of "
-      "the legs are wrong there, so that those times are not fitted; start_s and end_s leave them "
-      "out altogether",
+      "no measured force carries the body in {:.0f} % of the trial ({}): {} has to bear up to {:.0f} N of a weight of "
+      "{:.0f} N; was a foot beside the plates, or a hand on a rail? The torques of the legs are wrong there, so that "
+      "those times are not fitted; start_s and end_s leave them out altogether",
       100.0 * share, fmt::join(times, ", "), coordinate, force_n, weight_n);
 }
 
@@ -90,22 +92,20 @@ std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model, const
   constexpr double kUncarried = 0.5, kAffected = 0.25;  // of the weight
   constexpr double kBriefest_s = 0.05;
   constexpr double kThroughout = 0.9;
-  const Root root = root_of(model);
-  if (root.coordinate < 0 || !(root.weight_n > 0.0)) return std::nullopt;
-  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(root.coordinate)];
-  const auto column = generalized_forces.find(dynamics::generalized_force_name(c));
+  const auto root = root_of(model);
+  const auto column = root ? root->column_in(generalized_forces) : std::nullopt;
   const Eigen::VectorXd& t = generalized_forces.time_s();
   if (!column || t.size() < 2) return std::nullopt;
   const Eigen::VectorXd force = generalized_forces.values().col(*column).cwiseAbs();
-  UncarriedTime found{.stretches = {}, .share = 0.0, .coordinate = c.name, .force_n = 0.0, .weight_n = root.weight_n};
-  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root.weight_n; };
+  UncarriedTime found{.coordinate = root->coordinate->name, .weight_n = root->weight_n};
+  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root->weight_n; };
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (!affected(i)) continue;
     const Eigen::Index first = i;
     Eigen::Index half_first = -1, half_last = -1;
     for (; i < t.size() && affected(i); ++i) {
-      if (force[i] < kUncarried * root.weight_n) continue;
+      if (force[i] < kUncarried * root->weight_n) continue;
       if (half_first < 0) half_first = i;
       half_last = i;
     }
@@ -132,7 +132,7 @@ bool bears_the_body(const model::BodyModel& model,
   const double g = model.gravity_G.norm();
   if (!(g > 0.0)) return false;
   const Vec3 up = -model.gravity_G / g;
-  const int joint = model.coordinates[static_cast<std::size_t>(model.coordinate_index(coordinate))].joint;
+  const int joint = model.coordinates[at(model.coordinate_index(coordinate))].joint;
   const std::vector<bool> moved = moved_bodies(model, joint);
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, q, state);
@@ -149,8 +149,8 @@ bool bears_the_body(const model::BodyModel& model,
 
 bool stands(const model::BodyModel& model, const Eigen::VectorXd& q) {
   return std::any_of(model.coordinates.begin(), model.coordinates.end(), [&](const model::Coordinate& c) {
-    return c.motion != model::MotionType::translational &&
-           model.joints[static_cast<std::size_t>(c.joint)].parent != 0 && bears_the_body(model, c.name, q, 0.0);
+    return c.motion != model::MotionType::translational && model.joints[at(c.joint)].parent != 0 &&
+           bears_the_body(model, c.name, q, 0.0);
   });
 }
 

@@ -31,7 +31,7 @@ struct UnsupportedWeight {
 /// Parts of a trial in which no measured force carries the body while measured forces carry it in
 /// the rest of the trial: a foot beside the plates.
 struct UncarriedTime {
-  std::vector<Stretch> stretches;
+  std::vector<Stretch> stretches{};
   double share = 0.0;      ///< Share of the trial's time.
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< Greatest generalized force of the translation in these parts.
@@ -42,7 +42,6 @@ struct UncarriedTime {
 /// Returns the stretches in which the model's free translation along gravity bears half of the weight for 50 ms or
 /// more; each extends while the translation bears a quarter. In flight the translation bears no weight. Empty without
 /// such a stretch, and with more than nine tenths of the time in stretches, as for people who sit, lie or hang.
-/// people who sit, lie or hang.
 [[nodiscard]] std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model,
                                                           const TimeSeries& generalized_forces);
 

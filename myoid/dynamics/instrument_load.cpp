@@ -21,12 +21,6 @@ Eigen::MatrixX3d three(const TimeSeries& wrench, const std::array<const char*, 3
   return values;
 }
 
-LoadColumns splines_through(const Eigen::VectorXd& time_s, const Eigen::MatrixX3d& values) {
-  LoadColumns columns;
-  for (Eigen::Index k = 0; k < 3; ++k) columns.splines.push_back(math::Spline::interpolate(time_s, values.col(k), 3));
-  return columns;
-}
-
 }  // namespace
 
 ExternalForce instrument_load(const model::BodyModel& object,
@@ -64,9 +58,10 @@ ExternalForce instrument_load(const model::BodyModel& object,
   ExternalForce load;
   load.name = name;
   load.body = applied_to;
-  load.force = splines_through(clock, force);
-  load.point = splines_through(clock, point);
-  load.torque = splines_through(clock, moment);
+  const math::SplineKnots knots(clock, 3);
+  load.force = LoadColumns::interpolate(knots, force);
+  load.point = LoadColumns::interpolate(knots, point);
+  load.torque = LoadColumns::interpolate(knots, moment);
   return load;
 }
 
@@ -81,9 +76,10 @@ ExternalForce instrument_load(model::BodyIndex frame,
   load.body = applied_to;
   load.force_frame = frame;
   load.point_frame = frame;
-  load.force = splines_through(wrench.time_s(), three(wrench, kForce));
+  const math::SplineKnots knots(wrench.time_s(), 3);
+  load.force = LoadColumns::interpolate(knots, three(wrench, kForce));
   load.point = LoadColumns{};  // the origin of the frame
-  load.torque = splines_through(wrench.time_s(), three(wrench, kMoment));
+  load.torque = LoadColumns::interpolate(knots, three(wrench, kMoment));
   return load;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -19,11 +20,10 @@ double JointCapacity::greatest_nm() const {
 
 std::vector<bool> moved_bodies(const model::BodyModel& model, int joint) {
   std::vector<bool> moved(model.bodies.size(), false);
-  const auto first = static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child);
-  moved[first] = true;
+  moved[at(model.joints[at(joint)].child)] = true;
   // A parent's joint comes before its child's.
   for (const model::Joint& j : model.joints) {
-    if (moved[static_cast<std::size_t>(j.parent)]) moved[static_cast<std::size_t>(j.child)] = true;
+    if (moved[at(j.parent)]) moved[at(j.child)] = true;
   }
   return moved;
 }
@@ -31,7 +31,7 @@ std::vector<bool> moved_bodies(const model::BodyModel& model, int joint) {
 JointCapacity joint_capacity(const model::BodyModel& model, const std::string& coordinate, double body_mass_kg) {
   constexpr int kSteps = 12;
   const int index = model.coordinate_index(coordinate);
-  const model::Coordinate& c = model.coordinates[static_cast<std::size_t>(index)];
+  const model::Coordinate& c = model.coordinates[at(index)];
   const double turn = c.motion == model::MotionType::translational ? 1.0 : kPi;
   const double from = std::max(c.lower, c.default_value - turn);
   const double to = std::max(from, std::min(c.upper, c.default_value + turn));
@@ -54,10 +54,9 @@ JointCapacity joint_capacity(const model::BodyModel& model, const std::string& c
   }
   q = model.default_q();
   model::compute_poses(model, q, state);
-  const auto joint = static_cast<std::size_t>(c.joint);
+  const model::Joint& joint = model.joints[at(c.joint)];
   const std::vector<bool> moved = moved_bodies(model, c.joint);
-  const auto child = static_cast<std::size_t>(model.joints[joint].child);
-  const Vec3 center = state.X_GB[child] * model.joints[joint].X_BM.p;
+  const Vec3 center = state.X_GB[at(joint.child)] * joint.X_BM.p;
   double mass = 0.0;
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     mass += model.bodies[b].mass_kg;
@@ -65,7 +64,7 @@ JointCapacity joint_capacity(const model::BodyModel& model, const std::string& c
       capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * model.bodies[b].p_BBcm_B - center).norm());
   }
   for (const model::Marker& marker : model.markers) {
-    const auto b = static_cast<std::size_t>(marker.body);
+    const auto b = at(marker.body);
     if (moved[b]) capacity.lever_m = std::max(capacity.lever_m, (state.X_GB[b] * marker.p_BM - center).norm());
   }
   capacity.lever_m = std::min(capacity.lever_m, kLongestLever_m);

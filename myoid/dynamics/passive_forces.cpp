@@ -15,15 +15,6 @@ double smooth_step(double s) {
   return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
 }
 
-/// Returns the wrench on a body of a force at a point of ground.
-model::BodyWrench wrench_at(const model::BodyState& state, model::BodyIndex body, const Vec3& p_G, const Vec3& f_G) {
-  return {body, f_G, (p_G - state.X_GB[at(body)].p).cross(f_G)};
-}
-
-Vec3 point_velocity(const model::BodyState& state, model::BodyIndex body, const Vec3& p_G) {
-  return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
-}
-
 /// Adds a bushing's force by virtual work on the body-fixed X-Y-Z angles and the translation of frame 2 in frame 1.
 void append(const model::Bushing& b, const model::BodyState& state, std::vector<model::BodyWrench>& wrenches) {
   const Pose X_GF1 = state.X_GB[at(b.body1)] * b.X_BF1;

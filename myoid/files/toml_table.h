@@ -12,6 +12,8 @@
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
+#include "myoid/core/choice.h"
+
 namespace myoid::recording {
 
 /// Reads one table of a TOML file strictly: every key is asked for by name and type, and `finish`
@@ -41,6 +43,13 @@ class TomlTable {
   [[nodiscard]] std::string choice(std::string_view key,
                                    std::string_view otherwise,
                                    const std::vector<std::string>& allowed);
+  /// Returns an enumerator by one of the names of its enumeration (core/choice.h).
+  template <typename Enumeration>
+  [[nodiscard]] Enumeration choice(std::string_view key, Enumeration otherwise) {
+    const ChoiceNames names = choice_names(otherwise);
+    const std::vector<std::string> allowed(names.begin(), names.end());
+    return *choice_named<Enumeration>(choice(key, choice_name(otherwise), allowed));
+  }
 
   /// Returns a number, or `otherwise` without the key; throws unless it is within `lower` to `upper` [unit].
   [[nodiscard]] double number_within(

@@ -9,19 +9,6 @@
 namespace myoid::forces {
 namespace {
 
-Vec3 angular_column(const model::BodyModel& model,
-                    const model::BodyState& state,
-                    model::BodyIndex body,
-                    int coordinate) {
-  for (model::BodyIndex b = body; b != 0;) {
-    const model::Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
-    for (const int c : joint.coordinates)
-      if (c == coordinate) return state.H_w_G[at(c)];
-    b = joint.parent;
-  }
-  return Vec3::Zero();
-}
-
 const model::MusclePath& path_of(const model::BodyModel& model, const Actuator& a) {
   return a.kind == Actuator::Kind::muscle ? model.muscles[a.index].path : model.path_actuators[a.index].path;
 }
@@ -44,15 +31,12 @@ std::vector<Actuator> actuators_of(const model::BodyModel& model) {
   const auto add = [&](Actuator::Kind kind, const auto& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!list[i].applies_force) continue;
-      Actuator a{kind, i, list[i].name, 0.0, 1.0};
       if constexpr (requires { list[i].properties; }) {
-        a.lower = list[i].properties.min_control;
-        a.upper = list[i].properties.max_control;
+        const model::MuscleProperties& p = list[i].properties;
+        all.push_back({kind, i, list[i].name, p.min_control, p.max_control, p.max_isometric_force_n});
       } else {
-        a.lower = list[i].min_control;
-        a.upper = list[i].max_control;
+        all.push_back({kind, i, list[i].name, list[i].min_control, list[i].max_control, list[i].optimal_force});
       }
-      all.push_back(std::move(a));
     }
   };
   add(Actuator::Kind::muscle, model.muscles);
@@ -65,22 +49,6 @@ std::vector<Actuator> actuators_of(const model::BodyModel& model) {
   };
   std::stable_sort(all.begin(), all.end(), [&](const Actuator& a, const Actuator& b) { return place(a) < place(b); });
   return all;
-}
-
-double actuator_strength(const model::BodyModel& model, const Actuator& a) {
-  switch (a.kind) {
-    case Actuator::Kind::muscle:
-      return model.muscles[a.index].properties.max_isometric_force_n;
-    case Actuator::Kind::coordinate:
-      return model.actuators[a.index].optimal_force;
-    case Actuator::Kind::point:
-      return model.point_actuators[a.index].optimal_force;
-    case Actuator::Kind::torque:
-      return model.torque_actuators[a.index].optimal_force;
-    case Actuator::Kind::path:
-      return model.path_actuators[a.index].optimal_force;
-  }
-  return 0.0;
 }
 
 const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a, const model::BodyState& state) {
@@ -105,9 +73,10 @@ const Eigen::VectorXd& ActuatorColumns::of_unit_force(const Actuator& a, const m
     case Actuator::Kind::torque: {
       const model::TorqueActuator& t = model.torque_actuators[a.index];
       const Vec3 axis = axis_of(t, state);
-      for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
-        column_[c] = axis.dot(angular_column(model, state, t.body_a, c) - angular_column(model, state, t.body_b, c));
-      }
+      const Eigen::Matrix3Xd turning_a = model::angular_jacobian(model, state, t.body_a);
+      const Eigen::Matrix3Xd turning_b = model::angular_jacobian(model, state, t.body_b);
+      for (Eigen::Index c = 0; c < column_.size(); ++c)
+        column_[c] = axis.dot(Vec3(turning_a.col(c) - turning_b.col(c)));
       break;
     }
   }

@@ -14,13 +14,11 @@ struct Actuator {
   std::size_t index = 0;  ///< Index in the model's list of its kind.
   std::string name;
   double lower = 0.0, upper = 1.0;  ///< Limits of the control.
+  double strength = 0.0;            ///< Force at control 1: greatest isometric, or optimal force.
 };
 
 /// Returns all actuators of a model, in the order of the file's force set.
 [[nodiscard]] std::vector<Actuator> actuators_of(const model::BodyModel& model);
-
-/// Returns the force at control 1: a muscle's greatest isometric force, an actuator's optimal force.
-[[nodiscard]] double actuator_strength(const model::BodyModel& model, const Actuator& actuator);
 
 /// The forces of actuators at a posture; one per thread. `compute_poses` (for path().speed_mps also
 /// `compute_velocities`) must have been called on the states given.

@@ -75,10 +75,8 @@ void check_states(const MuscleAnalysisOptions& options, Eigen::Index frames, con
   for (const Eigen::MatrixXd* table : {&options.activation, &options.fiber_length_m}) {
     if (table->size() > 0 &&
         (table->rows() != frames || table->cols() != static_cast<Eigen::Index>(model.muscles.size()))) {
-      throw InvalidInput(
-          fmt::format("muscle analysis: states of {} frames and {} muscles, expected "
-                      "{} and {}",
-                      table->rows(), table->cols(), frames, model.muscles.size()));
+      throw InvalidInput(fmt::format("muscle analysis: states of {} frames and {} muscles, expected {} and {}",
+                                     table->rows(), table->cols(), frames, model.muscles.size()));
     }
   }
 }

@@ -36,13 +36,6 @@ std::vector<Eigen::Index> balanced(const model::BodyModel& model, const std::vec
 
 SharingInput sharing_input(const model::BodyModel& model,
                            const kinematics::JointMotion& motion,
-                           const std::vector<std::string>& coordinates,
-                           const dynamics::ExternalLoads* loads) {
-  return sharing_input(model, motion, kinematics::muscle_kinematics(model, motion), coordinates, loads);
-}
-
-SharingInput sharing_input(const model::BodyModel& model,
-                           const kinematics::JointMotion& motion,
                            kinematics::MuscleKinematics muscles,
                            const std::vector<std::string>& coordinates,
                            const dynamics::ExternalLoads* loads) {

@@ -25,21 +25,17 @@ struct SharingInput {
   std::vector<std::string> notes;  ///< Remarks to the user, a sentence each.
 };
 
-/// Computes torques of inverse dynamics (with passive forces of the model and `loads`, if any), moment arms, and the
-/// forces at full activation with a rigid tendon under the curves of each muscle's own class. `coordinates`: the
-/// coordinates whose torque the muscles balance; empty: all independent ones. Coordinates that follow another by a
-/// coupler add to the other's torque and moment arms by their rate, so that the couplers' own forces do no work. Throws
-/// ModelError if a coordinate is not in the model or not independent, or the model has no muscles.
-[[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
-                                         const kinematics::JointMotion& motion,
-                                         const std::vector<std::string>& coordinates,
-                                         const dynamics::ExternalLoads* loads = nullptr);
-/// Computes the input from known paths of the muscles along the motion.
+/// Computes the input from the muscles' paths along the motion: torques of inverse dynamics (with passive forces of the
+/// model and `loads`, if any), moment arms, and the forces at full activation with a rigid tendon under the curves of
+/// each muscle's own class. `coordinates`: the coordinates whose torque the muscles balance; empty: all independent
+/// ones. Coordinates that follow another by a coupler add to the other's torque and moment arms by their rate, so that
+/// the couplers' own forces do no work. Throws ModelError if a coordinate is not in the model or not independent, or
+/// the model has no muscles.
 [[nodiscard]] SharingInput sharing_input(const model::BodyModel& model,
                                          const kinematics::JointMotion& motion,
                                          kinematics::MuscleKinematics muscles,
                                          const std::vector<std::string>& coordinates,
-                                         const dynamics::ExternalLoads* loads);
+                                         const dynamics::ExternalLoads* loads = nullptr);
 
 /// Shares forces on this input; the model gives the least activation, not `options`.
 [[nodiscard]] MuscleForces share(const SharingInput& input, SharingOptions options);

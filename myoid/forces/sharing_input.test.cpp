@@ -29,8 +29,8 @@ TEST(SharingInput, ACoordinateThatFollowsAddsItsTorqueAndMomentArmByItsRate) {
   model::BodyModel coupled = free;
   coupled.couplers.push_back({"follows", 3, 0, model::Function(model::Linear{0.5, 0.1})});
   kinematics::JointMotion motion = flexing(free);
-  const SharingInput all = sharing_input(free, motion, {});
-  const SharingInput one = sharing_input(coupled, motion, {});
+  const SharingInput all = sharing_input(free, motion, kinematics::muscle_kinematics(free, motion), {});
+  const SharingInput one = sharing_input(coupled, motion, kinematics::muscle_kinematics(coupled, motion), {});
   ASSERT_EQ(one.torques.channel_count(), all.torques.channel_count() - 1);
   const Eigen::MatrixXd torque = all.torques.values().col(0) + 0.5 * all.torques.values().col(3);
   EXPECT_LT((one.torques.values().col(0) - torque).cwiseAbs().maxCoeff(), 1e-12);
@@ -41,7 +41,10 @@ TEST(SharingInput, ACoordinateThatFollowsAddsItsTorqueAndMomentArmByItsRate) {
 TEST(SharingInput, RefusesACoordinateThatNoTorqueMoves) {
   model::BodyModel locked = arm();
   locked.coordinates[0].locked = true;
-  EXPECT_THROW((void)sharing_input(locked, flexing(locked), {locked.coordinates[0].name}), ModelError);
+  const kinematics::JointMotion motion = flexing(locked);
+  EXPECT_THROW(
+      (void)sharing_input(locked, motion, kinematics::muscle_kinematics(locked, motion), {locked.coordinates[0].name}),
+      ModelError);
 }
 
 }  // namespace

@@ -77,8 +77,7 @@ class SharedFrame {
     for (Eigen::Index c = 0; c < nq; ++c)
       if (model_.coordinates[at(c)].locked) udot[c] = 0.0;
     if (model_.constraints.empty()) {
-      Eigen::MatrixXd T = Eigen::MatrixXd::Zero(nq, static_cast<Eigen::Index>(free_.size()));
-      for (std::size_t k = 0; k < free_.size(); ++k) T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
+      Eigen::MatrixXd T = Eigen::MatrixXd::Identity(nq, nq)(Eigen::all, free_);
       // Chains of couplers need as many rounds as there are couplers.
       for (std::size_t round = 0; round < model_.couplers.size(); ++round) {
         for (const model::CoordinateCoupler& c : model_.couplers) {
@@ -99,7 +98,7 @@ class SharedFrame {
 
   /// Computes the generalized force of an actuator at control 1; returns its force.
   double column(const Actuator& a, Eigen::MatrixXd& columns, Eigen::Index i) {
-    double force = actuator_strength(model_, a);
+    double force = a.strength;
     columns.col(i) = columns_.of_unit_force(a, state_);
     if (a.kind == Actuator::Kind::muscle && options_.muscle_physiology) {
       const model::PathResult& path = columns_.path();

@@ -10,7 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/intake/clock_check.h"
-#include "myoid/kinematics/marker_segments.h"
+#include "myoid/kinematics/marker_misfit.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/marker_quality.h"
 #include "myoid/signals/mend_markers.h"

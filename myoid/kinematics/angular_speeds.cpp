@@ -1,6 +1,6 @@
 #include "myoid/kinematics/angular_speeds.h"
 
-#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <Eigen/LU>
@@ -30,8 +30,14 @@ Mat3 axes_in_parent(const Vec3& q) {
   return E;
 }
 
-Vec3 angles_of(const model::Joint& joint, const Eigen::Ref<const Eigen::VectorXd>& q) {
-  return {q[joint.coordinates[0]], q[joint.coordinates[1]], q[joint.coordinates[2]]};
+/// Returns the three angles of each of the joints.
+std::vector<std::array<int, 3>> angles_of_joints(const model::BodyModel& model) {
+  std::vector<std::array<int, 3>> angles;
+  for (const int j : angular_speed_joints(model)) {
+    const auto& c = model.joints[at(j)].coordinates;
+    angles.push_back({c[0], c[1], c[2]});
+  }
+  return angles;
 }
 
 /// Returns the angular acceleration for zero second derivatives of the angles: each axis moves with
@@ -56,13 +62,7 @@ std::vector<int> angular_speed_joints(const model::BodyModel& model) {
 
 Eigen::MatrixXd rates_of_speeds(const model::BodyModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
   Eigen::MatrixXd N = Eigen::MatrixXd::Identity(q.size(), q.size());
-  for (const int j : angular_speed_joints(model)) {
-    const model::Joint& joint = model.joints[at(j)];
-    const Mat3 inverse = axes_in_parent(angles_of(joint, q)).inverse();
-    for (Eigen::Index row = 0; row < 3; ++row)
-      for (Eigen::Index column = 0; column < 3; ++column)
-        N(joint.coordinates[at(row)], joint.coordinates[at(column)]) = inverse(row, column);
-  }
+  for (const auto& c : angles_of_joints(model)) N(c, c) = axes_in_parent(q(c)).inverse();
   return N;
 }
 
@@ -70,10 +70,9 @@ Eigen::VectorXd on_rates(const model::BodyModel& model,
                          const Eigen::Ref<const Eigen::VectorXd>& q,
                          Eigen::VectorXd on_speeds) {
   if (!takes_rates_for_speeds(model)) return on_speeds;
-  for (const int j : angular_speed_joints(model)) {
-    const model::Joint& joint = model.joints[at(j)];
-    const Vec3 forces = axes_in_parent(angles_of(joint, q)).transpose() * angles_of(joint, on_speeds);
-    for (Eigen::Index k = 0; k < 3; ++k) on_speeds[joint.coordinates[at(k)]] = forces[k];
+  for (const auto& c : angles_of_joints(model)) {
+    const Vec3 forces = on_speeds(c);
+    on_speeds(c) = axes_in_parent(q(c)).transpose() * forces;
   }
   return on_speeds;
 }
@@ -85,17 +84,14 @@ bool takes_rates_for_speeds(const model::BodyModel& model) {
 JointMotion moved_by_speeds(const model::BodyModel& model, const JointMotion& motion) {
   if (!takes_rates_for_speeds(model)) return motion;
   Eigen::MatrixXd qdot = motion.qdot.values(), qddot = motion.qddot.values();
-  for (const int j : angular_speed_joints(model)) {
-    const model::Joint& joint = model.joints[at(j)];
+  for (const auto& c : angles_of_joints(model)) {
     for (Eigen::Index i = 0; i < qdot.rows(); ++i) {
-      const Mat3 E = axes_in_parent(angles_of(joint, motion.q.values().row(i).transpose()));
+      const Mat3 E = axes_in_parent(motion.q.values()(i, c).transpose());
       const Eigen::PartialPivLU<Mat3> solver(E);
-      const Vec3 rates = solver.solve(angles_of(joint, qdot.row(i).transpose()));
-      const Vec3 second = solver.solve(angles_of(joint, qddot.row(i).transpose()) - carried(E, rates));
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        qdot(i, joint.coordinates[at(k)]) = rates[k];
-        qddot(i, joint.coordinates[at(k)]) = second[k];
-      }
+      const Vec3 rates = solver.solve(Vec3(qdot(i, c).transpose()));
+      const Vec3 second = solver.solve(Vec3(qddot(i, c).transpose()) - carried(E, rates));
+      qdot(i, c) = rates.transpose();
+      qddot(i, c) = second.transpose();
     }
   }
   return {motion.q, TimeSeries(motion.qdot.time_s(), motion.qdot.channels(), std::move(qdot)),

@@ -23,9 +23,9 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
                                const IkOptions& options,
                                std::vector<std::string>& notes) {
   std::vector<Pair> pairs;
-  std::vector<std::string> unseen, unknown;
+  std::vector<std::string> names, unseen, unknown;
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
-    const std::string& name = model.markers[i].name;
+    const std::string& name = names.emplace_back(model.markers[i].name);
     const auto it = std::find(markers.names.begin(), markers.names.end(), name);
     if (it == markers.names.end()) {
       unseen.push_back(name);
@@ -39,8 +39,6 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
   }
   for (const auto& [name, weight] : options.marker_weights) {
     if (model.find_marker(name)) continue;
-    std::vector<std::string> names;
-    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
     throw InvalidInput(
         fmt::format("marker weight: the model has no marker '{}'; there are {}", name, fmt::join(names, ", ")));
   }
@@ -52,16 +50,13 @@ std::vector<Pair> pair_markers(const model::BodyModel& model,
   if (!unknown.empty())
     notes.push_back(fmt::format("markers of the recording that are not in the model: {}", fmt::join(unknown, ", ")));
   if (pairs.empty()) {
-    std::vector<std::string> names;
-    for (const model::Marker& marker : model.markers) names.push_back(marker.name);
     const auto some = [](const std::vector<std::string>& all) {
       const std::vector<std::string> head(
           all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(all.size(), 12)));
       return fmt::format("{}{}", fmt::join(head, ", "), all.size() > head.size() ? ", ..." : "");
     };
     throw InvalidInput(
-        fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] "
-                    "rename in a study)",
+        fmt::format("no marker of the recording ({}) is in the model ({}); rename them ([markers] rename in a study)",
                     some(markers.names), some(names)));
   }
   return pairs;

@@ -55,10 +55,9 @@ MotionResult joint_motion(const model::BodyModel& model, const TimeSeries& q, co
     second.col(c) = values.second;
   }
   if (found == 0) {
-    throw InvalidInput(
-        fmt::format("no column of the motion ({}) is a coordinate of the model '{}'; rename the "
-                    "columns to the model's coordinates",
-                    channel_names(q), model.name));
+    throw InvalidInput(fmt::format(
+        "no column of the motion ({}) is a coordinate of the model '{}'; rename the columns to the model's coordinates",
+        channel_names(q), model.name));
   }
   for (const Channel& channel : q.channels()) {
     if (!model.find_coordinate(channel.name)) {

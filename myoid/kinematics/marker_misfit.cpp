@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/kinematics/marker_segments.h"
-#include "myoid/signals/marker_quality.h"
-
 namespace myoid::kinematics {
-
 namespace {
 
 constexpr double kFar_m = 0.04;
@@ -47,9 +45,29 @@ std::optional<Shift> common_shift(const recording::MarkerSeries& markers, const 
 
 }  // namespace
 
+std::vector<signals::ExpectedSegment> segments_of(const model::BodyModel& model,
+                                                  const recording::MarkerSeries& markers) {
+  std::map<int, signals::ExpectedSegment> by_body;
+  for (const model::Marker& marker : model.markers) {
+    const auto it = std::find(markers.names.begin(), markers.names.end(), marker.name);
+    if (it == markers.names.end()) continue;
+    signals::ExpectedSegment& e = by_body[marker.body];
+    e.segment.name =
+        marker.body >= 0 ? model.bodies[static_cast<std::size_t>(marker.body)].name : std::string("ground");
+    e.segment.markers.push_back(it - markers.names.begin());
+    e.local_m.conservativeResize(3, e.local_m.cols() + 1);
+    e.local_m.col(e.local_m.cols() - 1) = marker.p_BM;
+  }
+  std::vector<signals::ExpectedSegment> segments;
+  for (auto& [body, e] : by_body) {
+    if (e.segment.markers.size() >= 2) segments.push_back(std::move(e));
+  }
+  return segments;
+}
+
 MarkerMisfit marker_misfit(const model::BodyModel& model,
                            const recording::MarkerSeries& markers,
-                           const kinematics::IkResult& solved) {
+                           const IkResult& solved) {
   MarkerMisfit misfit;
   double sum = 0.0;
   int seen = 0;
@@ -65,15 +83,13 @@ MarkerMisfit marker_misfit(const model::BodyModel& model,
     misfit.warning = fmt::format("{}: {}", fault->says, fault->remedy);
   } else if (const auto shift = common_shift(markers, solved.marker_locations)) {
     misfit.warning = fmt::format(
-        "all markers lie about ({:.3f}, {:.3f}, {:.3f}) m from the model's: the laboratory's "
-        "origin "
-        "is not the model's, and no coordinate moves the model there; {:.1f} mm rms are left "
-        "without that shift",
+        "all markers lie about ({:.3f}, {:.3f}, {:.3f}) m from the model's: the laboratory's origin is not the "
+        "model's, and no coordinate moves the model there; {:.1f} mm rms are left without that shift",
         shift->mean_m[0], shift->mean_m[1], shift->mean_m[2], 1000.0 * shift->left_m);
   } else {
     misfit.warning =
-        "the markers lie far from the model's: another model, other units or swapped labels? The "
-        "angles may still fit, the marker errors do not";
+        "the markers lie far from the model's: another model, other units or swapped labels? The angles may still fit, "
+        "the marker errors do not";
   }
   return misfit;
 }

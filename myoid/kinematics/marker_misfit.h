@@ -1,11 +1,17 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/signals/marker_quality.h"
 
 namespace myoid::kinematics {
+
+/// Returns the model's segments that carry two or more of these markers, with the places of the
+/// markers. Welded bodies form one segment.
+[[nodiscard]] std::vector<signals::ExpectedSegment> segments_of(const model::BodyModel& model,
+                                                                const recording::MarkerSeries& markers);
 
 struct MarkerMisfit {
   double rms_m = 0.0;       ///< Over all markers of the frames in which markers were seen.
@@ -18,6 +24,6 @@ struct MarkerMisfit {
 /// Measures the distances of the measured markers from the model's after inverse kinematics.
 [[nodiscard]] MarkerMisfit marker_misfit(const model::BodyModel& model,
                                          const recording::MarkerSeries& markers,
-                                         const kinematics::IkResult& solved);
+                                         const IkResult& solved);
 
 }  // namespace myoid::kinematics

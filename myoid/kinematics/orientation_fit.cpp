@@ -25,9 +25,8 @@ model::BodyModel turning_only(const model::BodyModel& model,
   for (const model::LoopConstraint& constraint : model.constraints) {
     if (!std::holds_alternative<model::FunctionConstraint>(constraint.law)) {
       throw ModelError(
-          fmt::format("orientations are fitted without places, but constraint '{}' ({}) closes a "
-                      "loop of bodies; "
-                      "use markers (InverseKinematicsTool), or a model without that constraint",
+          fmt::format("orientations are fitted without places, but constraint '{}' ({}) closes a loop of bodies; use "
+                      "markers (InverseKinematicsTool), or a model without that constraint",
                       constraint.name, constraint.class_name));
     }
   }
@@ -115,8 +114,7 @@ class AngleFit {
 
   /// Returns the derivatives of all coordinates by the free ones.
   [[nodiscard]] Eigen::MatrixXd rates(const Eigen::VectorXd& q) const {
-    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(q.size(), static_cast<Eigen::Index>(free_.size()));
-    for (std::size_t k = 0; k < free_.size(); ++k) T(free_[k], static_cast<Eigen::Index>(k)) = 1.0;
+    Eigen::MatrixXd T = Eigen::MatrixXd::Identity(q.size(), q.size())(Eigen::all, free_);
     const std::size_t rounds = model_.couplers.size() + model_.constraints.size();
     for (std::size_t round = 0; round < rounds; ++round) {
       for (const model::CoordinateCoupler& c : model_.couplers)
@@ -131,16 +129,6 @@ class AngleFit {
     return T;
   }
 
-  [[nodiscard]] Eigen::Matrix3Xd turning_rates(model::BodyIndex body, Eigen::Index count) const {
-    Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, count);
-    for (model::BodyIndex b = body; b != 0;) {
-      const model::Joint& joint = model_.joints[at(model_.joint_of_body[at(b)])];
-      for (const int c : joint.coordinates) J.col(c) = state_.H_w_G[at(c)];
-      b = joint.parent;
-    }
-    return J;
-  }
-
   /// Returns the cost at q and computes its gradient by the free coordinates.
   double linearize(const Eigen::VectorXd& q, Eigen::Index frame) {
     model::compute_poses(model_, q, state_);
@@ -153,7 +141,7 @@ class AngleFit {
       if (!measured.allFinite()) continue;
       const Mat3 R_GS = state_.X_GB[at(sensor.body)].R * sensor.R_BS;
       const Eigen::AngleAxisd apart(Mat3(measured * R_GS.transpose()));
-      const Eigen::MatrixXd J = turning_rates(sensor.body, q.size()) * T;
+      const Eigen::MatrixXd J = model::angular_jacobian(model_, state_, sensor.body) * T;
       cost += 0.5 * sensor.weight * apart.angle() * apart.angle();
       hessian_ += sensor.weight * J.transpose() * J;
       pull_ += sensor.weight * apart.angle() * J.transpose() * apart.axis();

@@ -168,7 +168,6 @@ class TruePath {
     }
     return result_;
   }
-  [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
 
  private:
   /// Returns the rates of all coordinates by every independent one, through the couplers.
@@ -203,17 +202,6 @@ Eigen::MatrixXd scaled(Eigen::MatrixXd unit, const PathSurrogate& s) {
     unit.row(row) = s.lower.transpose() + unit.row(row).cwiseProduct((s.upper - s.lower).transpose());
   }
   return unit;
-}
-
-Eigen::MatrixXd training_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
-  return scaled(math::sobol_points(count, static_cast<int>(s.coordinates.size()), {.scramble_seed = seed}), s);
-}
-
-Eigen::MatrixXd unseen_postures(const PathSurrogate& s, Eigen::Index count, std::uint64_t seed) {
-  math::Random random(seed, 77);
-  Eigen::MatrixXd unit(count, static_cast<Eigen::Index>(s.coordinates.size()));
-  for (double& x : unit.reshaped()) x = random.uniform();
-  return scaled(std::move(unit), s);
 }
 
 /// Returns length and arms of the true path at every posture: postures x (1 + coordinates).
@@ -317,7 +305,10 @@ PathSurrogate fit(const model::BodyModel& model, const model::Muscle& muscle, co
     s.within_tolerance = std::isfinite(s.coefficient_m[0]);
     return s;
   }
-  const Eigen::MatrixXd unseen = unseen_postures(s, 400 * d, options.seed);
+  math::Random random(options.seed, 77);
+  Eigen::MatrixXd unit(400 * d, d);
+  for (double& x : unit.reshaped()) x = random.uniform();
+  const Eigen::MatrixXd unseen = scaled(std::move(unit), s);
   const Eigen::MatrixXd unseen_truth = truth_at(path, s, unseen);
   PathSurrogate best = s;
   best.coefficient_m = Eigen::VectorXd::Zero(1);
@@ -332,7 +323,7 @@ PathSurrogate fit(const model::BodyModel& model, const model::Muscle& muscle, co
     if (terms > options.max_terms) break;
     options.progress.check();
     const auto count = static_cast<Eigen::Index>(std::max(100.0, 3.0 * terms));
-    const Eigen::MatrixXd postures = training_postures(s, count, options.seed);
+    const Eigen::MatrixXd postures = scaled(math::sobol_points(count, d, {.scramble_seed = options.seed}), s);
     const Eigen::MatrixXd truth = truth_at(path, s, postures);
     if (!truth.allFinite()) break;
     solve(s, postures, truth, default_q, options);

@@ -53,22 +53,14 @@ PoseFit::PoseFit(const model::BodyModel& model, const IkOptions& options, std::v
   for (const model::Joint& joint : model.joints) {
     Chain& chain = chains_[at(joint.child)];
     chain = chains_[at(joint.parent)];
-    for (const bool turning : {false, true}) {
-      const auto add = [&](int c) {
-        chain.coordinates.push_back(c);
-        chain.body_of.push_back(at(joint.child));
-      };
-      if (!turning) {
-        for (const int c : joint.coordinates)
-          if (!turns(joint, c)) add(c);
-      } else {
-        for (const model::TransformAxis& axis : joint.rotation) {
-          const auto& added = chain.coordinates;
-          if (axis.coordinate >= 0 && std::find(added.begin(), added.end(), axis.coordinate) == added.end())
-            add(axis.coordinate);
-        }
-      }
+    for (const int c : joint.coordinates)
+      if (!turns(joint, c)) chain.coordinates.push_back(c);
+    for (const model::TransformAxis& axis : joint.rotation) {
+      const auto& added = chain.coordinates;
+      if (axis.coordinate >= 0 && std::find(added.begin(), added.end(), axis.coordinate) == added.end())
+        chain.coordinates.push_back(axis.coordinate);
     }
+    chain.body_of.resize(chain.coordinates.size(), at(joint.child));
   }
   for (const CoordinateTask& task : options.tasks) task_index_.push_back(model.coordinate_index(task.coordinate));
   seen_.assign(pairs_.size(), false);

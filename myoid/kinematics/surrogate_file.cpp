@@ -44,8 +44,8 @@ std::vector<int> indices(const model::BodyModel& model, const ordered_json& list
   return result;
 }
 
-kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const ordered_json& object) {
-  kinematics::PathSurrogate s;
+PathSurrogate surrogate_of(const model::BodyModel& model, const ordered_json& object) {
+  PathSurrogate s;
   s.muscle = object.at("muscle").get<std::string>();
   s.coordinates = indices(model, object.at("coordinates"));
   s.lower = vector_of(object.at("lower"));
@@ -63,26 +63,22 @@ kinematics::PathSurrogate surrogate_of(const model::BodyModel& model, const orde
 }
 
 /// Checks the numbers of a file that is JSON of the right shape.
-void check(const kinematics::PathSurrogate& s, const std::string& muscle, const std::filesystem::path& path) {
+void check(const PathSurrogate& s, const std::string& muscle, const std::filesystem::path& path) {
   const auto d = static_cast<Eigen::Index>(s.coordinates.size());
-  const bool fits =
-      s.muscle == muscle && s.degree >= 0 && s.degree <= 64 && s.lower.size() == d && s.upper.size() == d &&
-      ((s.upper - s.lower).array() > 0.0).all() && s.held_at.size() == static_cast<Eigen::Index>(s.held.size()) &&
-      s.coefficient_m.allFinite() &&
-      s.coefficient_m.size() == static_cast<Eigen::Index>(kinematics::term_count(static_cast<int>(d), s.degree));
+  const bool fits = s.muscle == muscle && s.degree >= 0 && s.degree <= 64 && s.lower.size() == d &&
+                    s.upper.size() == d && ((s.upper - s.lower).array() > 0.0).all() &&
+                    s.held_at.size() == static_cast<Eigen::Index>(s.held.size()) && s.coefficient_m.allFinite() &&
+                    s.coefficient_m.size() == static_cast<Eigen::Index>(term_count(static_cast<int>(d), s.degree));
   if (!fits) {
-    throw ReadError(path, 0,
-                    fmt::format("the surrogate of muscle '{}' is damaged; delete the file, it will "
-                                "be made again",
-                                muscle));
+    throw ReadError(
+        path, 0,
+        fmt::format("the surrogate of muscle '{}' is damaged; delete the file, it will be made again", muscle));
   }
 }
 
 }  // namespace
 
-std::string surrogate_key(std::string_view model_text,
-                          const model::Compat& compat,
-                          const kinematics::SurrogateOptions& options) {
+std::string surrogate_key(std::string_view model_text, const model::Compat& compat, const SurrogateOptions& options) {
   return sha256(fmt::format("{} {}\n{}\n{} {} {} {} {}\n{}", kKind, kVersion, name_of(compat),
                             options.length_tolerance_m, options.arm_tolerance_m, options.max_degree, options.max_terms,
                             options.seed, model_text));
@@ -91,10 +87,10 @@ std::string surrogate_key(std::string_view model_text,
 void write_surrogates(const std::filesystem::path& path,
                       const model::BodyModel& model,
                       const std::string& key,
-                      const std::vector<kinematics::PathSurrogate>& surrogates) {
+                      const std::vector<PathSurrogate>& surrogates) {
   ordered_json object{{"kind", kKind}, {"version", kVersion}, {"key", key}};
   object["muscles"] = ordered_json::array();
-  for (const kinematics::PathSurrogate& s : surrogates) {
+  for (const PathSurrogate& s : surrogates) {
     object["muscles"].push_back({{"muscle", s.muscle},
                                  {"coordinates", names(model, s.coordinates)},
                                  {"lower", json_numbers(s.lower)},
@@ -112,9 +108,9 @@ void write_surrogates(const std::filesystem::path& path,
   recording::write_file(path, json_text(object, 1) + "\n");
 }
 
-std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(const std::filesystem::path& path,
-                                                                      const model::BodyModel& model,
-                                                                      const std::string& key) {
+std::optional<std::vector<PathSurrogate>> read_surrogates(const std::filesystem::path& path,
+                                                          const model::BodyModel& model,
+                                                          const std::string& key) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
@@ -123,7 +119,7 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(const std:
       throw ReadError(path, 0, "this is no file of path surrogates; it is left as it is, give another name");
     }
     if (object.value("version", 0) != kVersion || object.value("key", "") != key) return std::nullopt;
-    std::vector<kinematics::PathSurrogate> all;
+    std::vector<PathSurrogate> all;
     for (const ordered_json& entry : object.at("muscles")) {
       all.push_back(surrogate_of(model, entry));
       if (all.size() > model.muscles.size()) break;
@@ -134,10 +130,9 @@ std::optional<std::vector<kinematics::PathSurrogate>> read_surrogates(const std:
                       fmt::format("expected {} muscles, found {}", model.muscles.size(), object.at("muscles").size()));
     return all;
   } catch (const nlohmann::json::exception& error) {
-    throw ReadError(path, 0,
-                    fmt::format("cannot be read as path surrogates ({}); delete the file, it will "
-                                "be made again",
-                                error.what()));
+    throw ReadError(
+        path, 0,
+        fmt::format("cannot be read as path surrogates ({}); delete the file, it will be made again", error.what()));
   }
 }
 

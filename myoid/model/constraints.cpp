@@ -24,17 +24,6 @@ Eigen::Index loop_rows(const BodyModel& model) {
   return rows;
 }
 
-/// Returns the angular velocity of a body per rate of each coordinate: 3 x nq.
-Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body) {
-  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
-  for (BodyIndex b = body; b != 0;) {
-    const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
-    for (const int c : joint.coordinates) J.col(c) = state.H_w_G[at(c)];
-    b = joint.parent;
-  }
-  return J;
-}
-
 MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::VectorXd& q) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(f.independent.size()));
   for (std::size_t k = 0; k < f.independent.size(); ++k) x[static_cast<Eigen::Index>(k)] = q[f.independent[k]];

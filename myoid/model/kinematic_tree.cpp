@@ -92,6 +92,24 @@ Eigen::Matrix3Xd station_jacobian(const BodyModel& model, const BodyState& state
   return jacobian;
 }
 
+Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body) {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.coordinates.size()));
+  for (BodyIndex b = body; b != 0;) {
+    const Joint& joint = model.joints[at(model.joint_of_body[at(b)])];
+    for (const int c : joint.coordinates) J.col(c) = state.H_w_G[at(c)];
+    b = joint.parent;
+  }
+  return J;
+}
+
+Vec3 point_velocity(const BodyState& state, BodyIndex body, const Vec3& p_G) {
+  return state.v_GB[at(body)] + state.w_GB[at(body)].cross(p_G - state.X_GB[at(body)].p);
+}
+
+BodyWrench wrench_at(const BodyState& state, BodyIndex body, const Vec3& p_G, const Vec3& f_G) {
+  return {body, f_G, (p_G - state.X_GB[at(body)].p).cross(f_G)};
+}
+
 Eigen::VectorXd inverse_dynamics(const BodyModel& model,
                                  const Eigen::Ref<const Eigen::VectorXd>& q,
                                  const Eigen::Ref<const Eigen::VectorXd>& qdot,

@@ -36,12 +36,21 @@ void compute_velocities(const BodyModel& model, const Eigen::Ref<const Eigen::Ve
                                                 BodyIndex body,
                                                 const Vec3& p_BP);
 
+/// Returns the angular velocity of a body per rate of each coordinate: 3 x nq.
+[[nodiscard]] Eigen::Matrix3Xd angular_jacobian(const BodyModel& model, const BodyState& state, BodyIndex body);
+
+/// Returns the velocity of the body's point at a place in ground.
+[[nodiscard]] Vec3 point_velocity(const BodyState& state, BodyIndex body, const Vec3& p_G);
+
 /// Force and moment on a body, applied at its origin, expressed in ground.
 struct BodyWrench {
   BodyIndex body = 0;
   Vec3 f_G = Vec3::Zero();  ///< [N]
   Vec3 m_G = Vec3::Zero();  ///< [N m], about the body's origin.
 };
+
+/// Returns the wrench on a body of a force at a point of ground.
+[[nodiscard]] BodyWrench wrench_at(const BodyState& state, BodyIndex body, const Vec3& p_G, const Vec3& f_G);
 
 /// Returns the generalized forces tau that produce qddot at (q, qdot) under gravity and `external`,
 /// by recursive Newton-Euler: tau = M qddot + C - gravity - external. Coordinates in model order,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "myoid/core/choice.h"
 #include "myoid/muscle/scalar.h"
 
 namespace myoid::muscle {
@@ -15,6 +16,8 @@ enum class ActivationLaw {
   recursive,  ///< Two lags, rising and falling alike: the recursive filter of Buchanan et al.
               ///< (2004).
 };
+inline constexpr std::string_view kActivationLawNames[] = {"envelope", "two_lags", "thelen", "de_groote", "recursive"};
+constexpr ChoiceNames choice_names(ActivationLaw) { return kActivationLawNames; }
 
 /// A law with its constants. `recursive` takes tau_ne and tau_ac for its two time constants,
 /// `thelen` and `de_groote` do not use tau_ne.

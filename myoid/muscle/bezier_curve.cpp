@@ -71,8 +71,7 @@ BezierCurve::BezierCurve(std::span<const CurveKnot> knots, std::span<const doubl
     : count_(static_cast<int>(curviness.size())) {
   if (knots.size() != curviness.size() + 1 || count_ < 1 || count_ > kMaxSegments) {
     throw InvalidInput(
-        fmt::format("a curve of {} knots and {} corners: expected one knot more than "
-                    "corners, and at most {} corners",
+        fmt::format("a curve of {} knots and {} corners: expected one knot more than corners, and at most {} corners",
                     knots.size(), curviness.size(), kMaxSegments));
   }
   for (int k = 0; k < count_; ++k) {
@@ -86,8 +85,7 @@ BezierCurve::BezierCurve(std::span<const CurveKnot> knots, std::span<const doubl
     const double meet_y = (meet_x - q.x) * q.slope + q.y;
     if (!(c > 0.0 && c <= 1.0) || !(meet_x > p.x && meet_x < q.x)) {
       throw InvalidInput(
-          fmt::format("the corner of a curve from ({:g}, {:g}) with slope {:g} to ({:g}, {:g}) with slope "
-                      "{:g}, "
+          fmt::format("the corner of a curve from ({:g}, {:g}) with slope {:g} to ({:g}, {:g}) with slope {:g}, "
                       "curviness {:g}: its tangents must meet between the two and the curviness lie in (0, 1]",
                       p.x, p.y, p.slope, q.x, q.y, q.slope, c));
     }

@@ -44,11 +44,6 @@ FatigueState<double> step_fatigue(const FatigueRates<double>& rates,
   return s;
 }
 
-double sustainable_load(const FatigueRates<double>& rates) {
-  if (rates.fatigue_per_s == 0.0) return 1.0;
-  return 1.0 / (1.0 + rates.fatigue_per_s / rates.recovery_per_s + rates.fatigue_per_s / rates.development_per_s);
-}
-
 FatigueRates<double> published_fatigue_rates(std::string_view name) {
   if (name == "elbow") return {.fatigue_per_s = 0.00912, .recovery_per_s = 0.00094};
   if (name == "elbow_rest") {
@@ -60,10 +55,8 @@ FatigueRates<double> published_fatigue_rates(std::string_view name) {
   if (name == "elbow_extensor") {
     return {.fatigue_per_s = 0.01559, .recovery_per_s = 0.00125, .rest_recovery_factor = 25.52};
   }
-  throw InvalidInput(
-      fmt::format("no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, "
-                  "elbow_extensor",
-                  name));
+  throw InvalidInput(fmt::format(
+      "no published fatigue rates named '{}'; there are elbow, elbow_rest, elbow_flexor, elbow_extensor", name));
 }
 
 }  // namespace myoid::muscle

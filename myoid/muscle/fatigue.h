@@ -29,24 +29,19 @@ struct FatigueState {
 /// and relaxation positive.
 void validate(const FatigueRates<double>& rates);
 
-/// Returns the central drive's flow from resting to active [1/s] under a target load in 0..1 of the
-/// fresh muscle's strength:
-///   C = LD min(target - M_A, M_R) below the target, LR (target - M_A) above.
-template <typename T>
-[[nodiscard]] T fatigue_drive(const FatigueRates<T>& rates, const T& target_load, const FatigueState<T>& state) {
-  const T lacking = target_load - state.active;
-  if (value_of(lacking) <= 0.0) return rates.relaxation_per_s * lacking;
-  return rates.development_per_s * (value_of(state.resting) > value_of(lacking) ? lacking : state.resting);
-}
-
-/// Returns the right-hand side [1/s]; its three parts add up to zero:
+/// Returns the right-hand side [1/s] under a target load in 0..1 of the fresh muscle's strength; its
+/// three parts add up to zero:
 ///   dM_A = C - F M_A,   dM_R = -C + R' M_F,   dM_F = F M_A - R' M_F,
-///   R' = r R while the target is 0, else R.
+///   R' = r R while the target is 0, else R,
+/// with the central drive's flow from resting to active
+///   C = LD min(target - M_A, M_R) below the target, LR (target - M_A) above.
 template <typename T>
 [[nodiscard]] FatigueState<T> fatigue_rate(const FatigueRates<T>& rates,
                                            const T& target_load,
                                            const FatigueState<T>& state) {
-  const T drive = fatigue_drive(rates, target_load, state);
+  const T lacking = target_load - state.active;
+  const T recruited = value_of(state.resting) > value_of(lacking) ? lacking : state.resting;
+  const T drive = value_of(lacking) <= 0.0 ? rates.relaxation_per_s * lacking : rates.development_per_s * recruited;
   const T recovery =
       value_of(target_load) > 0.0 ? rates.recovery_per_s : rates.recovery_per_s * rates.rest_recovery_factor;
   const T tiring = rates.fatigue_per_s * state.active;
@@ -66,10 +61,6 @@ template <typename T>
                                                 double target_load,
                                                 const FatigueState<double>& state,
                                                 double interval_s);
-
-/// Returns the share that stays active under an unreachable target, t -> infinity:
-///   M_A = 1 / (1 + F/R + F/LD).
-[[nodiscard]] double sustainable_load(const FatigueRates<double>& rates);
 
 /// Returns rates for the elbow: "elbow" (Frey-Law, Looft & Heitsman 2012, both directions, r = 1),
 /// "elbow_rest" (these rates with r = 15, Looft, Herkert & Frey-Law 2018), "elbow_flexor",

@@ -11,6 +11,12 @@ namespace {
 
 using FatigueNow = FatigueState<double>;
 
+/// Returns the share that stays active under an unreachable target, t -> infinity:
+///   M_A = 1 / (1 + F/R + F/LD).
+double sustainable_load(const FatigueRates<double>& rates) {
+  return 1.0 / (1.0 + rates.fatigue_per_s / rates.recovery_per_s + rates.fatigue_per_s / rates.development_per_s);
+}
+
 TEST(Fatigue, RatesAreThePublishedOnesInEveryCase) {
   const FatigueRates<double> r{.rest_recovery_factor = 15.0};
   // Below the target with reserve: C = LD (0.5 - 0.2) = 3.

@@ -13,24 +13,21 @@
 namespace myoid::muscle {
 namespace {
 
-/// Returns the field of this name; throws InvalidInput with all names if there is none.
-double& field_of(MusculotendonParameters<double>& parameters, const std::string& wanted) {
-  double* found = nullptr;
-  std::string names;
-  visit_parameters(parameters, [&](std::string_view name, Unit, double& field) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-    if (name == wanted) found = &field;
-  });
-  if (found == nullptr) throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
-  return *found;
-}
+struct Field {
+  double* value = nullptr;
+  Unit unit = Unit::dimensionless;
+};
 
-Unit unit_of(const MusculotendonParameters<double>& parameters, const std::string& wanted) {
-  Unit result = Unit::dimensionless;
-  visit_parameters(parameters, [&](std::string_view name, Unit unit, const double&) {
-    if (name == wanted) result = unit;
+/// Returns the field of this name; throws InvalidInput with all names if there is none.
+Field field_of(MusculotendonParameters<double>& parameters, const std::string& wanted) {
+  Field found;
+  std::string names;
+  visit_parameters(parameters, [&](std::string_view name, Unit unit, double& field) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+    if (name == wanted) found = {&field, unit};
   });
-  return result;
+  if (found.value == nullptr) throw InvalidInput(fmt::format("a muscle has no '{}'; there are {}", wanted, names));
+  return found;
 }
 
 IsolatedModel with_values(const IsolatedModel& start,
@@ -39,7 +36,7 @@ IsolatedModel with_values(const IsolatedModel& start,
   IsolatedModel model = start;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double value = std::exp(logs[static_cast<Eigen::Index>(i)]);
-    field_of(model.parameters, names[i]) = value;
+    *field_of(model.parameters, names[i]).value = value;
     if (names[i] == "eccentric_plateau" && model.laws.velocity == VelocityLaw::millard)
       model.millard.max_eccentric_multiplier = value;
   }
@@ -86,7 +83,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
   Eigen::VectorXd logs(p);
   for (Eigen::Index j = 0; j < p; ++j) {
     const std::string& name = names[static_cast<std::size_t>(j)];
-    const double value = field_of(fit.model.parameters, name);
+    const double value = *field_of(fit.model.parameters, name).value;
     if (std::count(names.begin(), names.end(), name) > 1)
       throw InvalidInput(fmt::format("'{}' is to be identified twice", name));
     if (!(value > 0.0)) {
@@ -142,7 +139,7 @@ IsolatedFit fit_isolated_muscle(const IsolatedModel& start,
     const std::string& name = names[static_cast<std::size_t>(j)];
     const double value = std::exp(found.x[j]);
     fit.estimates.push_back({.parameter = name,
-                             .unit = unit_of(start.parameters, name),
+                             .unit = field_of(fit.model.parameters, name).unit,
                              .start = std::exp(logs[j]),
                              .value = value,
                              .std_error = value * std::sqrt(std::max(0.0, covariance(j, j))),

@@ -43,30 +43,20 @@ struct HillField {
   Range bounds;  ///< Physical: no muscle lies outside.
 };
 
-inline constexpr std::array kHillFields = {
-    HillField{
-        "max_isometric_force", "F_max", Unit::newton, &HillParameters<double>::max_isometric_force_n, {5.0, 20000.0}},
-    HillField{
-        "optimal_fiber_length", "l_m0", Unit::meter, &HillParameters<double>::optimal_fiber_length_m, {0.01, 0.60}},
-    HillField{"force_length_width", "l_msh", Unit::meter, &HillParameters<double>::force_length_width_m, {0.005, 0.60}},
-    HillField{"concentric_curvature",
-              "V_sh",
-              Unit::dimensionless,
-              &HillParameters<double>::concentric_curvature,
-              {0.05, 1.0}},
-    HillField{"eccentric_curvature_product",
-              "V_sh V_shl",
-              Unit::dimensionless,
-              &HillParameters<double>::eccentric_curvature_product,
-              {0.005, 1.0}},
-    HillField{"eccentric_plateau", "V_ml", Unit::dimensionless, &HillParameters<double>::eccentric_plateau, {1.0, 2.0}},
-    HillField{"max_shortening_speed",
-              "v_max",
-              Unit::meter_per_second,
-              &HillParameters<double>::max_shortening_speed_mps,
-              {0.05, 10.0}},
-    HillField{"tendon_slack_length", "l_t0", Unit::meter, &HillParameters<double>::tendon_slack_length_m, {0.0, 1.0}},
-};
+inline constexpr std::array kHillFields = [] {
+  using Hill = HillParameters<double>;
+  constexpr Unit kNone = Unit::dimensionless;
+  return std::array<HillField, 8>{{
+      {"max_isometric_force", "F_max", Unit::newton, &Hill::max_isometric_force_n, {5.0, 20000.0}},
+      {"optimal_fiber_length", "l_m0", Unit::meter, &Hill::optimal_fiber_length_m, {0.01, 0.60}},
+      {"force_length_width", "l_msh", Unit::meter, &Hill::force_length_width_m, {0.005, 0.60}},
+      {"concentric_curvature", "V_sh", kNone, &Hill::concentric_curvature, {0.05, 1.0}},
+      {"eccentric_curvature_product", "V_sh V_shl", kNone, &Hill::eccentric_curvature_product, {0.005, 1.0}},
+      {"eccentric_plateau", "V_ml", kNone, &Hill::eccentric_plateau, {1.0, 2.0}},
+      {"max_shortening_speed", "v_max", Unit::meter_per_second, &Hill::max_shortening_speed_mps, {0.05, 10.0}},
+      {"tendon_slack_length", "l_t0", Unit::meter, &Hill::tendon_slack_length_m, {0.0, 1.0}},
+  }};
+}();
 
 /// Returns the row of this name; throws InvalidInput with the list of names.
 [[nodiscard]] const HillField& hill_field(std::string_view name);

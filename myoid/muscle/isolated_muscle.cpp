@@ -24,8 +24,7 @@ class Drive {
     const Eigen::Index n = value_.size();
     if (n == 0 || (time_.size() != n && !(time_.size() == 0 && n == 1))) {
       throw InvalidInput(
-          fmt::format("the drive of a muscle: {} times and {} values; expected as many "
-                      "of each, or one value alone",
+          fmt::format("the drive of a muscle: {} times and {} values; expected as many of each, or one value alone",
                       time_.size(), n));
     }
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -34,9 +33,8 @@ class Drive {
       }
       if (k > 0 && !(time_(k) > time_(k - 1))) {
         throw InvalidInput(
-            fmt::format("the drive of a muscle: time {} s follows {} s, expected "
-                        "strictly increasing times",
-                        time_(k), time_(k - 1)));
+            fmt::format("the drive of a muscle: time {} s follows {} s, expected strictly increasing times", time_(k),
+                        time_(k - 1)));
       }
     }
   }
@@ -156,8 +154,7 @@ Eigen::VectorXd checked_outputs(const Eigen::VectorXd& wanted, const Eigen::Vect
   for (Eigen::Index k = 0; k < wanted.size(); ++k) {
     if (!(wanted(k) >= begin && wanted(k) <= end) || (k > 0 && !(wanted(k) > wanted(k - 1)))) {
       throw InvalidInput(
-          fmt::format("output time {} s: expected strictly increasing times from {} to "
-                      "{} s, where the length is known",
+          fmt::format("output time {} s: expected strictly increasing times from {} to {} s, where the length is known",
                       wanted(k), begin, end));
     }
   }

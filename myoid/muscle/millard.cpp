@@ -79,9 +79,9 @@ BezierCurve tendon_curve(const MillardShape& s) {
 }  // namespace
 
 MillardCurves::MillardCurves(const MillardShape& shape)
-    : force_length_(force_length_curve(shape)),
-      force_velocity_(force_velocity_curve(shape)),
-      passive_(passive_curve(shape)),
-      tendon_(tendon_curve(shape)) {}
+    : force_length(force_length_curve(shape)),
+      force_velocity(force_velocity_curve(shape)),
+      passive(passive_curve(shape)),
+      tendon(tendon_curve(shape)) {}
 
 }  // namespace myoid::muscle

@@ -32,27 +32,20 @@ struct MillardShape {
 };
 
 /// The four curves. Derivatives pass through their arguments, not through their shape.
-class MillardCurves {
- public:
+struct MillardCurves {
   /// Throws InvalidInput if the shape makes no curve.
   explicit MillardCurves(const MillardShape& shape = {});
 
-  /// Returns the active force-length curve: a steep and a shallow ascending limb, plateau at 1,
-  /// descending limb; `active_minimum` outside.
-  [[nodiscard]] const BezierCurve& force_length() const { return force_length_; }
-  /// Returns the force-velocity curve: 0 at -1, 1 at rest, the eccentric maximum at 1, straight beyond.
-  [[nodiscard]] const BezierCurve& force_velocity() const { return force_velocity_; }
-  /// Returns the passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`, straight beyond.
-  [[nodiscard]] const BezierCurve& passive() const { return passive_; }
-  /// Returns the tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default):
-  /// 0 when slack, toe to 2/3, straight through (1, 1).
-  [[nodiscard]] const BezierCurve& tendon() const { return tendon_; }
-
- private:
-  BezierCurve force_length_;
-  BezierCurve force_velocity_;
-  BezierCurve passive_;
-  BezierCurve tendon_;
+  /// Active force over fiber length: a steep and a shallow ascending limb, plateau at 1, descending
+  /// limb; `active_minimum` outside.
+  BezierCurve force_length;
+  /// Force over velocity: 0 at -1, 1 at rest, the eccentric maximum at 1, straight beyond.
+  BezierCurve force_velocity;
+  /// Passive force over fiber length: 0 to l = 1, 1 at 1 + `passive_strain_at_one`, straight beyond.
+  BezierCurve passive;
+  /// Tendon force over strain / e0, where e0 is the strain at F_max (0.049 by default): 0 when
+  /// slack, toe to 2/3, straight through (1, 1).
+  BezierCurve tendon;
 };
 
 }  // namespace myoid::muscle

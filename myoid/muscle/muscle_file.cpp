@@ -1,10 +1,7 @@
 #include "myoid/muscle/muscle_file.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,67 +15,19 @@
 namespace myoid::muscle {
 namespace {
 
-using muscle::ActivationLaw;
-using muscle::LengthLaw;
-using muscle::MusculotendonLaws;
-using muscle::PassiveLaw;
-using muscle::TendonLaw;
-using muscle::TendonMode;
-using muscle::VelocityLaw;
 using recording::TomlTable;
-
-template <typename Law, std::size_t N>
-Law choose(TomlTable& table,
-           std::string_view key,
-           Law otherwise,
-           const std::array<std::pair<std::string_view, Law>, N>& words) {
-  std::vector<std::string> names;
-  std::string_view usual = words.front().first;
-  for (const auto& [word, law] : words) {
-    names.emplace_back(word);
-    if (law == otherwise) usual = word;
-  }
-  const std::string chosen = table.choice(key, usual, names);
-  for (const auto& [word, law] : words) {
-    if (chosen == word) return law;
-  }
-  return otherwise;
-}
-
-constexpr std::array<std::pair<std::string_view, TendonMode>, 3> kModes{
-    {{"rigid", TendonMode::rigid}, {"equilibrium", TendonMode::equilibrium}, {"mass", TendonMode::mass}}};
-constexpr std::array<std::pair<std::string_view, LengthLaw>, 3> kLengthLaws{
-    {{"gaussian", LengthLaw::gaussian}, {"de_groote", LengthLaw::de_groote}, {"millard", LengthLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, VelocityLaw>, 4> kVelocityLaws{{{"hill", VelocityLaw::hill},
-                                                                                 {"thelen", VelocityLaw::thelen},
-                                                                                 {"de_groote", VelocityLaw::de_groote},
-                                                                                 {"millard", VelocityLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, PassiveLaw>, 4> kPassiveLaws{{{"none", PassiveLaw::none},
-                                                                               {"thelen", PassiveLaw::thelen},
-                                                                               {"de_groote", PassiveLaw::de_groote},
-                                                                               {"millard", PassiveLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, TendonLaw>, 4> kTendonLaws{{{"linear", TendonLaw::linear},
-                                                                             {"thelen", TendonLaw::thelen},
-                                                                             {"de_groote", TendonLaw::de_groote},
-                                                                             {"millard", TendonLaw::millard}}};
-constexpr std::array<std::pair<std::string_view, ActivationLaw>, 5> kActivationLaws{
-    {{"envelope", ActivationLaw::envelope},
-     {"two_lags", ActivationLaw::two_lags},
-     {"thelen", ActivationLaw::thelen},
-     {"de_groote", ActivationLaw::de_groote},
-     {"recursive", ActivationLaw::recursive}}};
 
 MusculotendonLaws read_laws(TomlTable& table) {
   const std::string set = table.choice("laws", "millard", {"paper", "thelen", "de_groote", "millard"});
-  MusculotendonLaws laws = set == "paper"       ? muscle::paper_laws(TendonMode::equilibrium)
-                           : set == "thelen"    ? muscle::thelen_laws()
-                           : set == "de_groote" ? muscle::de_groote_laws()
-                                                : muscle::millard_laws();
-  laws.mode = choose(table, "tendon", laws.mode, kModes);
-  laws.length = choose(table, "length_law", laws.length, kLengthLaws);
-  laws.velocity = choose(table, "velocity_law", laws.velocity, kVelocityLaws);
-  laws.passive = choose(table, "passive_law", laws.passive, kPassiveLaws);
-  laws.tendon = choose(table, "tendon_law", laws.tendon, kTendonLaws);
+  MusculotendonLaws laws = set == "paper"       ? paper_laws(TendonMode::equilibrium)
+                           : set == "thelen"    ? thelen_laws()
+                           : set == "de_groote" ? de_groote_laws()
+                                                : millard_laws();
+  laws.mode = table.choice("tendon", laws.mode);
+  laws.length = table.choice("length_law", laws.length);
+  laws.velocity = table.choice("velocity_law", laws.velocity);
+  laws.passive = table.choice("passive_law", laws.passive);
+  laws.tendon = table.choice("tendon_law", laws.tendon);
   return laws;
 }
 
@@ -89,8 +38,8 @@ double required(TomlTable& table, std::string_view key, std::string_view what) {
   return *value;
 }
 
-muscle::HillParameters<double> read_hill(TomlTable& table) {
-  muscle::HillParameters<double> hill;
+HillParameters<double> read_hill(TomlTable& table) {
+  HillParameters<double> hill;
   hill.max_isometric_force_n = required(table, "max_isometric_force", "a force in N");
   const double l0 = required(table, "optimal_fiber_length", "a length in m");
   hill.optimal_fiber_length_m = l0;
@@ -100,17 +49,15 @@ muscle::HillParameters<double> read_hill(TomlTable& table) {
                "give the speed once: max_shortening_speed in m/s, or max_contraction_velocity in "
                "optimal fiber lengths per second");
   }
-  hill.max_shortening_speed_mps =
-      table.has("max_shortening_speed")
-          ? required(table, "max_shortening_speed", "a speed in m/s")
-          : l0 * table.number("max_contraction_velocity").value_or(muscle::kLiteratureSpeed);
-  hill.force_length_width_m = table.number("force_length_width").value_or(muscle::kLiteratureWidth * l0);
-  hill.concentric_curvature = table.number("concentric_curvature").value_or(muscle::kLiteratureCurvature);
-  hill.eccentric_plateau = table.number("eccentric_plateau").value_or(muscle::kLiteraturePlateau);
-  hill.eccentric_curvature_product =
-      table.number("eccentric_curvature_product")
-          .value_or(muscle::curvature_product_from_slope_ratio(muscle::kLiteratureSlopeRatio, hill.concentric_curvature,
-                                                               hill.eccentric_plateau));
+  hill.max_shortening_speed_mps = table.has("max_shortening_speed")
+                                      ? required(table, "max_shortening_speed", "a speed in m/s")
+                                      : l0 * table.number("max_contraction_velocity").value_or(kLiteratureSpeed);
+  hill.force_length_width_m = table.number("force_length_width").value_or(kLiteratureWidth * l0);
+  hill.concentric_curvature = table.number("concentric_curvature").value_or(kLiteratureCurvature);
+  hill.eccentric_plateau = table.number("eccentric_plateau").value_or(kLiteraturePlateau);
+  hill.eccentric_curvature_product = table.number("eccentric_curvature_product")
+                                         .value_or(curvature_product_from_slope_ratio(
+                                             kLiteratureSlopeRatio, hill.concentric_curvature, hill.eccentric_plateau));
   return hill;
 }
 
@@ -124,7 +71,7 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   if (!muscle) throw ReadError(path, 0, "has no table [muscle]: write the muscle's numbers under it");
   file.name = muscle->text("name").value_or("muscle");
   file.laws = read_laws(*muscle);
-  file.parameters = muscle::published_defaults(read_hill(*muscle), file.laws);
+  file.parameters = published_defaults(read_hill(*muscle), file.laws);
   const auto number = [&](std::string_view key, double& field, double scale = 1.0) {
     if (const std::optional<double> value = muscle->number(key)) field = *value * scale;
   };
@@ -146,7 +93,7 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   file.activation.activation_time_s = 0.010;
   file.activation.deactivation_time_s = 0.040;
   if (std::optional<TomlTable> activation = root.table("activation")) {
-    file.activation.law = choose(*activation, "law", ActivationLaw::thelen, kActivationLaws);
+    file.activation.law = activation->choice("law", ActivationLaw::thelen);
     const auto time = [&](std::string_view key, double& field) {
       if (const std::optional<double> value = activation->number(key)) field = *value;
     };
@@ -158,9 +105,9 @@ MuscleFile parse_muscle_file(std::string_view text, const std::filesystem::path&
   }
   root.finish();
   try {
-    muscle::validate(file.parameters, file.laws);
-    muscle::validate(file.activation);
-    static_cast<void>(muscle::MillardCurves(file.millard));
+    validate(file.parameters, file.laws);
+    validate(file.activation);
+    static_cast<void>(MillardCurves(file.millard));
   } catch (const InvalidInput& error) {
     throw ReadError(path, 0, error.what());
   }

@@ -13,10 +13,10 @@ namespace myoid::muscle {
 /// One muscle by its muscle.toml; see docs/guide/muscle.md.
 struct MuscleFile {
   std::string name;
-  muscle::MusculotendonParameters<double> parameters;
-  muscle::MusculotendonLaws laws;
-  muscle::MillardShape millard;
-  muscle::ActivationDynamics<double> activation;
+  MusculotendonParameters<double> parameters;
+  MusculotendonLaws laws;
+  MillardShape millard;
+  ActivationDynamics<double> activation;
 };
 
 /// Reads a muscle strictly. Throws ReadError with the line for unknown keys, wrong types and

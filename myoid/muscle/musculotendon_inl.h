@@ -26,18 +26,6 @@ NormalizedCurves<T> unit_curves(const MusculotendonParameters<T>& p,
   return {laws, shape};
 }
 
-/// Returns the parameters as plain numbers, for `validate`.
-template <typename T>
-MusculotendonParameters<double> plain_parameters(const MusculotendonParameters<T>& p) {
-  MusculotendonParameters<double> numbers;
-  double* fields[kMusculotendonParameterCount];
-  int k = 0;
-  visit_parameters(numbers, [&](std::string_view, Unit, double& field) { fields[k++] = &field; });
-  k = 0;
-  visit_parameters(p, [&](std::string_view, Unit, const T& v) { *fields[k++] = value_of(v); });
-  return numbers;
-}
-
 /// The fiber's projection on the tendon, and cos(alpha) = 1 / (d along / d l_m).
 template <typename T>
 struct Reach {
@@ -221,7 +209,7 @@ Musculotendon<T>::Musculotendon(const MusculotendonParameters<T>& parameters,
       undamped_equilibrium_(laws.mode == TendonMode::equilibrium && value_of(parameters.damping) == 0.0),
       curves_(musculotendon_detail::unit_curves(p_, laws, millard, undamped_equilibrium_)) {
   using std::sin;
-  validate(musculotendon_detail::plain_parameters(p_), laws);
+  validate(lifted<double>(p_), laws);
   const HillParameters<T>& hill = p_.hill;
   shortest_ = T(0.01) * hill.optimal_fiber_length_m;
   height_ = T(0.0);

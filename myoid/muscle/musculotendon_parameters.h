@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string_view>
-#include <type_traits>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
 
@@ -14,15 +14,25 @@ enum class TendonMode {
   equilibrium,  ///< State l_m: massless, fiber and tendon pull alike at every instant.
   mass,         ///< States l_m, dl_m/dt: the source paper's equation (5).
 };
+inline constexpr std::string_view kTendonModeNames[] = {"rigid", "equilibrium", "mass"};
+constexpr ChoiceNames choice_names(TendonMode) { return kTendonModeNames; }
 
 /// Active force over length: the paper's Gaussian (Thelen's too), or a published curve.
 enum class LengthLaw { gaussian, de_groote, millard };
+inline constexpr std::string_view kLengthLawNames[] = {"gaussian", "de_groote", "millard"};
+constexpr ChoiceNames choice_names(LengthLaw) { return kLengthLawNames; }
 /// Active force over velocity: the paper's hyperbolas, Thelen's (whose speed falls with activation), ...
 enum class VelocityLaw { hill, thelen, de_groote, millard };
+inline constexpr std::string_view kVelocityLawNames[] = {"hill", "thelen", "de_groote", "millard"};
+constexpr ChoiceNames choice_names(VelocityLaw) { return kVelocityLawNames; }
 /// Passive force of the fiber; the paper has none.
 enum class PassiveLaw { none, thelen, de_groote, millard };
+inline constexpr std::string_view kPassiveLawNames[] = {"none", "thelen", "de_groote", "millard"};
+constexpr ChoiceNames choice_names(PassiveLaw) { return kPassiveLawNames; }
 /// Tendon force over strain: the paper's line, or a curve with a toe.
 enum class TendonLaw { linear, thelen, de_groote, millard };
+inline constexpr std::string_view kTendonLawNames[] = {"linear", "thelen", "de_groote", "millard"};
+constexpr ChoiceNames choice_names(TendonLaw) { return kTendonLawNames; }
 
 /// Which law each element of a musculotendon unit follows.
 struct MusculotendonLaws {
@@ -71,14 +81,14 @@ void visit_parameters(Parameters& p, F&& f) {
 inline constexpr int kMusculotendonParameterCount = 15;
 
 /// Returns the numbers in another scalar, without derivatives: seed them afterwards.
-template <typename T>
-[[nodiscard]] MusculotendonParameters<T> lifted(const MusculotendonParameters<double>& p) {
+template <typename T, typename From>
+[[nodiscard]] MusculotendonParameters<T> lifted(const MusculotendonParameters<From>& p) {
   MusculotendonParameters<T> result;
   T* fields[kMusculotendonParameterCount];
   int k = 0;
   visit_parameters(result, [&](std::string_view, Unit, T& field) { fields[k++] = &field; });
   k = 0;
-  visit_parameters(p, [&](std::string_view, Unit, const double& value) { *fields[k++] = T(value); });
+  visit_parameters(p, [&](std::string_view, Unit, const From& value) { *fields[k++] = T(value_of(value)); });
   return result;
 }
 

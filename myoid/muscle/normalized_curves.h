@@ -43,28 +43,26 @@ class NormalizedCurves {
   /// Throws InvalidInput if Millard's shape makes no curve.
   NormalizedCurves(const MusculotendonLaws& laws, const CurveShape<T>& shape)
       : laws_(laws),
-        relative_width_(shape.relative_width),
-        hyperbola_(shape.hyperbola),
-        tendon_strain_(shape.tendon_strain),
+        shape_(shape),
         thelen_passive_(shape.passive_strain, shape.passive_shape),
         de_groote_passive_(shape.passive_strain, shape.passive_shape),
         millard_(shape.millard) {}
 
   [[nodiscard]] const MusculotendonLaws& laws() const { return laws_; }
-  [[nodiscard]] const VelocityHyperbola<T>& hyperbola() const { return hyperbola_; }
+  [[nodiscard]] const VelocityHyperbola<T>& hyperbola() const { return shape_.hyperbola; }
 
   /// Returns f_l at the fiber length l.
   [[nodiscard]] CurvePoint<T> length(const T& l) const {
     switch (laws_.length) {
       case LengthLaw::gaussian: {
-        const T f = force_length(l, T(1.0), relative_width_);
-        const double w = value_of(relative_width_);
+        const T f = force_length(l, T(1.0), shape_.relative_width);
+        const double w = value_of(shape_.relative_width);
         return {f, -2.0 * value_of(f) * (value_of(l) - 1.0) / (w * w)};
       }
       case LengthLaw::de_groote:
         return de_groote_force_length<T>(l);
       case LengthLaw::millard:
-        return millard_.force_length()(l);
+        return millard_.force_length(l);
     }
     return {};
   }
@@ -73,17 +71,17 @@ class NormalizedCurves {
   [[nodiscard]] CurvePoint<T> velocity(const T& activation, const T& v) const {
     switch (laws_.velocity) {
       case VelocityLaw::hill:
-        return force_velocity<T>(hyperbola_, v);
+        return force_velocity<T>(shape_.hyperbola, v);
       case VelocityLaw::thelen: {
         const T speed = thelen_speed(activation);
-        CurvePoint<T> point = force_velocity<T>(hyperbola_, v / speed);
+        CurvePoint<T> point = force_velocity<T>(shape_.hyperbola, v / speed);
         point.slope /= value_of(speed);
         return point;
       }
       case VelocityLaw::de_groote:
         return de_groote_force_velocity(v);
       case VelocityLaw::millard:
-        return millard_.force_velocity()(v);
+        return millard_.force_velocity(v);
     }
     return {};
   }
@@ -101,7 +99,7 @@ class NormalizedCurves {
       case VelocityLaw::de_groote:
         return solve_de_groote_velocity(strength, damping, force);
       case VelocityLaw::millard:
-        return millard_.force_velocity().solve(strength, damping, force);
+        return millard_.force_velocity.solve(strength, damping, force);
     }
     return 0.0;
   }
@@ -116,7 +114,7 @@ class NormalizedCurves {
       case PassiveLaw::de_groote:
         return de_groote_passive_(l);
       case PassiveLaw::millard:
-        return millard_.passive()(l);
+        return millard_.passive(l);
     }
     return {T(0.0), 0.0};
   }
@@ -130,7 +128,7 @@ class NormalizedCurves {
       case PassiveLaw::de_groote:
         return de_groote_passive_.energy(l);
       case PassiveLaw::millard:
-        return millard_.passive().integral(l);
+        return millard_.passive.integral(l);
     }
     return T(0.0);
   }
@@ -140,14 +138,14 @@ class NormalizedCurves {
     if (value_of(strain) <= 0.0) return {T(0.0), 0.0};
     switch (laws_.tendon) {
       case TendonLaw::linear:
-        return {strain / tendon_strain_, 1.0 / value_of(tendon_strain_)};
+        return {strain / shape_.tendon_strain, 1.0 / value_of(shape_.tendon_strain)};
       case TendonLaw::thelen:
-        return thelen_tendon(strain, tendon_strain_);
+        return thelen_tendon(strain, shape_.tendon_strain);
       case TendonLaw::de_groote:
-        return de_groote_tendon(strain, tendon_strain_);
+        return de_groote_tendon(strain, shape_.tendon_strain);
       case TendonLaw::millard: {
-        CurvePoint<T> point = millard_.tendon()(T(strain / tendon_strain_));
-        point.slope /= value_of(tendon_strain_);
+        CurvePoint<T> point = millard_.tendon(T(strain / shape_.tendon_strain));
+        point.slope /= value_of(shape_.tendon_strain);
         return point;
       }
     }
@@ -158,27 +156,26 @@ class NormalizedCurves {
     if (value_of(strain) <= 0.0) return T(0.0);
     switch (laws_.tendon) {
       case TendonLaw::linear:
-        return T(0.5) * strain * strain / tendon_strain_;
+        return T(0.5) * strain * strain / shape_.tendon_strain;
       case TendonLaw::thelen:
-        return thelen_tendon_energy(strain, tendon_strain_);
+        return thelen_tendon_energy(strain, shape_.tendon_strain);
       case TendonLaw::de_groote:
-        return de_groote_tendon_energy(strain, tendon_strain_);
+        return de_groote_tendon_energy(strain, shape_.tendon_strain);
       case TendonLaw::millard:
-        return millard_.tendon().integral(T(strain / tendon_strain_)) * tendon_strain_;
+        return millard_.tendon.integral(T(strain / shape_.tendon_strain)) * shape_.tendon_strain;
     }
     return T(0.0);
   }
 
  private:
   [[nodiscard]] VelocityHyperbola<double> plain_hyperbola() const {
-    return {value_of(hyperbola_.concentric_curvature), value_of(hyperbola_.eccentric_curvature_product),
-            value_of(hyperbola_.eccentric_plateau), value_of(hyperbola_.tangent_from), hyperbola_.tangent_below};
+    const VelocityHyperbola<T>& h = shape_.hyperbola;
+    return {value_of(h.concentric_curvature), value_of(h.eccentric_curvature_product), value_of(h.eccentric_plateau),
+            value_of(h.tangent_from), h.tangent_below};
   }
 
   MusculotendonLaws laws_;
-  T relative_width_;
-  VelocityHyperbola<T> hyperbola_;
-  T tendon_strain_;
+  CurveShape<T> shape_;
   ThelenPassive<T> thelen_passive_;
   DeGrootePassive<T> de_groote_passive_;
   MillardCurves millard_;

@@ -121,10 +121,9 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
   for (std::size_t k = 0; k < actuators.size(); ++k) {
     const auto control = controls.find(actuators[k].name);
     if (actuators[k].kind == forces::Actuator::Kind::muscle || control == controls.end()) continue;
-    const double strength = forces::actuator_strength(run.model, actuators[k]);
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
       values(i, static_cast<Eigen::Index>(k)) =
-          strength * simulation::value_at(control->second, run.motion.q.time_s()[i]);
+          actuators[k].strength * simulation::value_at(control->second, run.motion.q.time_s()[i]);
     }
   }
   run.state_forces.emplace(run.motion.q.time_s(), std::move(channels), std::move(values));

@@ -7,7 +7,7 @@
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/forces/actuator_columns.h"
-#include "myoid/forces/joint_reaction.h"
+#include "myoid/forces/driven_frame.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/osim/osim_frames.h"

@@ -247,7 +247,9 @@ TEST(SeveralJoints, RunAndSoWriteTheSameStaticOptimizationFiles) {
   const StudyResult result = analyse(in_memory(study, std::move(inputs)));
   write_results(result, {}, folder / "run");
   const TrialMotion& motion = result.trials[0].motion;
-  const forces::SharingInput shared = forces::sharing_input(*motion.model, motion.joints, {"hip_angle", "knee_angle"});
+  const forces::SharingInput shared =
+      forces::sharing_input(*motion.model, motion.joints, kinematics::muscle_kinematics(*motion.model, motion.joints),
+                            {"hip_angle", "knee_angle"});
   write_shared_forces(forces::share(shared, {}), folder / "so");
   for (const char* name :
        {"StaticOptimization_force.sto", "StaticOptimization_activation.sto", "StaticOptimization_status.csv"}) {

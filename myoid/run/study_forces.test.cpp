@@ -61,8 +61,10 @@ TEST(StudyForces, TheSharedForcesMakeTheTorque) {
 // The forces are those that `myoid so` writes: forces::sharing_input on the same motion.
 TEST(StudyForces, AreThoseOfMyoidSo) {
   const OneTrial one = held_still(arm_study(), 2.0);
-  const forces::MuscleForces so =
-      forces::share(forces::sharing_input(*one.motion.model, one.motion.joints, {"elbow_flexion"}), {});
+  const forces::MuscleForces so = forces::share(
+      forces::sharing_input(*one.motion.model, one.motion.joints,
+                            kinematics::muscle_kinematics(*one.motion.model, one.motion.joints), {"elbow_flexion"}),
+      {});
   EXPECT_EQ(one.forces.shared.force.values(), so.force.values());
   EXPECT_EQ(one.forces.shared.activation.values(), so.activation.values());
   EXPECT_EQ(one.forces.shared.reserve.values(), so.reserve.values());

@@ -117,7 +117,6 @@ class ActivationSignal {
   [[nodiscard]] const muscle::ActivationPoint<T>& state() const { return state_; }  ///< The state at the end.
   /// Returns the status. Unless it is `done`, the times contradict the law and the signal is unusable.
   [[nodiscard]] math::OdeStatus status() const { return status_; }
-  [[nodiscard]] std::size_t piece_count() const { return piece_.size(); }
 
  private:
   static double value_left_of(const Signal& excitation, double time_s) {

@@ -51,7 +51,6 @@ class ArmDynamics {
   [[nodiscard]] std::size_t offset(std::size_t muscle) const { return offsets_[muscle]; }
   [[nodiscard]] const muscle::Musculotendon<T>& unit(std::size_t i) const { return units_[i]; }
   [[nodiscard]] const T& inertia_kgm2() const { return inertia_; }  ///< With the held mass.
-  [[nodiscard]] const T& static_moment_kgm() const { return static_moment_; }
 
   [[nodiscard]] muscle::MusculotendonState<T> fiber(std::size_t i, const T* y) const {
     const std::size_t count = offsets_[i + 1] - offsets_[i];

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::simulation {
 
@@ -32,10 +34,9 @@ void validate_excitation(const Signal& signal, std::string_view what) {
   validate(signal, what);
   for (std::size_t k = 0; k < signal.value.size(); ++k) {
     if (!(signal.value[k] >= 0.0 && signal.value[k] <= 1.0)) {
-      throw InvalidInput(
-          fmt::format("{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal "
-                      "effort first",
-                      what, signal.value[k], signal.time_s[k]));
+      throw InvalidInput(fmt::format(
+          "{}: excitation {:.6g} at {:.6g} s, expected 0 to 1; divide by the value of a maximal effort first", what,
+          signal.value[k], signal.time_s[k]));
     }
   }
 }
@@ -49,12 +50,11 @@ double value_at(const Signal& signal, double time_s) {
   return signal.value[after - 1] + share * (signal.value[after] - signal.value[after - 1]);
 }
 
-std::vector<double> jumps(const Signal& signal, double start_s, double end_s) {
+std::vector<double> jumps(const Signal& signal) {
   std::vector<double> result;
   for (std::size_t k = 1; k < signal.time_s.size(); ++k) {
-    const double t = signal.time_s[k];
-    if (t == signal.time_s[k - 1] && signal.value[k] != signal.value[k - 1] && t > start_s && t < end_s)
-      result.push_back(t);
+    if (signal.time_s[k] == signal.time_s[k - 1] && signal.value[k] != signal.value[k - 1])
+      result.push_back(signal.time_s[k]);
   }
   return result;
 }
@@ -89,6 +89,37 @@ Signal step(double start_s, double level, double rest) { return {{start_s, start
 
 namespace {
 
+/// NAME=LEVEL, NAME=LEVEL@START or NAME=LEVEL@START+DURATION.
+struct Excitation {
+  std::string muscle;
+  double level = 0.0;
+  std::optional<double> start_s, duration_s;
+};
+
+Excitation parse_excitation(const std::string& text) {
+  const auto bad = [&] {
+    return InvalidInput(
+        fmt::format("--excite '{}': expected MUSCLE=LEVEL, MUSCLE=LEVEL@START or MUSCLE=LEVEL@START+DURATION (level 0 "
+                    "to 1, seconds), such as BIC=0.3@0.2+0.25",
+                    text));
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw bad();
+  const std::size_t at = text.find('@', equals);
+  const std::size_t plus = at == std::string::npos ? at : text.find('+', at);
+  const auto number = [&](std::size_t from, std::size_t to) {
+    const auto value =
+        recording::parse_number(std::string_view(text).substr(from, to == std::string::npos ? to : to - from));
+    if (!value || !std::isfinite(*value)) throw bad();
+    return *value;
+  };
+  Excitation e{.muscle = text.substr(0, equals), .level = number(equals + 1, at)};
+  if (at != std::string::npos) e.start_s = number(at + 1, plus);
+  if (plus != std::string::npos) e.duration_s = number(plus + 1, std::string::npos);
+  if (!(e.level >= 0.0 && e.level <= 1.0) || (e.duration_s && !(*e.duration_s > 0.0))) throw bad();
+  return e;
+}
+
 std::optional<Eigen::Index> channel_of(const TimeSeries& series, const std::string& muscle) {
   for (const std::string& name : {muscle, muscle + ".excitation", muscle + "_excitation"}) {
     if (const auto found = series.find(name)) return found;
@@ -117,6 +148,36 @@ std::vector<Signal> excitations_from(const TimeSeries& series, std::span<const s
     signal.value.assign(values.begin(), values.end());
     validate_excitation(signal, "excitations of " + name);
     result.push_back(std::move(signal));
+  }
+  return result;
+}
+
+std::vector<Signal> described_excitations(const std::vector<std::string>& texts,
+                                          double rest,
+                                          const std::vector<std::string>& muscles) {
+  std::vector<Excitation> list;
+  for (const std::string& text : texts) {
+    list.push_back(parse_excitation(text));
+    const std::string& name = list.back().muscle;
+    if (name != "all" && std::find(muscles.begin(), muscles.end(), name) == muscles.end()) {
+      throw InvalidInput(
+          fmt::format("--excite {}: the model has no such muscle; there are {}", name, fmt::join(muscles, ", ")));
+    }
+  }
+  std::vector<Signal> result;
+  for (const std::string& muscle : muscles) {
+    double level = rest;
+    std::vector<Burst> bursts;
+    for (const Excitation& e : list) {
+      if (e.muscle != "all" && e.muscle != muscle) continue;
+      if (e.start_s) {
+        bursts.push_back({*e.start_s, e.duration_s.value_or(1e9), e.level});
+      } else {
+        level = e.level;
+      }
+    }
+    std::sort(bursts.begin(), bursts.end(), [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
+    result.push_back(simulation::bursts(bursts, level));
   }
   return result;
 }

@@ -23,8 +23,8 @@ void validate_excitation(const Signal& signal, std::string_view what);
 
 [[nodiscard]] double value_at(const Signal& signal, double time_s);
 
-/// Returns the times within (start_s, end_s) at which the signal jumps.
-[[nodiscard]] std::vector<double> jumps(const Signal& signal, double start_s, double end_s);
+/// Returns the times at which the signal jumps.
+[[nodiscard]] std::vector<double> jumps(const Signal& signal);
 
 [[nodiscard]] Signal constant(double value);
 
@@ -46,5 +46,13 @@ struct Burst {
 /// "<name>.excitation" or ".../<name>", as in OpenSim's files of controls. Throws InvalidInput, naming the muscle and
 /// the available channels, if one is missing, leaves 0..1 or is not finite.
 [[nodiscard]] std::vector<Signal> excitations_from(const TimeSeries& series, std::span<const std::string> names);
+
+/// Reads the excitation of each muscle from the texts of `simulate --excite`: MUSCLE=LEVEL (all the
+/// time), MUSCLE=LEVEL@START (a step) or MUSCLE=LEVEL@START+DURATION (a burst), with a level of 0
+/// to 1 and times in seconds. "all" means every muscle; muscles without a text have `rest`. Throws
+/// InvalidInput for a text of another form and an unknown muscle.
+[[nodiscard]] std::vector<Signal> described_excitations(const std::vector<std::string>& texts,
+                                                        double rest,
+                                                        const std::vector<std::string>& muscles);
 
 }  // namespace myoid::simulation

@@ -78,7 +78,7 @@ class Chunk {
       dual_signals_.back().extend(input.excitation[i], options.end_s);
     }
     begin(start, parameters);
-    breaks_ = find_breaks(start.time_s);
+    breaks_ = break_times(input, start.time_s, options);
   }
 
   math::OdeStatus run(Sensitivities& result, Eigen::Index first_column) {
@@ -147,21 +147,6 @@ class Chunk {
   void set_limit(double t) { limit_left_ = std::nextafter(t, -1e300); }
   [[nodiscard]] double external(double t) const {
     return input_.external.empty() ? 0.0 : value_at(input_.external[0], t);
-  }
-
-  std::vector<double> find_breaks(double start_s) const {
-    std::vector<double> breaks{options_.end_s};
-    const auto append = [&](const std::vector<double>& more) {
-      for (const double t : more) {
-        if (t > start_s && t < options_.end_s) breaks.push_back(t);
-      }
-    };
-    for (const Signal& u : input_.excitation) append(jumps(u, start_s, options_.end_s));
-    for (const Signal& f : input_.external) append(jumps(f, start_s, options_.end_s));
-    for (const Device& device : input_.device) append(device.jumps_s);
-    std::sort(breaks.begin(), breaks.end());
-    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-    return breaks;
   }
 
   /// Puts the fibers in equilibrium, with the derivatives of that.

@@ -140,8 +140,8 @@ class TreeSkeleton {
     for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] = tau[k] + passive_[k].torque_nm + other(k);
     if (!dynamics_.accelerate(forces_.data(), prescribed, qddot, device)) {
       throw ModelError(
-          "the mass matrix of the free coordinates is not positive: a coordinate moves bodies "
-          "without mass or inertia; give them some, or lock the coordinate");
+          "the mass matrix of the free coordinates is not positive: a coordinate moves bodies without mass or inertia; "
+          "give them some, or lock the coordinate");
     }
   }
   [[nodiscard]] double gravity(std::size_t k) const { return dynamics_.gravity()[static_cast<Eigen::Index>(k)]; }
@@ -179,8 +179,8 @@ class TreeSkeleton {
 SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& setup) {
   if (!body.constraints.empty()) {
     throw ModelError(
-        fmt::format("the model has a closed loop ({} '{}'), which is not simulated; remove the constraint, or "
-                    "couple coordinates instead",
+        fmt::format("the model has a closed loop ({} '{}'), which is not simulated; remove the constraint, or couple "
+                    "coordinates instead",
                     body.constraints[0].class_name, body.constraints[0].name));
   }
   SimulationModel result;
@@ -193,9 +193,8 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
   for (const model::PassiveForce& force : body.passive_forces) {
     if (std::holds_alternative<model::PrescribedForce>(force.law)) {
       throw ModelError(
-          fmt::format("force '{}' (PrescribedForce) is given over time; a simulation has only "
-                      "forces of posture "
-                      "and speed: take it out of the model",
+          fmt::format("force '{}' (PrescribedForce) is given over time; a simulation has only forces of posture and "
+                      "speed: take it out of the model",
                       force.name));
     }
   }
@@ -215,8 +214,8 @@ SimulationModel make_simulation_model(model::BodyModel body, const ModelSetup& s
   for (const model::CoordinateCoupler& c : body.couplers) {
     if (body.coordinates[static_cast<std::size_t>(c.dependent)].prescribed) {
       throw ModelError(
-          fmt::format("coordinate '{}' follows '{}' through the coupler '{}' and is prescribed too; take one "
-                      "of the two out of the model",
+          fmt::format("coordinate '{}' follows '{}' through the coupler '{}' and is prescribed too; take one of the "
+                      "two out of the model",
                       body.coordinates[static_cast<std::size_t>(c.dependent)].name,
                       body.coordinates[static_cast<std::size_t>(c.independent)].name, c.name));
     }
@@ -274,8 +273,7 @@ Simulation simulate(const SimulationModel& model,
     if (k < input.device.size() && input.device[k].acceleration) {
       const std::string& leader = model.body.coordinates[static_cast<std::size_t>(c.independent)].name;
       throw InvalidInput(
-          fmt::format("coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold "
-                      "'{}'",
+          fmt::format("coordinate '{}' follows '{}' (coupler '{}'): it cannot be held or moved by itself; hold '{}'",
                       model.body.coordinates[k].name, leader, c.name, leader));
     }
   }

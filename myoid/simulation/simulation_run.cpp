@@ -1,5 +1,9 @@
 #include "myoid/simulation/simulation_run.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+
 namespace myoid::simulation {
 
 void check_simulation(std::span<const std::string> muscles,
@@ -60,6 +64,20 @@ std::vector<double> output_times(const SimulationStart& start, const SimulationO
   for (std::size_t k = 0; k < count; ++k)
     times[k] = std::min(start.time_s + static_cast<double>(k) / o.output_rate_hz, o.end_s);
   return times;
+}
+
+std::vector<double> break_times(const SimulationInput& input, double start_s, const SimulationOptions& options) {
+  std::set<double> breaks{options.end_s};
+  const auto append = [&](const std::vector<double>& times) {
+    std::copy_if(times.begin(), times.end(), std::inserter(breaks, breaks.end()),
+                 [&](double t) { return t > start_s && t < options.end_s; });
+  };
+  if (!options.controller.excite) {
+    for (const Signal& excitation : input.excitation) append(jumps(excitation));
+  }
+  for (const Signal& force : input.external) append(jumps(force));
+  for (const Device& device : input.device) append(device.jumps_s);
+  return {breaks.begin(), breaks.end()};
 }
 
 }  // namespace myoid::simulation

@@ -29,6 +29,12 @@ void check_simulation(std::span<const std::string> muscles,
 /// Returns the times of the result's rows.
 [[nodiscard]] std::vector<double> output_times(const SimulationStart& start, const SimulationOptions& options);
 
+/// Returns the times after `start_s` at which inputs jump, and the end, in order. A controller's
+/// excitations are not known beforehand.
+[[nodiscard]] std::vector<double> break_times(const SimulationInput& input,
+                                              double start_s,
+                                              const SimulationOptions& options);
+
 /// One running simulation. States: q, qdot, and for each muscle the states of its tendon mode.
 template <typename Skeleton>
 class SimulationRun {
@@ -68,7 +74,7 @@ class SimulationRun {
     std::copy(start.q.begin(), start.q.end(), y_.begin());
     std::copy(start.qdot.begin(), start.qdot.end(), y_.begin() + static_cast<std::ptrdiff_t>(nq_));
     begin(start);
-    find_breaks();
+    breaks_ = break_times(input, now_, options);
     make_result();
   }
 
@@ -120,20 +126,6 @@ class SimulationRun {
       if (size(i) > 0) y_[offsets_[i]] = fiber.fiber_length_m;
       if (size(i) > 1) y_[offsets_[i] + 1] = fiber.fiber_velocity_mps;
     }
-  }
-
-  void find_breaks() {
-    const auto append = [&](const std::vector<double>& more) {
-      for (const double t : more) {
-        if (t > now_ && t < options_.end_s) breaks_.push_back(t);
-      }
-    };
-    for (std::size_t i = 0; i < n_ && !controlled(); ++i) append(jumps(input_.excitation[i], now_, options_.end_s));
-    for (const Signal& signal : input_.external) append(jumps(signal, now_, options_.end_s));
-    for (const Device& device : input_.device) append(device.jumps_s);
-    breaks_.push_back(options_.end_s);
-    std::sort(breaks_.begin(), breaks_.end());
-    breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
   }
 
   [[nodiscard]] std::size_t size(std::size_t i) const { return offsets_[i + 1] - offsets_[i]; }

@@ -4,7 +4,6 @@
 #include "myoid/core/index.h"
 
 namespace myoid::simulation {
-namespace {}  // namespace
 
 TreeDynamics::TreeDynamics(const model::BodyModel& model) : model_(&model), state_(model::make_state(model)) {
   const auto n = static_cast<Eigen::Index>(model.coordinates.size());

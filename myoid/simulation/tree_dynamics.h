@@ -30,7 +30,6 @@ class TreeDynamics {
   [[nodiscard]] const model::BodyState& state() const { return state_; }
   [[nodiscard]] const Eigen::MatrixXd& mass_matrix() const { return mass_; }
   [[nodiscard]] const Eigen::VectorXd& gravity() const { return gravity_; }
-  [[nodiscard]] const Eigen::VectorXd& coriolis() const { return coriolis_; }
   [[nodiscard]] double kinetic_energy_j() const { return kinetic_; }
   [[nodiscard]] double gravity_energy_j() const { return potential_; }
 

@@ -47,13 +47,17 @@ struct SettingTable {
 /// Collects the rows of settings outside tables.
 class OptionRows : public FlatSettingVisitor {
  public:
+  explicit OptionRows(SettingNotation notation = SettingNotation::command_line) : notation_(notation) {}
   std::vector<SettingRow> rows;
 
  protected:
   bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
-    rows.push_back(setting_row(setting, now, SettingNotation::command_line));
+    rows.push_back(setting_row(setting, now, notation_));
     return false;
   }
+
+ private:
+  SettingNotation notation_;
 };
 
 /// Returns the rows of a command's options: `option_rows(IdentifyOptions{})`.

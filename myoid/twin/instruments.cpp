@@ -107,9 +107,8 @@ Eigen::VectorXd signal_of(const Source& source,
 
   Eigen::VectorXd innovations;
   if (emg.motor_units > 0.0) {
-    Eigen::VectorXd per_second(source.excitation.size());
-    for (Eigen::Index k = 0; k < per_second.size(); ++k)
-      per_second(k) = discharges_hz(emg.motor_units, source.excitation(k));
+    const Eigen::VectorXd per_second =
+        source.excitation.unaryExpr([&](double u) { return discharges_hz(emg.motor_units, u); });
     Eigen::VectorXd rate_hz(lead + count);
     rate_hz.head(lead).setConstant(per_second(0));
     rate_hz.tail(count) = over_time(per_second);
@@ -148,28 +147,17 @@ void limit_bandwidth(Eigen::VectorXd& signal, double cutoff_hz, double rate_hz) 
   }
 }
 
-/// Drives that wander between 0 and the greatest effort, independent of the muscles.
-class WanderingDrive {
- public:
-  WanderingDrive(Eigen::Index count, const std::string& trial, std::uint64_t seed) {
-    if (count == 0) return;
-    math::Random random = stream(seed, "wandering emg", trial);
-    for (Eigen::VectorXd& drive : drives_)
-      drive = (kMean + kSd * lowpass_noise(kCutoff_hz, kEnvelopeRate_hz, count, random).array())
-                  .cwiseMax(0.0)
-                  .cwiseMin(1.0)
-                  .matrix();
+/// Returns drives that wander between 0 and the greatest effort, independent of the muscles.
+std::vector<PerMuscle> wandering_drives(Eigen::Index count, math::Random random) {
+  constexpr double kMean = 0.3, kSd = 0.2, kCutoff_hz = 1.0;
+  std::vector<PerMuscle> drives(static_cast<std::size_t>(count));
+  for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
+    const Eigen::VectorXd noise = lowpass_noise(kCutoff_hz, kEnvelopeRate_hz, count, random);
+    for (std::size_t k = 0; k < drives.size(); ++k)
+      drives[k][m] = std::clamp(kMean + kSd * noise(static_cast<Eigen::Index>(k)), 0.0, 1.0);
   }
-  [[nodiscard]] PerMuscle at(Eigen::Index k) const {
-    PerMuscle u = {};
-    for (std::size_t m = 0; m < u.size(); ++m) u[m] = drives_[m](k);
-    return u;
-  }
-
- private:
-  static constexpr double kMean = 0.3, kSd = 0.2, kCutoff_hz = 1.0;
-  std::array<Eigen::VectorXd, 4> drives_;
-};
+  return drives;
+}
 
 /// Returns noise of amplifier, mains and movement, relative to the greatest rms.
 Eigen::VectorXd disturbance(const EmgNoise& emg,
@@ -199,15 +187,15 @@ Instruments attach_instruments(const Protocol& protocol, const VirtualArm& arm, 
   math::Random random(math::seed_for(seed, "electrodes"));
   const EmgNoise& emg = protocol.emg;
   for (std::size_t m = 0; m < 4; ++m) {
-    result.greatest_v[m] = std::exp(random.uniform(std::log(emg.mvc_min_v), std::log(emg.mvc_max_v)));
-    result.exponent[m] = random.uniform(emg.exponent_min, emg.exponent_max);
+    result.greatest_v[m] = std::exp(random.uniform(std::log(emg.mvc_v.lower), std::log(emg.mvc_v.upper)));
+    result.exponent[m] = random.uniform(emg.exponent.lower, emg.exponent.upper);
     result.exponent[m] = protocol.truth.sensors.emg_exponent.value_or(result.exponent[m]);
-    result.crosstalk[m] = random.uniform(emg.crosstalk_min, emg.crosstalk_max);
+    result.crosstalk[m] = random.uniform(emg.crosstalk.lower, emg.crosstalk.upper);
     const double baseline = random.uniform(2.0 / 3.0, 4.0 / 3.0);
     result.baseline[m] = emg.baseline * (protocol.level == Level::different ? baseline : 1.0);
   }
   math::Random tissue(math::seed_for(seed, "tissue"));
-  for (double& factor : result.spectrum) factor = tissue.uniform(emg.spectrum_min, emg.spectrum_max);
+  for (double& factor : result.spectrum) factor = tissue.uniform(emg.spectrum.lower, emg.spectrum.upper);
   const bool drifts = random.uniform() < 0.5;
   result.clock_drift = drifts ? 1e-6 * protocol.sync.drift_ppm : 0.0;
   return result;
@@ -316,10 +304,11 @@ TimeSeries record_emg(const Protocol& protocol,
     source = {Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
   Eigen::VectorXd speed(count);
   const SensorTruth& sensors = protocol.truth.sensors;
-  const WanderingDrive wandering(sensors.emg_noise ? count : 0, script.protocol.name, seed);
+  std::vector<PerMuscle> wandering;
+  if (sensors.emg_noise) wandering = wandering_drives(count, stream(seed, "wandering emg", script.protocol.name));
   for (Eigen::Index k = 0; k < count; ++k) {
     const double t = first_s + static_cast<double>(k) / kEnvelopeRate_hz;
-    const PerMuscle u = sensors.emg_noise ? wandering.at(k) : performance.drive(t);
+    const PerMuscle u = sensors.emg_noise ? wandering[static_cast<std::size_t>(k)] : performance.drive(t);
     const PerMuscle fatigued = performance.fatigued(t);
     const double gain = (1.0 + kColdGain * script.cold(t)) * script.emg_gain(t);
     for (std::size_t m = 0; m < 4; ++m) {
@@ -333,8 +322,7 @@ TimeSeries record_emg(const Protocol& protocol,
         std::min(1.0, 0.5 * u[kBiceps] + 0.05 * script.protocol.held_mass_kg);
     speed(k) = performance.motion(t).first;
   }
-  Eigen::VectorXd true_time_s(n);
-  for (Eigen::Index k = 0; k < n; ++k) true_time_s(k) = emg_clock.true_time_s(time_s(k));
+  const Eigen::VectorXd true_time_s = time_s.unaryExpr([&](double t) { return emg_clock.true_time_s(t); });
   const bool mixed = *std::max_element(instruments.crosstalk.begin(), instruments.crosstalk.end()) > 0.0;
 
   std::array<Eigen::VectorXd, 5> signals;

@@ -78,7 +78,7 @@ TEST(Instruments, CrosstalkIsTheNeighboursOwnSignal) {
   Protocol protocol = quiet(kHold);
   protocol.control.brachialis_synergy = 0.3;
   const VirtualRecording without = make_virtual_recording(protocol, 5);
-  protocol.emg.crosstalk_min = protocol.emg.crosstalk_max = 0.08;
+  protocol.emg.crosstalk = {0.08, 0.08};
   const VirtualRecording with = make_virtual_recording(protocol, 5);
   const auto& greatest = with.truth.instruments.greatest_v;
   // The same seed: the same muscles' signals. What was added is 8 % of the neighbour's.
@@ -97,7 +97,7 @@ TEST(Instruments, AnExponentBendsTheAmplitudeAndNothingElse) {
   Protocol protocol = quiet(
       "[[trial]]\nname = \"hold\"\nkind = \"isometric_ramp\"\ndirection = \"extension\"\npeak = "
       "0.25\nhold_s = 60\n");
-  protocol.emg.exponent_min = protocol.emg.exponent_max = 1.4;
+  protocol.emg.exponent = {1.4, 1.4};
   const VirtualRecording r = make_virtual_recording(protocol, 2);
   const Eigen::VectorXd plateau =
       r.trials[0].emg.column("TRI").segment(4000, 56000) / r.truth.instruments.greatest_v[kTriceps];
@@ -146,7 +146,7 @@ TEST(Instruments, FatigueLowersTheFrequenciesWhileATrialLasts) {
 TEST(Instruments, AChannelHasItsOwnFrequenciesAndTheAmplifierItsBandwidth) {
   Protocol protocol = quiet(kHold);
   protocol.emg.rate_hz = 2000.0;
-  protocol.emg.spectrum_min = protocol.emg.spectrum_max = 0.6;
+  protocol.emg.spectrum = {0.6, 0.6};
   const VirtualRecording slow = make_virtual_recording(protocol, 2);
   protocol.emg.bandwidth_hz = 300.0;
   const VirtualRecording narrow = make_virtual_recording(protocol, 2);
@@ -170,7 +170,7 @@ TEST(Instruments, AChannelHasItsOwnFrequenciesAndTheAmplifierItsBandwidth) {
 
 TEST(Instruments, AnMvcThatFallsShortIsSmallerInEmgAndTorque) {
   Protocol protocol = quiet(kHold);
-  protocol.emg.effort_min = protocol.emg.effort_max = 0.8;
+  protocol.emg.effort = {0.8, 0.8};
   const VirtualRecording r = make_virtual_recording(protocol, 2);
   const Eigen::VectorXd plateau =
       r.trials[0].emg.column("BIC").segment(5000, 30000) / r.truth.instruments.greatest_v[kBiceps];
@@ -267,9 +267,8 @@ TEST(Instruments, EmgOfADifferentClockIsTheSameSignalShifted) {
   const VirtualArm arm(protocol.subject);
   Instruments instruments = attach_instruments(protocol, arm, 1);
   Tiredness<4> fresh;
-  const HillSet muscles = arm.literature();
-  const ExactPerformance performance(arm, muscles, make_script(protocol.trials[0], protocol.control, 1), 0.05,
-                                     {1.0, 1.0, 1.0, 1.0}, fresh);
+  const HillSet muscles = arm.literature;
+  const ExactPerformance performance(arm, muscles, make_script(protocol.trials[0], protocol.control, 1), 0.05, fresh);
   const TimeSeries on_time = record_emg(protocol, instruments, performance, {0.0, 0.0}, 1);
   const TimeSeries late = record_emg(protocol, instruments, performance, {0.1, 0.0}, 1);
   // The same noise, another amplitude: that of the drive 0.1 s later.

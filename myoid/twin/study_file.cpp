@@ -29,9 +29,10 @@ void add_trial(const VirtualTrial& trial, RecordingFormat format, std::string& t
   text += fmt::format("held_mass_kg = {}\n", recording::toml_number(p.held_mass_kg));
 }
 
-}  // namespace
-
-namespace {
+void add_row(
+    std::string& csv, std::string_view of, std::string_view quantity, std::string_view unit, const auto& value) {
+  csv += fmt::format("{},{},{},{}\n", of, quantity, unit, value);
+}
 
 /// Returns the muscles of the model file that make up this one, as a TOML list's content.
 std::string modelled_as(std::size_t muscle, bool seven_heads) {
@@ -57,7 +58,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   std::string text = fmt::format(
       "# A virtual recording: protocol \"{}\", level {}, seed {}. Nobody was measured.\n"
       "# Analyse it with: myoid run study.toml --out results\n\n",
-      name.substr(1, name.size() - 2), twin::name(protocol.level), recording.seed);
+      name.substr(1, name.size() - 2), choice_name(protocol.level), recording.seed);
   text += fmt::format("[subject]\nname = {}\nmass_kg = {}\nsex = \"{}\"\n\n", toml_text(subject.name),
                       recording::toml_number(subject.mass_kg), subject.sex);
   text += fmt::format(
@@ -65,7 +66,7 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
       "file = \"model.osim\"              # this subject's segments, the literature's muscles\n"
       "coordinate = \"elbow_flexion\"     # the joint whose torque the muscles share\n"
       "held_mass = {{ body = {}, at_m = [{}, {}, {}] }}  # where held_mass_kg of a trial acts\n\n",
-      toml_text(recording.held_body), recording::toml_number(recording.held_at_m.x()),
+      toml_text(kHeldBody), recording::toml_number(recording.held_at_m.x()),
       recording::toml_number(recording.held_at_m.y()), recording::toml_number(recording.held_at_m.z()));
   text += fmt::format("[motion]\nsmoothing = \"{}\"{}\n\n", exact ? "none" : "auto",
                       exact ? "               # the markers are exact" : "");
@@ -86,13 +87,13 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
         "normalise_window_s = {}          # the greatest efforts are kept for longer than this\n"
         "delay_s = \"estimate\"\n",
         recording::toml_number(protocol.lowpass_hz), recording::toml_number(protocol.mvc_window_s));
-    if (protocol.emg.effort_min < 1.0) {
+    if (protocol.emg.effort.lower < 1.0) {
       // The study states the literature of these people, not this person's number.
       text += fmt::format(
           "mvc_effort = {:.3g}                 # what people reach of their greatest activation\n"
           "mvc_effort_sd = {:.3g}\n",
-          0.5 * (protocol.emg.effort_min + protocol.emg.effort_max),
-          (protocol.emg.effort_max - protocol.emg.effort_min) / std::sqrt(12.0));
+          0.5 * (protocol.emg.effort.lower + protocol.emg.effort.upper),
+          (protocol.emg.effort.upper - protocol.emg.effort.lower) / std::sqrt(12.0));
     }
   }
 
@@ -120,60 +121,44 @@ std::string study_toml(const VirtualRecording& recording, RecordingFormat format
   return text;
 }
 
-namespace {
-
-/// Returns the rows of truth.csv for the properties that depart from the model.
-std::string departures_csv(const Departures& departures) {
-  std::string text;
-  const auto add = [&text](std::string_view name, std::string_view unit, const PerMuscle& values, double usual) {
-    if (std::all_of(values.begin(), values.end(), [&](double v) { return v == usual; })) return;
-    for (std::size_t i = 0; i < kArmMuscles.size(); ++i)
-      text += fmt::format("{},{},{},{}\n", kArmMuscles[i], name, unit, values[i]);
-  };
-  add("moment_arm_scale", "1", departures.moment_arm_scale, 1.0);
-  add("moment_arm_slope", "1/rad", departures.moment_arm_slope_per_rad, 0.0);
-  add("tendon_strain", "1", departures.tendon_strain, 0.0);
-  return text;
-}
-
-}  // namespace
-
 std::string truth_csv(const VirtualRecording& recording) {
+  const Truth& truth = recording.truth;
   std::string text = "muscle,parameter,unit,value\n";
   for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
     for (const muscle::HillField& field : muscle::kHillFields) {
-      if (!recording.truth.departures.has(field)) continue;
-      text += fmt::format("{},{},{},{}\n", kArmMuscles[i], field.name, symbol(field.unit),
-                          recording.truth.muscles[i].*(field.member));
+      if (truth.departures.has(field))
+        add_row(text, kArmMuscles[i], field.name, symbol(field.unit), truth.muscles[i].*(field.member));
     }
   }
-  text += fmt::format("subject,emg_delay,s,{}\n", recording.truth.emg_delay_s);
-  const Departures& departures = recording.truth.departures;
-  for (std::size_t i = 0; departures.paper_curves() && i < kArmMuscles.size(); ++i)
-    text += fmt::format("{},eccentric_slope_ratio,1,{}\n", kArmMuscles[i],
-                        muscle::slope_ratio(recording.truth.muscles[i].velocity_law()));
-  if (!recording.truth.arm) {
-    // Adds the numbers beside the muscles' parameters, if the fitted model is the person's. Exact
-    // activations are the muscles' own, without an electrode's exponent.
-    const bool exact = recording.protocol.level == Level::noise_free;
+  add_row(text, "subject", "emg_delay", "s", truth.emg_delay_s);
+  for (std::size_t i = 0; truth.departures.paper_curves() && i < kArmMuscles.size(); ++i)
+    add_row(text, kArmMuscles[i], "eccentric_slope_ratio", "1", muscle::slope_ratio(truth.muscles[i].velocity_law()));
+  if (truth.arm) {
+    const PerMuscle strength_n = anatomical_strength_n(*truth.arm);
     for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
-      const double exponent = exact ? 1.0 : recording.truth.instruments.exponent[i];
-      text += fmt::format("{},length_activation,1,{}\n{},emg_exponent,1,{}\n", kArmMuscles[i],
-                          recording.truth.beside.length_activation, kArmMuscles[i], exponent > 0.0 ? exponent : 1.0);
+      add_row(text, kArmMuscles[i], "anatomical_strength", "N", strength_n[i]);
+      add_row(text, kArmMuscles[i], "misfit_of_the_fitted_model", "1", truth.misfit[i]);
     }
-    const BesideMuscles& beside = recording.truth.beside;
-    text += fmt::format("elbow_flexion,joint_viscosity,N m s,{}\n", beside.joint_viscosity_nms_per_rad);
-    text += fmt::format("elbow_flexion,joint_stiffness,N m,{}\n", beside.joint_stiffness_nm_per_rad);
-    text += fmt::format("elbow_flexion,joint_torque_offset,N m,{}\n", beside.joint_torque_nm);
-    text += departures_csv(departures);
+    return text;
   }
-  if (recording.truth.arm) {
-    const PerMuscle strength_n = anatomical_strength_n(*recording.truth.arm);
-    for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
-      text += fmt::format("{},anatomical_strength,N,{}\n", kArmMuscles[i], strength_n[i]);
-      text += fmt::format("{},misfit_of_the_fitted_model,1,{}\n", kArmMuscles[i], recording.truth.misfit[i]);
-    }
+  // The numbers beside the muscles' parameters, because the fitted model is the person's. Exact
+  // activations are the muscles' own, without an electrode's exponent.
+  const bool exact = recording.protocol.level == Level::noise_free;
+  for (std::size_t i = 0; i < kArmMuscles.size(); ++i) {
+    const double exponent = exact ? 1.0 : truth.instruments.exponent[i];
+    add_row(text, kArmMuscles[i], "length_activation", "1", truth.beside.length_activation);
+    add_row(text, kArmMuscles[i], "emg_exponent", "1", exponent > 0.0 ? exponent : 1.0);
   }
+  add_row(text, "elbow_flexion", "joint_viscosity", "N m s", truth.beside.joint_viscosity_nms_per_rad);
+  add_row(text, "elbow_flexion", "joint_stiffness", "N m", truth.beside.joint_stiffness_nm_per_rad);
+  add_row(text, "elbow_flexion", "joint_torque_offset", "N m", truth.beside.joint_torque_nm);
+  const auto departure = [&text](std::string_view name, std::string_view unit, const PerMuscle& values, double usual) {
+    if (std::all_of(values.begin(), values.end(), [&](double v) { return v == usual; })) return;
+    for (std::size_t i = 0; i < kArmMuscles.size(); ++i) add_row(text, kArmMuscles[i], name, unit, values[i]);
+  };
+  departure("moment_arm_scale", "1", truth.departures.moment_arm_scale, 1.0);
+  departure("moment_arm_slope", "1/rad", truth.departures.moment_arm_slope_per_rad, 0.0);
+  departure("tendon_strain", "1", truth.departures.tendon_strain, 0.0);
   return text;
 }
 
@@ -198,8 +183,8 @@ std::string truth_row(const VirtualRecording& recording) {
 std::string person_csv(const VirtualRecording& recording) {
   const Truth& truth = recording.truth;
   std::string text = "of,quantity,unit,value\n";
-  const auto add = [&text](std::string_view of, std::string_view quantity, std::string_view unit, double value) {
-    text += fmt::format("{},{},{},{}\n", of, quantity, unit, value);
+  const auto add = [&text](std::string_view of, std::string_view quantity, std::string_view unit, const auto& value) {
+    add_row(text, of, quantity, unit, value);
   };
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
     const std::string_view name = kArmMuscles[m];
@@ -217,7 +202,7 @@ std::string person_csv(const VirtualRecording& recording) {
       add(trial.protocol.name, fmt::format("fatigued_{}", kArmMuscles[m]), "1", trial.truth.fatigued[m]);
   }
   for (const WorldSetting& setting : stated_world(recording.protocol))
-    text += fmt::format("world,{},{},{}\n", setting.key, setting.unit, setting.value);
+    add("world", setting.key, setting.unit, setting.value);
   if (!truth.arm) return text;
   const TrueArm& arm = *truth.arm;
   add("person", "millard_curves", "1", arm.laws.length == muscle::LengthLaw::millard ? 1.0 : 0.0);

@@ -109,58 +109,38 @@ struct Session {
   std::string why;
 };
 
-template <std::size_t N>
-Tiredness<N> fresh(const Protocol& protocol) {
-  Tiredness<N> tiredness;
-  if (protocol.fatigue.on) tiredness.rates = muscle::published_fatigue_rates(protocol.fatigue.rates);
-  return tiredness;
-}
-
-Session perform_exactly(const Protocol& protocol,
-                        const VirtualArm& arm,
-                        const Truth& truth,
-                        const std::vector<TrialScript>& scripts) {
+Session perform(const Protocol& protocol,
+                const VirtualArm& arm,
+                const Truth& truth,
+                const std::vector<TrialScript>& scripts,
+                std::uint64_t seed) {
   Session session;
-  Tiredness<4> tiredness = fresh<4>(protocol);
-  for (const TrialScript& script : scripts) {
-    auto performance = std::make_unique<ExactPerformance>(arm, truth.muscles, script, truth.emg_delay_s, truth.effort,
-                                                          tiredness, truth.beside, truth.departures);
-    if (performance->greatest_activation(100.0) > kGreatestActivation) {
-      session.too_hard = script.protocol.name;
-      session.why = "the muscles are too weak";
-      return session;
-    }
-    session.performances.push_back(std::move(performance));
-    tiredness.rest(protocol.fatigue.rest_s);
-  }
-  return session;
-}
-
-Session perform_by_simulation(const Protocol& protocol,
-                              const Truth& truth,
-                              const std::vector<TrialScript>& scripts,
-                              std::uint64_t seed) {
-  Session session;
+  const auto failed = [&session](const TrialScript& script, std::string why) {
+    session.too_hard = why.empty() ? "" : script.protocol.name;
+    session.why = std::move(why);
+    return !session.why.empty();
+  };
   // A person who is too weak for a trial is not simulated.
   for (const TrialScript& script : scripts) {
-    if (foreseen_activation(*truth.arm, script) > kGreatestActivation) {
-      session.too_hard = script.protocol.name;
-      session.why = "the muscles are too weak";
-      return session;
-    }
+    const bool weak = truth.arm && foreseen_activation(*truth.arm, script) > kGreatestActivation;
+    if (failed(script, weak ? std::string(kTooWeak) : "")) return session;
   }
-  Tiredness<7> tiredness = fresh<7>(protocol);
+  Tiredness<4> muscles;
+  Tiredness<7> heads;
+  if (protocol.fatigue.on) muscles.rates = heads.rates = muscle::published_fatigue_rates(protocol.fatigue.rates);
   for (const TrialScript& script : scripts) {
-    auto performance =
-        std::make_unique<SimulatedPerformance>(*truth.arm, script, truth.effort, protocol.control.motor_noise,
-                                               tiredness, math::seed_for(seed, "nerves." + script.protocol.name));
-    if (!performance->failure().empty()) {
-      session.too_hard = script.protocol.name;
-      session.why = performance->failure();
-      return session;
+    std::unique_ptr<Performance> performance;
+    if (truth.arm) {
+      performance = std::make_unique<SimulatedPerformance>(*truth.arm, script, protocol.control.motor_noise, heads,
+                                                           math::seed_for(seed, "nerves." + script.protocol.name));
+    } else {
+      performance = std::make_unique<ExactPerformance>(arm, truth.muscles, script, truth.emg_delay_s, muscles,
+                                                       truth.beside, truth.departures);
     }
+    if (failed(script, performance->failure())) return session;
     session.performances.push_back(std::move(performance));
-    tiredness.rest(protocol.fatigue.rest_s);
+    muscles.rest(protocol.fatigue.rest_s);
+    heads.rest(protocol.fatigue.rest_s);
   }
   return session;
 }
@@ -184,10 +164,14 @@ void drift_gains(std::vector<TrialScript>& scripts, double growth, double rest_s
   }
 }
 
-std::vector<TrialScript> make_scripts(const Protocol& protocol, const OwnBrachialis& brachialis, std::uint64_t seed) {
+std::vector<TrialScript> make_scripts(const Protocol& protocol,
+                                      const PerMuscle& mvc_effort,
+                                      const OwnBrachialis& brachialis,
+                                      std::uint64_t seed) {
   std::vector<TrialScript> scripts;
   for (const TrialProtocol& trial : protocol.trials) {
     scripts.push_back(make_script(trial, protocol.control, seed));
+    scripts.back().mvc_effort = mvc_effort;
     if (protocol.level != Level::different) continue;
     scripts.back().mean.brachialis += std::log(brachialis.gain);
     scripts.back().brachialis_change.depth += brachialis.wander;
@@ -205,9 +189,8 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
   const VirtualArm arm(protocol.subject, protocol.seven_heads);
   VirtualRecording recording{.protocol = protocol,
                              .seed = seed,
-                             .model_osim = arm.osim(),
-                             .held_body = arm.held_body(),
-                             .held_at_m = arm.held_at_m(),
+                             .model_osim = arm.osim,
+                             .held_at_m = arm.held_at_m,
                              .truth = {},
                              .trials = {}};
   Truth& truth = recording.truth;
@@ -219,34 +202,31 @@ VirtualRecording make(const Protocol& protocol, std::uint64_t seed, bool record)
     truth.departures = draw_departures(protocol.truth, math::Random(math::seed_for(seed, "departures")));
   }
   math::Random random(math::seed_for(seed, "truth"));
-  truth.emg_delay_s = random.uniform(protocol.truth.emg_delay_min_s, protocol.truth.emg_delay_max_s);
+  truth.emg_delay_s = random.uniform(protocol.truth.emg_delay_s.lower, protocol.truth.emg_delay_s.upper);
   if (protocol.level == Level::noise_free) {
     // Rounds to the clock of the EMG, so that no interpolation lies between truth and recovery.
     truth.emg_delay_s = std::round(truth.emg_delay_s * protocol.emg.rate_hz) / protocol.emg.rate_hz;
   }
-  for (double& effort : truth.effort) effort = random.uniform(protocol.emg.effort_min, protocol.emg.effort_max);
+  for (double& effort : truth.effort) effort = random.uniform(protocol.emg.effort.lower, protocol.emg.effort.upper);
   const OwnBrachialis brachialis{random.uniform(0.7, 1.3), random.uniform(0.2, 0.5)};
 
   Session session;
   for (truth.draws = 1; truth.draws <= kMostDraws; ++truth.draws) {
     const std::uint64_t draw_seed = math::seed_for(seed, fmt::format("draw {}", truth.draws));
-    const std::vector<TrialScript> scripts = make_scripts(protocol, brachialis, draw_seed);
+    const std::vector<TrialScript> scripts = make_scripts(protocol, truth.effort, brachialis, draw_seed);
     if (simulated) {
       truth.arm = draw_true_arm(protocol.truth, protocol.subject, random);
-      session = perform_by_simulation(protocol, truth, scripts, draw_seed);
     } else {
-      truth.muscles = draw_muscles(protocol.truth, arm.literature(), random);
-      session = perform_exactly(protocol, arm, truth, scripts);
+      truth.muscles = draw_muscles(protocol.truth, arm.literature, random);
     }
+    session = perform(protocol, arm, truth, scripts, draw_seed);
     if (session.too_hard.empty()) break;
   }
   if (!session.too_hard.empty()) {
-    throw InvalidInput(
-        fmt::format("none of {} virtual persons could do every trial of protocol \"{}\" with activations up to "
-                    "{}; the last one failed at trial \"{}\" ({}): choose a smaller held mass, a lower "
-                    "frequency "
-                    "or amplitude there",
-                    kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
+    throw InvalidInput(fmt::format(
+        "none of {} virtual persons could do every trial of protocol \"{}\" with activations up to {}; the last one "
+        "failed at trial \"{}\" ({}): choose a smaller held mass, a lower frequency or amplitude there",
+        kMostDraws, protocol.name, kGreatestActivation, session.too_hard, session.why));
   }
   if (simulated) {
     truth.muscles = effective_muscles(*truth.arm, arm, &truth.misfit);

@@ -66,9 +66,8 @@ struct VirtualTrial {
 struct VirtualRecording {
   Protocol protocol;
   std::uint64_t seed = 0;
-  std::string model_osim;  ///< Text of the model file: the arm with the literature's muscles.
-  std::string held_body;   ///< Body of the model that holds the mass at `held_at_m`.
-  Vec3 held_at_m = Vec3::Zero();
+  std::string model_osim;         ///< Text of the model file: the arm with the literature's muscles.
+  Vec3 held_at_m = Vec3::Zero();  ///< Place of the held mass in `kHeldBody`.
   Truth truth;
   std::vector<VirtualTrial> trials;
 };

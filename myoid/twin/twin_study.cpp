@@ -47,11 +47,10 @@ Study study_of(const twin::VirtualRecording& recording, const TwinStudyOptions& 
 std::vector<TrialInput> inputs_of(twin::VirtualRecording& recording) {
   std::vector<TrialInput> inputs;
   for (twin::VirtualTrial& trial : recording.trials) {
-    TrialInput input;
+    TrialInput& input = inputs.emplace_back();
     input.markers = std::move(trial.markers);
     input.emg = std::move(trial.emg);
     input.external_torque = std::move(trial.external_torque);
-    inputs.push_back(std::move(input));
   }
   return inputs;
 }
@@ -199,7 +198,7 @@ TwinStudyResult twin_study(const twin::Protocol& protocol, const TwinStudyOption
   });
   TwinStudyResult result;
   result.protocol = protocol.name;
-  result.level = name(protocol.level);
+  result.level = choice_name(protocol.level);
   result.world = stated_world(protocol);
   result.finished = static_cast<int>(std::count(finished.begin(), finished.end(), 1));
   result.subjects = options.subjects;
@@ -241,8 +240,7 @@ namespace {
 
 std::string persons_text(const TwinStudyResult& result) {
   std::string persons =
-      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,"
-      "verdict\n";
+      "seed,method,case,muscle,parameter,unit,truth,initial,estimate,ci_low,ci_high,shrinkage,verdict\n";
   const auto optional = [](const std::optional<double>& value) { return value ? cell(*value) : std::string(); };
   for (const TwinRow& row : result.rows) {
     const ParameterEstimate& e = row.estimate;
@@ -256,12 +254,10 @@ std::string persons_text(const TwinStudyResult& result) {
 
 std::string summary_text(const TwinStudyResult& result) {
   std::string summary =
-      "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,"
-      "within_20,"
-      "prior_within_10,coverage,half_width,shrinkage,identified,weak,prior_dominated,"
-      "not_identifiable,non_physical,identified_and_within_10,identified_but_not,"
-      "not_identified_but_within_10,not_identified_and_not,identified_within_15,"
-      "outside_physical\n";
+      "method,case,muscle,parameter,count,bias,median_error,mad,rmse,within_5,within_10,within_15,within_20,prior_"
+      "within_10,coverage,half_width,shrinkage,identified,weak,prior_dominated,not_identifiable,non_physical,"
+      "identified_and_within_10,identified_but_not,not_identified_but_within_10,not_identified_and_not,identified_"
+      "within_15,outside_physical\n";
   for (const TwinSummary& s : summarize(result)) {
     summary +=
         fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.method,
@@ -276,8 +272,8 @@ std::string summary_text(const TwinStudyResult& result) {
 
 std::string predictions_text(const TwinStudyResult& result) {
   std::string predictions =
-      "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,"
-      "band_rmse_nm,band_nrmse_range,band_r2\n";
+      "seed,trial,rmse_nm,nrmse_range,r2,smoothed_rmse_nm,smoothed_nrmse_range,smoothed_r2,band_rmse_nm,band_nrmse_"
+      "range,band_r2\n";
   for (const TwinPrediction& p : result.predictions) {
     predictions += fmt::format("{},{}", p.seed, p.trial);
     for (const identification::Score* s : {&p.law, &p.smooth, &p.band})

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace myoid::twin {
@@ -11,6 +12,14 @@ enum MuscleIndex : std::size_t { kBiceps, kBrachialis, kBrachioradialis, kTricep
 
 /// A number per muscle, in the order of kArmMuscles.
 using PerMuscle = std::array<double, 4>;
+
+/// Interpolates every number by a straight line.
+template <std::size_t N>
+[[nodiscard]] std::array<double, N> lerp(const std::array<double, N>& a, const std::array<double, N>& b, double share) {
+  std::array<double, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = std::lerp(a[i], b[i], share);
+  return result;
+}
 
 /// The virtual person's choices that mechanics leaves open.
 struct Coordination {

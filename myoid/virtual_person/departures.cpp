@@ -37,7 +37,7 @@ Departures draw_departures(const TruthSpec& spec, math::Random random) {
   for (std::size_t m = 0; m < kArmMuscles.size(); ++m) {
     drawn.moment_arm_scale[m] = std::max(kLeastScale, 1.0 + spec.moment_arm_sd * bounded_normal(random));
     drawn.moment_arm_slope_per_rad[m] = spec.moment_arm_slope_sd * bounded_normal(random);
-    drawn.tendon_strain[m] = random.uniform(spec.tendon_strain_min, spec.tendon_strain_max);
+    drawn.tendon_strain[m] = random.uniform(spec.tendon_strain.lower, spec.tendon_strain.upper);
   }
   if (spec.curves == "millard" || (spec.curves == "any" && coin)) {
     drawn.laws = muscle::millard_laws();
@@ -59,7 +59,7 @@ void taper_moment_arm(model::PlanarMuscle& path, double slope_per_rad, double q0
 }
 
 DepartedMuscles::DepartedMuscles(const Departures& departures, const VirtualArm& modelled, const HillSet& muscles)
-    : departures_(departures), muscles_(&muscles), paths_(modelled.paths()) {
+    : departures_(departures), muscles_(&muscles), paths_(modelled.elbow.muscles) {
   for (std::size_t m = 0; m < paths_.size(); ++m) {
     model::PlanarMuscle& path = paths_[m];
     const double q0_rad = model::kArmOptimalAt_rad[m];

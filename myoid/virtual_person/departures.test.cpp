@@ -35,10 +35,10 @@ TrialScript loaded_swing() {
 
 TEST(Departures, FullForceAtTheOptimumAndAtRestIsTheGreatest) {
   const VirtualArm arm(VirtualSubject{});
-  const DepartedMuscles muscles({}, arm, arm.literature());
+  const DepartedMuscles muscles({}, arm, arm.literature);
   // BIC is optimal at 85 degrees.
   const PerMuscle force_n = muscles.full_force_n(muscles.geometry({85.0 * kDegree, 0.0, 0.0}), kOnes, {});
-  EXPECT_NEAR(force_n[kBiceps], arm.literature()[kBiceps].max_isometric_force_n, 1e-9);
+  EXPECT_NEAR(force_n[kBiceps], arm.literature[kBiceps].max_isometric_force_n, 1e-9);
 }
 
 TEST(Departures, AbsentKeysMakeTheModelsBody) {
@@ -47,7 +47,7 @@ TEST(Departures, AbsentKeysMakeTheModelsBody) {
   EXPECT_FALSE(none.elastic());
   EXPECT_TRUE(none.paper_curves());
   const Moment q{1.1, 0.7, 0.0};
-  const MuscleGeometry same = DepartedMuscles(none, arm, arm.literature()).geometry(q);
+  const MuscleGeometry same = DepartedMuscles(none, arm, arm.literature).geometry(q);
   EXPECT_EQ(same.length_m, arm.geometry(q).length_m);
   EXPECT_EQ(same.moment_arm_m, arm.geometry(q).moment_arm_m);
 }
@@ -55,7 +55,7 @@ TEST(Departures, AbsentKeysMakeTheModelsBody) {
 TEST(Departures, MomentArmsAreScaledAndTaperedAndTheLengthsDerivative) {
   const VirtualArm arm(VirtualSubject{});
   const Departures wrong = draw_departures(wrong_arms(), math::Random(3));
-  const DepartedMuscles muscles(wrong, arm, arm.literature());
+  const DepartedMuscles muscles(wrong, arm, arm.literature);
   const double h = 1e-5;
   for (std::size_t m = 0; m < 4; ++m) {
     const double q0 = model::kArmOptimalAt_rad[m];
@@ -96,14 +96,14 @@ TEST(Departures, AnElasticTendonPullsAsItsFiberDoes) {
   Departures wrong;
   wrong.tendon_strain = {0.08, 0.08, 0.06, 0.05};
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless, {}, wrong);
+  const ExactPerformance performance(arm, arm.literature, loaded_swing(), 0.05, tireless, {}, wrong);
   double most_strain = 0.0;
   for (const double t : {0.5, 1.7, 2.4, 3.1}) {
     const Instant now = performance.at(t);
     const MuscleGeometry geometry = arm.geometry(now.q);
     double torque_nm = 0.0;
     for (std::size_t m = 0; m < 4; ++m) {
-      const muscle::HillParameters<double>& hill = arm.literature()[m];
+      const muscle::HillParameters<double>& hill = arm.literature[m];
       const double strain = (geometry.length_m[m] - now.fiber_length_m[m]) / hill.tendon_slack_length_m - 1.0;
       most_strain = std::max(most_strain, strain);
       const double fiber_n =
@@ -124,18 +124,18 @@ TEST(Departures, MillardsCurvesTakeThePlaceOfThePapers) {
   Departures wrong;
   wrong.laws = muscle::millard_laws();
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), loaded_swing(), 0.05, kOnes, tireless, {}, wrong);
+  const ExactPerformance performance(arm, arm.literature, loaded_swing(), 0.05, tireless, {}, wrong);
   const muscle::MillardCurves curves;
   for (const double t : {0.5, 1.7, 3.1}) {
     const Instant now = performance.at(t);
     const MuscleGeometry geometry = arm.geometry(now.q);
     for (std::size_t m = 0; m < 4; ++m) {
-      const muscle::HillParameters<double>& hill = arm.literature()[m];
+      const muscle::HillParameters<double>& hill = arm.literature[m];
       const double l = now.fiber_length_m[m] / hill.optimal_fiber_length_m;
       const double v = geometry.velocity_mps[m] / hill.max_shortening_speed_mps;
       EXPECT_NEAR(now.force_n[m],
-                  now.activation[m] * hill.max_isometric_force_n * curves.force_length()(l).value *
-                      curves.force_velocity()(v).value,
+                  now.activation[m] * hill.max_isometric_force_n * curves.force_length(l).value *
+                      curves.force_velocity(v).value,
                   1e-9);
     }
   }

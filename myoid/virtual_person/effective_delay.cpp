@@ -85,14 +85,11 @@ double effective_delay_s(const TrueArm& person,
         const TrueHead& head = person.heads[i];
         made[head.muscle] += model::travel(head.path, now.q.value).moment_arm_m * now.tendon_force_n[i];
       }
-      PerMuscle per_activation = {};
+      PerMuscle per_activation = {}, beyond_rest = {}, weight = {};
       for (std::size_t m = 0; m < 4; ++m) {
         per_activation[m] =
             geometry.moment_arm_m[m] * muscle::hill_force(1.0, geometry.length_m[m] - muscles[m].tendon_slack_length_m,
                                                           geometry.velocity_mps[m], muscles[m]);
-      }
-      PerMuscle beyond_rest = {}, weight = {};
-      for (std::size_t m = 0; m < 4; ++m) {
         beyond_rest[m] = made[m] - at_rest[m];
         weight[m] = 1.0 / (kTorqueSd_nm * kTorqueSd_nm + kEmgSd * kEmgSd * beyond_rest[m] * beyond_rest[m]);
       }

@@ -65,7 +65,7 @@ TEST(EffectiveDelay, IsTheLagOfTheForceWhateverTheMusclesGains) {
   for (const double delay_s : {0.030, 0.0873, 0.140}) {
     performances.clear();
     performances.push_back(std::make_unique<Held>(arm, TrialKind::isometric_ramp, delay_s));
-    EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature(), performances), delay_s, 5e-4);
+    EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature, performances), delay_s, 5e-4);
   }
 }
 
@@ -76,9 +76,9 @@ TEST(EffectiveDelay, AHeldJointTellsItBeforeMovementsAndOtherTrialsNever) {
   performances.push_back(std::make_unique<Held>(arm, TrialKind::mvc, 0.150));
   performances.push_back(std::make_unique<Held>(arm, TrialKind::passive, 0.150));
   performances.push_back(std::make_unique<Held>(arm, TrialKind::flexion, 0.080));
-  EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature(), performances), 0.080, 5e-4);
+  EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature, performances), 0.080, 5e-4);
   performances.push_back(std::make_unique<Held>(arm, TrialKind::isometric_ramp, 0.050));
-  EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature(), performances), 0.050, 5e-4);
+  EXPECT_NEAR(effective_delay_s(arm, modelled, modelled.literature, performances), 0.050, 5e-4);
 }
 
 }  // namespace

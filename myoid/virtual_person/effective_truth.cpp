@@ -85,7 +85,7 @@ constexpr std::array<Fitted, 6> kFitted = {{{identification::kMaxForce, 0.0},
 
 HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, PerMuscle* misfit) {
   constexpr auto kPerMuscle = static_cast<Eigen::Index>(kFitted.size());
-  const HillSet literature = modelled.literature();
+  const HillSet literature = modelled.literature;
   const auto muscles = static_cast<Eigen::Index>(literature.size());
   std::vector<std::vector<SteadyPoint>> points;
   std::vector<double> largest_nm;
@@ -106,7 +106,7 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
     return p;
   };
   math::LeastSquaresProblem problem;
-  problem.residual_count = count + muscles * static_cast<Eigen::Index>(kFitted.size());
+  problem.residual_count = count + gamma;  // the tethers come last
   problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     if (J != nullptr) J->setZero();
     Eigen::Index row = 0;
@@ -122,28 +122,23 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
         r(row) = scale * t.force_n - point.torque_nm / largest_nm[muscle];
         if (J != nullptr) {
           for (std::size_t i = 0; i < kFitted.size(); ++i) {
-            (*J)(row, first + static_cast<Eigen::Index>(i)) = scale *
-                                                              t.by_field[static_cast<std::size_t>(kFitted[i].field)] *
-                                                              literature[muscle].*(kFitted[i].row().member);
+            const double by_value = scale * t.by_field[static_cast<std::size_t>(kFitted[i].field)];
+            (*J)(row, first + static_cast<Eigen::Index>(i)) = by_value * literature[muscle].*(kFitted[i].row().member);
           }
           (*J)(row, gamma) = scale * t.by_field[identification::kLengthActivation];
         }
         ++row;
       }
-    }
-    for (Eigen::Index m = 0; m < muscles; ++m) {
       for (std::size_t i = 0; i < kFitted.size(); ++i) {
-        const Eigen::Index c = kPerMuscle * m + static_cast<Eigen::Index>(i);
-        r(row) = kFitted[i].tether * (x(c) - 1.0);
-        if (J != nullptr) (*J)(row, c) = kFitted[i].tether;
-        ++row;
+        const Eigen::Index c = first + static_cast<Eigen::Index>(i);
+        r(count + c) = kFitted[i].tether * (x(c) - 1.0);
+        if (J != nullptr) (*J)(count + c, c) = kFitted[i].tether;
       }
     }
   };
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(gamma + 1);
-  problem.lower.setConstant(gamma + 1, -1.0);
-  problem.upper.setConstant(gamma + 1, 1.0);
-  problem.lower(gamma) = 0.0;
+  Eigen::VectorXd start = Eigen::VectorXd::Ones(gamma + 1);
+  problem.lower.setZero(gamma + 1);
+  problem.upper.resize(gamma + 1);
   problem.upper(gamma) = 0.5;
   start(gamma) = 0.1;
   for (Eigen::Index m = 0; m < muscles; ++m) {
@@ -153,7 +148,6 @@ HillSet effective_muscles(const TrueArm& person, const VirtualArm& modelled, Per
       const double value = literature[static_cast<std::size_t>(m)].*(field.member);
       problem.lower(c) = field.bounds.lower / value;
       problem.upper(c) = field.bounds.upper / value;
-      start(c) = 1.0;
     }
   }
   const math::LeastSquaresResult fit = math::minimize(problem, start, {.max_iterations = 100, .step_tolerance = 1e-8});

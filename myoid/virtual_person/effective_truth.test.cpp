@@ -42,7 +42,7 @@ TEST(EffectiveTruth, OfThePublishedArmItIsNearThePublishedMuscles) {
   PerMuscle misfit = {};
   const HillSet effective = effective_muscles(spread_arm(0.0, 1), modelled, &misfit);
   for (std::size_t m = 0; m < effective.size(); ++m) {
-    const muscle::HillParameters<double>& literature = modelled.literature()[m];
+    const muscle::HillParameters<double>& literature = modelled.literature[m];
     EXPECT_NEAR(effective[m].max_isometric_force_n / literature.max_isometric_force_n, 1.0, 0.25) << kArmMuscles[m];
     EXPECT_NEAR(effective[m].optimal_fiber_length_m / literature.optimal_fiber_length_m, 1.0, 0.25) << kArmMuscles[m];
     EXPECT_LT(misfit[m], 0.15) << kArmMuscles[m];

@@ -4,42 +4,20 @@
 #include <cmath>
 
 namespace myoid::twin {
-namespace {
 
 constexpr double kFatigueStep_s = 0.05;
-
-}  // namespace
-
-template <std::size_t N>
-void Tiredness<N>::rest(double interval_s) {
-  if (!rates) return;
-  constexpr double kRelaxing_s = 2.0;  // leaves e^-20 of the active share
-  const double relaxing_s = std::min(interval_s, kRelaxing_s);
-  work({}, relaxing_s);
-  const double decay = std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
-  for (muscle::FatigueState<double>& s : state) {
-    s.fatigued *= decay;
-    s.resting = 1.0 - s.active - s.fatigued;
-  }
-}
-template struct Tiredness<4>;
-template struct Tiredness<7>;
 
 PerMuscle interpolated(const std::vector<PerMuscle>& values, double step_s, double time_s) {
   const double s = std::clamp(time_s / step_s, 0.0, static_cast<double>(values.size() - 1));
   const std::size_t before = std::min(static_cast<std::size_t>(s), values.size() - 1);
   const std::size_t after = std::min(before + 1, values.size() - 1);
-  PerMuscle result;
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = std::lerp(values[before][i], values[after][i], s - static_cast<double>(before));
-  return result;
+  return lerp(values[before], values[after], s - static_cast<double>(before));
 }
 
 ExactPerformance::ExactPerformance(const VirtualArm& arm,
                                    const HillSet& muscles,
                                    TrialScript script,
                                    double delay_s,
-                                   const PerMuscle& effort,
                                    Tiredness<4>& tiredness,
                                    const BesideMuscles& beside,
                                    const Departures& departures)
@@ -49,8 +27,7 @@ ExactPerformance::ExactPerformance(const VirtualArm& arm,
       beside_(beside),
       body_(departures, arm, muscles),
       elastic_(departures.elastic()),
-      delay_s_(delay_s),
-      effort_(effort) {
+      delay_s_(delay_s) {
   if (!tiredness.rates) return;
   const auto count = static_cast<std::size_t>(std::ceil(this->script().duration_s / kFatigueStep_s)) + 1;
   strength_.reserve(count);
@@ -71,16 +48,6 @@ PerMuscle ExactPerformance::fatigued(double time_s) const {
   return share;
 }
 
-PerMuscle ExactPerformance::force_per_activation_n(const MuscleGeometry& geometry,
-                                                   const PerMuscle& activation,
-                                                   const PerMuscle& tension_n) const {
-  PerMuscle longer = {1.0, 1.0, 1.0, 1.0};
-  if (beside_.length_activation != 0.0) {
-    for (std::size_t i = 0; i < longer.size(); ++i) longer[i] = 1.0 + beside_.length_activation * (1.0 - activation[i]);
-  }
-  return body_.full_force_n(geometry, longer, tension_n);
-}
-
 Instant ExactPerformance::at(double time_s) const {
   const TrialScript& script = this->script();
   Instant now;
@@ -92,21 +59,17 @@ Instant ExactPerformance::at(double time_s) const {
   const double required_nm =
       arm_->required_torque_nm(now.q, script.protocol.plane, script.protocol.held_mass_kg) - now.passive_torque_nm;
   const bool prescribed = script.against_dynamometer();
-  if (prescribed) {
-    now.activation = script.prescribed_activations(time_s);
-    if (script.protocol.kind == TrialKind::mvc) {
-      for (std::size_t i = 0; i < 4; ++i) now.activation[i] *= effort_[i];
-    }
-  }
+  if (prescribed) now.activation = script.prescribed_activations(time_s);
   // The force per activation depends a little on the activation (its shift of the optimum) and on
   // the force (the tendon's stretch). Iterates until all agree. Half steps make the iteration
   // converge even if a stretch changes the force by more than the force changed.
   constexpr int kMostTurns = 200;
   const bool at_once = !elastic_ && (prescribed || beside_.length_activation == 0.0);
-  PerMuscle full_n{}, capacity_nm{}, tension_n{};
+  PerMuscle longer{}, full_n{}, capacity_nm{}, tension_n{};
   for (int turn = 0; turn < (at_once ? 1 : kMostTurns); ++turn) {
     const PerMuscle before = now.activation;
-    full_n = force_per_activation_n(geometry, now.activation, tension_n);
+    for (std::size_t i = 0; i < 4; ++i) longer[i] = 1.0 + beside_.length_activation * (1.0 - now.activation[i]);
+    full_n = body_.full_force_n(geometry, longer, tension_n);
     for (std::size_t i = 0; i < 4; ++i) {
       full_n[i] *= left[i];
       capacity_nm[i] = full_n[i] * geometry.moment_arm_m[i];
@@ -136,14 +99,14 @@ PerMuscle ExactPerformance::drive(double time_s) const {
   return at(time_s + delay_s_).activation;
 }
 
-double ExactPerformance::greatest_activation(double rate_hz) const {
-  double greatest = 0.0;
-  if (script().against_dynamometer()) return greatest;
-  for (double t = 0.0; t <= script().duration_s; t += 1.0 / rate_hz) {
+std::string ExactPerformance::failure() const {
+  constexpr double kRate_hz = 100.0;
+  if (script().against_dynamometer()) return "";
+  for (double t = 0.0; t <= script().duration_s; t += 1.0 / kRate_hz) {
     const PerMuscle a = at(t).activation;
-    greatest = std::max(greatest, *std::max_element(a.begin(), a.end()));
+    if (*std::max_element(a.begin(), a.end()) > kGreatestActivation) return std::string(kTooWeak);
   }
-  return greatest;
+  return "";
 }
 
 }  // namespace myoid::twin

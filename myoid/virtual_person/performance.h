@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +20,8 @@ namespace myoid::twin {
 
 /// Greatest activation that a trial may require.
 inline constexpr double kGreatestActivation = 0.95;
+/// The failure of a person whose trial requires more.
+inline constexpr std::string_view kTooWeak = "the muscles are too weak";
 
 /// The state of the person at one instant of a trial.
 struct Instant {
@@ -45,6 +49,8 @@ class Performance {
   [[nodiscard]] virtual PerMuscle drive(double time_s) const = 0;
   /// Returns the share of each muscle's strength that fatigue has taken by this time.
   [[nodiscard]] virtual PerMuscle fatigued(double time_s) const = 0;
+  /// Returns the reason why the person cannot do the trial; empty if there is none.
+  [[nodiscard]] virtual std::string failure() const { return ""; }
   /// Returns the heads at this time; empty if the truth has none.
   [[nodiscard]] virtual std::optional<ArmState> heads(double /*time_s*/) const { return std::nullopt; }
 
@@ -71,22 +77,28 @@ struct Tiredness {
     for (std::size_t i = 0; i < N; ++i) state[i] = muscle::step_fatigue(*rates, activation[i], state[i], interval_s);
   }
   /// Rests: active muscle relaxes first; then M_F decays with the rate r R.
-  void rest(double interval_s);
+  void rest(double interval_s) {
+    if (!rates) return;
+    constexpr double kRelaxing_s = 2.0;  // leaves e^-20 of the active share
+    const double relaxing_s = std::min(interval_s, kRelaxing_s);
+    work({}, relaxing_s);
+    const double decay = std::exp(-rates->rest_recovery_factor * rates->recovery_per_s * (interval_s - relaxing_s));
+    for (muscle::FatigueState<double>& s : state) {
+      s.fatigued *= decay;
+      s.resting = 1.0 - s.active - s.fatigued;
+    }
+  }
 };
-extern template struct Tiredness<4>;
-extern template struct Tiredness<7>;
 
 /// Levels L0 and L1: tendons are rigid and the motion is prescribed, so that activations in closed
 /// form solve the equation of motion.
 class ExactPerformance : public Performance {
  public:
-  /// Performs the trial. `effort`: shares of the greatest activation in an MVC trial. `tiredness`
-  /// passes on to the next trial.
+  /// Performs the trial. `tiredness` passes on to the next trial.
   ExactPerformance(const VirtualArm& arm,
                    const HillSet& muscles,
                    TrialScript script,
                    double delay_s,
-                   const PerMuscle& effort,
                    Tiredness<4>& tiredness,
                    const BesideMuscles& beside = {},
                    const Departures& departures = {});
@@ -96,15 +108,11 @@ class ExactPerformance : public Performance {
   [[nodiscard]] PerMuscle drive(double time_s) const override;
   [[nodiscard]] PerMuscle fatigued(double time_s) const override;
 
-  /// Returns the greatest activation that the motion requires; 0 against a dynamometer.
-  [[nodiscard]] double greatest_activation(double rate_hz) const;
+  /// A motion that requires more than kGreatestActivation fails.
+  [[nodiscard]] std::string failure() const override;
 
  private:
   [[nodiscard]] PerMuscle strength(double time_s) const;
-  /// Returns force over activation at these activations and tensions.
-  [[nodiscard]] PerMuscle force_per_activation_n(const MuscleGeometry& geometry,
-                                                 const PerMuscle& activation,
-                                                 const PerMuscle& tension_n) const;
 
   const VirtualArm* arm_;
   const HillSet* muscles_;
@@ -112,7 +120,6 @@ class ExactPerformance : public Performance {
   DepartedMuscles body_;
   bool elastic_;
   double delay_s_;
-  PerMuscle effort_;
   std::vector<PerMuscle> strength_;  ///< On an even clock from 0; empty: 1.
 };
 
@@ -124,12 +131,8 @@ class ExactPerformance : public Performance {
 /// has a noisy drive. The motion is the result.
 class SimulatedPerformance : public Performance {
  public:
-  SimulatedPerformance(const TrueArm& arm,
-                       TrialScript script,
-                       const PerMuscle& effort,
-                       double motor_noise,
-                       Tiredness<7>& tiredness,
-                       std::uint64_t seed);
+  SimulatedPerformance(
+      const TrueArm& arm, TrialScript script, double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed);
 
   [[nodiscard]] Instant at(double time_s) const override;
   [[nodiscard]] Moment motion(double time_s) const override;
@@ -137,23 +140,18 @@ class SimulatedPerformance : public Performance {
   [[nodiscard]] PerMuscle fatigued(double time_s) const override;
   [[nodiscard]] std::optional<ArmState> heads(double time_s) const override;
 
-  /// Returns the reason why the person could not do the trial; empty if there is none.
-  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] std::string failure() const override { return failure_; }
 
-  /// Returns the commands as the muscles' excitations after the delay, on the clock of
-  /// `sample_time_s`, for simulations of the same trial by other means.
-  [[nodiscard]] std::size_t sample_count() const { return samples_.size(); }
-  [[nodiscard]] double sample_time_s(std::size_t k) const;
-  [[nodiscard]] const PerHead& excitation(std::size_t k) const { return samples_[k].excitation; }
-  [[nodiscard]] const ArmState& sample(std::size_t k) const { return samples_[k].arm; }
-
- private:
   struct Sample {
+    double time_s = 0.0;
     ArmState arm;
-    PerHead excitation{};
-    PerMuscle command{};
+    PerHead excitation{};  ///< The command that arrives, after the delay.
     PerMuscle electrode{};
   };
+  /// Returns the simulated course, for simulations of the same trial by other means.
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
   /// The interval that contains a time, and the position inside it, 0..1.
   struct Place {
     std::size_t before;
@@ -169,8 +167,8 @@ class SimulatedPerformance : public Performance {
   void tire(std::size_t k, PerHead& worked, Tiredness<7>& tiredness, ArmStepper& stepper);
 
   const TrueArm* arm_;
-  PerMuscle effort_;
   std::vector<Sample> samples_;
+  std::vector<PerMuscle> commands_;  ///< On the clock of the samples.
   std::vector<PerMuscle> fatigued_;  ///< On an even clock from 0; empty: no fatigue.
   std::string failure_;
 };

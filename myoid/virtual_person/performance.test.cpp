@@ -50,8 +50,7 @@ TEST(Performance, WithoutRatesNobodyTires) {
 TEST(Performance, TheElectrodeSeesTheActivationADelayBefore) {
   const VirtualArm arm{VirtualSubject{}};
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, arm.literature(), make_script(swing(), {}, 4), 0.05, {1.0, 1.0, 1.0, 1.0},
-                                     tireless);
+  const ExactPerformance performance(arm, arm.literature, make_script(swing(), {}, 4), 0.05, tireless);
   for (const double t : {0.5, 1.7, 3.1}) {
     const PerMuscle seen = performance.drive(t);
     const PerMuscle done = performance.at(t + 0.05).activation;
@@ -61,15 +60,14 @@ TEST(Performance, TheElectrodeSeesTheActivationADelayBefore) {
 
 TEST(Performance, WhatIsBesideTheMusclesHasItsPartInTheEquationOfMotion) {
   const VirtualArm arm{VirtualSubject{}};
-  const HillSet& muscles = arm.literature();
+  const HillSet& muscles = arm.literature;
   BesideMuscles beside;
   beside.length_activation = 0.15;
   beside.joint_torque_nm = 0.7;
   beside.joint_stiffness_nm_per_rad = 1.1;
   beside.joint_viscosity_nms_per_rad = 0.2;
   Tiredness<4> tireless;
-  const ExactPerformance performance(arm, muscles, make_script(swing(), {}, 4), 0.05, {1.0, 1.0, 1.0, 1.0}, tireless,
-                                     beside);
+  const ExactPerformance performance(arm, muscles, make_script(swing(), {}, 4), 0.05, tireless, beside);
   for (const double t : {0.5, 1.7, 3.1}) {
     const Instant now = performance.at(t);
     const MuscleGeometry geometry = arm.geometry(now.q);
@@ -94,7 +92,7 @@ TEST(Performance, ASimulatedPersonFollowsTheMotionAboutAndIsNeverTheSameAsPlanne
   const TrueArm arm = arm_of_seed(5);
   Tiredness<7> tireless;
   const TrialScript script = make_script(swing(), {}, 4);
-  const SimulatedPerformance performance(arm, script, {1.0, 1.0, 1.0, 1.0}, 0.05, tireless, 9);
+  const SimulatedPerformance performance(arm, script, 0.05, tireless, 9);
   ASSERT_EQ(performance.failure(), "");
   double worst_rad = 0.0;
   for (double t = 0.0; t < script.duration_s; t += 0.01)
@@ -106,7 +104,7 @@ TEST(Performance, ASimulatedPersonFollowsTheMotionAboutAndIsNeverTheSameAsPlanne
 TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
   const TrueArm arm = arm_of_seed(5);
   Tiredness<7> tireless;
-  const SimulatedPerformance performance(arm, make_script(swing(), {}, 4), {1.0, 1.0, 1.0, 1.0}, 0.05, tireless, 9);
+  const SimulatedPerformance performance(arm, make_script(swing(), {}, 4), 0.05, tireless, 9);
   ASSERT_EQ(performance.failure(), "");
 
   // The same muscles, joint and excitations through the integrator of forward_simulation.h, with
@@ -130,15 +128,15 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
   simulation::SimulationInput input;
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     simulation::Signal signal;
-    for (std::size_t k = 0; k < performance.sample_count(); ++k) {
-      signal.time_s.push_back(performance.sample_time_s(k));
-      signal.value.push_back(performance.excitation(k)[i]);
+    for (const SimulatedPerformance::Sample& sample : performance.samples()) {
+      signal.time_s.push_back(sample.time_s);
+      signal.value.push_back(sample.excitation[i]);
     }
     input.excitation.push_back(std::move(signal));
   }
-  const double first_s = performance.sample_time_s(0);
+  const double first_s = performance.samples()[0].time_s;
   const simulation::Simulation simulated =
-      simulation::simulate(other, input, {.time_s = first_s, .q = {performance.sample(0).q.value}},
+      simulation::simulate(other, input, {.time_s = first_s, .q = {performance.samples()[0].arm.q.value}},
                            {.end_s = first_s + 2.5, .output_rate_hz = 100.0, .ode = {.relative_tolerance = 1e-6}});
   ASSERT_EQ(simulated.status, math::OdeStatus::done) << simulated.message;
   double moved_rad = 0.0;
@@ -147,7 +145,7 @@ TEST(Performance, TheMotionThatCameOutIsThatOfTheAdaptiveIntegrator) {
     const double q = performance.motion(t).value;
     // A few steps' lag of activation at 1 ms, and a free forearm that integrates it twice.
     EXPECT_NEAR(simulated.motion.values()(k, 0), q, 0.5 * kDegree) << t;
-    moved_rad = std::max(moved_rad, std::abs(q - performance.sample(0).q.value));
+    moved_rad = std::max(moved_rad, std::abs(q - performance.samples()[0].arm.q.value));
   }
   EXPECT_GT(moved_rad, 10.0 * kDegree);
 }
@@ -159,7 +157,7 @@ TEST(Performance, WhoeverIsTooWeakFails) {
   const TrialScript script = make_script(heavy, {}, 4);
   EXPECT_GT(foreseen_activation(arm, script), 0.95);
   Tiredness<7> tireless;
-  const SimulatedPerformance performance(arm, script, {1.0, 1.0, 1.0, 1.0}, 0.05, tireless, 9);
+  const SimulatedPerformance performance(arm, script, 0.05, tireless, 9);
   EXPECT_NE(performance.failure(), "");
 }
 

@@ -25,23 +25,6 @@ namespace {
 
 using recording::TomlTable;
 
-constexpr std::array<std::pair<std::string_view, Level>, 3> kLevels = {
-    {{"L0", Level::noise_free}, {"L1", Level::noisy}, {"L2", Level::different}}};
-
-constexpr std::array<std::pair<std::string_view, TrialKind>, 6> kKinds = {
-    {{"flexion", TrialKind::flexion},
-     {"eccentric", TrialKind::eccentric},
-     {"isometric_ramp", TrialKind::isometric_ramp},
-     {"isokinetic", TrialKind::isokinetic},
-     {"mvc", TrialKind::mvc},
-     {"passive", TrialKind::passive}}};
-
-std::vector<std::string> parameter_names() {
-  std::vector<std::string> names;
-  for (const muscle::HillField& field : muscle::kHillFields) names.emplace_back(field.name);
-  return names;
-}
-
 /// Overwrites `value` if the key exists; throws unless lower <= value <= upper.
 void number_into(
     TomlTable& table, std::string_view key, double& value, double lower, double upper, double scale = 1.0) {
@@ -65,15 +48,14 @@ void count_into(TomlTable& table, std::string_view key, int& value, int lower, i
 }
 
 /// Reads a range [low, high].
-void range_into(TomlTable& table, std::string_view key, double& low, double& high, double lower, double upper) {
+void range_into(TomlTable& table, std::string_view key, Range& range, double lower, double upper) {
   if (!table.has(key)) return;
   const std::vector<double> found = table.numbers(key).value_or(std::vector<double>{});
   if (found.size() != 2 || found.front() > found.back() || found.front() < lower || found.back() > upper) {
     table.fail(key, fmt::format("found [{:g}], expected a range [low, high] between {:g} and {:g}",
                                 fmt::join(found, ", "), lower, upper));
   }
-  low = found.front();
-  high = found.back();
+  range = {found.front(), found.back()};
 }
 
 void read_subject(TomlTable table, VirtualSubject& subject) {
@@ -88,9 +70,9 @@ void read_subject(TomlTable table, VirtualSubject& subject) {
 /// Throws if a key of [truth] has no meaning at the level.
 void check_level(const TomlTable& table, Level level, const TruthSpec& truth) {
   if (level == Level::different && truth.curves == "paper")
-    table.fail("curves",
-               "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has "
-               "\"de_groote\" or \"millard\"");
+    table.fail(
+        "curves",
+        "found \"paper\", which persons of levels L0 and L1 have; a person at L2 has \"de_groote\" or \"millard\"");
   for (const char* key :
        {"emg_exponent", "crosstalk", "emg_gain_drift", "emg_noise", "torque_scale", "torque_offset_nm"}) {
     if (level == Level::noise_free && table.has(key))
@@ -102,24 +84,23 @@ void read_truth(TomlTable table, Level level, TruthSpec& truth) {
   SettingReader reader(table, {});
   visit(truth, reader);
   check_level(table, level, truth);
-  const std::vector<std::string> known = parameter_names();
+  std::vector<std::string> known;
+  for (const muscle::HillField& field : muscle::kHillFields) known.emplace_back(field.name);
   const auto check = [&table, &known](const std::string& parameter, std::string_view key) {
     if (std::find(known.begin(), known.end(), parameter) != known.end()) return;
     const auto near = recording::nearest_word(parameter, known);
-    table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you "
-                                       "mean \"{}\"?",
+    table.fail(key, near ? fmt::format("found \"{}\", which is no parameter of a muscle; did you mean \"{}\"?",
                                        parameter, *near)
-                         : fmt::format("found \"{}\", which is no parameter of a muscle; they are "
-                                       "{}",
-                                       parameter, fmt::join(known, ", ")));
+                         : fmt::format("found \"{}\", which is no parameter of a muscle; they are {}", parameter,
+                                       fmt::join(known, ", ")));
   };
   for (const std::string_view muscle : {"BIC", "BRA", "BRD", "TRI"}) {
     auto values = table.table(muscle);
     if (!values) continue;
     if (level == Level::different)
       table.fail(muscle,
-                 "values of single muscles are for levels L0 and L1: at L2 a person has seven heads "
-                 "with other laws; remove them, or choose another level");
+                 "values of single muscles are for levels L0 and L1: at L2 a person has seven heads with other laws; "
+                 "remove them, or choose another level");
     for (const std::string& parameter : values->keys()) {
       check(parameter, muscle);
       const double value = values->number(parameter).value_or(0.0);
@@ -134,15 +115,15 @@ void read_truth(TomlTable table, Level level, TruthSpec& truth) {
 
 void read_emg(TomlTable table, EmgNoise& emg, Protocol& protocol) {
   number_into(table, "rate_hz", emg.rate_hz, 500.0, 20000.0);
-  range_into(table, "mvc_v", emg.mvc_min_v, emg.mvc_max_v, 1e-6, 0.1);
+  range_into(table, "mvc_v", emg.mvc_v, 1e-6, 0.1);
   number_into(table, "baseline", emg.baseline, 0.0, 0.5);
   number_into(table, "hum", emg.hum, 0.0, 0.5);
   number_into(table, "hum_hz", emg.hum_hz, 10.0, 100.0);
   number_into(table, "artefact", emg.artefact, 0.0, 0.5);
-  range_into(table, "crosstalk", emg.crosstalk_min, emg.crosstalk_max, 0.0, 0.5);
-  range_into(table, "mvc_effort", emg.effort_min, emg.effort_max, 0.3, 1.0);
-  range_into(table, "exponent", emg.exponent_min, emg.exponent_max, 0.5, 3.0);
-  range_into(table, "spectrum", emg.spectrum_min, emg.spectrum_max, 0.3, 1.5);
+  range_into(table, "crosstalk", emg.crosstalk, 0.0, 0.5);
+  range_into(table, "mvc_effort", emg.effort, 0.3, 1.0);
+  range_into(table, "exponent", emg.exponent, 0.5, 3.0);
+  range_into(table, "spectrum", emg.spectrum, 0.3, 1.5);
   number_into(table, "motor_units", emg.motor_units, 0.0, 10000.0);
   number_into(table, "bandwidth_hz", emg.bandwidth_hz, 0.0, 5000.0);
   number_into(table, "mvc_window_s", protocol.mvc_window_s, 0.05, 20.0);
@@ -167,17 +148,11 @@ std::vector<double> read_angles_deg(TomlTable& table) {
   return angles;
 }
 
-Direction read_direction(TomlTable& table) {
-  const std::string word = table.choice("direction", "both", {"flexion", "extension", "both"});
-  if (word == "flexion") return Direction::flexion;
-  return word == "extension" ? Direction::extension : Direction::both;
-}
-
 void read_isokinetic(TomlTable& table, TrialProtocol& trial) {
   trial.hold_s = 0.3;
   trial.rise_s = 0.5;
   number_into(table, "peak", trial.peak, 0.0, 0.95);
-  trial.direction = read_direction(table);
+  trial.direction = table.choice("direction", Direction::both);
   const std::string mode = table.choice("mode", "both", {"concentric", "eccentric", "both"});
   trial.concentric = mode != "eccentric";
   trial.eccentric = mode != "concentric";
@@ -201,31 +176,20 @@ TrialProtocol read_kind(TomlTable& table) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
   if (trial.name.empty() || !plain || trial.name.front() == '.') {
-    table.fail("name", fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it "
-                                   "becomes the name of files",
-                                   trial.name));
+    table.fail("name",
+               fmt::format("found \"{}\", expected letters, digits, '_' and '-' only: it becomes the name of files",
+                           trial.name));
   }
-  std::vector<std::string> kind_names;
-  for (const auto& kind : kKinds) kind_names.emplace_back(kind.first);
-  static_cast<void>(table.require_text("kind", fmt::format("one of {}", fmt::join(kind_names, ", "))));
-  const std::string kind = table.choice("kind", "", kind_names);
-  for (const auto& [word, value] : kKinds) {
-    if (word == kind) trial.kind = value;
-  }
-  const std::string usual = trial.kind == TrialKind::isometric_ramp ? "isometric"
-                            : trial.kind == TrialKind::isokinetic   ? "isometric"
-                            : trial.kind == TrialKind::mvc          ? "mvc"
-                            : trial.kind == TrialKind::passive      ? "passive"
-                                                                    : "calibration";
+  static_cast<void>(table.require_text("kind", fmt::format("one of {}", fmt::join(kTrialKindNames, ", "))));
+  trial.kind = table.choice("kind", trial.kind);
+  const bool isometric = trial.kind == TrialKind::isometric_ramp || trial.kind == TrialKind::isokinetic;
+  const std::string usual = isometric                          ? "isometric"
+                            : trial.kind == TrialKind::mvc     ? "mvc"
+                            : trial.kind == TrialKind::passive ? "passive"
+                                                               : "calibration";
   trial.use = table.choice("use", usual, {"calibration", "validation", "mvc", "isometric", "passive"});
-  trial.plane = table.choice("plane", "vertical", {"vertical", "horizontal"}) == "horizontal" ? Plane::horizontal
-                                                                                              : Plane::vertical;
-  if (table.has("co_contraction")) {
-    double low = 0.0;
-    double high = 0.0;
-    range_into(table, "co_contraction", low, high, 0.0, 0.5);
-    trial.co_contraction = {low, high};
-  }
+  trial.plane = table.choice("plane", trial.plane);
+  if (table.has("co_contraction")) range_into(table, "co_contraction", trial.co_contraction.emplace(), 0.0, 0.5);
   return trial;
 }
 
@@ -238,7 +202,7 @@ std::vector<TrialProtocol> read_held_still(TomlTable& table, TrialProtocol trial
   } else {
     number_into(table, "peak", trial.peak, 0.0, 0.95);
   }
-  trial.direction = read_direction(table);
+  trial.direction = table.choice("direction", Direction::both);
   number_into(table, "rise_s", trial.rise_s, 0.3, kInfinity);
   number_into(table, "hold_s", trial.hold_s, 0.0, kInfinity);
   number_into(table, "rest_s", trial.rest_s, 0.2, kInfinity);
@@ -264,8 +228,8 @@ void read_flexion(TomlTable& table, TrialProtocol& trial) {
   const double reach_rad = trial.amplitude_rad * (1.0 + 2.0 * trial.variation);
   if (trial.centre_rad - trial.amplitude_rad < -1e-9 ||
       trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad > 150.0 * kDegree) {
-    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within "
-                                            "0 to 150: choose another centre_deg or a smaller amplitude",
+    table.fail("amplitude_deg", fmt::format("the elbow would move from {:.0f} to {:.0f} degrees; expected within 0 to "
+                                            "150: choose another centre_deg or a smaller amplitude",
                                             (trial.centre_rad - trial.amplitude_rad) / kDegree,
                                             (trial.centre_rad - trial.amplitude_rad + 2.0 * reach_rad) / kDegree));
   }
@@ -313,26 +277,12 @@ std::vector<TrialProtocol> read_trial(TomlTable table) {
 
 }  // namespace
 
-std::string_view name(TrialKind kind) {
-  for (const auto& [word, value] : kKinds) {
-    if (value == kind) return word;
-  }
-  return "unknown";
-}
-
-std::string_view name(Level level) {
-  for (const auto& [word, value] : kLevels) {
-    if (value == level) return word;
-  }
-  return "unknown";
-}
-
 Protocol default_protocol(Level level) {
   Protocol protocol;
   protocol.level = level;
   if (level != Level::different) {
     protocol.truth.curves = "paper";
-    protocol.truth.tendon_strain_min = protocol.truth.tendon_strain_max = 0.0;
+    protocol.truth.tendon_strain = {0.0, 0.0};
     protocol.truth.moment_arm_sd = 0.0;
     return protocol;
   }
@@ -340,12 +290,10 @@ Protocol default_protocol(Level level) {
   protocol.motion.misplacement_m = 0.005;
   protocol.motion.dropouts_per_min = 2.0;
   protocol.motion.frame_jitter_sd_s = 0.0002;
-  protocol.emg.crosstalk_min = 0.05;
-  protocol.emg.crosstalk_max = 0.10;
-  protocol.emg.effort_min = 0.8;
-  protocol.emg.exponent_max = 1.5;
-  protocol.emg.spectrum_min = 0.6;
-  protocol.emg.spectrum_max = 1.2;
+  protocol.emg.crosstalk = {0.05, 0.10};
+  protocol.emg.effort = {0.8, 1.0};
+  protocol.emg.exponent = {1.0, 1.5};
+  protocol.emg.spectrum = {0.6, 1.2};
   protocol.emg.motor_units = 250.0;
   protocol.emg.bandwidth_hz = 450.0;
   protocol.control.irregularity = 1.0;
@@ -357,19 +305,15 @@ Protocol default_protocol(Level level) {
 Protocol parse_protocol(std::string_view text, const std::filesystem::path& file, std::optional<Level> level) {
   const toml::table document = recording::parse_toml(text, file);
   TomlTable root(document, file, "protocol");
-  const std::string word = root.choice("level", "L1", {"L0", "L1", "L2"});
-  for (const auto& [known, value] : kLevels) {
-    if (!level && known == word) level = value;
-  }
-  Protocol protocol = default_protocol(*level);
+  const Level stated = root.choice("level", Level::noisy);
+  Protocol protocol = default_protocol(level.value_or(stated));
   protocol.file = file;
   protocol.name = root.text("name").value_or(protocol.name);
 
   if (auto table = root.table("subject")) read_subject(*std::move(table), protocol.subject);
-  if (auto table = root.table("truth")) read_truth(*std::move(table), *level, protocol.truth);
+  if (auto table = root.table("truth")) read_truth(*std::move(table), protocol.level, protocol.truth);
   if (auto table = root.table("control")) {
-    range_into(*table, "co_contraction", protocol.control.co_contraction_min, protocol.control.co_contraction_max, 0.0,
-               0.5);
+    range_into(*table, "co_contraction", protocol.control.co_contraction, 0.0, 0.5);
     number_into(*table, "synergy", protocol.control.synergy, 0.0, 1.0);
     number_into(*table, "brachialis_synergy", protocol.control.brachialis_synergy, 0.0, 1.0);
     number_into(*table, "motor_noise", protocol.control.motor_noise, 0.0, 0.3);

@@ -7,7 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "myoid/core/choice.h"
+#include "myoid/muscle/hill_parameters.h"
+
 namespace myoid::twin {
+
+using muscle::Range;  ///< The numbers from which a draw takes one, all equally likely.
 
 /// The distance between the virtual recording and the model that is fitted to it.
 enum class Level {
@@ -16,7 +21,8 @@ enum class Level {
   different,   ///< "L2": another truth (seven heads, elastic tendons, other curves, fatigue), with
                ///< systematic errors of the instruments.
 };
-[[nodiscard]] std::string_view name(Level level);
+inline constexpr std::string_view kLevelNames[] = {"L0", "L1", "L2"};
+constexpr ChoiceNames choice_names(Level) { return kLevelNames; }
 
 /// The task of a trial of the virtual experiment.
 enum class TrialKind {
@@ -27,14 +33,20 @@ enum class TrialKind {
   mvc,             ///< As isometric_ramp, with the greatest effort kept for a while.
   passive,         ///< Relaxed; a dynamometer moves the forearm slowly; torque is measured.
 };
-[[nodiscard]] std::string_view name(TrialKind kind);
+inline constexpr std::string_view kTrialKindNames[] = {"flexion",    "eccentric", "isometric_ramp",
+                                                       "isokinetic", "mvc",       "passive"};
+constexpr ChoiceNames choice_names(TrialKind) { return kTrialKindNames; }
 
 enum class Plane {
   vertical,    ///< The upper arm hangs.
   horizontal,  ///< The upper arm is raised to the side and the axis of the elbow is vertical.
 };
+inline constexpr std::string_view kPlaneNames[] = {"vertical", "horizontal"};
+constexpr ChoiceNames choice_names(Plane) { return kPlaneNames; }
 
 enum class Direction { flexion, extension, both };  ///< `both`: alternately, flexion first.
+inline constexpr std::string_view kDirectionNames[] = {"flexion", "extension", "both"};
+constexpr ChoiceNames choice_names(Direction) { return kDirectionNames; }
 
 struct VirtualSubject {
   std::string name = "virtual-1";
@@ -62,9 +74,7 @@ struct TruthSpec {
                                    "concentric_curvature", "eccentric_plateau",    "eccentric_curvature_product"};
   /// Values that are set, not drawn, by muscle and parameter name; SI.
   std::map<std::string, std::map<std::string, double>> values;
-  double emg_delay_min_s = 0.030;  ///< Range of the electromechanical delay.
-  /// (L2: the delay follows from the activation dynamics instead.)
-  double emg_delay_max_s = 0.080;
+  Range emg_delay_s = {0.030, 0.080};  ///< Electromechanical delay. (L2: follows from the activation dynamics.)
   /// Levels L0 and L1: draws the person's nuisances, too (run/nuisances.h, `draw_beside_muscles`).
   bool beside_muscles = false;
   /// Shifts the mean of the drawn values, in standard deviations of the prior.
@@ -72,19 +82,17 @@ struct TruthSpec {
   // The values of level L2. Levels L0 and L1: `default_protocol`.
   /// "paper" (L0, L1), "de_groote", "millard", or "any": one of the last two by chance.
   std::string curves = "any";
-  double tendon_strain_min = 0.03;  ///< Range of the strain at F_max; 0: rigid (L0, L1).
-  double tendon_strain_max = 0.06;
-  double moment_arm_sd = 0.10;       ///< Relative, per muscle.
-  double moment_arm_slope_sd = 0.0;  ///< Relative per radian, per muscle.
-  double inertia_sd = 0.10;          ///< Relative, for forearm and hand. L2.
+  Range tendon_strain = {0.03, 0.06};  ///< Strain at F_max; 0: rigid (L0, L1).
+  double moment_arm_sd = 0.10;         ///< Relative, per muscle.
+  double moment_arm_slope_sd = 0.0;    ///< Relative per radian, per muscle.
+  double inertia_sd = 0.10;            ///< Relative, for forearm and hand. L2.
   SensorTruth sensors;
 };
 
 /// The rule by which the virtual person shares the effort.
 struct ControlSpec {
   /// Activation of the antagonist, a share of the greatest activation.
-  double co_contraction_min = 0.02;
-  double co_contraction_max = 0.15;
+  Range co_contraction = {0.02, 0.15};
   /// Standard deviation of ln(BRD / BIC activation), over trials and slowly within each. At 0 the
   /// two flexors' EMG would be one signal.
   double synergy = 0.35;
@@ -127,24 +135,19 @@ struct MarkerNoise {
 
 struct EmgNoise {
   double rate_hz = 1000.0;
-  double mvc_min_v = 0.3e-3;  ///< Range of the rms of raw EMG at the greatest effort.
-  double mvc_max_v = 1.2e-3;
-  double baseline = 0.015;  ///< Rms of the noise without effort, relative to the greatest effort's.
-  double hum = 0.01;        ///< Rms of the mains hum.
+  Range mvc_v = {0.3e-3, 1.2e-3};  ///< Rms of raw EMG at the greatest effort.
+  double baseline = 0.015;         ///< Rms of the noise without effort, relative to the greatest effort's.
+  double hum = 0.01;               ///< Rms of the mains hum.
   double hum_hz = 50.0;
   double artefact = 0.02;  ///< Rms of the movement artefact, below 15 Hz, while the arm moves.
   // Ranges of draws for each muscle or channel. At L1 the values have no effect; at L2 they are
   // those in the comments, unless the protocol sets them.
-  double crosstalk_min = 0.0;  ///< Share of a neighbour's signal in a channel; 0.05 to 0.10.
-  double crosstalk_max = 0.0;
-  double effort_min = 1.0;  ///< Recorded greatest effort over the true greatest effort; 0.8 to 1.
-  double effort_max = 1.0;
-  double exponent_min = 1.0;  ///< p: excitation = (rms / greatest rms)^p; 1 to 1.5.
-  double exponent_max = 1.0;
-  /// Range of the factor on Shwedyk's frequencies, which depend on the muscle fibers and on the
-  /// tissue between fibers and electrode; 0.6 to 1.2.
-  double spectrum_min = 1.0;
-  double spectrum_max = 1.0;
+  Range crosstalk = {0.0, 0.0};  ///< Share of a neighbour's signal in a channel; 0.05 to 0.10.
+  Range effort = {1.0, 1.0};     ///< Recorded greatest effort over the true greatest effort; 0.8 to 1.
+  Range exponent = {1.0, 1.0};   ///< p: excitation = (rms / greatest rms)^p; 1 to 1.5.
+  /// Factor on Shwedyk's frequencies, which depend on the muscle fibers and on the tissue between
+  /// fibers and electrode; 0.6 to 1.2.
+  Range spectrum = {1.0, 1.0};
   /// Number of motor units at the electrode: few units make single spikes. 0: Gaussian noise; 250.
   double motor_units = 0.0;
   /// Bandwidth of the amplifier, fourth order; 0: beyond half the rate; 450.
@@ -162,7 +165,7 @@ struct TrialProtocol {
   std::string use = "calibration";  ///< Use in the study: calibration, validation, mvc, isometric, passive.
   Plane plane = Plane::vertical;
   double held_mass_kg = 0.0;
-  std::vector<double> co_contraction;  ///< Empty: ControlSpec's range.
+  std::optional<Range> co_contraction;  ///< Empty: ControlSpec's range.
 
   double frequency_hz = 0.5;
   double centre_rad = 1.2;

@@ -33,7 +33,7 @@ TEST(Protocol, ReadsAnglesInDegreesAndKeepsDefaults) {
                      "p.toml");
   EXPECT_EQ(protocol.name, "n");
   EXPECT_EQ(protocol.level, Level::noise_free);
-  EXPECT_EQ(protocol.truth.emg_delay_max_s, 0.05);
+  EXPECT_EQ(protocol.truth.emg_delay_s.upper, 0.05);
   EXPECT_EQ(protocol.motion.rate_hz, 100.0);
   ASSERT_EQ(protocol.trials.size(), 1U);
   EXPECT_DOUBLE_EQ(protocol.trials[0].centre_rad, 0.5 * kPi);
@@ -99,8 +99,8 @@ TEST(Protocol, TheLevelSaysWhatAbsentKeysStandFor) {
                                             "p.toml", Level::different);
   EXPECT_EQ(different.level, Level::different);
   EXPECT_EQ(different.emg.hum, 0.02);
-  EXPECT_EQ(different.emg.crosstalk_max, 0.0);
-  EXPECT_EQ(different.emg.exponent_max, 1.5);
+  EXPECT_EQ(different.emg.crosstalk.upper, 0.0);
+  EXPECT_EQ(different.emg.exponent.upper, 1.5);
   EXPECT_EQ(different.motion.misplacement_m, 0.005);
   EXPECT_EQ(different.sync.offset_sd_s, 0.008);
   EXPECT_TRUE(different.fatigue.on);

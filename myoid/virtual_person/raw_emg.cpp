@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 
 namespace myoid::twin {
@@ -79,23 +80,19 @@ Recursion sampled_recursion(const EmgSpectrum& spectrum, double rate_hz) {
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {
-        c[static_cast<std::size_t>(k)] += result.a[static_cast<std::size_t>(i)] *
-                                          result.a[static_cast<std::size_t>(j)] *
-                                          r[static_cast<std::size_t>(std::abs(k + i - j))] / r[0];
+        c[at(k)] += result.a[at(i)] * result.a[at(j)] * r[at(std::abs(k + i - j))] / r[0];
       }
     }
   }
   // Bauer: the rows of the Cholesky factor of its band matrix converge to the coefficients.
   constexpr int kRows = 5000;
   std::array<std::array<double, 4>, 4> rows = {};  // row n in rows[n % 4]; entry j: column n - j
-  const auto entry = [&rows](int n, int column) -> double& {
-    return rows[static_cast<std::size_t>(n % 4)][static_cast<std::size_t>(n - column)];
-  };
+  const auto entry = [&rows](int n, int column) -> double& { return rows[at(n % 4)][at(n - column)]; };
   for (int n = 0; n < kRows; ++n) {
-    rows[static_cast<std::size_t>(n % 4)] = {};
+    rows[at(n % 4)] = {};
     const int first = std::max(0, n - 3);
     for (int j = first; j <= n; ++j) {
-      double sum = c[static_cast<std::size_t>(n - j)];
+      double sum = c[at(n - j)];
       for (int m = first; m < j; ++m) sum -= entry(n, m) * entry(j, m);
       entry(n, j) = j < n ? sum / entry(j, j) : std::sqrt(sum);
     }
@@ -132,13 +129,6 @@ Eigen::VectorXd shaped_noise(const std::array<Section, N>& sections,
 
 }  // namespace
 
-double power(const EmgSpectrum& spectrum, double frequency_hz) {
-  const double f2 = frequency_hz * frequency_hz;
-  const double low2 = spectrum.low_hz * spectrum.low_hz;
-  const double high2 = spectrum.high_hz * spectrum.high_hz;
-  return f2 * high2 * high2 / ((f2 + low2) * (f2 + high2) * (f2 + high2));
-}
-
 Eigen::Index emg_lead(const EmgSpectrum& spectrum, double rate_hz) {
   return static_cast<Eigen::Index>(kSettle_timeconstants * rate_hz / (2.0 * kPi * spectrum.low_hz)) + 1;
 }
@@ -149,8 +139,7 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
                          Eigen::Index lead) {
   if (!(rate_hz > 4.0 * spectrum.high_hz)) {
     throw InvalidInput(
-        fmt::format("raw EMG at {} Hz cannot carry a spectrum that reaches beyond {} Hz; record at "
-                    "1000 Hz or more",
+        fmt::format("raw EMG at {} Hz cannot carry a spectrum that reaches beyond {} Hz; record at 1000 Hz or more",
                     rate_hz, 2.0 * spectrum.high_hz));
   }
   const Recursion filter = sampled_recursion(spectrum, rate_hz);
@@ -166,11 +155,6 @@ Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
     if (k >= lead) result(k - lead) = y;
   }
   return result;
-}
-
-Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum, double rate_hz, Eigen::Index count, math::Random& random) {
-  const Eigen::Index lead = emg_lead(spectrum, rate_hz);
-  return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
 }
 
 double discharges_hz(double motor_units, double excitation) {

@@ -13,20 +13,11 @@ struct EmgSpectrum {
   double high_hz = 120.0;  ///< f_h
 };
 
-/// Returns the spectrum at a frequency, not normalized.
-[[nodiscard]] double power(const EmgSpectrum& spectrum, double frequency_hz);
-
-/// Returns `count` samples of Gaussian noise of unit variance with this spectrum: the samples of H(s) = s f_h^2 / ((s +
-/// f_l) (s + f_h)^2), driven by white noise, with frequencies above half the rate folded back as by a converter. Each
-/// sample takes one normal number, through the recursion of third order that has these samples' autocovariance (its
-/// moving average by Bauer's factorization). Throws InvalidInput if the rate is not above 4 f_h.
-[[nodiscard]] Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum,
-                                        double rate_hz,
-                                        Eigen::Index count,
-                                        math::Random& random);
-
-/// Returns the same noise from given white innovations of unit variance. The first `lead`
-/// innovations settle the filter and give no sample; `emg_lead` returns a sufficient number.
+/// Returns noise of unit variance with this spectrum from white innovations of unit variance: the samples of H(s) = s
+/// f_h^2 / ((s + f_l) (s + f_h)^2), driven by white noise, with frequencies above half the rate folded back as by a
+/// converter. Each sample takes one innovation, through the recursion of third order that has these samples'
+/// autocovariance (its moving average by Bauer's factorization). The first `lead` innovations settle the filter and
+/// give no sample; `emg_lead` returns a sufficient number. Throws InvalidInput if the rate is not above 4 f_h.
 [[nodiscard]] Eigen::VectorXd emg_from(const EmgSpectrum& spectrum,
                                        double rate_hz,
                                        const Eigen::VectorXd& innovations,

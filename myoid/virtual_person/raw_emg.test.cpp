@@ -11,6 +11,20 @@
 namespace myoid::twin {
 namespace {
 
+/// Returns the spectrum at a frequency, not normalized.
+double power(const EmgSpectrum& spectrum, double frequency_hz) {
+  const double f2 = frequency_hz * frequency_hz;
+  const double low2 = spectrum.low_hz * spectrum.low_hz;
+  const double high2 = spectrum.high_hz * spectrum.high_hz;
+  return f2 * high2 * high2 / ((f2 + low2) * (f2 + high2) * (f2 + high2));
+}
+
+/// Returns Gaussian noise of this spectrum.
+Eigen::VectorXd emg_noise(const EmgSpectrum& spectrum, double rate_hz, Eigen::Index count, math::Random& random) {
+  const Eigen::Index lead = emg_lead(spectrum, rate_hz);
+  return emg_from(spectrum, rate_hz, random.normals(lead + count), lead);
+}
+
 /// Power per band of `width_hz` from 0 to half the rate: squared Fourier coefficients of segments of 1/width seconds
 /// (an independent, slow way: no filter of ours is involved), relative to their sum.
 std::vector<double> band_shares(const Eigen::VectorXd& x, double rate_hz, double width_hz) {

@@ -50,17 +50,17 @@ double surplus_nm(const ArmStepper& stepper) {
   return state.muscle_torque_nm - foreseen_nm;
 }
 
-/// Returns the fatigue of each muscle: the mean of its heads, weighted by their strength.
-PerMuscle fatigue_of_muscles(const TrueArm& arm, const Tiredness<7>& tiredness) {
-  PerMuscle fatigued = {};
+/// Returns the mean of each muscle's heads, weighted by their strength.
+PerMuscle mean_of_heads(const TrueArm& arm, const PerHead& values) {
+  PerMuscle mean = {};
   PerMuscle strength = {};
   for (std::size_t i = 0; i < kHeadCount; ++i) {
     const double force_n = arm.heads[i].parameters.hill.max_isometric_force_n;
-    fatigued[arm.heads[i].muscle] += force_n * tiredness.state[i].fatigued;
+    mean[arm.heads[i].muscle] += force_n * values[i];
     strength[arm.heads[i].muscle] += force_n;
   }
-  for (std::size_t m = 0; m < fatigued.size(); ++m) fatigued[m] /= strength[m];
-  return fatigued;
+  for (std::size_t m = 0; m < mean.size(); ++m) mean[m] /= strength[m];
+  return mean;
 }
 
 /// Returns the unintended drive: a factor about 1 for each muscle, on the clock of the samples.
@@ -77,11 +77,10 @@ std::array<Eigen::VectorXd, 4> motor_noise_of(double sd, Eigen::Index count, std
 /// Chooses the muscles' activations: the ones foreseen for the movement, corrected by the seen and felt errors.
 class Controller {
  public:
-  Controller(const TrueArm& arm, const TrialScript& script, const ArmStepper& stepper, const PerMuscle& effort)
+  Controller(const TrueArm& arm, const TrialScript& script, const ArmStepper& stepper)
       : arm_(arm),
         script_(script),
         stepper_(stepper),
-        effort_(effort),
         lead_s_(arm.delay_s + arm.activation.excitation_time_s + arm.activation.activation_time_s) {
     const double inertia_kgm2 = required_torque_nm(arm, 0.0, 1.0, script.protocol.plane, script.protocol.held_mass_kg);
     stiffness_ = inertia_kgm2 * kFeedback_radps * kFeedback_radps;
@@ -90,18 +89,10 @@ class Controller {
 
   /// Returns the command at time `t`. The first command knows no error yet.
   PerMuscle command(double t, bool first) {
-    return script_.against_dynamometer() ? prescribed(t) : corrected(t, first);
+    return script_.against_dynamometer() ? script_.prescribed_activations(t) : corrected(t, first);
   }
 
  private:
-  [[nodiscard]] PerMuscle prescribed(double t) const {
-    PerMuscle u = script_.prescribed_activations(t);
-    if (script_.protocol.kind == TrialKind::mvc) {
-      for (std::size_t m = 0; m < 4; ++m) u[m] *= effort_[m];
-    }
-    return u;
-  }
-
   PerMuscle corrected(double t, bool first) {
     // A command acts a little later, so the plan is that of the later time.
     const Plan later = plan_at(stepper_, arm_, script_, t + lead_s_);
@@ -120,7 +111,6 @@ class Controller {
   const TrueArm& arm_;
   const TrialScript& script_;
   const ArmStepper& stepper_;
-  const PerMuscle& effort_;
   double lead_s_;
   double stiffness_ = 0.0, viscosity_ = 0.0;
   double held_nm_ = 0.0;  ///< The integral part.
@@ -167,35 +157,19 @@ double foreseen_activation(const TrueArm& arm, const TrialScript& script) {
   return greatest;
 }
 
-SimulatedPerformance::SimulatedPerformance(const TrueArm& arm,
-                                           TrialScript script,
-                                           const PerMuscle& effort,
-                                           double motor_noise,
-                                           Tiredness<7>& tiredness,
-                                           std::uint64_t seed)
-    : Performance(std::move(script)), arm_(&arm), effort_(effort) {
+SimulatedPerformance::SimulatedPerformance(
+    const TrueArm& arm, TrialScript script, double motor_noise, Tiredness<7>& tiredness, std::uint64_t seed)
+    : Performance(std::move(script)), arm_(&arm) {
   simulate(motor_noise, tiredness, seed);
 }
 
-double SimulatedPerformance::sample_time_s(std::size_t k) const {
-  return static_cast<double>(k) * kSample_s - kBefore_s;
-}
-
 PerMuscle SimulatedPerformance::delayed_command(double t) const {
-  const double s = std::max(0.0, (t - arm_->delay_s + kBefore_s) / kSample_s);
-  const std::size_t last = samples_.size() - 1;
-  const std::size_t before = std::min(static_cast<std::size_t>(s), last);
-  const std::size_t after = std::min(before + 1, last);
-  const double share = s - static_cast<double>(before);
-  PerMuscle command;
-  for (std::size_t m = 0; m < 4; ++m)
-    command[m] = std::lerp(samples_[before].command[m], samples_[after].command[m], std::min(share, 1.0));
-  return command;
+  return interpolated(commands_, kSample_s, t - arm_->delay_s + kBefore_s);
 }
 
 void SimulatedPerformance::step_to_sample(std::size_t k, ArmStepper& stepper) const {
   for (int j = 1; j <= kStepsPerSample; ++j) {
-    const double now = sample_time_s(k - 1) + j * kStep_s;
+    const double now = samples_[k - 1].time_s + j * kStep_s;
     const PerHead u = excitation_of(*arm_, delayed_command(now));
     if (script().against_dynamometer()) {
       stepper.step_moved(u, script().motion(now));
@@ -206,10 +180,12 @@ void SimulatedPerformance::step_to_sample(std::size_t k, ArmStepper& stepper) co
 }
 
 void SimulatedPerformance::tire(std::size_t k, PerHead& worked, Tiredness<7>& tiredness, ArmStepper& stepper) {
-  if (!tiredness.rates || sample_time_s(k) < 0.0) return;
+  if (!tiredness.rates || samples_[k].time_s < 0.0) return;
   for (std::size_t i = 0; i < kHeadCount; ++i) worked[i] += samples_[k].arm.activation[i] / kSamplesPerFatigue;
   if (k % kSamplesPerFatigue != 0) return;
-  fatigued_.push_back(fatigue_of_muscles(*arm_, tiredness));
+  PerHead fatigued;
+  for (std::size_t i = 0; i < kHeadCount; ++i) fatigued[i] = tiredness.state[i].fatigued;
+  fatigued_.push_back(mean_of_heads(*arm_, fatigued));
   tiredness.work(worked, kSamplesPerFatigue * kSample_s);
   worked = {};
   stepper.set_strength(tiredness.strength());
@@ -222,34 +198,31 @@ void SimulatedPerformance::simulate(double motor_noise, Tiredness<7>& tiredness,
   stepper.set_strength(tiredness.strength());
   const auto count = static_cast<std::size_t>(std::ceil((kBefore_s + script.duration_s + kAfter_s) / kSample_s)) + 1;
   const std::array<Eigen::VectorXd, 4> noise = motor_noise_of(motor_noise, static_cast<Eigen::Index>(count), seed);
-  Controller controller(*arm_, script, stepper, effort_);
-  const auto command_at = [&](std::size_t k) {
-    PerMuscle u = controller.command(sample_time_s(k), k == 0);
+  Controller controller(*arm_, script, stepper);
+  const auto command = [&](double t, std::size_t k) {
+    PerMuscle& u = commands_.emplace_back(controller.command(t, k == 0));
     // Limits the excitation to 0..1; failure_of() finds a movement that needs more.
     for (std::size_t m = 0; m < 4; ++m) u[m] = std::clamp(u[m] * noise[m](static_cast<Eigen::Index>(k)), 0.0, 1.0);
-    return u;
   };
 
   samples_.reserve(count);
   PerHead worked = {};
   for (std::size_t k = 0; k < count; ++k) {
-    const double t = sample_time_s(k);
-    Sample sample;
+    const double t = static_cast<double>(k) * kSample_s - kBefore_s;
     if (k == 0) {
       stepper.start(surroundings, script.motion(t).value, {});
-      sample.command = command_at(0);
-      stepper.start(surroundings, script.motion(t).value, excitation_of(*arm_, sample.command));
-      sample.arm = stepper.state();
+      command(t, k);
+      stepper.start(surroundings, script.motion(t).value, excitation_of(*arm_, commands_.front()));
     } else {
       step_to_sample(k, stepper);
-      sample.arm = stepper.state();
-      sample.command = command_at(k);
+      command(t, k);
     }
-    sample.electrode = electrode_of(*arm_, sample.command);
-    samples_.push_back(sample);
-    samples_.back().excitation = excitation_of(*arm_, delayed_command(t));
+    samples_.push_back({.time_s = t,
+                        .arm = stepper.state(),
+                        .excitation = excitation_of(*arm_, delayed_command(t)),
+                        .electrode = electrode_of(*arm_, commands_.back())});
     tire(k, worked, tiredness, stepper);
-    if (!script.against_dynamometer()) failure_ = failure_of(sample.arm, script, t);
+    if (!script.against_dynamometer()) failure_ = failure_of(samples_.back().arm, script, t);
     if (!failure_.empty()) return;
   }
 }
@@ -293,12 +266,10 @@ std::optional<ArmState> SimulatedPerformance::heads(double time_s) const {
   if (at.share == 1.0) return b;
   ArmState now;
   now.q = motion(time_s);
-  for (std::size_t i = 0; i < kHeadCount; ++i) {
-    now.activation[i] = std::lerp(a.activation[i], b.activation[i], at.share);
-    now.fiber_length_m[i] = std::lerp(a.fiber_length_m[i], b.fiber_length_m[i], at.share);
-    now.fiber_velocity_mps[i] = std::lerp(a.fiber_velocity_mps[i], b.fiber_velocity_mps[i], at.share);
-    now.tendon_force_n[i] = std::lerp(a.tendon_force_n[i], b.tendon_force_n[i], at.share);
-  }
+  now.activation = lerp(a.activation, b.activation, at.share);
+  now.fiber_length_m = lerp(a.fiber_length_m, b.fiber_length_m, at.share);
+  now.fiber_velocity_mps = lerp(a.fiber_velocity_mps, b.fiber_velocity_mps, at.share);
+  now.tendon_force_n = lerp(a.tendon_force_n, b.tendon_force_n, at.share);
   now.muscle_torque_nm = std::lerp(a.muscle_torque_nm, b.muscle_torque_nm, at.share);
   now.passive_torque_nm = std::lerp(a.passive_torque_nm, b.passive_torque_nm, at.share);
   return now;
@@ -308,19 +279,9 @@ Instant SimulatedPerformance::at(double time_s) const {
   const ArmState now = *heads(time_s);
   Instant result;
   result.q = now.q;
-  PerMuscle strength = {};
-  for (std::size_t i = 0; i < kHeadCount; ++i) {
-    const TrueHead& head = arm_->heads[i];
-    const double force_n = head.parameters.hill.max_isometric_force_n;
-    strength[head.muscle] += force_n;
-    result.activation[head.muscle] += force_n * now.activation[i];
-    result.fiber_length_m[head.muscle] += force_n * now.fiber_length_m[i];
-    result.force_n[head.muscle] += now.tendon_force_n[i];
-  }
-  for (std::size_t m = 0; m < 4; ++m) {
-    result.activation[m] /= strength[m];
-    result.fiber_length_m[m] /= strength[m];
-  }
+  result.activation = mean_of_heads(*arm_, now.activation);
+  result.fiber_length_m = mean_of_heads(*arm_, now.fiber_length_m);
+  for (std::size_t i = 0; i < kHeadCount; ++i) result.force_n[arm_->heads[i].muscle] += now.tendon_force_n[i];
   result.muscle_torque_nm = now.muscle_torque_nm;
   result.passive_torque_nm = now.passive_torque_nm;
   if (script().against_dynamometer()) {
@@ -338,10 +299,7 @@ PerMuscle SimulatedPerformance::fatigued(double time_s) const {
 
 PerMuscle SimulatedPerformance::drive(double time_s) const {
   const Place at = place(time_s);
-  PerMuscle drive;
-  for (std::size_t m = 0; m < 4; ++m)
-    drive[m] = std::lerp(samples_[at.before].electrode[m], samples_[at.before + 1].electrode[m], at.share);
-  return drive;
+  return lerp(samples_[at.before].electrode, samples_[at.before + 1].electrode, at.share);
 }
 
 }  // namespace myoid::twin

@@ -207,6 +207,7 @@ PerMuscle TrialScript::prescribed_activations(double time_s) const {
     }
     a[kTriceps] += effort.flexion ? antagonist : agonist;
   }
+  for (std::size_t i = 0; protocol.kind == TrialKind::mvc && i < a.size(); ++i) a[i] *= mvc_effort[i];
   return a;
 }
 
@@ -220,9 +221,8 @@ TrialScript make_script(const TrialProtocol& trial, const ControlSpec& control, 
   TrialScript script;
   script.protocol = trial;
   math::Random uneven(math::seed_for(seed, "uneven." + trial.name));
-  const bool own_range = !trial.co_contraction.empty();
-  script.mean.co_contraction = random.uniform(own_range ? trial.co_contraction.front() : control.co_contraction_min,
-                                              own_range ? trial.co_contraction.back() : control.co_contraction_max);
+  const Range co_contraction = trial.co_contraction.value_or(control.co_contraction);
+  script.mean.co_contraction = random.uniform(co_contraction.lower, co_contraction.upper);
   script.co_contraction_change = {
       .depth = 0.5, .frequency_hz = random.uniform(0.07, 0.2), .phase_rad = random.uniform(0.0, 2.0 * kPi)};
   // About half of the variance of the flexors' proportions lies between trials (a place on a circle), half within.

@@ -41,10 +41,11 @@ struct TrialScript {
   Coordination mean;                  ///< Mean of the trial.
   Modulation brachioradialis_change;  ///< Its departure from 1 is added to the mean.
   Modulation brachialis_change;
-  Modulation co_contraction_change;  ///< Factor on the co-contraction.
-  bool eased = false;                ///< Coordination::eased.
-  double emg_gain_first = 1.0;       ///< EMG per excitation at the beginning.
-  double emg_gain_last = 1.0;        ///< EMG per excitation at the end; a straight line in between.
+  Modulation co_contraction_change;             ///< Factor on the co-contraction.
+  bool eased = false;                           ///< Coordination::eased.
+  PerMuscle mvc_effort = {1.0, 1.0, 1.0, 1.0};  ///< Share of the greatest activation that an MVC trial reaches.
+  double emg_gain_first = 1.0;                  ///< EMG per excitation at the beginning.
+  double emg_gain_last = 1.0;                   ///< EMG per excitation at the end; a straight line in between.
 
   /// Returns 1 at the beginning of a trial with a warm-up, fading to 0.05 at its end; else 0.
   [[nodiscard]] double cold(double time_s) const;

@@ -65,7 +65,7 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
          .reach = z(),
          .speed = z() + spec.offset,
          .moment_arm = z(),
-         .strain = random.uniform(spec.tendon_strain_min, spec.tendon_strain_max)};
+         .strain = random.uniform(spec.tendon_strain.lower, spec.tendon_strain.upper)};
   }
 
   const std::array<model::ArmHead, kHeadCount> published = model::arm7_heads(options);

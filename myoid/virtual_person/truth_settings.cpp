@@ -20,13 +20,12 @@ constexpr std::array<std::string_view, muscle::kHillFields.size()> hill_names() 
 constexpr std::array kHillNames = hill_names();
 
 /// Visits a setting [low, high].
-void range(SettingVisitor& v, std::string_view key, double& low, double& high, About about) {
-  std::vector<double> both = {low, high};
+void range(SettingVisitor& v, std::string_view key, Range& value, About about) {
+  std::vector<double> both = {value.lower, value.upper};
   about.count = 2;
   if (!v.numbers(key, both, about)) return;
   v.must(both[0] <= both[1], key, fmt::format("found [{:g}, {:g}], expected a range [low, high]", both[0], both[1]));
-  low = both[0];
-  high = both[1];
+  value = {both[0], both[1]};
 }
 
 void visit_person(TruthSpec& truth, SettingVisitor& v) {
@@ -36,14 +35,14 @@ void visit_person(TruthSpec& truth, SettingVisitor& v) {
       "offset", truth.offset,
       {.says = "Standard deviations of the priors by which the persons' mean is off.", .limits = within(-3.0, 3.0)});
   v.texts("vary", truth.vary,
-          {.says = "Parameters that differ from the literature (L0, L1). A table `[truth.BIC]` "
-                   "gives values of a single muscle.",
+          {.says = "Parameters that differ from the literature (L0, L1). A table `[truth.BIC]` gives values of a "
+                   "single muscle.",
            .otherwise = "F_max, l_m⁰, l_mˢʰ, V_sh, V_ml, P",
            .words = kHillNames});
   v.flag("beside_muscles", truth.beside_muscles,
-         {.says = "Draws the shift of the optimum with activation, the joint's own torque and the "
-                  "exponents of the EMG as a fit expects them (L0, L1); otherwise there are none."});
-  range(v, "emg_delay_s", truth.emg_delay_min_s, truth.emg_delay_max_s,
+         {.says = "Draws the shift of the optimum with activation, the joint's own torque and the exponents of the EMG "
+                  "as a fit expects them (L0, L1); otherwise there are none."});
+  range(v, "emg_delay_s", truth.emg_delay_s,
         {.says = "Range of the electromechanical delay, within 0 to 0.2 s (L0, L1).", .limits = within(0.0, 0.2, "s")});
   v.number("inertia_sd", truth.inertia_sd,
            {.says = "Relative error of the model's inertia and weight (L2).", .limits = within(0.0, 0.3)});
@@ -51,17 +50,16 @@ void visit_person(TruthSpec& truth, SettingVisitor& v) {
 
 void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
   v.number("emg_exponent", sensors.emg_exponent,
-           {.says = "p of every muscle, excitation = amplitude^p, in place of the range `exponent` "
-                    "of `[emg]`.",
+           {.says = "p of every muscle, excitation = amplitude^p, in place of the range `exponent` of `[emg]`.",
             .limits = within(0.3, 3.0),
             .otherwise = "`exponent` of `[emg]`"});
-  v.number("crosstalk", sensors.crosstalk,
-           {.says = "Share of every other channel's raw EMG in each channel, beside the neighbors' "
-                    "`crosstalk` of `[emg]`.",
-            .limits = within(0.0, 0.5)});
+  v.number(
+      "crosstalk", sensors.crosstalk,
+      {.says = "Share of every other channel's raw EMG in each channel, beside the neighbors' `crosstalk` of `[emg]`.",
+       .limits = within(0.0, 0.5)});
   v.number("emg_gain_drift", sensors.emg_gain_drift,
-           {.says = "Relative growth of the EMG per excitation from the first to the last minute "
-                    "of the session, rests included.",
+           {.says = "Relative growth of the EMG per excitation from the first to the last minute of the session, rests "
+                    "included.",
             .limits = within(-0.5, 2.0)});
   v.flag("emg_noise", sensors.emg_noise,
          {.says = "The amplitudes of the EMG wander at random and tell nothing of the muscles."});
@@ -70,18 +68,6 @@ void visit_sensors(SensorTruth& sensors, SettingVisitor& v) {
   v.number("torque_offset_nm", sensors.torque_offset_nm,
            {.says = "The offset of the above.", .limits = within(-20.0, 20.0, "N m")});
 }
-
-/// Collects the rows of the reference in the notation of a file.
-class FileRows : public FlatSettingVisitor {
- public:
-  std::vector<SettingRow> rows;
-
- protected:
-  bool met(const Setting& setting, const SettingValue& now, const Set& /*set*/) override {
-    rows.push_back(setting_row(setting, now, SettingNotation::file));
-    return false;
-  }
-};
 
 std::string text_of(const SettingValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "1" : "0";
@@ -113,22 +99,20 @@ std::vector<WorldSetting> world_of(TruthSpec truth) {
 
 void visit_world(TruthSpec& truth, SettingVisitor& v) {
   v.text("curves", truth.curves,
-         {.says = "Curves of active force over length and velocity. `any`: De Groote's or "
-                  "Millard's by chance.",
+         {.says = "Curves of active force over length and velocity. `any`: De Groote's or Millard's by chance.",
           .otherwise = "`\"paper\"`; L2 `\"any\"`",
           .words = kCurves});
-  range(v, "tendon_strain", truth.tendon_strain_min, truth.tendon_strain_max,
+  range(v, "tendon_strain", truth.tendon_strain,
         {.says = "Range of the tendons' strain at F_max, within 0.005 to 0.15.",
          .limits = within(0.005, 0.15),
          .otherwise = "rigid; L2 `[0.03, 0.06]`"});
   v.number("moment_arm_sd", truth.moment_arm_sd,
-           {.says = "Relative error of the model's moment arms, a factor of each muscle. The "
-                    "muscle's length follows.",
+           {.says = "Relative error of the model's moment arms, a factor of each muscle. The muscle's length follows.",
             .limits = within(0.0, 0.3),
             .otherwise = "0; L2 0.1"});
   v.number("moment_arm_slope_sd", truth.moment_arm_slope_sd,
-           {.says = "Relative error of the moment arms per radian from the angle at which the "
-                    "muscle is optimal; of each muscle.",
+           {.says = "Relative error of the moment arms per radian from the angle at which the muscle is optimal; of "
+                    "each muscle.",
             .limits = within(0.0, 0.3, "1/rad")});
   visit_sensors(truth.sensors, v);
 }
@@ -140,7 +124,7 @@ void visit(TruthSpec& truth, SettingVisitor& v) {
 
 SettingTable truth_reference() {
   TruthSpec usual = default_protocol(Level::noisy).truth;
-  FileRows rows;
+  OptionRows rows(SettingNotation::file);
   visit(usual, rows);
   return {"[truth]", "The person, and the world where it is other than the identification believes.", rows.rows};
 }

@@ -39,7 +39,7 @@ TEST(TruthSettings, OptionsTakeThePlaceOfTheFilesKeys) {
   EXPECT_EQ(protocol.truth.spread, 0.5);
   EXPECT_EQ(protocol.truth.moment_arm_sd, 0.2);
   EXPECT_EQ(protocol.truth.curves, "millard");
-  EXPECT_EQ(protocol.truth.tendon_strain_max, 0.08);
+  EXPECT_EQ(protocol.truth.tendon_strain.upper, 0.08);
   EXPECT_TRUE(protocol.truth.sensors.emg_noise);
   EXPECT_EQ(protocol.truth.values.at("BIC").at("optimal_fiber_length"), 0.1);
 }

@@ -1,11 +1,8 @@
 #include "myoid/virtual_person/virtual_arm.h"
 
 #include <cmath>
-#include <utility>
 
 #include "myoid/arm/arm4.h"
-#include "myoid/arm/arm7.h"
-#include "myoid/arm/planar_elbow.h"
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_reader.h"
@@ -41,52 +38,41 @@ model::ArmOptions arm_options(const VirtualSubject& subject) {
           .forearm_length_m = subject.forearm_length_m};
 }
 
-struct VirtualArm::Parts {
-  model::PlanarElbow elbow;
-  HillSet literature;
-  std::string osim;
-  Vec3 held_at_m = Vec3::Zero();
-  model::BodyModel body_model;
-  std::vector<std::string> marker_names;
-  int elbow_coordinate = 0;
-  std::vector<model::ArmHead> heads;  ///< Heads of the model file; empty: four muscles.
-};
+VirtualArm::VirtualArm(const VirtualSubject& subject, bool seven_heads) {
+  const model::ArmOptions person = arm_options(subject);
+  elbow = model::planar_elbow(person);
+  literature = model::arm4_muscles(person);
+  osim = seven_heads ? model::arm7_osim({.person = person}) : model::arm4_osim({.person = person});
+  body_model = model::parse_osim(osim, "model.osim");
+  held_at_m = model::arm4_held_at_m(person);
+  if (!seven_heads) return;
+  const auto seven = model::arm7_heads(person);
+  heads.assign(seven.begin(), seven.end());
+  lump(heads, literature);
+}
 
-VirtualArm::VirtualArm(const VirtualSubject& subject, bool heads) : parts_(std::make_unique<Parts>()) {
-  const model::ArmOptions arm = arm_options(subject);
-  parts_->elbow = model::planar_elbow(arm);
-  parts_->literature = model::arm4_muscles(arm);
-  parts_->osim = heads ? model::arm7_osim({.person = arm}) : model::arm4_osim({.person = arm});
-  if (heads) {
-    const auto seven = model::arm7_heads(arm);
-    parts_->heads.assign(seven.begin(), seven.end());
-    lump(parts_->heads, parts_->literature);
-  }
-  parts_->held_at_m = model::arm4_held_at_m(arm);
-  // Read back from its own text, so that the markers are those of the recording's file.
-  parts_->body_model = model::parse_osim(parts_->osim, "model.osim");
-  parts_->elbow_coordinate = parts_->body_model.coordinate_index("elbow_flexion");
-  for (const model::Marker& marker : parts_->body_model.markers) {
-    parts_->marker_names.push_back(marker.name);
-  }
+std::vector<std::string> VirtualArm::marker_names() const {
+  std::vector<std::string> names;
+  for (const model::Marker& marker : body_model.markers) names.push_back(marker.name);
+  return names;
 }
 
 std::vector<MarkerSegment> VirtualArm::marker_segments() const {
   std::vector<MarkerSegment> segments;
-  for (const model::Marker& marker : parts_->body_model.markers) {
-    const std::string& body = parts_->body_model.bodies[static_cast<std::size_t>(marker.body)].name;
-    segments.push_back(body == "forearm_hand" ? MarkerSegment::forearm
-                       : body == "upper_arm"  ? MarkerSegment::upper_arm
-                                              : MarkerSegment::trunk);
+  for (const model::Marker& marker : body_model.markers) {
+    const std::string& body = body_model.bodies[static_cast<std::size_t>(marker.body)].name;
+    segments.push_back(body == kHeldBody     ? MarkerSegment::forearm
+                       : body == "upper_arm" ? MarkerSegment::upper_arm
+                                             : MarkerSegment::trunk);
   }
   return segments;
 }
 
 model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle, double elbow_flexion_rad) const {
-  if (parts_->heads.empty()) return model::travel(parts_->elbow.muscles[muscle], elbow_flexion_rad);
+  if (heads.empty()) return model::travel(elbow.muscles[muscle], elbow_flexion_rad);
   model::MuscleTravel mean;
   double strength_n = 0.0;
-  for (const model::ArmHead& head : parts_->heads) {
+  for (const model::ArmHead& head : heads) {
     if (static_cast<std::size_t>(head.lump) != muscle) continue;
     const model::MuscleTravel now = model::travel(head.path, elbow_flexion_rad);
     const double force_n = head.hill.max_isometric_force_n;
@@ -97,10 +83,6 @@ model::MuscleTravel VirtualArm::modelled_travel(std::size_t muscle, double elbow
   }
   return {mean.length_m / strength_n, mean.moment_arm_m / strength_n, mean.moment_arm_slope_mprad / strength_n};
 }
-
-VirtualArm::~VirtualArm() = default;
-VirtualArm::VirtualArm(VirtualArm&&) noexcept = default;
-VirtualArm& VirtualArm::operator=(VirtualArm&&) noexcept = default;
 
 MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths, const Moment& elbow_flexion_rad) {
   MuscleGeometry result;
@@ -113,40 +95,26 @@ MuscleGeometry geometry_of(const std::array<model::PlanarMuscle, 4>& paths, cons
   return result;
 }
 
-const std::array<model::PlanarMuscle, 4>& VirtualArm::paths() const { return parts_->elbow.muscles; }
-
-MuscleGeometry VirtualArm::geometry(const Moment& elbow_flexion_rad) const {
-  return geometry_of(paths(), elbow_flexion_rad);
-}
-
 double VirtualArm::required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const {
-  return model::required_torque_nm(parts_->elbow, elbow_flexion_rad.value, elbow_flexion_rad.second,
+  return model::required_torque_nm(elbow, elbow_flexion_rad.value, elbow_flexion_rad.second,
                                    plane == Plane::vertical ? kStandardGravity : 0.0, held_mass_kg);
 }
-
-const std::string& VirtualArm::osim() const { return parts_->osim; }
-const HillSet& VirtualArm::literature() const { return parts_->literature; }
-const std::vector<std::string>& VirtualArm::marker_names() const { return parts_->marker_names; }
-const std::string& VirtualArm::held_body() const {
-  static const std::string kBody = "forearm_hand";
-  return kBody;
-}
-Vec3 VirtualArm::held_at_m() const { return parts_->held_at_m; }
 
 Eigen::MatrixXd VirtualArm::markers_m(const Eigen::Ref<const Eigen::VectorXd>& elbow_flexion_rad,
                                       Plane plane,
                                       const std::vector<MarkerError>& errors) const {
-  const model::BodyModel& arm = parts_->body_model;
+  const model::BodyModel& arm = body_model;
   model::BodyState state = model::make_state(arm);
   Eigen::VectorXd q = arm.default_q();
   const Vec3 shoulder_rad = model::arm4_shoulder_rad(plane == Plane::horizontal);
+  const int elbow_coordinate = arm.coordinate_index("elbow_flexion");
   q(arm.coordinate_index("shoulder_flexion")) = shoulder_rad.x();
   q(arm.coordinate_index("shoulder_adduction")) = shoulder_rad.y();
   q(arm.coordinate_index("shoulder_rotation")) = shoulder_rad.z();
 
   Eigen::MatrixXd result(elbow_flexion_rad.size(), 3 * static_cast<Eigen::Index>(arm.markers.size()));
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    q(parts_->elbow_coordinate) = elbow_flexion_rad(k);
+    q(elbow_coordinate) = elbow_flexion_rad(k);
     model::compute_poses(arm, q, state);
     Eigen::Index column = 0;
     for (const model::Marker& marker : arm.markers) {

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "myoid/arm/planar_elbow.h"
+#include "myoid/arm/arm7.h"
 #include "myoid/core/geometry.h"
+#include "myoid/model/body_model.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/virtual_person/control.h"
 #include "myoid/virtual_person/protocol.h"
@@ -42,27 +43,30 @@ struct MarkerError {
 
 enum class MarkerSegment { trunk, upper_arm, forearm };
 
+/// The body of the model file that holds the mass in the hand.
+inline constexpr std::string_view kHeldBody = "forearm_hand";
+
 /// The skeleton of one virtual subject: the built-in arm with the subject's segments. Muscle
 /// parameters are separate, because they are drawn.
-class VirtualArm {
- public:
-  /// Builds the arm. `heads`: the model file has seven heads instead of four muscles.
-  explicit VirtualArm(const VirtualSubject& subject, bool heads = false);
-  ~VirtualArm();
-  VirtualArm(VirtualArm&&) noexcept;
-  VirtualArm& operator=(VirtualArm&&) noexcept;
+struct VirtualArm {
+  /// Builds the arm. `seven_heads`: the model file has seven heads instead of four muscles.
+  explicit VirtualArm(const VirtualSubject& subject, bool seven_heads = false);
 
-  [[nodiscard]] const std::array<model::PlanarMuscle, 4>& paths() const;
-  [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const;
+  model::PlanarElbow elbow;
+  HillSet literature;
+  std::string osim;                   ///< Text of the subject's model file with the literature's muscle parameters.
+  model::BodyModel body_model;        ///< Read from this text, so that the markers are those of the file.
+  std::vector<model::ArmHead> heads;  ///< Heads of the model file; empty: four muscles.
+  Vec3 held_at_m = Vec3::Zero();      ///< Place of the held mass in `kHeldBody`.
+
+  [[nodiscard]] MuscleGeometry geometry(const Moment& elbow_flexion_rad) const {
+    return geometry_of(elbow.muscles, elbow_flexion_rad);
+  }
 
   /// Returns the torque about the elbow that the motion requires of muscles and dynamometer together [N m].
   [[nodiscard]] double required_torque_nm(const Moment& elbow_flexion_rad, Plane plane, double held_mass_kg) const;
 
-  /// Returns the model file of this subject with the literature's muscle parameters.
-  [[nodiscard]] const std::string& osim() const;
-  [[nodiscard]] const HillSet& literature() const;
-
-  [[nodiscard]] const std::vector<std::string>& marker_names() const;
+  [[nodiscard]] std::vector<std::string> marker_names() const;
   [[nodiscard]] std::vector<MarkerSegment> marker_segments() const;
   /// Returns positions in ground: a row per angle, x y z of one marker after the other [m].
   /// `errors`: empty, or one per marker.
@@ -72,13 +76,6 @@ class VirtualArm {
 
   /// Returns the muscle's path in the model file; for heads, the mean by the literature's F_max.
   [[nodiscard]] model::MuscleTravel modelled_travel(std::size_t muscle, double elbow_flexion_rad) const;
-
-  [[nodiscard]] const std::string& held_body() const;
-  [[nodiscard]] Vec3 held_at_m() const;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace myoid::twin

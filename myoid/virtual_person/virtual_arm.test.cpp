@@ -11,7 +11,7 @@ namespace myoid::twin {
 namespace {
 
 Vec3 marker_m(const VirtualArm& arm, const Eigen::MatrixXd& markers, const std::string& name) {
-  const auto& names = arm.marker_names();
+  const auto names = arm.marker_names();
   const auto at = std::find(names.begin(), names.end(), name) - names.begin();
   return markers.block<1, 3>(0, 3 * at).transpose();
 }

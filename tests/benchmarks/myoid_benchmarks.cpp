@@ -73,7 +73,7 @@ BENCHMARK(read_model)->Unit(benchmark::kMicrosecond);
 /// Items per second are frames per second, here and below.
 void inverse_kinematics(benchmark::State& state) {
   const twin::VirtualArm virtual_arm{twin::VirtualSubject{}};
-  const model::BodyModel model = model::parse_osim(virtual_arm.osim(), "arm.osim");
+  const model::BodyModel model = model::parse_osim(virtual_arm.osim, "arm.osim");
   const TimeSeries motion = elbow_motion();
   const recording::MarkerSeries markers{
       .time_s = motion.time_s(),

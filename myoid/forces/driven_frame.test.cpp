@@ -1,4 +1,4 @@
-#include "myoid/forces/joint_reaction.h"
+#include "myoid/forces/driven_frame.h"
 
 #include <cmath>
 
