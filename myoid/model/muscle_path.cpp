@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "myoid/core/index.h"
-#include "myoid/model/opensim_defects/path_opensim.h"
-#include "myoid/model/path_exact.h"
 
 namespace myoid::model {
 namespace {

@@ -162,10 +162,8 @@ void add_contact_motion(const BodyModel& model,
     const auto add = [&](const PathStation& end, const Vec3& by_end_W) {
       const Vec3 by_end_G = s.X_GW.R * by_end_W;
       add_pair_moment(model, state, tangent.body, end.p_G, end.body, end.p_G, by_end_G, arm);
-      if (end.source < 0) return;
-      const PathPoint& point = path.points[at(end.source)];
-      if (point.moving && point.moving->coordinate >= 0)
-        arm[point.moving->coordinate] -= by_end_G.dot(moving_rate(model, point, state, false));
+      if (const PathPoint* point = moving_point(path, end))
+        arm[point->moving->coordinate] -= by_end_G.dot(moving_rate(model, *point, state, false));
     };
     add(stations[s.station - 1], s.effect.head<3>());
     add(stations[s.station + 2], s.effect.tail<3>());

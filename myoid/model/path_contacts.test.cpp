@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/path_exact.h"
+#include "myoid/model/path_stations.h"
 
 namespace myoid::model {
 namespace {

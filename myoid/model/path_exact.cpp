@@ -1,5 +1,3 @@
-#include "myoid/model/path_exact.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

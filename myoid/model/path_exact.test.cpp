@@ -1,10 +1,9 @@
-#include "myoid/model/path_exact.h"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "myoid/model/path_stations.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/osim/osim_reader.h"
 

@@ -94,9 +94,14 @@ void add_pair_moment(const BodyModel& model,
   }
 }
 
+const PathPoint* moving_point(const MusclePath& path, const PathStation& station) {
+  if (station.source < 0) return nullptr;
+  const PathPoint& point = path.points[at(station.source)];
+  return point.moving && point.moving->coordinate >= 0 ? &point : nullptr;
+}
+
 Vec3 moving_rate(const BodyModel& model, const PathPoint& point, const BodyState& state, bool beyond_range) {
   const PathPoint::Moving& moving = *point.moving;
-  if (moving.coordinate < 0) return Vec3::Zero();
   const Coordinate& coordinate = model.coordinates[at(moving.coordinate)];
   const double q = state.q[moving.coordinate];
   if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) return Vec3::Zero();
@@ -138,11 +143,8 @@ void add_moving_moments(const BodyModel& model,
                         bool beyond_range,
                         Eigen::VectorXd& arm) {
   const auto add = [&](const PathStation& s, double sign) {
-    if (s.source < 0) return;
-    const PathPoint& point = path.points[at(s.source)];
-    if (point.moving && point.moving->coordinate >= 0) {
-      arm[point.moving->coordinate] -= sign * u.dot(moving_rate(model, point, state, beyond_range));
-    }
+    if (const PathPoint* point = moving_point(path, s))
+      arm[point->moving->coordinate] -= sign * u.dot(moving_rate(model, *point, state, beyond_range));
   };
   add(b, 1.0);
   add(a, -1.0);

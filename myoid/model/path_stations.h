@@ -41,6 +41,20 @@ struct PathResult {
   bool settled = true;
 };
 
+/// Computes a path by the geometry of the model: continuous length, r = -dl/dq.
+void compute_exact_path(const BodyModel& model,
+                        const MusclePath& path,
+                        const BodyState& state,
+                        PathWorkspace& workspace,
+                        PathResult& result);
+
+/// Computes a path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches on.
+void compute_opensim_path(const BodyModel& model,
+                          const MusclePath& path,
+                          const BodyState& state,
+                          PathWorkspace& workspace,
+                          PathResult& result);
+
 /// Fills the stations of a path without wrap objects, the first step of all computations of a path.
 void place_points(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace);
 
@@ -80,7 +94,10 @@ void add_pair_moment(const BodyModel& model,
 /// Inserts two stations behind a station.
 void insert_behind(std::vector<PathStation>& stations, int station, const std::array<PathStation, 2>& contact);
 
-/// Returns the derivative of a moving point's location by its coordinate, in ground.
+/// Returns the moving point at a station, if a coordinate moves it; null at other stations.
+[[nodiscard]] const PathPoint* moving_point(const MusclePath& path, const PathStation& station);
+
+/// Returns the derivative of such a point's location by its coordinate, in ground.
 /// `beyond_range`: nonzero also outside the coordinate's range, as in OpenSim.
 [[nodiscard]] Vec3 moving_rate(const BodyModel& model,
                                const PathPoint& point,

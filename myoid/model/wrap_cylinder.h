@@ -23,10 +23,4 @@ template <typename T>
                                                         const Vector3<T>& p_W,
                                                         const Vector3<T>& q_W);
 
-extern template std::optional<WrapContact> wrap_cylinder(const CylinderShape&, Quadrant, const Vec3&, const Vec3&);
-extern template std::optional<ContactOf<Jet6>> wrap_cylinder(const CylinderShape&,
-                                                             Quadrant,
-                                                             const Vector3<Jet6>&,
-                                                             const Vector3<Jet6>&);
-
 }  // namespace myoid::model

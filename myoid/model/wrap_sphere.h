@@ -18,10 +18,4 @@ template <typename T>
                                                       const Vector3<T>& p_W,
                                                       const Vector3<T>& q_W);
 
-extern template std::optional<WrapContact> wrap_sphere(const SphereShape&, Quadrant, const Vec3&, const Vec3&);
-extern template std::optional<ContactOf<Jet6>> wrap_sphere(const SphereShape&,
-                                                           Quadrant,
-                                                           const Vector3<Jet6>&,
-                                                           const Vector3<Jet6>&);
-
 }  // namespace myoid::model

@@ -25,10 +25,4 @@ template <typename T>
                                              const Vec3& p_W,
                                              const Vec3& q_W);
 
-extern template std::optional<WrapContact> wrap_torus(const TorusShape&, Quadrant, const Vec3&, const Vec3&);
-extern template std::optional<ContactOf<Jet6>> wrap_torus(const TorusShape&,
-                                                          Quadrant,
-                                                          const Vector3<Jet6>&,
-                                                          const Vector3<Jet6>&);
-
 }  // namespace myoid::model

@@ -1,10 +1,9 @@
-#include "myoid/model/opensim_defects/path_opensim.h"
-
 #include <cmath>
 #include <limits>
 
 #include "myoid/core/index.h"
 #include "myoid/model/opensim_defects/wrap_opensim.h"
+#include "myoid/model/path_stations.h"
 
 namespace myoid::model {
 namespace {
@@ -121,10 +120,8 @@ class Wrapping {
 Vec3 velocity(const BodyModel& model, const MusclePath& path, const BodyState& state, const PathStation& s) {
   const std::size_t b = at(s.body);
   Vec3 v = state.v_GB[b] + state.w_GB[b].cross(state.X_GB[b].R * s.p_B);
-  if (s.source < 0) return v;
-  const PathPoint& point = path.points[at(s.source)];
-  if (point.moving && point.moving->coordinate >= 0)
-    v += state.qdot[point.moving->coordinate] * moving_rate(model, point, state, true);
+  if (const PathPoint* point = moving_point(path, s))
+    v += state.qdot[point->moving->coordinate] * moving_rate(model, *point, state, true);
   return v;
 }
 
