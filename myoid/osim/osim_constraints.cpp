@@ -1,11 +1,10 @@
-#include "myoid/osim/osim_constraints.h"
-
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/osim/osim_functions.h"
+#include "myoid/core/index.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -18,10 +17,10 @@ void read_function_constraint(OsimReading& r,
   auto function =
       multi_function_property(r, node, "coupled_coordinates_function", static_cast<int>(independent.size()));
   if (!function) {
-    r.model.unsupported.push_back(
-        fmt::format("constraint '{}' couples {} independent coordinates by another function than a "
-                    "LinearFunction or a MultivariatePolynomialFunction; it is not enforced",
-                    name, independent.size()));
+    r.leave_out(
+        "constraint '{}' couples {} independent coordinates by another function than a LinearFunction or a "
+        "MultivariatePolynomialFunction; it is not enforced",
+        name, independent.size());
     return;
   }
   FunctionConstraint law;
@@ -29,7 +28,7 @@ void read_function_constraint(OsimReading& r,
   for (const std::string& coordinate : independent) {
     law.independent.push_back(coordinate_named(r, node, coordinate));
     if (law.independent.back() == law.dependent)
-      r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+      r.xml.fail(node, "constraint '{}' couples a coordinate with itself", name);
   }
   law.function = *std::move(function);
   law.function.scale *= r.xml.number(node, "scale_factor", 1.0);
@@ -43,9 +42,8 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   const std::size_t listed = r.model.unsupported.size();
   const auto function = function_property(r, node, "coupled_coordinates_function");
   if (independent.size() != 1 || !function || r.model.unsupported.size() > listed) {
-    r.model.unsupported.push_back(
-        fmt::format("constraint '{}' couples {} independent coordinates{}; it is not enforced", name,
-                    independent.size(), function ? "" : " by no function"));
+    r.leave_out("constraint '{}' couples {} independent coordinates{}; it is not enforced", name, independent.size(),
+                function ? "" : " by no function");
     return;
   }
   CoordinateCoupler coupler;
@@ -55,11 +53,11 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   coupler.function = *function;
   coupler.function.scale *= r.xml.number(node, "scale_factor", 1.0);
   if (coupler.independent == coupler.dependent)
-    r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+    r.xml.fail(node, "constraint '{}' couples a coordinate with itself", name);
   for (const CoordinateCoupler& other : r.model.couplers) {
     if (other.dependent == coupler.dependent) {
-      r.xml.fail(node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
-                                   r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
+      r.xml.fail(node, "constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
+                 r.model.coordinates[at(coupler.dependent)].name);
     }
   }
   r.model.couplers.push_back(std::move(coupler));
@@ -106,7 +104,7 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
                         line.X_BF * r.xml.vec3(node, "point_on_line", Vec3::Zero()),
                         follower.X_BF * r.xml.vec3(node, "point_on_follower", Vec3::Zero())}});
   } else {
-    r.model.unsupported.push_back(fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
+    r.leave_out("constraint '{}' of kind {} is not enforced", name, kind);
   }
 }
 

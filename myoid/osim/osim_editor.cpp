@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
+#include "myoid/osim/osim_update_parts.h"
 
 namespace myoid::model {
 namespace {
 
 void set_text(pugi::xml_node object, const char* name, const std::string& text) {
-  auto child = object.child(name);
-  if (!child) child = object.append_child(name);
-  child.text().set(text.c_str());
+  child_or_new(object, name).text().set(text.c_str());
 }
 
 void set_vec3(pugi::xml_node object, const char* name, const Vec3& v) {
@@ -89,15 +89,9 @@ std::string OsimEditor::text() const {
   return stream.str();
 }
 
-void OsimEditor::set_name(const std::string& name) {
-  auto attribute = model_.attribute("name");
-  if (!attribute) attribute = model_.append_attribute("name");
-  attribute = name.c_str();
-}
+void OsimEditor::set_name(const std::string& name) { set_attribute(model_, "name", name); }
 
-pugi::xml_node OsimEditor::marker_set() const {
-  return skeleton_.child("MarkerSet") ? skeleton_.child("MarkerSet") : model_.child("MarkerSet");
-}
+pugi::xml_node OsimEditor::marker_set() const { return set_of(skeleton_, model_, "MarkerSet"); }
 
 pugi::xml_node OsimEditor::marker(const std::string& name) const {
   for (const auto node : OsimXml::objects(marker_set())) {
@@ -114,22 +108,21 @@ void OsimEditor::add_markers(const std::filesystem::path& file) {
   source.set_prototypes(set.child("defaults"));
   auto own = marker_set();
   if (!own) own = skeleton_.append_child("MarkerSet");
-  auto objects = own.child("objects");
-  if (!objects) objects = own.append_child("objects");
+  auto objects = child_or_new(own, "objects");
   const OsimReading reading{source, {}, {}, {}};
   for (const auto node : OsimXml::objects(set)) {
     if (std::string_view(node.name()) != "Marker") continue;
     const std::string name = OsimXml::name_of(node);
     if (const auto old = marker(name)) objects.remove_child(old);
     std::string body = socket(reading, node, "parent_frame", "body");
-    if (body.empty()) source.fail(node, fmt::format("marker '{}' is on no body", name));
+    if (body.empty()) source.fail(node, "marker '{}' is on no body", name);
     auto added = objects.append_child("Marker");
     added.append_attribute("name") = name.c_str();
     if (reading_->is_old()) {
       if (const auto slash = body.rfind('/'); slash != std::string::npos) body.erase(0, slash + 1);
       set_text(added, "body", body);
     } else {
-      if (body.find('/') == std::string::npos) body = body == "ground" ? "/ground" : "/bodyset/" + body;
+      if (body.find('/') == std::string::npos) body = body_path(body);
       set_text(added, "socket_parent_frame", body);
     }
     (void)resolve_frame(*reading_, node, body, "");
@@ -169,7 +162,7 @@ std::string OsimEditor::marker_set_text() const {
 }
 
 Vec3 OsimEditor::factor_of(const Factors& factors, BodyIndex body) const {
-  const auto it = factors.find(reading_->model.bodies[static_cast<std::size_t>(body)].name);
+  const auto it = factors.find(reading_->model.bodies[at(body)].name);
   return it == factors.end() ? Vec3(Vec3::Ones()) : it->second;
 }
 
@@ -215,9 +208,7 @@ void OsimEditor::scale_joint(pugi::xml_node joint, const Vec3& parent, const Vec
 void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
   const std::string owner = "/forceset/" + OsimXml::name_of(force);
   const auto scale_path = [&](pugi::xml_node path) {
-    auto points = path.child("PathPointSet");
-    if (!points) points = path.child("MusclePointSet");
-    for (const auto point : OsimXml::objects(points)) {
+    for (const auto point : OsimXml::objects(either_child(path, "PathPointSet", "MusclePointSet"))) {
       const FixedFrame frame = frame_of(*reading_, point, "parent_frame", owner);
       const Vec3 factor = factor_of(factors, frame.body);
       multiply(xml_, point, "location", factor);
@@ -247,18 +238,17 @@ void OsimEditor::scale_geometry(const Factors& factors) {
     const FixedFrame frame = frame_of(*reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
     multiply(xml_, node, "location", factor_of(factors, frame.body));
   }
-  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
-  for (const auto force : OsimXml::objects(forces)) scale_points(force, factors);
+  for (const auto force : OsimXml::objects(either_child(model_, "ForceSet", "ActuatorSet")))
+    scale_points(force, factors);
   for (const auto& [joint, owner] : components_of(skeleton_, "JointSet", "Joint")) {
     scale_joint(joint, factor_of(factors, frame_of(*reading_, joint, "parent_frame", owner).body),
                 factor_of(factors, frame_of(*reading_, joint, "child_frame", owner).body));
   }
   std::vector<std::pair<pugi::xml_node, Vec3>> frames;
   for (const auto& [path, frame] : reading_->frames) {
-    const BodyIndex body = resolve_frame(*reading_, frame.node, path, "").body;
     const FixedFrame own = resolve_frame(*reading_, frame.node, path, "");
-    frames.emplace_back(frame.node, factor_of(factors, body));
-    scale_wraps(frame.node, own, factor_of(factors, body));
+    frames.emplace_back(frame.node, factor_of(factors, own.body));
+    scale_wraps(frame.node, own, factor_of(factors, own.body));
   }
   for (const auto& [node, factor] : frames) {
     multiply(xml_, node, "translation", factor);
@@ -279,9 +269,7 @@ void OsimEditor::scale_geometry(const Factors& factors) {
     multiply(xml_, joint, "location_in_child", factor);
     scale_joint(joint, factor_of(factors, parent), factor);
   }
-  const auto constraints =
-      skeleton_.child("ConstraintSet") ? skeleton_.child("ConstraintSet") : model_.child("ConstraintSet");
-  for (const auto node : OsimXml::objects(constraints)) {
+  for (const auto node : OsimXml::objects(set_of(skeleton_, model_, "ConstraintSet"))) {
     const std::string_view kind = node.name();
     if (kind == "PointConstraint" || kind == "ConstantDistanceConstraint" || kind == "PointOnLineConstraint") {
       notes_.push_back(
@@ -347,8 +335,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
 }
 
 void OsimEditor::scale_lengths(const std::string& name, double factor) {
-  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
-  for (const auto force : OsimXml::objects(forces)) {
+  for (const auto force : OsimXml::objects(either_child(model_, "ForceSet", "ActuatorSet"))) {
     if (OsimXml::name_of(force) != name) continue;
     for (const char* property : {"optimal_fiber_length", "tendon_slack_length", "resting_length"})
       multiply(xml_, force, property, factor);

@@ -25,13 +25,9 @@ pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::s
 }
 
 void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace& sensor) {
-  auto components = carrier.child("components");
-  if (!components) components = carrier.append_child("components");
-  append_frame(components, sensor.name, "..", numbers(sensor.p), numbers(sensor.angles_rad));
-  auto own = model.child("components");
-  if (!own) own = model.append_child("components");
-  auto imu = own.append_child("IMU");
-  imu.append_attribute("name").set_value(sensor.name.c_str());
+  append_frame(child_or_new(carrier, "components"), sensor.name, "..", numbers(sensor.p), numbers(sensor.angles_rad));
+  auto imu = child_or_new(model, "components").append_child("IMU");
+  set_attribute(imu, "name", sensor.name);
   append_text(imu, "socket_frame", sensor.carrier.path + "/" + sensor.name);
 }
 
@@ -67,15 +63,13 @@ std::string with_sensors(std::string_view text,
   const auto model = document.child("OpenSimDocument").child("Model");
   for (const SensorPlace& sensor : sensors) {
     if (auto frame = element_named(model, "PhysicalOffsetFrame", sensor.name)) {
-      auto orientation = frame.child("orientation");
-      if (!orientation) orientation = frame.append_child("orientation");
-      orientation.text().set(numbers(sensor.angles_rad).c_str());
+      child_or_new(frame, "orientation").text().set(numbers(sensor.angles_rad).c_str());
       continue;
     }
     const std::string name = sensor.carrier.path.substr(sensor.carrier.path.find_last_of('/') + 1);
     auto carrier = element_named(model, "Body", name);
     if (!carrier) carrier = element_named(model, "PhysicalOffsetFrame", name);
-    if (!carrier) source.fail(source.root(), fmt::format("there is no body or frame '{}'", name));
+    if (!carrier) source.fail(source.root(), "there is no body or frame '{}'", name);
     add_sensor(model, carrier, sensor);
   }
   std::ostringstream out;

@@ -57,9 +57,7 @@ class RawText {
   RawText(std::string_view text, const std::filesystem::path& path) : text_(text) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
       throw ModelError(
-          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as "
-                      "UTF-8",
-                      path.string()));
+          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as UTF-8", path.string()));
     }
     // The parser's offsets do not count the byte-order mark.
     if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;

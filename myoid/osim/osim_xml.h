@@ -2,11 +2,12 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "myoid/core/geometry.h"
@@ -30,6 +31,13 @@ class OsimXml {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   [[noreturn]] void fail(pugi::xml_node where, const std::string& message) const;
+  template <typename First, typename... Rest>
+  [[noreturn]] void fail(pugi::xml_node where,
+                         fmt::format_string<First, Rest...> text,
+                         First&& first,
+                         Rest&&... rest) const {
+    fail(where, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
   /// Returns the line of an element in the text, counted from 1.
   [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
 
@@ -68,5 +76,14 @@ class OsimXml {
   std::map<std::string, pugi::xml_node, std::less<>> prototypes_;
   mutable std::vector<std::string> defaulted_;
 };
+
+/// Returns the child of this name, else the child of the other name.
+[[nodiscard]] pugi::xml_node either_child(pugi::xml_node parent, const char* name, const char* other);
+/// Returns the child of this name, appended if there is none.
+pugi::xml_node child_or_new(pugi::xml_node parent, const char* name);
+/// Sets an attribute, appended if there is none.
+void set_attribute(pugi::xml_node node, const char* name, const std::string& value);
+/// Replaces the capital letters of ASCII.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 }  // namespace myoid::model
