@@ -10,12 +10,10 @@
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
-#include "myoid/forces/muscle_analysis.h"
 #include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/opensim_tools/moving_bodies.h"
-#include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -40,7 +38,7 @@ std::vector<int> chosen(
     if (const std::optional<int> index = find(name)) {
       indices.push_back(*index);
     } else {
-      run.result.notes.push_back(fmt::format("<{}>: the model has no '{}'; it is left out", property, name));
+      run.note("<{}>: the model has no '{}'; it is left out", property, name);
     }
   }
   return indices;
@@ -81,7 +79,7 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
   const auto& xml = run.setup.xml();
   const auto& model = run.model;
   if (model.muscles.empty()) xml.fail(node, "MuscleAnalysis: the model has no muscles");
-  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
+  forces::MuscleAnalysisOptions options = muscle_options(run);
   options.muscles = chosen(run, node, "muscle_list", model.muscles.size(),
                            [&](const std::string& name) { return model.find_muscle(name); });
   if (options.muscles.empty()) xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
@@ -89,18 +87,15 @@ void report_muscles(AnalysisRun& run, pugi::xml_node node) {
     options.coordinates = chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
                                  [&](const std::string& name) { return model.find_coordinate(name); });
   }
-  if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
-  if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
   if (!run.equilibrium && run.fiber_length_m.size() == 0) {
-    run.result.notes.push_back(fmt::format(
-        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
-        "default lengths ({}), so that their velocities and forces mean little; lengths "
-        "of muscles and moment arms do not depend on it",
+    run.note(
+        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their default lengths ({}), so that their "
+        "velocities and forces mean little; lengths of muscles and moment arms do not depend on it",
         run.options.compat.class_fiber_length ? "0.1 m where the model gives none, as in OpenSim"
-                                              : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
+                                              : "optimal ones where the model gives none; OpenSim takes 0.1 m");
   }
   const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
-  run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
+  run.add_notes(analysis.notes);
   const std::string description =
       std::string(
           "\nThis analysis gathers basic information about muscles during a simulation (e.g., "
@@ -180,10 +175,10 @@ std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node)
     }
   }
   if (!missing.empty()) {
-    run.result.notes.push_back(
-        fmt::format("{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of "
-                    "markers and positions of bodies are reported",
-                    analysis_name(node), missing));
+    run.note(
+        "{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of markers and "
+        "positions of bodies are reported",
+        analysis_name(node), missing);
   }
   return tables;
 }
@@ -227,18 +222,12 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   }
 }
 
-constexpr std::array kKnown{
-    KnownAnalysis{"Actuation", report_actuation},     KnownAnalysis{"BodyKinematics", report_bodies},
-    KnownAnalysis{"ForceReporter", report_forces},    KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
-    KnownAnalysis{"JointReaction", report_reactions}, KnownAnalysis{"Kinematics", report_kinematics},
-    KnownAnalysis{"MuscleAnalysis", report_muscles},  KnownAnalysis{"OutputReporter", report_outputs},
-    KnownAnalysis{"PointKinematics", report_point},   KnownAnalysis{"StaticOptimization", run_static_optimization}};
-
-const KnownAnalysis* find_analysis(std::string_view class_name) {
-  const auto known =
-      std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) { return k.class_name == class_name; });
-  return known == kKnown.end() ? nullptr : &*known;
-}
+constexpr KnownAnalysis kKnown[] = {
+    {"Actuation", report_actuation},     {"BodyKinematics", report_bodies},
+    {"ForceReporter", report_forces},    {"InverseDynamics", report_inverse_dynamics},
+    {"JointReaction", report_reactions}, {"Kinematics", report_kinematics},
+    {"MuscleAnalysis", report_muscles},  {"OutputReporter", report_outputs},
+    {"PointKinematics", report_point},   {"StaticOptimization", run_static_optimization}};
 
 }  // namespace
 
@@ -247,7 +236,9 @@ std::string analysis_name(pugi::xml_node node) {
   return name.empty() ? node.name() : name;
 }
 
-bool is_known_analysis(std::string_view class_name) { return find_analysis(class_name) != nullptr; }
+bool is_known_analysis(std::string_view class_name) {
+  return std::ranges::find(kKnown, class_name, &KnownAnalysis::class_name) != std::end(kKnown);
+}
 
 std::string known_analyses() {
   std::string names;
@@ -260,13 +251,13 @@ void run_analysis(AnalysisRun& run, pugi::xml_node node) {
   // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
   for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
     if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
-  find_analysis(kind)->run(run, node);
+  std::ranges::find(kKnown, kind, &KnownAnalysis::class_name)->run(run, node);
   run.result.frames = static_cast<int>(run.motion.sample_count());
 }
 
 std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
   const auto path = run.setup.results_folder() / (run.setup.name() + "_" + name);
-  claim_file(run.options, path, run.result);
+  run.claim(path);
   return path;
 }
 

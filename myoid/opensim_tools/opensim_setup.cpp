@@ -22,12 +22,12 @@ constexpr const char* kTools[] = {
 /// Returns advice on tools that replace a tool that is not run.
 std::string in_place_of(std::string_view tool) {
   if (tool == "CMCTool") {
-    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
-           "muscles' forces along a motion, with MuscleAnalysis their fibers";
+    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the muscles' forces along "
+           "a motion, with MuscleAnalysis their fibers";
   }
   if (tool == "RRATool") {
-    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the "
-           "pelvis, and ScaleTool adjusts the model's mass";
+    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the pelvis, and "
+           "ScaleTool adjusts the model's mass";
   }
   return "";
 }
@@ -76,11 +76,10 @@ OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead
   if (!tool_) {
     const auto first = model::OsimXml::first_element(root, {"defaults"});
     xml_.fail(first ? first : root,
-              fmt::format("found <{}>, expected a set-up of InverseKinematicsTool, "
-                          "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
-                          "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
-                          "tools are not run{}",
-                          first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
+              "found <{}>, expected a set-up of InverseKinematicsTool, InverseDynamicsTool, ForwardTool, ScaleTool, "
+              "IMUPlacer, IMUInverseKinematicsTool or AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, "
+              "...); other tools are not run{}",
+              first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string());
   }
   if (const auto defaults = root.child("defaults")) xml_.set_prototypes(defaults);
   if (!instead_.external_loads.empty() && kind() != "AnalyzeTool" && kind() != "InverseDynamicsTool") {
@@ -112,9 +111,10 @@ std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
 std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_view name) const {
   const recording::NamedFile found = recording::find_named_file(path_.parent_path(), name);
   if (found.exists) return found.path;
-  xml_.fail(node, fmt::format("<{}> names '{}', and there is no such file; a file of that name "
-                              "beside this set-up or one folder up would be taken",
-                              node.name(), name));
+  xml_.fail(node,
+            "<{}> names '{}', and there is no such file; a file of that name beside this set-up or one folder up would "
+            "be taken",
+            node.name(), name);
 }
 
 std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, const char* name) const {
@@ -127,8 +127,8 @@ std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, c
 std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const char* name) const {
   if (const auto found = file(object, name)) return *found;
   const auto node = object.child(name);
-  xml_.fail(node ? node : object, fmt::format("<{}> expected: a file's name, relative to this set-up{}", name,
-                                              std::string_view(name) == "model_file" ? ", or --model FILE" : ""));
+  xml_.fail(node ? node : object, "<{}> expected: a file's name, relative to this set-up{}", name,
+            std::string_view(name) == "model_file" ? ", or --model FILE" : "");
 }
 
 std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object, const char* name) const {
@@ -194,9 +194,9 @@ std::vector<std::string> OpensimSetup::notes() const {
          {"results_directory", "output_motion_file", "output_model_file", "output_scale_file", "output_marker_file"}) {
       const std::string text = holder.child(name) ? named_in(holder, name) : "";
       if (is_elsewhere(path_.parent_path(), text))
-        add(name, fmt::format("'{}' is not on this computer; results go beside the set-up (--out "
-                              "DIR puts them elsewhere)",
-                              text));
+        add(name,
+            fmt::format("'{}' is not on this computer; results go beside the set-up (--out DIR puts them elsewhere)",
+                        text));
     }
   }
   return notes;
@@ -215,9 +215,8 @@ std::pair<double, double> OpensimSetup::time_range(pugi::xml_node object, const 
   if (!node || model::OsimXml::text_of(node).empty()) return {-infinity, infinity};
   const auto values = xml_.numbers(node);
   if (values.size() != 2 || !(values[0] <= values[1])) {
-    xml_.fail(node, fmt::format("<{}>: expected two times, the first not after the second, found "
-                                "'{}'",
-                                name, model::OsimXml::text_of(node)));
+    xml_.fail(node, "<{}>: expected two times, the first not after the second, found '{}'", name,
+              model::OsimXml::text_of(node));
   }
   return {values[0], values[1]};
 }
@@ -231,16 +230,14 @@ void OpensimSetup::check_range(std::pair<double, double> asked_s,
   const double first_s = recorded_s[0], last_s = recorded_s[count - 1];
   const double interval_s = count > 1 ? (last_s - first_s) / static_cast<double>(count - 1) : 0.0;
   if (start_s > last_s + interval_s || end_s < first_s - interval_s) {
-    xml_.fail(tool_, fmt::format("the set-up asks for {} to {} s, but {} holds {} to {} s; nothing "
-                                 "is written",
-                                 start_s, end_s, file.string(), first_s, last_s));
+    xml_.fail(tool_, "the set-up asks for {} to {} s, but {} holds {} to {} s; nothing is written", start_s, end_s,
+              file.string(), first_s, last_s);
   }
   const bool early = start_s < first_s - interval_s && std::isfinite(start_s);
   const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
   if (early || late) {
     notes.push_back(
-        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these "
-                    "times are used, as in OpenSim",
+        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these times are used, as in OpenSim",
                     start_s, end_s, file.string(), first_s, last_s));
   }
 }

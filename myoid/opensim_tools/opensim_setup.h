@@ -7,10 +7,18 @@
 #include <vector>
 
 #include "myoid/model/body_model.h"
-#include "myoid/opensim_tools/setup_files.h"
 #include "myoid/osim/osim_xml.h"
 
 namespace myoid {
+
+/// Files that replace the files named in a set-up; an empty path leaves the set-up's own.
+struct SetupFiles {
+  std::filesystem::path model;
+  /// The recorded motion: coordinates or states, for inverse kinematics and scaling the markers.
+  std::filesystem::path motion;
+  std::filesystem::path external_loads;
+  std::filesystem::path out;  ///< Folder of all results.
+};
 
 /// A set-up file of one of OpenSim's tools. Its names of files are relative to its folder; files
 /// named on another computer are searched for in that folder and one folder up (find_named_file).

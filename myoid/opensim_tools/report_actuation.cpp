@@ -73,14 +73,13 @@ void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
     if (!model.is_constrained(static_cast<int>(c))) ++unknown;
   const std::size_t count = forces::actuators_of(model).size();
   if (count < unknown) {
-    xml.fail(node, fmt::format("InverseDynamics: {} muscles and actuators for {} coordinates that "
-                               "move; append actuators (<force_set_files>), or set "
-                               "<use_model_force_set> false",
-                               count, unknown));
+    xml.fail(node,
+             "InverseDynamics: {} muscles and actuators for {} coordinates that move; append actuators "
+             "(<force_set_files>), or set <use_model_force_set> false",
+             count, unknown);
   }
   const forces::StaticOptimizationResult solved = forces::static_optimization(
-      model, run.motion,
-      {.muscle_physiology = false, .loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+      model, run.motion, {.muscle_physiology = false, .loads = run.loads_if_any(), .progress = run.options.progress});
   std::vector<Channel> channels = solved.force.channels();
   if (!use_forces) {
     for (Channel& channel : channels)
