@@ -1,6 +1,5 @@
 #include "myoid/model/bent_rod.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ranges>

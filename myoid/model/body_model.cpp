@@ -15,9 +15,8 @@ namespace {
 
 template <typename Items>
 std::optional<int> find_by_name(const Items& items, std::string_view name) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
+  for (std::size_t i = 0; i < items.size(); ++i)
     if (items[i].name == name) return static_cast<int>(i);
-  }
   return std::nullopt;
 }
 
@@ -106,8 +105,7 @@ int BodyModel::muscle_index(std::string_view n) const { return index_by_name(mus
 bool BodyModel::is_constrained(int coordinate) const {
   const Coordinate& c = coordinates[at(coordinate)];
   return c.locked || c.prescribed || c.is_free_to_satisfy_constraints ||
-         std::any_of(couplers.begin(), couplers.end(),
-                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; }) ||
+         std::ranges::find(couplers, coordinate, &CoordinateCoupler::dependent) != couplers.end() ||
          std::any_of(constraints.begin(), constraints.end(), [&](const LoopConstraint& k) {
            const auto* f = std::get_if<FunctionConstraint>(&k.law);
            return f != nullptr && f->dependent == coordinate;

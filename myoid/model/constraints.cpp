@@ -1,9 +1,8 @@
 #include "myoid/model/constraints.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
@@ -165,8 +164,8 @@ Movable movable(const BodyModel& model) {
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const Coordinate& k = model.coordinates[c];
     if (k.locked || k.prescribed) continue;
-    const auto depends = [&](const CoordinateCoupler& o) { return o.dependent == static_cast<int>(c); };
-    if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
+    if (std::ranges::find(model.couplers, static_cast<int>(c), &CoordinateCoupler::dependent) != model.couplers.end())
+      continue;
     free.coordinate.push_back(static_cast<Eigen::Index>(c));
     free.loose.conservativeResize(free.loose.size() + 1);
     free.loose[free.loose.size() - 1] = k.is_free_to_satisfy_constraints ? 1e3 : 1.0;

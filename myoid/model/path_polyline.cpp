@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "myoid/core/index.h"
 #include "myoid/model/wrap_torus.h"

@@ -15,9 +15,9 @@ namespace myoid::model {
 namespace {
 
 bool moves(const BodyModel& model, int coordinate) {
-  const auto depends = [&](const CoordinateCoupler& k) { return k.dependent == coordinate; };
   const Coordinate& c = model.coordinates[at(coordinate)];
-  return !c.locked && !c.prescribed && std::none_of(model.couplers.begin(), model.couplers.end(), depends);
+  return !c.locked && !c.prescribed &&
+         std::ranges::find(model.couplers, coordinate, &CoordinateCoupler::dependent) == model.couplers.end();
 }
 
 /// Length and arm of one muscle along one coordinate.
@@ -129,8 +129,7 @@ std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
   }
   std::erase_if(all, [&](const PathDifference& d) { return !(d.length_m > least_m || d.moment_arm_m > least_m); });
   for (PathDifference& d : all) d.typical_length_m = std::sqrt(d.typical_length_m);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const PathDifference& a, const PathDifference& b) { return a.length_m > b.length_m; });
+  std::ranges::stable_sort(all, std::ranges::greater(), &PathDifference::length_m);
   return all;
 }
 

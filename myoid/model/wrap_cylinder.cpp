@@ -1,6 +1,5 @@
 #include "myoid/model/wrap_cylinder.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "myoid/core/units.h"
