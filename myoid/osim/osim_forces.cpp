@@ -1,7 +1,4 @@
-#include <cmath>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
@@ -105,12 +102,12 @@ PrescribedForce read_prescribed(OsimReading& r, pugi::xml_node node) {
 
 PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
   const std::string owner = "/forceset/" + OsimXml::name_of(node);
-  const FixedFrame first = frame_of(r, node, "body1", owner, "body1");
-  const FixedFrame second = frame_of(r, node, "body2", owner, "body2");
+  const BodyPoint first = point_of(r, node, owner, "body1", "point1");
+  const BodyPoint second = point_of(r, node, owner, "body2", "point2");
   return {first.body,
           second.body,
-          first.X_BF * r.xml.vec3(node, "point1", Vec3::Zero()),
-          second.X_BF * r.xml.vec3(node, "point2", Vec3::Zero()),
+          first.p_B,
+          second.p_B,
           r.xml.number(node, "stiffness", 0.0),
           r.xml.number(node, "rest_length", 0.0)};
 }
@@ -248,8 +245,9 @@ void read_law(OsimReading& r, pugi::xml_node node) {
 
 void read_force(OsimReading& r, pugi::xml_node node) {
   const auto count = [&] {
-    return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
-           r.model.torque_actuators.size() + r.model.path_actuators.size() + r.model.passive_forces.size();
+    std::size_t sum = r.model.muscles.size() + r.model.passive_forces.size();
+    visit_actuators(r.model, [&](const auto& list) { sum += list.size(); });
+    return sum;
   };
   const std::size_t before = count();
   read_law(r, node);

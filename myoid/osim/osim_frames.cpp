@@ -273,6 +273,12 @@ FixedFrame frame_of(const OsimReading& r,
   return resolve_frame(r, node, std::move(target), owner);
 }
 
+BodyPoint point_of(
+    const OsimReading& r, pugi::xml_node node, const std::string& owner, const char* frame, const char* place) {
+  const FixedFrame fixed = frame_of(r, node, frame, owner, frame);
+  return {fixed.body, fixed.X_BF * r.xml.vec3(node, place, Vec3::Zero())};
+}
+
 Pose pose_of(const OsimReading& r, pugi::xml_node node, const char* location, const char* orientation, bool rounded) {
   Vec3 p = r.xml.vec3(node, location, Vec3::Zero());
   Vec3 angles = r.xml.vec3(node, orientation, Vec3::Zero());
@@ -317,8 +323,7 @@ Vec3 direction_of(const OsimReading& r, pugi::xml_node node, const char* name, c
 std::optional<FixedFrame> find_frame(const BodyModel& model,
                                      const std::filesystem::path& path,
                                      const std::string& name) {
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path);
+  const OsimXml xml(recording::read_text_file(path), path);
   OsimReading r{xml, model.compat};
   read_bodies(r, skeleton_of(xml.root().child("Model")));
   try {

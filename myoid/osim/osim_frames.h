@@ -100,6 +100,16 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                   const std::string& owner,
                                   const char* old_name = "body");
 
+/// A point fixed in a body.
+struct BodyPoint {
+  BodyIndex body = 0;
+  Vec3 p_B = Vec3::Zero();
+};
+
+/// Returns the point that a socket with a frame and a property with a place in that frame give.
+[[nodiscard]] BodyPoint point_of(
+    const OsimReading& reading, pugi::xml_node node, const std::string& owner, const char* frame, const char* place);
+
 /// Returns the frame of that path or name in a model file: a body, an offset frame of the model, of
 /// a body or of a joint, or a frame that OpenSim gives to the joints of old documents
 /// ("/jointset/knee_r/tibia_r_offset"). Empty for an unknown name.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -88,17 +87,17 @@ double unwrap(const OsimReading& r, pugi::xml_node& node) {
 
 }  // namespace
 
-std::optional<Function> function_in(OsimReading& r, pugi::xml_node holder) {
-  const auto element = OsimXml::first_element(holder);
-  if (!element) return std::nullopt;
-  return read_function(r, element);
+pugi::xml_node function_node(const OsimReading& r, pugi::xml_node object, const char* property) {
+  if (const auto holder = r.xml.property(object, property)) return OsimXml::first_element(holder);
+  return object.find_child_by_attribute("name", property);
+}
+
+std::optional<Function> function_at(OsimReading& r, pugi::xml_node node) {
+  return node ? std::optional(read_function(r, node)) : std::nullopt;
 }
 
 std::optional<Function> function_property(OsimReading& r, pugi::xml_node object, const char* property) {
-  if (const auto holder = r.xml.property(object, property)) return function_in(r, holder);
-  const auto node = object.find_child_by_attribute("name", property);
-  if (!node) return std::nullopt;
-  return read_function(r, node);
+  return function_at(r, function_node(r, object, property));
 }
 
 std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, const char* property) {
@@ -108,16 +107,6 @@ std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, 
   std::vector<Function> functions;
   for (const auto node : OsimXml::objects(set)) functions.push_back(read_function(r, node));
   return functions;
-}
-
-std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
-                                                       pugi::xml_node object,
-                                                       const char* property,
-                                                       int dimension) {
-  const auto holder = r.xml.property(object, property);
-  const auto node = holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
-  if (!node) return std::nullopt;
-  return multi_function(r, node, dimension);
 }
 
 std::optional<MultiPolynomial> multi_function(const OsimReading& r, pugi::xml_node node, int dimension) {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/core/units.h"
 #include "myoid/osim/osim_parts.h"
@@ -172,10 +171,21 @@ constexpr ClassAxes kClassAxes[] = {{"WeldJoint", "", ""},         {"PinJoint", 
                                     {"GimbalJoint", "xyz", ""},    {"FreeJoint", "xyz", "xyz"},
                                     {"EllipsoidJoint", "xyz", ""}, {"ConstantCurvatureJoint", "xzy", ""}};
 
-/// Gives a joint its axes; false if the class is not known.
-bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
+/// Lets the coordinates of a joint, in their order, drive its rotations and translations about and along these axes;
+/// the other axes rest.
+void drive_axes(Joint& joint, std::string_view rotations, std::string_view translations) {
   for (std::size_t k = 0; k < 3; ++k)
     joint.rotation[k].axis = joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
+  auto coordinate = joint.coordinates.begin();
+  for (std::size_t k = 0; k < rotations.size(); ++k)
+    joint.rotation[k] = {Vec3::Unit(rotations[k] - 'x'), *coordinate++, Linear{1.0, 0.0}};
+  for (std::size_t k = 0; k < translations.size(); ++k)
+    joint.translation[k] = {Vec3::Unit(translations[k] - 'x'), *coordinate++, Linear{1.0, 0.0}};
+}
+
+/// Gives a joint its axes; false if the class is not known.
+bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
+  drive_axes(joint, "", "");
   const std::string_view kind = joint.class_name;
   if (kind == "CustomJoint") {
     set_custom_axes(r, node, joint);
@@ -184,13 +194,7 @@ bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
   const auto* known = std::ranges::find(kClassAxes, kind, &ClassAxes::class_name);
   if (known == std::end(kClassAxes)) return false;
   need_coordinates(r, node, joint, known->rotations.size() + known->translations.size());
-  auto coordinate = joint.coordinates.begin();
-  const auto drive = [&](std::array<TransformAxis, 3>& axes, std::string_view directions) {
-    for (std::size_t k = 0; k < directions.size(); ++k)
-      axes[k] = {Vec3::Unit(directions[k] - 'x'), *coordinate++, Linear{1.0, 0.0}};
-  };
-  drive(joint.rotation, known->rotations);
-  drive(joint.translation, known->translations);
+  drive_axes(joint, known->rotations, known->translations);
   if (known->rotations == "z") joint.rotation[2].axis = Vec3::UnitX();  // all three axes differ
   if (kind == "EllipsoidJoint") joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
   if (kind == "ConstantCurvatureJoint") {
@@ -240,10 +244,7 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   ellipsoid.X_BM = Pose{quarter, Vec3::Zero()};
   ellipsoid.coordinates.resize(3);
   ellipsoid.ellipsoid_radii_m = Vec3(radii.y(), radii.x(), radii.z());
-  for (std::size_t k = 0; k < 3; ++k) {
-    ellipsoid.rotation[k] = {Vec3::Unit(static_cast<Eigen::Index>(k)), joint.coordinates[k], Linear{1.0, 0.0}};
-    ellipsoid.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
-  }
+  drive_axes(ellipsoid, "xyz", "");
   Joint hinge = joint;
   const Vec3 axis(-std::sin(winging_rad), std::cos(winging_rad), 0.0);
   const Pose at_axis{Mat3::Identity(), {origin[0], origin[1], 0.0}};
@@ -251,10 +252,8 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   hinge.X_PF = at_axis;
   hinge.X_BM = joint.X_BM * at_axis;
   hinge.coordinates = {joint.coordinates[3]};
-  for (std::size_t k = 0; k < 3; ++k) {
-    hinge.rotation[k].axis = hinge.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
-  }
-  hinge.rotation[0] = {axis, joint.coordinates[3], Linear{1.0, 0.0}};
+  drive_axes(hinge, "x", "");
+  hinge.rotation[0].axis = axis;
   hinge.rotation[1].axis = Vec3::UnitZ();
   hinge.rotation[2].axis = axis.cross(Vec3::UnitZ());
   for (const int c : joint.coordinates) r.model.coordinates[at(c)].motion = MotionType::rotational;
@@ -329,12 +328,9 @@ void add_free_joint(OsimReading& r, BodyIndex body) {
     Coordinate c;
     c.name = fmt::format("{}_coord_{}", joint.name, k);
     c.motion = k < 3 ? MotionType::rotational : MotionType::translational;
-    TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
-    axis = {Vec3::Unit(static_cast<Eigen::Index>(k % 3)), static_cast<int>(r.model.coordinates.size()),
-            Linear{1.0, 0.0}};
-    joint.coordinates.push_back(axis.coordinate);
-    r.add(std::move(c));
+    joint.coordinates.push_back(r.add(std::move(c)));
   }
+  drive_axes(joint, "xyz", "xyz");
   r.note("body '{}' has no joint; it is free to move", r.model.bodies[at(body)].name);
   r.model.joints.push_back(std::move(joint));
 }

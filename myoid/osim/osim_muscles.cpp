@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {

@@ -2,8 +2,6 @@
 
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_frames.h"
@@ -34,7 +32,7 @@ void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace&
 }  // namespace
 
 std::map<std::string, NamedFrame> named_frames(std::string_view text, const std::filesystem::path& path) {
-  OsimXml xml(text, path);
+  OsimXml xml(std::string(text), path);
   const auto model = xml.root().child("Model");
   xml.set_prototypes(model.child("defaults"));
   OsimReading reading{xml};
@@ -56,7 +54,7 @@ std::map<std::string, NamedFrame> named_frames(std::string_view text, const std:
 std::string with_sensors(std::string_view text,
                          const std::filesystem::path& path,
                          const std::vector<SensorPlace>& sensors) {
-  const OsimXml source(text, path);
+  const OsimXml source(std::string(text), path);
   pugi::xml_document document;
   (void)document.load_buffer(text.data(), text.size(),
                              pugi::parse_default | pugi::parse_comments | pugi::parse_declaration);

@@ -1,9 +1,7 @@
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_parts.h"
@@ -58,7 +56,7 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
   const char* old_coordinates[3] = {"XCoordinate", "YCoordinate", "ZCoordinate"};
   for (std::size_t k = 0; k < 3; ++k) {
     auto function = function_property(r, node, fmt::format("{}_location", axes[k]).c_str());
-    if (!function) function = function_in(r, node.child(old_axes[k]));
+    if (!function) function = function_at(r, OsimXml::first_element(node.child(old_axes[k])));
     if (!function) continue;
     moving.location[k] = *function;
     const std::string name = fmt::format("{}_coordinate", axes[k]);
@@ -141,7 +139,7 @@ std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node n
   for (const std::string& name : r.xml.words(node, "coordinates"))
     path.coordinates.push_back(coordinate_named(r, node, name));
   const auto count = static_cast<int>(path.coordinates.size());
-  auto length = multi_function_property(r, node, "length_function", count);
+  auto length = multi_function(r, function_node(r, node, "length_function"), count);
   if (!length || count == 0) return std::nullopt;
   path.length = *std::move(length);
   const auto arms = r.xml.property(node, "moment_arm_functions");

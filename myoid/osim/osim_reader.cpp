@@ -53,8 +53,7 @@ void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   const auto named = recording::find_named_file(r.xml.path().parent_path(), file);
   if (!named.note.empty()) r.note("<{}>: {}", set.name(), named.note);
   const std::filesystem::path& path = named.path;
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path, OsimXml::Root::any);
+  const OsimXml xml(recording::read_text_file(path), path, OsimXml::Root::any);
   const auto other = xml.root().child(set.name());
   if (!other) xml.fail(xml.root(), "expected a <{}>", set.name());
   OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
@@ -77,7 +76,7 @@ void list_external_sets(OsimReading& r, pugi::xml_node model) {
 }  // namespace
 
 BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, const OsimOptions& options) {
-  OsimXml xml(text, path);
+  OsimXml xml(std::string(text), path);
   auto model = xml.root().child("Model");
   if (!model) {
     xml.fail(xml.root(), "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
@@ -117,8 +116,7 @@ BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& option
 }
 
 BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path);
+  const OsimXml xml(recording::read_text_file(path), path);
   const auto set = xml.root().child("ForceSet");
   if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
   OsimReading r{xml, model.compat, std::move(model), {}};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_xml.h"
@@ -173,8 +172,7 @@ void update_force(pugi::xml_node object, int version) {
 
 void update_object(pugi::xml_node object, int version) {
   const std::string_view old_kind = object.name();
-  const auto renamed =
-      std::find_if(std::begin(kClasses), std::end(kClasses), [&](const Renaming& r) { return r.first == old_kind; });
+  const auto* renamed = std::ranges::find(kClasses, old_kind, &Renaming::first);
   if (renamed != std::end(kClasses)) object.set_name(renamed->second);
   const std::string_view kind = object.name();
   update_switch(object);

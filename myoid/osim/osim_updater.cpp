@@ -1,6 +1,5 @@
 #include "myoid/osim/osim_updater.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_update_parts.h"
 #include "myoid/osim/osim_xml.h"
@@ -337,7 +335,7 @@ int drop_visible(pugi::xml_node root) {
 }  // namespace
 
 UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& path, const OsimUpdateOptions& options) {
-  const OsimXml source(text, path, OsimXml::Root::any);
+  const OsimXml source(std::string(text), path, OsimXml::Root::any);
   UpdatedOsim result;
   result.old_version = source.version();
   pugi::xml_document document;

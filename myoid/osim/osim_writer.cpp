@@ -158,7 +158,7 @@ std::string with_edits(std::string_view text, std::vector<Edit> edits, const std
 std::string changed_osim(std::string_view text,
                          const std::filesystem::path& path,
                          const std::vector<OsimChange>& changes) {
-  const OsimXml xml(text, path);
+  const OsimXml xml(std::string(text), path);
   const RawText raw(text, path);
   std::vector<Edit> edits;
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -32,8 +32,9 @@ std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
-OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root) : text_(text), path_(std::move(path)) {
-  const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
+OsimXml::OsimXml(std::string text, std::filesystem::path path, Root root)
+    : text_(std::move(text)), path_(std::move(path)) {
+  const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
   if (!parsed) {
     using recording::FileFormat;
     const std::string other =

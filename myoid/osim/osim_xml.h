@@ -16,14 +16,14 @@ namespace myoid::model {
 
 /// An OpenSim document in memory with the one way to read its values. For an element that an object
 /// omits, the prototype of its class in `<defaults>` gives the value. A text that is no value of
-/// the expected kind throws ReadError with the line. The text must outlive the document.
+/// the expected kind throws ReadError with the line.
 class OsimXml {
  public:
   /// The element that the document must have at its root. With `any`, root() is the document itself
   /// unless its root is <OpenSimDocument> (task sets and loads of old set-ups).
   enum class Root { opensim_document, any };
   /// Parses; throws ReadError (with the line) if the text is no XML or its root is not <OpenSimDocument>.
-  OsimXml(std::string_view text, std::filesystem::path path, Root root = Root::opensim_document);
+  OsimXml(std::string text, std::filesystem::path path, Root root = Root::opensim_document);
 
   [[nodiscard]] pugi::xml_node root() const { return root_; }
   /// Returns the document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a version.
@@ -68,7 +68,7 @@ class OsimXml {
   /// Returns the element as `property` does; lists an empty element in `defaulted`.
   [[nodiscard]] pugi::xml_node value_of(pugi::xml_node object, const char* name) const;
 
-  std::string_view text_;
+  std::string text_;
   std::filesystem::path path_;
   pugi::xml_document document_;
   pugi::xml_node root_;
