@@ -33,10 +33,10 @@ struct AnalysisRun : ToolRun {
 
 /// Returns true if an analysis of this class can be run.
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
-/// Returns the names of the known analyses, for messages.
-[[nodiscard]] std::string known_analyses();
-/// Runs an analysis and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
-void run_analysis(AnalysisRun& run, pugi::xml_node node);
+/// Each reports one analysis: it writes its files, <results>/<tool>_<analysis>_<quantity>.sto.
+void report_kinematics(AnalysisRun& run, pugi::xml_node node);
+void report_muscles(AnalysisRun& run, pugi::xml_node node);
+void report_outputs(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
 /// Returns the model without muscles. Every independent coordinate has an actuator of unit strength
 /// with the coordinate's name.

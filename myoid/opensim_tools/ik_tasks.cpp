@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/spline.h"
@@ -18,9 +17,8 @@ namespace {
 
 using model::OsimXml;
 
-/// The task set of a set-up, inside it or in a separate file; the document must outlive the node.
+/// The task set of a set-up, inside it or in a separate document.
 struct TaskFile {
-  std::string text;
   std::unique_ptr<OsimXml> xml;
   pugi::xml_node set;
 };
@@ -34,8 +32,7 @@ TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
     return file;
   }
   const auto path = setup.file_named(inside, name);
-  file.text = recording::read_text_file(path);
-  file.xml = std::make_unique<OsimXml>(file.text, path, OsimXml::Root::any);
+  file.xml = std::make_unique<OsimXml>(recording::read_text_file(path), path, OsimXml::Root::any);
   file.set = file.xml->root().child("IKTaskSet");
   if (!file.set) file.xml->fail(file.xml->root(), "expected an <IKTaskSet>");
   return file;

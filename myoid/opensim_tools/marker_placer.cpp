@@ -54,33 +54,25 @@ recording::MarkerSeries averaged(const ToolRun& run,
 
 /// Returns the pose as a row of OpenSim's states.
 TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, double time_s) {
-  std::vector<Channel> channels;
-  std::vector<double> values;
+  ColumnTable table;
+  const auto add = [&](const std::string& path, double value) {
+    table.add(path, Unit::dimensionless, Eigen::VectorXd::Constant(1, value));
+  };
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const model::Coordinate& coordinate = model.coordinates[c];
     const std::string path = "/jointset/" + model.joints[at(coordinate.joint)].name + "/" + coordinate.name;
-    channels.push_back({path + "/value", Unit::dimensionless});
-    channels.push_back({path + "/speed", Unit::dimensionless});
-    values.push_back(q[static_cast<Eigen::Index>(c)]);
-    values.push_back(coordinate.default_speed);
+    add(path + "/value", q[static_cast<Eigen::Index>(c)]);
+    add(path + "/speed", coordinate.default_speed);
   }
   for (const model::Muscle& muscle : model.muscles) {
-    bool activation = true, fiber = true;
-    if (const auto* millard = std::get_if<model::MillardCurves>(&muscle.properties.curves)) {
-      activation = !millard->ignore_activation_dynamics;
-      fiber = !millard->ignore_tendon_compliance;
-    }
-    if (activation) {
-      channels.push_back({"/forceset/" + muscle.name + "/activation", Unit::dimensionless});
-      values.push_back(muscle.properties.default_activation);
-    }
-    if (fiber) {
-      channels.push_back({"/forceset/" + muscle.name + "/fiber_length", Unit::dimensionless});
-      values.push_back(muscle.properties.default_fiber_length_m);
-    }
+    const model::MuscleProperties& p = muscle.properties;
+    const auto* millard = std::get_if<model::MillardCurves>(&p.curves);
+    if (millard == nullptr || !millard->ignore_activation_dynamics)
+      add("/forceset/" + muscle.name + "/activation", p.default_activation);
+    if (millard == nullptr || !millard->ignore_tendon_compliance)
+      add("/forceset/" + muscle.name + "/fiber_length", p.default_fiber_length_m);
   }
-  return {Eigen::VectorXd::Constant(1, time_s), std::move(channels),
-          Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))};
+  return table.at_times(Eigen::VectorXd::Constant(1, time_s));
 }
 
 std::string join_names(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -53,8 +52,7 @@ Signal linear_control(const OsimXml& xml, pugi::xml_node node) {
 }
 
 void read_control_set(const std::filesystem::path& path, ModelControls& controls) {
-  const std::string text = recording::read_text_file(path);
-  OsimXml xml(text, path, OsimXml::Root::any);
+  OsimXml xml(recording::read_text_file(path), path, OsimXml::Root::any);
   const auto set = xml.root().child("ControlSet");
   if (!set) xml.fail(xml.root(), "expected a <ControlSet>");
   if (const auto defaults = set.child("defaults")) xml.set_prototypes(defaults);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
 
@@ -54,17 +53,11 @@ std::vector<pugi::xml_node> holders_of(pugi::xml_node tool) {
   return holders;
 }
 
-template <typename Force>
-void drop(std::vector<Force>& forces, const auto& is_dropped) {
-  forces.erase(std::remove_if(forces.begin(), forces.end(), is_dropped), forces.end());
-}
-
 }  // namespace
 
 OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead)
     : path_(path),
-      text_(recording::read_text_file(path)),
-      xml_(text_, path_, model::OsimXml::Root::any),
+      xml_(recording::read_text_file(path), path_, model::OsimXml::Root::any),
       instead_(std::move(instead)) {
   const pugi::xml_node root = xml_.root();
   for (const char* kind : kTools) {
@@ -152,28 +145,26 @@ std::optional<std::filesystem::path> OpensimSetup::output_file(pugi::xml_node ob
   return recording::native_path(path_.parent_path(), text);
 }
 
-std::vector<std::pair<pugi::xml_node, const char*>> OpensimSetup::input_elements() const {
-  std::vector<std::pair<pugi::xml_node, const char*>> found;
+std::vector<std::pair<const char*, recording::NamedFile>> OpensimSetup::named_inputs() const {
+  std::vector<std::pair<const char*, recording::NamedFile>> found;
   for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file", "coordinate_file",
                            "states_file", "speeds_file", "external_loads_file", "force_set_files", "actuator_set_files",
                            "forces_file", "orientations_file", "orientation_file_for_calibration"}) {
-    if (!replacement(name).empty()) found.emplace_back(tool_, name);
-    for (const auto holder : holders_of(tool_))
-      if (holder.child(name)) found.emplace_back(holder, name);
+    const recording::NamedFile given{replacement(name), true};
+    if (!given.path.empty()) found.emplace_back(name, given);
+    for (const auto holder : holders_of(tool_)) {
+      if (!holder.child(name)) continue;
+      found.emplace_back(
+          name, given.path.empty() ? recording::find_named_file(path_.parent_path(), named_in(holder, name)) : given);
+    }
   }
   return found;
 }
 
 std::vector<std::filesystem::path> OpensimSetup::inputs() const {
   std::vector<std::filesystem::path> files{path_};
-  for (const auto& [object, name] : input_elements()) {
-    if (const auto given = replacement(name); !given.empty()) {
-      files.push_back(given);
-      continue;
-    }
-    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
-    if (found.exists) files.push_back(found.path);
-  }
+  for (const auto& [element, file] : named_inputs())
+    if (file.exists) files.push_back(file.path);
   return files;
 }
 
@@ -183,11 +174,8 @@ std::vector<std::string> OpensimSetup::notes() const {
     std::string note = fmt::format("<{}>: {}", name, text);
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   };
-  for (const auto& [object, name] : input_elements()) {
-    if (!replacement(name).empty()) continue;
-    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
-    if (!found.note.empty()) add(name, found.note);
-  }
+  for (const auto& [element, file] : named_inputs())
+    if (!file.note.empty()) add(element, file.note);
   if (!instead_.out.empty()) return notes;
   for (const auto holder : holders_of(tool_)) {
     for (const char* name :
@@ -253,10 +241,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
       xml.flag(setup.tool(), "replace_force_set", xml.flag(setup.tool(), "replace_actuator_set", false));
   if (replaces) {
     model.muscles.clear();
-    model.actuators.clear();
-    model.point_actuators.clear();
-    model.torque_actuators.clear();
-    model.path_actuators.clear();
+    model::visit_actuators(model, [](auto& list) { list.clear(); });
     model.passive_forces.clear();
     model.force_order.clear();
   }
@@ -272,12 +257,9 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     const auto named = [&](const auto& force) { return all || force.name == name; };
     const auto actuator = [&](const auto& force) { return actuators || force.name == name; };
     if (muscles || actuators) model.muscles.clear();  // a muscle is an actuator, too
-    drop(model.muscles, named);
-    drop(model.actuators, actuator);
-    drop(model.point_actuators, actuator);
-    drop(model.torque_actuators, actuator);
-    drop(model.path_actuators, actuator);
-    drop(model.passive_forces, named);
+    std::erase_if(model.muscles, named);
+    model::visit_actuators(model, [&](auto& list) { std::erase_if(list, actuator); });
+    std::erase_if(model.passive_forces, named);
   }
   for (const std::string& text : model.unsupported) notes.push_back(fmt::format("{}: {}", path.string(), text));
   return model;

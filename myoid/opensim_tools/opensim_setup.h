@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "myoid/files/named_file.h"
 #include "myoid/model/body_model.h"
 #include "myoid/osim/osim_xml.h"
 
@@ -72,11 +73,11 @@ class OpensimSetup {
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
   /// Returns the text of an element that names a file; empty for "Unassigned".
   [[nodiscard]] std::string named_in(pugi::xml_node object, const char* name) const;
-  /// Elements that name a file to be read, in the tool or, when scaling, in one of its stages.
-  [[nodiscard]] std::vector<std::pair<pugi::xml_node, const char*>> input_elements() const;
+  /// Returns the elements that name a file to be read, in the tool or, when scaling, in one of its stages, with the
+  /// file.
+  [[nodiscard]] std::vector<std::pair<const char*, recording::NamedFile>> named_inputs() const;
 
   std::filesystem::path path_;
-  std::string text_;
   model::OsimXml xml_;
   pugi::xml_node tool_;
   SetupFiles instead_;

@@ -1,8 +1,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/actuation.h"
@@ -21,18 +19,14 @@ model::BodyModel without_bounds(model::BodyModel model) {
     force.max_control = kInfinity;
   };
   for (model::Muscle& muscle : model.muscles) free(muscle.properties);
-  for (auto& actuator : model.actuators) free(actuator);
-  for (auto& actuator : model.point_actuators) free(actuator);
-  for (auto& actuator : model.torque_actuators) free(actuator);
-  for (auto& actuator : model.path_actuators) free(actuator);
+  model::visit_actuators(model, [&](auto& list) {
+    for (auto& actuator : list) free(actuator);
+  });
   return model;
 }
 
 model::BodyModel with_coordinate_actuators_only(model::BodyModel model) {
-  model.actuators.clear();
-  model.point_actuators.clear();
-  model.torque_actuators.clear();
-  model.path_actuators.clear();
+  model::visit_actuators(model, [](auto& list) { list.clear(); });
   return with_coordinate_actuators(std::move(model));
 }
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/opensim_tools/analysis_reports.h"

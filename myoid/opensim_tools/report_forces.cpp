@@ -1,8 +1,6 @@
 #include <array>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/dynamics/passive_forces.h"

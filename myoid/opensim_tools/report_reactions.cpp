@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/forces/actuator_columns.h"
@@ -60,8 +59,7 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   if (names.empty() || recording::equal_ignoring_case(names[0], "all")) {
     std::vector<const model::Joint*> joints;
     for (const model::Joint& joint : model.joints) joints.push_back(&joint);
-    std::stable_sort(joints.begin(), joints.end(),
-                     [](const model::Joint* a, const model::Joint* b) { return a->place_in_file < b->place_in_file; });
+    std::ranges::stable_sort(joints, {}, &model::Joint::place_in_file);
     names.clear();
     for (const model::Joint* joint : joints) names.push_back(joint->name);
   }
@@ -76,8 +74,7 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   const auto on = list("apply_on_bodies"), in = list("express_in_frame");
   std::vector<Asked> asked;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
-                                    [&](const model::Joint& j) { return j.name == names[k]; });
+    const auto joint = std::ranges::find(model.joints, names[k], &model::Joint::name);
     if (joint == model.joints.end()) {
       run.note("<joint_names>: the model has no '{}'; it is left out", names[k]);
       continue;

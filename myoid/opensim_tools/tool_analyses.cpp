@@ -1,24 +1,44 @@
 #include <algorithm>
-#include <memory>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/math/spline.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/signals/opensim_lowpass.h"
-#include "myoid/tables/storage_reader.h"
 
 namespace myoid {
 namespace {
 
 using model::OsimXml;
+
+struct KnownAnalysis {
+  std::string_view class_name;
+  void (*run)(AnalysisRun&, pugi::xml_node);
+};
+
+constexpr KnownAnalysis kKnown[] = {
+    {"Actuation", report_actuation},     {"BodyKinematics", report_bodies},
+    {"ForceReporter", report_forces},    {"InverseDynamics", report_inverse_dynamics},
+    {"JointReaction", report_reactions}, {"Kinematics", report_kinematics},
+    {"MuscleAnalysis", report_muscles},  {"OutputReporter", report_outputs},
+    {"PointKinematics", report_point},   {"StaticOptimization", run_static_optimization}};
+
+void run_analysis(AnalysisRun& run, pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
+  for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
+    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
+  std::ranges::find(kKnown, kind, &KnownAnalysis::class_name)->run(run, node);
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
 
 /// Derivatives of every channel at its samples, by the natural quintic spline.
 TimeSeries derivative(const TimeSeries& series, const std::vector<Channel>& channels) {
@@ -90,10 +110,6 @@ kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> 
   return motion_of(run.model, std::move(q), std::move(speeds), with_accelerations);
 }
 
-TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>& rows) {
-  return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
-}
-
 /// Returns the rows that an analysis records: the first, every row whose number the interval divides, the last.
 std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
   std::vector<Eigen::Index> rows;
@@ -125,6 +141,10 @@ void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
 
 }  // namespace
 
+bool is_known_analysis(std::string_view class_name) {
+  return std::ranges::find(kKnown, class_name, &KnownAnalysis::class_name) != std::end(kKnown);
+}
+
 void run_analyses(const ToolRun& tool_run) {
   AnalysisRun run{tool_run};
   const auto& xml = run.setup.xml();
@@ -144,7 +164,8 @@ void run_analyses(const ToolRun& tool_run) {
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) {
       require_opensim_analysis(xml, node);
-      run.note("analysis {} is not supported: its files are not written; {} are", node.name(), known_analyses());
+      run.note("analysis {} is not supported: its files are not written; {} are", node.name(),
+               fmt::join(kKnown | std::views::transform(&KnownAnalysis::class_name), ", "));
     }
   }
   read_loads(run);
@@ -168,7 +189,7 @@ void run_analyses(const ToolRun& tool_run) {
     if (!is_known_analysis(node.name())) continue;
     const auto rows = recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
     if (rows != run.rows) {
-      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows), chosen_rows(all.qddot, rows)};
+      run.motion = rows_of(all, rows);
       run.rows = rows;
       run.state_forces.reset();
       run.accelerations.reset();

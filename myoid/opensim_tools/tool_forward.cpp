@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/opensim_tools/analysis_reports.h"

@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/files/named_file.h"
@@ -111,9 +109,8 @@ void run_inverse_dynamics(const ToolRun& run) {
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
-  const Eigen::Index first = row_at(motion.q.time_s(), start_s);
-  const Eigen::Index last = row_at(motion.q.time_s(), end_s);
-  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last), rows_of(motion.qddot, first, last)};
+  const Eigen::VectorXd& times = motion.q.time_s();
+  motion = rows_of(motion, Eigen::seq(row_at(times, start_s), row_at(times, end_s)));
   dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
   dynamics::ExternalLoads loads;
   if (const auto file = setup.file(tool, "external_loads_file")) {

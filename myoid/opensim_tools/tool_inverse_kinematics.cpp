@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/marker_misfit.h"
 #include "myoid/opensim_tools/opensim_files.h"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"

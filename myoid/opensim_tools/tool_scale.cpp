@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -11,7 +10,6 @@
 #include "myoid/files/text_file.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/opensim_tools/marker_placer.h"
-#include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/osim/osim_editor.h"
 #include "myoid/osim/osim_reader.h"

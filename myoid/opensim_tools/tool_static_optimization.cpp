@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
