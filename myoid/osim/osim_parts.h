@@ -56,8 +56,8 @@ void read_wrap_objects(OsimReading& reading, pugi::xml_node model);
 /// Reads a function element of any kind. An unsupported function is listed in
 /// BodyModel::unsupported and read as zero. Throws ReadError for bad numbers.
 [[nodiscard]] Function read_function(OsimReading& reading, pugi::xml_node node);
-/// Returns the element of the function in a property of an object, in either of OpenSim's forms: <property><Sine/>
-/// </property> or <Sine name="property"/>. Empty without a function.
+/// Returns the element of the function in a property of an object, in either of OpenSim's forms:
+/// <property><Sine/></property> or <Sine name="property"/>. Empty without a function.
 [[nodiscard]] pugi::xml_node function_node(const OsimReading& reading, pugi::xml_node object, const char* property);
 /// Returns the function of an element; empty without an element.
 [[nodiscard]] std::optional<Function> function_at(OsimReading& reading, pugi::xml_node node);
