@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "myoid/core/index.h"
-#include "myoid/model/wrap_torus.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

@@ -1,11 +1,10 @@
-#include "myoid/model/wrap_ellipsoid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "myoid/core/units.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

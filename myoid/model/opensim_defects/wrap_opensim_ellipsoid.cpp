@@ -6,7 +6,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/model/opensim_defects/wrap_opensim_surfaces.h"
-#include "myoid/model/wrap_ellipsoid.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {
