@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/arm/arm_osim.h"
-#include "myoid/core/units.h"
 #include "myoid/muscle/literature.h"
 
 namespace myoid::model {
@@ -34,6 +32,18 @@ struct CoordinateText {
   double upper;
   bool locked;
 };
+
+/// Returns the frames of a joint, "<body>_offset"; the child's is that of its body.
+std::string frames(std::string_view parent, std::string_view child, const Vec3& p_PF_m) {
+  return fmt::format(
+      "          <frames>\n"
+      "            <PhysicalOffsetFrame name=\"{0}_offset\"><socket_parent>{1}</socket_parent>"
+      "<translation>{2}</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\n"
+      "            <PhysicalOffsetFrame name=\"{3}_offset\"><socket_parent>/bodyset/{3}</socket_parent>"
+      "<translation>0 0 0</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\n"
+      "          </frames>\n",
+      parent, parent == "ground" ? std::string("/ground") : fmt::format("/bodyset/{}", parent), triple(p_PF_m), child);
+}
 
 /// Returns a joint of up to three rotations, then translations along x, y, z if `translations`.
 std::string joint(std::string_view name,
@@ -75,17 +85,10 @@ std::string joint(std::string_view name,
       "          <socket_parent_frame>{1}_offset</socket_parent_frame>\n"
       "          <socket_child_frame>{2}_offset</socket_child_frame>\n"
       "          <coordinates>\n{3}          </coordinates>\n"
-      "          <frames>\n"
-      "            <PhysicalOffsetFrame name=\"{1}_offset\"><socket_parent>{4}</socket_parent>"
-      "<translation>{5}</translation><orientation>0 0 0</orientation></PhysicalOffsetFrame>\n"
-      "            <PhysicalOffsetFrame name=\"{2}_offset\"><socket_parent>/bodyset/{2}"
-      "</socket_parent><translation>0 0 0</translation><orientation>0 0 0</orientation>"
-      "</PhysicalOffsetFrame>\n"
-      "          </frames>\n"
-      "          <SpatialTransform>\n{6}          </SpatialTransform>\n"
+      "{4}"
+      "          <SpatialTransform>\n{5}          </SpatialTransform>\n"
       "        </CustomJoint>\n",
-      name, parent, child, coordinates,
-      parent == "ground" ? std::string("/ground") : fmt::format("/bodyset/{}", parent), triple(p_PF_m), axes);
+      name, parent, child, coordinates, frames(parent, child, p_PF_m), axes);
 }
 
 std::string point(std::string_view name, std::string_view on, const Vec3& at_m) {
@@ -141,7 +144,7 @@ std::string path_points(const PlanarMuscle& muscle, double upper_arm_m, std::str
   return points;
 }
 
-std::string muscle_text(const MuscleText& muscle, double upper_arm_m, std::string_view insertion_body) {
+std::string muscle_text(const ArmMuscle& muscle, double upper_arm_m, std::string_view insertion_body) {
   const PlanarMuscle& path = muscle.path;
   const muscle::HillParameters<double>& p = muscle.hill;
   // Thelen's numbers of the same curves: gamma = (l_sh / l0)^2, A_f = V_sh, F_len = V_ml.
@@ -216,12 +219,12 @@ Vec3 arm4_held_at_m(const ArmOptions& options) { return {0.0, -held_at_m(options
 std::string arm4_osim(const Arm4Options& options) {
   const PlanarElbow elbow = planar_elbow(options.person);
   const std::array<muscle::HillParameters<double>, 4> parameters = arm4_muscles(options.person);
-  std::vector<MuscleText> muscles;
+  std::vector<ArmMuscle> muscles;
   for (std::size_t i = 0; i < parameters.size(); ++i) muscles.push_back({elbow.muscles[i], parameters[i]});
   return arm_osim(options, "arm4", muscles);
 }
 
-std::string arm_osim(const Arm4Options& options, std::string_view name, const std::vector<MuscleText>& muscles) {
+std::string arm_osim(const Arm4Options& options, std::string_view name, const std::vector<ArmMuscle>& muscles) {
   const SegmentInertia upper = upper_arm(options.person);
   const SegmentInertia forearm = forearm_with_hand(options.person);
   const double upper_m = options.person.upper_arm_length_m;
@@ -245,16 +248,9 @@ std::string arm_osim(const Arm4Options& options, std::string_view name, const st
         "        <WeldJoint name=\"base\">\n"
         "          <socket_parent_frame>ground_offset</socket_parent_frame>\n"
         "          <socket_child_frame>trunk_offset</socket_child_frame>\n"
-        "          <frames>\n"
-        "            <PhysicalOffsetFrame name=\"ground_offset\"><socket_parent>/ground"
-        "</socket_parent><translation>{}</translation><orientation>0 0 0</orientation>"
-        "</PhysicalOffsetFrame>\n"
-        "            <PhysicalOffsetFrame name=\"trunk_offset\"><socket_parent>/bodyset/trunk"
-        "</socket_parent><translation>0 0 0</translation><orientation>0 0 0</orientation>"
-        "</PhysicalOffsetFrame>\n"
-        "          </frames>\n"
+        "{}"
         "        </WeldJoint>\n",
-        triple(base_m));
+        frames("ground", "trunk", base_m));
   }
   joints += joint("shoulder", "trunk", "upper_arm", Vec3(0.0, 0.0, kShoulderOffset_m),
                   {{"shoulder_flexion", Vec3::UnitZ(), shoulder_rad.x(), -kPi, kPi, false},
@@ -270,7 +266,7 @@ std::string arm_osim(const Arm4Options& options, std::string_view name, const st
   }
 
   std::string forces;
-  for (const MuscleText& muscle : muscles) forces += muscle_text(muscle, upper_m, rotations ? "ulna" : "forearm_hand");
+  for (const ArmMuscle& muscle : muscles) forces += muscle_text(muscle, upper_m, rotations ? "ulna" : "forearm_hand");
 
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

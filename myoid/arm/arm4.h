@@ -2,9 +2,12 @@
 
 #include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "myoid/arm/planar_elbow.h"
 #include "myoid/core/geometry.h"
+#include "myoid/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::model {
@@ -26,6 +29,22 @@ struct Arm4Options {
 /// shoulder_adduction (x), shoulder_rotation (y), elbow_flexion; muscles BIC, BRA, BRD, TRI (Thelen2003Muscle) with the
 /// lengths of `planar_elbow` and the numbers of `arm4_muscles`; markers. The numbers read back to the bit.
 [[nodiscard]] std::string arm4_osim(const Arm4Options& options = {});
+
+/// A muscle of the built-in arm in its model file.
+struct ArmMuscle {
+  PlanarMuscle path;
+  muscle::HillParameters<double> hill;
+  double pennation_at_optimal_rad = 0.0;
+};
+
+/// Returns the model file of the built-in skeleton with these muscles; see `arm4_osim`.
+[[nodiscard]] std::string arm_osim(const Arm4Options& options,
+                                   std::string_view name,
+                                   const std::vector<ArmMuscle>& muscles);
+
+/// Elbow flexion at which the fibers of BIC, BRA, BRD and TRI are optimal.
+inline constexpr std::array<double, 4> kArmOptimalAt_rad = {85.0 * kDegree, 75.0 * kDegree, 95.0 * kDegree,
+                                                            60.0 * kDegree};
 
 /// Returns the literature's parameters for BIC, BRA, BRD and TRI (l_sh = 0.45 l0, V_sh 0.28, V_ml
 /// 1.4), with tendon lengths that make the fibers optimal at 85, 75, 95 and 60 degrees of elbow

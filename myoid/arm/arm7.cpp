@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "myoid/arm/arm_osim.h"
 #include "myoid/muscle/literature.h"
 
 namespace myoid::model {
@@ -34,27 +33,25 @@ std::array<ArmHead, 7> arm7_heads(const ArmOptions& options) {
   for (std::size_t i = 0; i < heads.size(); ++i) {
     const PublishedHead& published = kPublished[i];
     const auto lump = static_cast<std::size_t>(published.lump);
-    heads[i].name = kArm7Heads[i];
-    heads[i].lump = published.lump;
-    heads[i].pennation_at_optimal_rad = published.pennation_rad;
-    heads[i].hill =
+    ArmHead& head = heads[i];
+    head.lump = published.lump;
+    head.pennation_at_optimal_rad = published.pennation_rad;
+    head.hill =
         muscle::literature_parameters({kArm7Heads[i], published.max_isometric_force_n, published.optimal_fiber_length_m,
                                        published.tendon_slack_length_m, published.pennation_rad});
-    heads[i].hill.tendon_slack_length_m = published.tendon_slack_length_m;
-    heads[i].path = elbow.muscles[lump];
-    heads[i].path.name = kArm7Heads[i];
+    head.hill.tendon_slack_length_m = published.tendon_slack_length_m;
+    head.path = elbow.muscles[lump];
+    head.path.name = kArm7Heads[i];
     const double reach_m = published.optimal_fiber_length_m * std::cos(published.pennation_rad);
-    heads[i].path.constant_m +=
-        published.tendon_slack_length_m + reach_m - travel(heads[i].path, kArmOptimalAt_rad[lump]).length_m;
+    head.path.constant_m +=
+        published.tendon_slack_length_m + reach_m - travel(head.path, kArmOptimalAt_rad[lump]).length_m;
   }
   return heads;
 }
 
 std::string arm7_osim(const Arm4Options& options) {
-  std::vector<MuscleText> muscles;
-  for (const ArmHead& head : arm7_heads(options.person))
-    muscles.push_back({head.path, head.hill, head.pennation_at_optimal_rad});
-  return arm_osim(options, "arm7", muscles);
+  const std::array<ArmHead, 7> heads = arm7_heads(options.person);
+  return arm_osim(options, "arm7", std::vector<ArmMuscle>(heads.begin(), heads.end()));
 }
 
 }  // namespace myoid::model

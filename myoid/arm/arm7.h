@@ -5,18 +5,12 @@
 #include <string_view>
 
 #include "myoid/arm/arm4.h"
-#include "myoid/arm/planar_elbow.h"
-#include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::model {
 
-/// One head of a muscle across the elbow.
-struct ArmHead {
-  std::string_view name;
-  int lump = 0;       ///< Its muscle in the order of `planar_elbow`: BIC, BRA, BRD, TRI.
-  PlanarMuscle path;  ///< As its lump's about the elbow; its own constant part.
-  muscle::HillParameters<double> hill;
-  double pennation_at_optimal_rad = 0.0;
+/// One head of a muscle across the elbow: its path is its lump's about the elbow, with its own name and constant part.
+struct ArmHead : ArmMuscle {
+  int lump = 0;  ///< Its muscle in the order of `planar_elbow`: BIC, BRA, BRD, TRI.
 };
 
 inline constexpr std::array<std::string_view, 7> kArm7Heads = {"BIClong", "BICshort", "BRA",   "BRD",

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm_osim.h"
 #include "myoid/core/units.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/osim/osim_reader.h"
@@ -31,7 +30,7 @@ TEST(Arm7, RigidTendonsLeaveEveryFiberOptimalAtTheAngleOfItsLump) {
     const double q = kArmOptimalAt_rad[static_cast<std::size_t>(head.lump)];
     const double along_m = travel(head.path, q).length_m - head.hill.tendon_slack_length_m;
     const double height_m = head.hill.optimal_fiber_length_m * std::sin(head.pennation_at_optimal_rad);
-    EXPECT_NEAR(std::hypot(along_m, height_m), head.hill.optimal_fiber_length_m, 1e-15) << head.name;
+    EXPECT_NEAR(std::hypot(along_m, height_m), head.hill.optimal_fiber_length_m, 1e-15) << head.path.name;
   }
 }
 

@@ -1,27 +1,21 @@
 #include "myoid/model/bent_rod.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
+
+#include "myoid/model/functions.h"
 
 namespace myoid::model {
 namespace {
 
 /// Value and derivatives by c = cos(theta).
-struct Curve {
-  double value = 0.0, first = 0.0, second = 0.0;
-};
+using Curve = FunctionValue;
 
 /// Evaluates a power series with its derivatives: of tau = theta^2, or of e = 1 - c.
 template <std::size_t N>
 Curve series(const std::array<double, N>& coefficients, double x) {
-  Curve v;
-  for (std::size_t k = N; k-- > 0;) {
-    v.second = v.second * x + 2.0 * v.first;
-    v.first = v.first * x + v.value;
-    v.value = v.value * x + coefficients[k];
-  }
-  return v;
+  return polynomial_value(std::views::reverse(coefficients), x);
 }
 
 struct Rod {

@@ -5,10 +5,11 @@
 
 namespace myoid::model {
 
-Vec3 BodyAccelerations::of_station(const BodyState& state, BodyIndex body, const Vec3& p_BP) const {
-  const Vec3 r = state.X_GB[at(body)].R * p_BP;
-  const Vec3& w = state.w_GB[at(body)];
-  return a_GB[at(body)] + alpha_GB[at(body)].cross(r) + w.cross(w.cross(r));
+PointMotion BodyAccelerations::of_station(const BodyState& state, BodyIndex body, const Vec3& p_BP) const {
+  const std::size_t b = at(body);
+  const Vec3 r = state.X_GB[b].R * p_BP;
+  const Vec3& w = state.w_GB[b];
+  return {state.X_GB[b] * p_BP, state.v_GB[b] + w.cross(r), a_GB[b] + alpha_GB[b].cross(r) + w.cross(w.cross(r))};
 }
 
 void compute_accelerations(const BodyModel& model,

@@ -9,13 +9,18 @@
 
 namespace myoid::model {
 
+/// Place [m], velocity [m/s] and acceleration [m/s^2] of a point, in ground.
+struct PointMotion {
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
+};
+
 /// Accelerations of every body, expressed in ground; [0] is ground.
 struct BodyAccelerations {
   std::vector<Vec3> alpha_GB;  ///< Angular [rad/s^2].
   std::vector<Vec3> a_GB;      ///< Acceleration of the body's origin [m/s^2].
 
-  /// Returns the acceleration of a point fixed in a body [m/s^2].
-  [[nodiscard]] Vec3 of_station(const BodyState& state, BodyIndex body, const Vec3& p_BP) const;
+  /// Returns the motion of a point fixed in a body.
+  [[nodiscard]] PointMotion of_station(const BodyState& state, BodyIndex body, const Vec3& p_BP) const;
 };
 
 /// Computes the accelerations of all bodies from qddot, from the ground outward:

@@ -36,7 +36,7 @@ void expect_accelerations_are_rates_of_velocities(const BodyModel& m) {
     const Vec3 alpha = (after.w_GB[b] - before.w_GB[b]) / (2.0 * h);
     const Vec3 a = (speed(after, b) - speed(before, b)) / (2.0 * h);
     EXPECT_LT((acceleration.alpha_GB[b] - alpha).norm(), 1e-6) << b;
-    EXPECT_LT((acceleration.of_station(state, static_cast<BodyIndex>(b), p_BP) - a).norm(), 1e-6) << b;
+    EXPECT_LT((acceleration.of_station(state, static_cast<BodyIndex>(b), p_BP).a - a).norm(), 1e-6) << b;
   }
 }
 

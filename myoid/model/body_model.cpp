@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/model/joint_orientation.h"
 
@@ -13,23 +15,20 @@ namespace {
 
 template <typename Items>
 std::optional<int> find_by_name(const Items& items, std::string_view name) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
+  for (std::size_t i = 0; i < items.size(); ++i)
     if (items[i].name == name) return static_cast<int>(i);
-  }
   return std::nullopt;
 }
 
 template <typename Items>
 int index_by_name(const Items& items, std::string_view name, std::string_view what) {
   if (const auto index = find_by_name(items, name)) return *index;
-  std::string names;
-  for (const auto& item : items) names += (names.empty() ? "" : ", ") + item.name;
-  std::vector<std::string> list;
-  for (const auto& item : items) list.push_back(item.name);
-  const auto near = recording::nearest_word(name, list);
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  const auto near = recording::nearest_word(name, names);
   throw ModelError(fmt::format("the model has no {} '{}'{}; there are: {}", what, name,
                                near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                               names.empty() ? "none" : names));
+                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 void check_index(int index, std::size_t size, std::string_view what) {
@@ -92,7 +91,7 @@ std::optional<int> BodyModel::find_coordinate(std::string_view n) const {
   for (const Joint& joint : joints) {
     if (joint.name != owner) continue;
     for (const int c : joint.coordinates) {
-      const std::string& there = coordinates[static_cast<std::size_t>(c)].name;
+      const std::string& there = coordinates[at(c)].name;
       if (there == last || there == own_name) return c;
     }
   }
@@ -104,10 +103,9 @@ int BodyModel::coordinate_index(std::string_view n) const { return index_by_name
 int BodyModel::muscle_index(std::string_view n) const { return index_by_name(muscles, n, "muscle"); }
 
 bool BodyModel::is_constrained(int coordinate) const {
-  const Coordinate& c = coordinates[static_cast<std::size_t>(coordinate)];
+  const Coordinate& c = coordinates[at(coordinate)];
   return c.locked || c.prescribed || c.is_free_to_satisfy_constraints ||
-         std::any_of(couplers.begin(), couplers.end(),
-                     [&](const CoordinateCoupler& k) { return k.dependent == coordinate; }) ||
+         std::ranges::find(couplers, coordinate, &CoordinateCoupler::dependent) != couplers.end() ||
          std::any_of(constraints.begin(), constraints.end(), [&](const LoopConstraint& k) {
            const auto* f = std::get_if<FunctionConstraint>(&k.law);
            return f != nullptr && f->dependent == coordinate;
@@ -129,12 +127,12 @@ namespace {
 /// Adds a second copy of body `b` for a joint that closes a loop. The copies share the mass, and a
 /// weld constraint keeps them together.
 BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
-  Body copy = model.bodies[static_cast<std::size_t>(b)];
+  Body copy = model.bodies[at(b)];
   copy.name += fmt::format("_slave_{}", number);
   model.bodies.push_back(copy);
   const auto index = static_cast<BodyIndex>(model.bodies.size()) - 1;
   model.constraints.push_back(
-      {fmt::format("{}_loop_{}", model.bodies[static_cast<std::size_t>(b)].name, number), "WeldConstraint",
+      {fmt::format("{}_loop_{}", model.bodies[at(b)].name, number), "WeldConstraint",
        FrameConstraint{.body1 = b, .body2 = index, .X_BF1 = {}, .X_BF2 = {}, .rotation_too = true}});
   return index;
 }
@@ -143,8 +141,7 @@ BodyIndex add_copy(BodyModel& model, BodyIndex b, int number) {
 /// of the file. After a body without mass its heaviest child follows at once.
 std::vector<std::size_t> tree_order(const BodyModel& model) {
   std::vector<std::vector<std::size_t>> hanging_on(model.bodies.size());  // joints by their parent
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    hanging_on[static_cast<std::size_t>(model.joints[j].parent)].push_back(j);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) hanging_on[at(model.joints[j].parent)].push_back(j);
   std::vector<int> level(model.bodies.size(), -1);
   level[0] = 0;
   std::vector<std::vector<std::size_t>> bodies_at{{0}};  // by their level
@@ -153,10 +150,10 @@ std::vector<std::size_t> tree_order(const BodyModel& model) {
   const auto child_of = [&](std::size_t j) { return static_cast<std::size_t>(model.joints[j].child); };
   const auto place = [&](std::size_t j) {
     used[j] = true;
-    const int below = level[static_cast<std::size_t>(model.joints[j].parent)] + 1;
+    const int below = level[at(model.joints[j].parent)] + 1;
     level[child_of(j)] = below;
     bodies_at.resize(std::max(bodies_at.size(), static_cast<std::size_t>(below) + 1));
-    bodies_at[static_cast<std::size_t>(below)].push_back(child_of(j));
+    bodies_at[at(below)].push_back(child_of(j));
     ordered.push_back(j);
   };
   const auto is_open = [&](std::size_t j) { return !used[j] && level[child_of(j)] < 0; };
@@ -185,11 +182,9 @@ std::vector<std::size_t> tree_order(const BodyModel& model) {
 /// Cuts loops: if another joint has placed the child of a joint, this joint gets a copy of the child.
 void cut_loops(BodyModel& model) {
   const std::vector<std::size_t> placed = tree_order(model);
-  std::vector<bool> in_tree(model.joints.size(), false);
   std::vector<int> copies(model.bodies.size(), 1);
-  for (const std::size_t j : placed) in_tree[j] = true;
-  std::vector<bool> has_joint(model.bodies.size(), false);
-  for (const std::size_t j : placed) has_joint[static_cast<std::size_t>(model.joints[j].child)] = true;
+  std::vector<bool> in_tree(model.joints.size(), false), has_joint(model.bodies.size(), false);
+  for (const std::size_t j : placed) in_tree[j] = has_joint[at(model.joints[j].child)] = true;
   const std::size_t bodies = model.bodies.size();
   std::vector<std::size_t> cut;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -215,22 +210,16 @@ void cut_loops(BodyModel& model) {
 }
 
 void check_tree(const BodyModel& model, const std::vector<Joint>& ordered) {
-  if (ordered.size() != model.joints.size()) {
-    std::vector<bool> has_joint(model.bodies.size(), false);
-    for (const Joint& joint : ordered) has_joint[static_cast<std::size_t>(joint.child)] = true;
-    for (const Joint& joint : model.joints) {
-      if (!has_joint[static_cast<std::size_t>(joint.child)]) {
-        throw ModelError(
-            fmt::format("body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs "
-                        "on it or on nothing",
-                        model.bodies[static_cast<std::size_t>(joint.child)].name, joint.name,
-                        model.bodies[static_cast<std::size_t>(joint.parent)].name));
-      }
-    }
-  }
   std::vector<bool> placed(model.bodies.size(), false);
   placed[0] = true;
-  for (const Joint& joint : ordered) placed[static_cast<std::size_t>(joint.child)] = true;
+  for (const Joint& joint : ordered) placed[at(joint.child)] = true;
+  for (const Joint& joint : model.joints) {
+    if (placed[at(joint.child)]) continue;
+    throw ModelError(
+        fmt::format("body '{}' is not connected to ground by joints: joint '{}' hangs on '{}', which hangs on it or on "
+                    "nothing",
+                    model.bodies[at(joint.child)].name, joint.name, model.bodies[at(joint.parent)].name));
+  }
   for (std::size_t b = 0; b < placed.size(); ++b) {
     if (!placed[b]) {
       throw ModelError(fmt::format("body '{}' is not connected to ground by joints", model.bodies[b].name));
@@ -253,9 +242,9 @@ BodyModel finalize(BodyModel model) {
   model.joints = std::move(ordered);
   model.joint_of_body.assign(model.bodies.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    model.joint_of_body[static_cast<std::size_t>(model.joints[j].child)] = static_cast<int>(j);
+    model.joint_of_body[at(model.joints[j].child)] = static_cast<int>(j);
     for (const int c : model.joints[j].coordinates) {
-      model.coordinates[static_cast<std::size_t>(c)].joint = static_cast<int>(j);
+      model.coordinates[at(c)].joint = static_cast<int>(j);
     }
   }
   return model;

@@ -163,6 +163,15 @@ struct BodyModel {
   [[nodiscard]] Eigen::VectorXd default_q() const;
 };
 
+/// Calls `visit` with each list of the actuators other than muscles.
+template <typename Model, typename Visit>
+void visit_actuators(Model& model, const Visit& visit) {
+  visit(model.actuators);
+  visit(model.point_actuators);
+  visit(model.torque_actuators);
+  visit(model.path_actuators);
+}
+
 /// Checks the invariants above, orders the joints and fills joint_of_body. Throws ModelError that
 /// names the inconsistency (a cycle, an unknown index, a body without a joint).
 [[nodiscard]] BodyModel finalize(BodyModel model);

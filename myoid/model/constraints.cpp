@@ -1,9 +1,8 @@
 #include "myoid/model/constraints.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
@@ -30,14 +29,12 @@ MultiPolynomialValue function_value(const FunctionConstraint& f, const Eigen::Ve
   return evaluate(f.function, x);
 }
 
-/// Computes the errors and, if asked, their Jacobian.
-void evaluate_loops(const BodyModel& model,
-                    const BodyState& state,
-                    Eigen::VectorXd& errors,
-                    Eigen::MatrixXd* jacobian) {
-  const auto count = static_cast<Eigen::Index>(model.coordinates.size());
-  errors.resize(loop_rows(model));
-  if (jacobian != nullptr) jacobian->resize(errors.size(), count);
+}  // namespace
+
+LoopEquations loop_equations(const BodyModel& model, const BodyState& state) {
+  const Eigen::Index rows = loop_rows(model);
+  LoopEquations result{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, std::ssize(model.coordinates))};
+  auto& [errors, jacobian] = result;
   Eigen::Index row = 0;
   const auto relative = [&](BodyIndex b1, const Vec3& p1, BodyIndex b2, const Vec3& p2) {
     return Eigen::Matrix3Xd(station_jacobian(model, state, b2, p2) - station_jacobian(model, state, b1, p1));
@@ -47,34 +44,26 @@ void evaluate_loops(const BodyModel& model,
       const Pose X_GF1 = state.X_GB[at(f->body1)] * f->X_BF1;
       const Pose X_GF2 = state.X_GB[at(f->body2)] * f->X_BF2;
       errors.segment<3>(row) = X_GF2.p - X_GF1.p;
-      if (jacobian != nullptr) {
-        jacobian->middleRows<3>(row) = relative(f->body1, f->X_BF1.p, f->body2, f->X_BF2.p);
-      }
+      jacobian.middleRows<3>(row) = relative(f->body1, f->X_BF1.p, f->body2, f->X_BF2.p);
       if (f->rotation_too) {
         // Half the sum of the cross products of the axes: the sine of the angle, about its axis.
         Vec3 sine = Vec3::Zero();
         for (int k = 0; k < 3; ++k) sine += 0.5 * X_GF1.R.col(k).cross(X_GF2.R.col(k));
         errors.segment<3>(row + 3) = sine;
-        if (jacobian != nullptr) {
-          jacobian->middleRows<3>(row + 3) =
-              angular_jacobian(model, state, f->body2) - angular_jacobian(model, state, f->body1);
-        }
+        jacobian.middleRows<3>(row + 3) =
+            angular_jacobian(model, state, f->body2) - angular_jacobian(model, state, f->body1);
       }
     } else if (const auto* d = std::get_if<DistanceConstraint>(&constraint.law)) {
       const Vec3 between = state.X_GB[at(d->body2)] * d->p_B2 - state.X_GB[at(d->body1)] * d->p_B1;
       errors[row] = between.norm() - d->distance_m;
-      if (jacobian != nullptr) {
-        jacobian->row(row) = between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
-      }
+      jacobian.row(row) = between.normalized().transpose() * relative(d->body1, d->p_B1, d->body2, d->p_B2);
     } else if (const auto* coupled = std::get_if<FunctionConstraint>(&constraint.law)) {
       const MultiPolynomialValue v = function_value(*coupled, state.q);
       errors[row] = state.q[coupled->dependent] - v.value;
-      if (jacobian != nullptr) {
-        jacobian->row(row).setZero();
-        (*jacobian)(row, coupled->dependent) = 1.0;
-        for (std::size_t k = 0; k < coupled->independent.size(); ++k)
-          (*jacobian)(row, coupled->independent[k]) -= v.gradient[static_cast<Eigen::Index>(k)];
-      }
+      jacobian.row(row).setZero();
+      jacobian(row, coupled->dependent) = 1.0;
+      for (std::size_t k = 0; k < coupled->independent.size(); ++k)
+        jacobian(row, coupled->independent[k]) -= v.gradient[static_cast<Eigen::Index>(k)];
     } else {
       const auto& line = std::get<LineConstraint>(constraint.law);
       const Pose& X_GB1 = state.X_GB[at(line.body1)];
@@ -83,18 +72,15 @@ void evaluate_loops(const BodyModel& model,
       const Vec3 p_B1 = X_GB1.inverse() * p_G;
       const auto directions = directions_across(line.direction);
       for (int k = 0; k < 2; ++k) {
-        const Vec3 u_G = X_GB1.R * directions[static_cast<std::size_t>(k)];
-        errors[row + k] = directions[static_cast<std::size_t>(k)].dot(p_B1 - line.p_B1);
-        if (jacobian != nullptr) {
-          jacobian->row(row + k) = u_G.transpose() * relative(line.body1, p_B1, line.body2, line.p_B2);
-        }
+        const Vec3 u_G = X_GB1.R * directions[at(k)];
+        errors[row + k] = directions[at(k)].dot(p_B1 - line.p_B1);
+        jacobian.row(row + k) = u_G.transpose() * relative(line.body1, p_B1, line.body2, line.p_B2);
       }
     }
     row += rows_of(constraint);
   }
+  return result;
 }
-
-}  // namespace
 
 void apply_couplers(const BodyModel& model, Eigen::VectorXd& q) {
   for (std::size_t round = 0; round <= model.couplers.size(); ++round) {
@@ -109,27 +95,16 @@ void apply_couplers(const BodyModel& model, Eigen::VectorXd& q) {
   throw ModelError("coordinate couplers depend on each other in a circle");
 }
 
-Eigen::VectorXd constraint_errors(const BodyModel& model, const BodyState& state) {
-  Eigen::VectorXd errors;
-  evaluate_loops(model, state, errors, nullptr);
-  return errors;
-}
-
 Eigen::MatrixXd constraint_jacobian(const BodyModel& model, const BodyState& state) {
   const auto couplers = static_cast<Eigen::Index>(model.couplers.size());
   const auto count = static_cast<Eigen::Index>(model.coordinates.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(couplers + loop_rows(model), count);
   for (Eigen::Index k = 0; k < couplers; ++k) {
-    const CoordinateCoupler& c = model.couplers[static_cast<std::size_t>(k)];
+    const CoordinateCoupler& c = model.couplers[at(k)];
     A(k, c.dependent) = 1.0;
     A(k, c.independent) -= evaluate(c.function, state.q[c.independent]).first;
   }
-  if (!model.constraints.empty()) {
-    Eigen::VectorXd errors;
-    Eigen::MatrixXd loops;
-    evaluate_loops(model, state, errors, &loops);
-    A.bottomRows(loops.rows()) = loops;
-  }
+  if (!model.constraints.empty()) A.bottomRows(A.rows() - couplers) = loop_equations(model, state).jacobian;
   return A;
 }
 
@@ -144,11 +119,11 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
   }
   const auto n = static_cast<Eigen::Index>(involved.size());
   Eigen::MatrixXd reduced(A.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k) reduced.col(k) = A.col(involved[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < n; ++k) reduced.col(k) = A.col(involved[at(k)]);
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::MatrixXd rows = reduced;
     for (Eigen::Index j = 0; j < n; ++j) {
-      const int c = static_cast<int>(involved[static_cast<std::size_t>(j)]);
+      const int c = static_cast<int>(involved[at(j)]);
       if (j == k || !model.coordinates[at(c)].locked) continue;
       rows.conservativeResize(rows.rows() + 1, n);
       rows.bottomRows<1>().setZero();
@@ -157,10 +132,10 @@ Eigen::MatrixXd coupling_matrix(const BodyModel& model, const BodyState& state) 
     // The rates nearest to the unit rate that obey all rows.
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, k);
     const Eigen::VectorXd rates = unit - math::shortest_solution(rows, rows * unit);
-    const Eigen::Index c = involved[static_cast<std::size_t>(k)];
+    const Eigen::Index c = involved[at(k)];
     C.col(c).setZero();
     if (!(std::abs(rates[k]) > 1e-12)) continue;
-    for (Eigen::Index j = 0; j < n; ++j) C(involved[static_cast<std::size_t>(j)], c) = rates[j] / rates[k];
+    for (Eigen::Index j = 0; j < n; ++j) C(involved[at(j)], c) = rates[j] / rates[k];
   }
   return C;
 }
@@ -178,8 +153,8 @@ Movable movable(const BodyModel& model) {
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const Coordinate& k = model.coordinates[c];
     if (k.locked || k.prescribed) continue;
-    const auto depends = [&](const CoordinateCoupler& o) { return o.dependent == static_cast<int>(c); };
-    if (std::any_of(model.couplers.begin(), model.couplers.end(), depends)) continue;
+    if (std::ranges::find(model.couplers, static_cast<int>(c), &CoordinateCoupler::dependent) != model.couplers.end())
+      continue;
     free.coordinate.push_back(static_cast<Eigen::Index>(c));
     free.loose.conservativeResize(free.loose.size() + 1);
     free.loose[free.loose.size() - 1] = k.is_free_to_satisfy_constraints ? 1e3 : 1.0;
@@ -191,7 +166,7 @@ Movable movable(const BodyModel& model) {
 Eigen::VectorXd way_to(const Movable& free, const Eigen::VectorXd& wished, const Eigen::VectorXd& q) {
   Eigen::VectorXd way(free.loose.size());
   for (Eigen::Index k = 0; k < way.size(); ++k) {
-    const Eigen::Index c = free.coordinate[static_cast<std::size_t>(k)];
+    const Eigen::Index c = free.coordinate[at(k)];
     way[k] = (wished[c] - q[c]) / free.loose[k];
   }
   return way;
@@ -208,14 +183,12 @@ AssemblyResult approach(const BodyModel& model,
   BodyState state = make_state(model);
   for (int iteration = 0; iteration < 100; ++iteration) {
     compute_poses(model, result.q, state);
-    Eigen::VectorXd errors;
-    Eigen::MatrixXd J;
-    evaluate_loops(model, state, errors, &J);
+    const auto [errors, J] = loop_equations(model, state);
     result.error = errors.cwiseAbs().maxCoeff();
     if (n == 0) break;
     // Dependent coordinates follow: dq = T dq_free.
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(result.q.size(), n);
-    for (Eigen::Index k = 0; k < n; ++k) T(free.coordinate[static_cast<std::size_t>(k)], k) = free.loose[k];
+    for (Eigen::Index k = 0; k < n; ++k) T(free.coordinate[at(k)], k) = free.loose[k];
     for (std::size_t round = 0; round < model.couplers.size(); ++round) {
       for (const CoordinateCoupler& c : model.couplers)
         T.row(c.dependent) = evaluate(c.function, result.q[c.independent]).first * T.row(c.independent);
@@ -227,8 +200,7 @@ AssemblyResult approach(const BodyModel& model,
     const double longest = step.cwiseAbs().maxCoeff();
     if (result.error < accuracy && longest < 1e-10) break;
     const double share = longest > 0.5 ? 0.5 / longest : 1.0;
-    for (Eigen::Index k = 0; k < n; ++k)
-      result.q[free.coordinate[static_cast<std::size_t>(k)]] += share * free.loose[k] * step[k];
+    for (Eigen::Index k = 0; k < n; ++k) result.q[free.coordinate[at(k)]] += share * free.loose[k] * step[k];
     apply_couplers(model, result.q);
   }
   result.converged = result.error < accuracy;

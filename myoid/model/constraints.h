@@ -11,9 +11,15 @@ namespace myoid::model {
 /// of the independent coordinates. Throws ModelError if couplers depend on each other in a circle.
 void apply_couplers(const BodyModel& model, Eigen::VectorXd& q);
 
-/// Returns the errors of the constraints other than couplers, [m] and (sine of) [rad], one row
-/// each; empty without such constraints. `compute_poses` must have been called.
-[[nodiscard]] Eigen::VectorXd constraint_errors(const BodyModel& model, const BodyState& state);
+/// The constraints other than couplers, one row each: errors, [m] and (sine of) [rad], and their derivatives by the
+/// coordinates.
+struct LoopEquations {
+  Eigen::VectorXd errors;
+  Eigen::MatrixXd jacobian;
+};
+
+/// Evaluates the loops; there are no rows without such constraints. `compute_poses` must have been called.
+[[nodiscard]] LoopEquations loop_equations(const BodyModel& model, const BodyState& state);
 
 /// Returns one row for every coupler, then for every other constraint; columns: coordinates. Rates
 /// qdot obey the constraints if A qdot = 0. `compute_poses` must have been called.

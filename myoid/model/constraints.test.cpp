@@ -75,7 +75,7 @@ TEST(Assemble, TakesTheNearestPostureThatClosesTheLoop) {
     ASSERT_TRUE(found.converged);
     BodyState state = make_state(m);
     compute_poses(m, found.q, state);
-    EXPECT_LT(constraint_errors(m, state).norm(), 1e-9);
+    EXPECT_LT(loop_equations(m, state).errors.norm(), 1e-9);
     EXPECT_NEAR((found.q - q).norm(), least_distance(q), 1e-5);
   }
 }

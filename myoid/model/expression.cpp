@@ -16,124 +16,49 @@ namespace {
 
 using Operation = Expression::Operation;
 
-struct Named {
-  std::string_view name;
-  Operation operation;
-  int arguments;
+/// The operations, whose names no formula can call, and the functions.
+constexpr Operation kOperations[] = {
+    {"+", 2, [](const double* x) { return x[0] + x[1]; }},
+    {"-", 2, [](const double* x) { return x[0] - x[1]; }},
+    {"*", 2, [](const double* x) { return x[0] * x[1]; }},
+    {"/", 2, [](const double* x) { return x[0] / x[1]; }},
+    {"^", 2, [](const double* x) { return std::pow(x[0], x[1]); }},
+    {"-x", 1, [](const double* x) { return -x[0]; }},
+    {"sqrt", 1, [](const double* x) { return std::sqrt(x[0]); }},
+    {"exp", 1, [](const double* x) { return std::exp(x[0]); }},
+    {"log", 1, [](const double* x) { return std::log(x[0]); }},
+    {"sin", 1, [](const double* x) { return std::sin(x[0]); }},
+    {"cos", 1, [](const double* x) { return std::cos(x[0]); }},
+    {"sec", 1, [](const double* x) { return 1.0 / std::cos(x[0]); }},
+    {"csc", 1, [](const double* x) { return 1.0 / std::sin(x[0]); }},
+    {"tan", 1, [](const double* x) { return std::tan(x[0]); }},
+    {"cot", 1, [](const double* x) { return 1.0 / std::tan(x[0]); }},
+    {"asin", 1, [](const double* x) { return std::asin(x[0]); }},
+    {"acos", 1, [](const double* x) { return std::acos(x[0]); }},
+    {"atan", 1, [](const double* x) { return std::atan(x[0]); }},
+    {"sinh", 1, [](const double* x) { return std::sinh(x[0]); }},
+    {"cosh", 1, [](const double* x) { return std::cosh(x[0]); }},
+    {"tanh", 1, [](const double* x) { return std::tanh(x[0]); }},
+    {"erf", 1, [](const double* x) { return std::erf(x[0]); }},
+    {"erfc", 1, [](const double* x) { return std::erfc(x[0]); }},
+    {"step", 1, [](const double* x) { return x[0] >= 0.0 ? 1.0 : 0.0; }},
+    {"delta", 1, [](const double* x) { return x[0] == 0.0 ? 1.0 : 0.0; }},
+    {"square", 1, [](const double* x) { return x[0] * x[0]; }},
+    {"cube", 1, [](const double* x) { return x[0] * x[0] * x[0]; }},
+    {"recip", 1, [](const double* x) { return 1.0 / x[0]; }},
+    {"abs", 1, [](const double* x) { return std::abs(x[0]); }},
+    {"floor", 1, [](const double* x) { return std::floor(x[0]); }},
+    {"ceil", 1, [](const double* x) { return std::ceil(x[0]); }},
+    {"min", 2, [](const double* x) { return std::min(x[0], x[1]); }},
+    {"max", 2, [](const double* x) { return std::max(x[0], x[1]); }},
+    {"atan2", 2, [](const double* x) { return std::atan2(x[0], x[1]); }},
+    {"select", 3, [](const double* x) { return x[0] != 0.0 ? x[1] : x[2]; }},
 };
 
-constexpr Named kFunctions[] = {
-    {"sqrt", Operation::sqrt_, 1},   {"exp", Operation::exp_, 1},       {"log", Operation::log_, 1},
-    {"sin", Operation::sin_, 1},     {"cos", Operation::cos_, 1},       {"sec", Operation::sec_, 1},
-    {"csc", Operation::csc_, 1},     {"tan", Operation::tan_, 1},       {"cot", Operation::cot_, 1},
-    {"asin", Operation::asin_, 1},   {"acos", Operation::acos_, 1},     {"atan", Operation::atan_, 1},
-    {"sinh", Operation::sinh_, 1},   {"cosh", Operation::cosh_, 1},     {"tanh", Operation::tanh_, 1},
-    {"erf", Operation::erf_, 1},     {"erfc", Operation::erfc_, 1},     {"step", Operation::step_, 1},
-    {"delta", Operation::delta_, 1}, {"square", Operation::square_, 1}, {"cube", Operation::cube_, 1},
-    {"recip", Operation::recip_, 1}, {"abs", Operation::abs_, 1},       {"floor", Operation::floor_, 1},
-    {"ceil", Operation::ceil_, 1},   {"min", Operation::min_, 2},       {"max", Operation::max_, 2},
-    {"atan2", Operation::atan2_, 2}, {"select", Operation::select_, 3},
-};
-
-/// Returns the number of values that the operation takes from the stack.
-int arguments_of(Operation operation) {
-  switch (operation) {
-    case Operation::number:
-    case Operation::variable:
-      return 0;
-    case Operation::add:
-    case Operation::subtract:
-    case Operation::multiply:
-    case Operation::divide:
-    case Operation::power:
-    case Operation::min_:
-    case Operation::max_:
-    case Operation::atan2_:
-      return 2;
-    case Operation::select_:
-      return 3;
-    default:
-      return 1;
-  }
-}
-
-double apply(Operation operation, const double* x) {
-  switch (operation) {
-    case Operation::add:
-      return x[0] + x[1];
-    case Operation::subtract:
-      return x[0] - x[1];
-    case Operation::multiply:
-      return x[0] * x[1];
-    case Operation::divide:
-      return x[0] / x[1];
-    case Operation::power:
-      return std::pow(x[0], x[1]);
-    case Operation::negate:
-      return -x[0];
-    case Operation::sqrt_:
-      return std::sqrt(x[0]);
-    case Operation::exp_:
-      return std::exp(x[0]);
-    case Operation::log_:
-      return std::log(x[0]);
-    case Operation::sin_:
-      return std::sin(x[0]);
-    case Operation::cos_:
-      return std::cos(x[0]);
-    case Operation::sec_:
-      return 1.0 / std::cos(x[0]);
-    case Operation::csc_:
-      return 1.0 / std::sin(x[0]);
-    case Operation::tan_:
-      return std::tan(x[0]);
-    case Operation::cot_:
-      return 1.0 / std::tan(x[0]);
-    case Operation::asin_:
-      return std::asin(x[0]);
-    case Operation::acos_:
-      return std::acos(x[0]);
-    case Operation::atan_:
-      return std::atan(x[0]);
-    case Operation::sinh_:
-      return std::sinh(x[0]);
-    case Operation::cosh_:
-      return std::cosh(x[0]);
-    case Operation::tanh_:
-      return std::tanh(x[0]);
-    case Operation::erf_:
-      return std::erf(x[0]);
-    case Operation::erfc_:
-      return std::erfc(x[0]);
-    case Operation::step_:
-      return x[0] >= 0.0 ? 1.0 : 0.0;
-    case Operation::delta_:
-      return x[0] == 0.0 ? 1.0 : 0.0;
-    case Operation::square_:
-      return x[0] * x[0];
-    case Operation::cube_:
-      return x[0] * x[0] * x[0];
-    case Operation::recip_:
-      return 1.0 / x[0];
-    case Operation::abs_:
-      return std::abs(x[0]);
-    case Operation::floor_:
-      return std::floor(x[0]);
-    case Operation::ceil_:
-      return std::ceil(x[0]);
-    case Operation::min_:
-      return std::min(x[0], x[1]);
-    case Operation::max_:
-      return std::max(x[0], x[1]);
-    case Operation::atan2_:
-      return std::atan2(x[0], x[1]);
-    case Operation::select_:
-      return x[0] != 0.0 ? x[1] : x[2];
-    case Operation::number:
-    case Operation::variable:
-      break;
-  }
-  return 0.0;
+/// Returns the operation or function of that name; null if there is none.
+const Operation* operation_named(std::string_view name) {
+  const auto* found = std::ranges::find(kOperations, name, &Operation::name);
+  return found == std::end(kOperations) ? nullptr : found;
 }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -183,10 +108,11 @@ class ExpressionParser {
     throw InvalidInput(fmt::format("formula '{}': {}, at character {}", text_, what, at + 1));
   }
 
-  void put(Operation operation, double number = 0.0, std::size_t variable = 0) {
+  void put(Expression::Step step) {
     if (steps_.size() >= kLongest) fail(part_.at, "too long");
-    steps_.push_back({operation, number, variable});
+    steps_.push_back(step);
   }
+  void put(std::string_view operation) { put({.operation = operation_named(operation)}); }
 
   void read(Part part) {
     if (++depth_ > kDeepest) fail(part.at, "a definition refers to itself, or too many nest");
@@ -216,10 +142,10 @@ class ExpressionParser {
     for (;;) {
       if (take('+')) {
         product();
-        put(Operation::add);
+        put("+");
       } else if (take('-')) {
         product();
-        put(Operation::subtract);
+        put("-");
       } else {
         return;
       }
@@ -231,10 +157,10 @@ class ExpressionParser {
     for (;;) {
       if (take('*')) {
         sign();
-        put(Operation::multiply);
+        put("*");
       } else if (take('/')) {
         sign();
-        put(Operation::divide);
+        put("/");
       } else {
         return;
       }
@@ -245,7 +171,7 @@ class ExpressionParser {
     if (++depth_ > kDeepest) fail(part_.at, "nested too deep");
     if (take('-')) {
       sign();
-      put(Operation::negate);
+      put("-x");
     } else {
       (void)take('+');
       power();
@@ -257,7 +183,7 @@ class ExpressionParser {
     primary();
     if (!take('^')) return;
     sign();  // from right to left; the exponent may have a sign
-    put(Operation::power);
+    put("^");
   }
 
   void primary() {
@@ -273,7 +199,7 @@ class ExpressionParser {
       const auto [end, error] = std::from_chars(text_.data() + part_.at, text_.data() + part_.end, value);
       if (error != std::errc()) fail(begin, "expected a number");
       part_.at = static_cast<std::size_t>(end - text_.data());
-      put(Operation::number, value);
+      put({.number = value});
     } else if (is_letter(c)) {
       while (part_.at < part_.end && (is_letter(text_[part_.at]) || is_digit(text_[part_.at]))) ++part_.at;
       name(text_.substr(begin, part_.at - begin), begin);
@@ -284,9 +210,8 @@ class ExpressionParser {
 
   void name(std::string_view word, std::size_t begin) {
     if (take('(')) {
-      const auto* function =
-          std::find_if(std::begin(kFunctions), std::end(kFunctions), [&](const Named& f) { return f.name == word; });
-      if (function == std::end(kFunctions)) fail(begin, fmt::format("there is no function '{}'", word));
+      const Operation* function = operation_named(word);
+      if (function == nullptr) fail(begin, fmt::format("there is no function '{}'", word));
       for (int i = 0; i < function->arguments; ++i) {
         if (i > 0 && !take(',')) {
           fail(part_.at, fmt::format("'{}' takes {} values, expected a comma", word, function->arguments));
@@ -296,7 +221,7 @@ class ExpressionParser {
         --depth_;
       }
       if (!take(')')) fail(part_.at, "expected )");
-      put(function->operation);
+      put({.operation = function});
       return;
     }
     if (const auto it = definitions_.find(word); it != definitions_.end()) return read(it->second);
@@ -304,7 +229,7 @@ class ExpressionParser {
     if (variable == variables_.end()) {
       fail(begin, fmt::format("'{}' is neither defined nor one of {}", word, fmt::join(variables_, ", ")));
     }
-    put(Operation::variable, 0.0, static_cast<std::size_t>(variable - variables_.begin()));
+    put({.variable = static_cast<std::size_t>(variable - variables_.begin())});
   }
 
   std::string_view text_;
@@ -323,16 +248,14 @@ double Expression::operator()(std::span<const double> variables) const {
   std::vector<double> stack;
   stack.reserve(16);
   for (const Step& step : steps_) {
-    if (step.operation == Operation::number) {
-      stack.push_back(step.number);
-    } else if (step.operation == Operation::variable) {
-      stack.push_back(variables[step.variable]);
-    } else {
-      const auto taken = static_cast<std::size_t>(arguments_of(step.operation));
-      const double value = apply(step.operation, stack.data() + (stack.size() - taken));
-      stack.resize(stack.size() - taken);
-      stack.push_back(value);
+    if (step.operation == nullptr) {
+      stack.push_back(step.variable ? variables[*step.variable] : step.number);
+      continue;
     }
+    const std::size_t below = stack.size() - static_cast<std::size_t>(step.operation->arguments);
+    const double value = step.operation->apply(stack.data() + below);
+    stack.resize(below);
+    stack.push_back(value);
   }
   return stack.back();
 }

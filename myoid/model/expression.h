@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,52 +23,18 @@ class Expression {
   /// Returns the value; `variables` in the order of the names. NaN outside a function's domain.
   [[nodiscard]] double operator()(std::span<const double> variables) const;
 
-  enum class Operation {
-    number,
-    variable,
-    add,
-    subtract,
-    multiply,
-    divide,
-    power,
-    negate,
-    sqrt_,
-    exp_,
-    log_,
-    sin_,
-    cos_,
-    sec_,
-    csc_,
-    tan_,
-    cot_,
-    asin_,
-    acos_,
-    atan_,
-    sinh_,
-    cosh_,
-    tanh_,
-    erf_,
-    erfc_,
-    step_,
-    delta_,
-    square_,
-    cube_,
-    recip_,
-    abs_,
-    floor_,
-    ceil_,
-    min_,
-    max_,
-    atan2_,
-    select_
+  struct Operation {
+    std::string_view name;
+    int arguments;  ///< Number of values that it takes from the stack.
+    double (*apply)(const double* arguments);
   };
 
  private:
-  /// Steps of a stack machine: operands precede their operation.
+  /// A step of a stack machine; operands precede their operation. Without an operation it is a variable or a number.
   struct Step {
-    Operation operation = Operation::number;
+    const Operation* operation = nullptr;
+    std::optional<std::size_t> variable{};
     double number = 0.0;
-    std::size_t variable = 0;
   };
   friend class ExpressionParser;
   std::vector<Step> steps_;

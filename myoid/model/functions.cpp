@@ -16,15 +16,7 @@ FunctionValue form_value(const Constant& f, double) { return {f.value, 0.0, 0.0}
 
 FunctionValue form_value(const Linear& f, double x) { return {f.slope * x + f.intercept, f.slope, 0.0}; }
 
-FunctionValue form_value(const Polynomial& f, double x) {
-  FunctionValue v;
-  for (const double c : f.coefficients) {
-    v.second = v.second * x + 2.0 * v.first;
-    v.first = v.first * x + v.value;
-    v.value = v.value * x + c;
-  }
-  return v;
-}
+FunctionValue form_value(const Polynomial& f, double x) { return polynomial_value(f.coefficients, x); }
 
 /// Returns the interval that holds x, 0 .. n-2; the outer intervals extend to infinity.
 std::size_t interval(const std::vector<double>& knots, double x) {
@@ -70,21 +62,12 @@ FunctionValue form_value(const SmoothStep& f, double x) {
           height / (width * width) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
 }
 
-FunctionValue form_value(const math::Spline& f, double x) {
-  const math::SplineValue v = f.at(x);
-  return {v.value, v.first, v.second};
-}
+FunctionValue form_value(const math::Spline& f, double x) { return f.at(x); }
 
 FunctionValue form_value(const PiecewisePolynomial& f, double x) {
   const auto column = std::upper_bound(f.x.begin(), f.x.end(), x) - f.x.begin();
   const double u = x - f.x[static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - 1))];
-  FunctionValue v;
-  for (Eigen::Index k = f.coefficients.rows(); k-- > 0;) {
-    v.second = v.second * u + 2.0 * v.first;
-    v.first = v.first * u + v.value;
-    v.value = v.value * u + f.coefficients(k, column);
-  }
-  return v;
+  return polynomial_value(f.coefficients.col(column).reverse(), u);
 }
 
 void check_knots(const std::vector<double>& x, const std::vector<double>& y) {

@@ -78,11 +78,20 @@ struct Function {
 /// them): OpenSim's GCVSpline of half order 4. Four knots or more; throws as make_simm_spline.
 [[nodiscard]] PiecewisePolynomial make_septic_spline(const std::vector<double>& x, const std::vector<double>& y);
 
-struct FunctionValue {
-  double value = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-};
+/// Value and first two derivatives.
+using FunctionValue = math::SplineValue;
+
+/// Returns the polynomial with these coefficients, highest power first, by Horner's rule.
+template <typename Coefficients>
+[[nodiscard]] FunctionValue polynomial_value(const Coefficients& coefficients, double x) {
+  FunctionValue v;
+  for (const double c : coefficients) {
+    v.second = v.second * x + 2.0 * v.first;
+    v.first = v.first * x + v.value;
+    v.value = v.value * x + c;
+  }
+  return v;
+}
 
 /// Returns value and first two derivatives at x. Each form defines its values beyond the data.
 [[nodiscard]] FunctionValue evaluate(const Function& function, double x);

@@ -18,20 +18,13 @@ bool rests(const std::array<TransformAxis, 3>& axes) {
 }
 
 bool uses(const std::array<TransformAxis, 3>& axes, int coordinate) {
-  return std::any_of(axes.begin(), axes.end(),
-                     [&](const TransformAxis& axis) { return axis.coordinate == coordinate; });
+  return std::ranges::find(axes, coordinate, &TransformAxis::coordinate) != axes.end();
 }
 
-/// Returns the inverse of R(a1,f1) R(a2,f2) R(a3,f3).
-std::array<TransformAxis, 3> turned_back(std::array<TransformAxis, 3> rotation) {
-  std::swap(rotation[0], rotation[2]);
-  for (TransformAxis& axis : rotation) axis.function.scale = -axis.function.scale;
-  return rotation;
-}
-
-std::array<TransformAxis, 3> shifted_back(std::array<TransformAxis, 3> translation) {
-  for (TransformAxis& axis : translation) axis.function.scale = -axis.function.scale;
-  return translation;
+/// Returns the axes with opposite motions.
+std::array<TransformAxis, 3> backward(std::array<TransformAxis, 3> axes) {
+  for (TransformAxis& axis : axes) axis.function.scale = -axis.function.scale;
+  return axes;
 }
 
 /// Returns the axes of a joint that does not move in this way.
@@ -61,8 +54,9 @@ void turn_round(BodyModel& model, std::size_t number) {
   back.child = joint.parent;
   back.X_BM = joint.X_PF;
   // X_FM^-1 is the inverse rotation and then, in its frame, the inverse translation.
-  back.rotation = turned_back(joint.rotation);
-  back.translation = shifted_back(joint.translation);
+  back.rotation = backward(joint.rotation);
+  std::swap(back.rotation[0], back.rotation[2]);
+  back.translation = backward(joint.translation);
   if (rests(joint.translation) || rests(joint.rotation)) {
     model.joints[number] = std::move(back);
     return;
@@ -114,10 +108,10 @@ void orient_joints(BodyModel& model) {
         grown.push_back(child);
       }
     }
-    const auto backward = std::find_if(model.joints.begin(), model.joints.end(),
+    const auto reversed = std::find_if(model.joints.begin(), model.joints.end(),
                                        [&](const Joint& j) { return reached[at(j.child)] && !reached[at(j.parent)]; });
-    if (backward == model.joints.end()) return;
-    turn_round(model, static_cast<std::size_t>(backward - model.joints.begin()));
+    if (reversed == model.joints.end()) return;
+    turn_round(model, static_cast<std::size_t>(reversed - model.joints.begin()));
     reached.resize(model.bodies.size(), false);
   }
 }

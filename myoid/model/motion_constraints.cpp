@@ -10,11 +10,6 @@
 namespace myoid::model {
 namespace {
 
-/// A point of a body: position, velocity and acceleration in ground; the acceleration is that for qddot = 0.
-struct MovingPoint {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
-};
-
 /// The acceleration of each row of the constraints other than couplers, for qddot = 0.
 class LoopRows {
  public:
@@ -31,7 +26,7 @@ class LoopRows {
     return rows;
   }
   [[nodiscard]] Eigen::VectorXd bias(const DistanceConstraint& d) const {
-    const MovingPoint one = point(d.body1, d.p_B1), two = point(d.body2, d.p_B2);
+    const PointMotion one = point(d.body1, d.p_B1), two = point(d.body2, d.p_B2);
     const double length = (two.p - one.p).norm();
     const Vec3 along = (two.p - one.p) / length;
     const Vec3 v = two.v - one.v;
@@ -39,10 +34,10 @@ class LoopRows {
     return Eigen::VectorXd::Constant(1, along.dot(two.a - one.a) + turning.squaredNorm() / length);
   }
   [[nodiscard]] Eigen::VectorXd bias(const LineConstraint& line) const {
-    const MovingPoint two = point(line.body2, line.p_B2);
+    const PointMotion two = point(line.body2, line.p_B2);
     const Pose& X_GB1 = state_.X_GB[at(line.body1)];
     // The point of body 1 at the same place; the remaining motion is relative to body 1.
-    const MovingPoint here = point(line.body1, X_GB1.inverse() * two.p);
+    const PointMotion here = point(line.body1, X_GB1.inverse() * two.p);
     const Vec3 a = two.a - here.a - 2.0 * state_.w_GB[at(line.body1)].cross(Vec3(two.v - here.v));
     Eigen::VectorXd rows(2);
     const auto directions = directions_across(line.direction);
@@ -64,10 +59,8 @@ class LoopRows {
   }
 
  private:
-  [[nodiscard]] MovingPoint point(BodyIndex body, const Vec3& p_B) const {
-    const Pose& X_GB = state_.X_GB[at(body)];
-    return {X_GB * p_B, state_.v_GB[at(body)] + state_.w_GB[at(body)].cross(Vec3(X_GB.R * p_B)),
-            without_qddot_.of_station(state_, body, p_B)};
+  [[nodiscard]] PointMotion point(BodyIndex body, const Vec3& p_B) const {
+    return without_qddot_.of_station(state_, body, p_B);
   }
 
   const BodyState& state_;

@@ -1,10 +1,6 @@
 #include "myoid/model/muscle_path.h"
 
-#include <algorithm>
-
 #include "myoid/core/index.h"
-#include "myoid/model/opensim_defects/path_opensim.h"
-#include "myoid/model/path_exact.h"
 
 namespace myoid::model {
 namespace {
@@ -37,9 +33,9 @@ void compute_path(const BodyModel& model,
     workspace.stations.clear();
     compute_function_path(*path.function, state, result);
   } else if (model.compat.opensim_paths) {
-    compute_opensim_path(model, path, state, workspace, result);
+    compute_opensim_path({model, path, state}, workspace, result);
   } else {
-    compute_exact_path(model, path, state, workspace, result);
+    compute_exact_path({model, path, state}, workspace, result);
   }
 }
 

@@ -3,10 +3,7 @@
 #include <Eigen/LU>
 
 #include "myoid/core/index.h"
-#include "myoid/model/wrap_cylinder.h"
-#include "myoid/model/wrap_ellipsoid.h"
-#include "myoid/model/wrap_sphere.h"
-#include "myoid/model/wrap_torus.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {
@@ -41,10 +38,8 @@ struct Sensitivity {
 };
 
 /// Returns every contact of the path, in order; a contact that is lost at the very edge of touching is left out.
-std::vector<Sensitivity> contacts_of(const BodyModel& model,
-                                     const MusclePath& path,
-                                     const BodyState& state,
-                                     const std::vector<PathStation>& stations) {
+std::vector<Sensitivity> contacts_of(const PosedPath& posed, const std::vector<PathStation>& stations) {
+  const auto& [model, path, state] = posed;
   std::vector<Sensitivity> contacts;
   for (std::size_t i = 1; i + 2 < stations.size(); ++i) {
     if (!stations[i].on_wrap_after) continue;
@@ -95,9 +90,9 @@ std::optional<WrapContact> contact_over(const WrapObject& object, WrapMethod met
   return contact_with<double>(object, method, p_W, q_W);
 }
 
-void refine_contacts(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
+void refine_contacts(const PosedPath& posed, PathWorkspace& workspace) {
   auto& stations = workspace.stations;
-  const std::vector<Sensitivity> contacts = contacts_of(model, path, state, stations);
+  const std::vector<Sensitivity> contacts = contacts_of(posed, stations);
   const auto n = static_cast<Eigen::Index>(contacts.size());
   Eigen::Index there = 0;
   for (const PathStation& s : stations) there += s.on_wrap_after ? 1 : 0;
@@ -127,12 +122,8 @@ void refine_contacts(const BodyModel& model, const MusclePath& path, const BodyS
   }
 }
 
-void add_contact_motion(const BodyModel& model,
-                        const MusclePath& path,
-                        const BodyState& state,
-                        const std::vector<PathStation>& stations,
-                        Eigen::VectorXd& arm) {
-  std::vector<Sensitivity> contacts = contacts_of(model, path, state, stations);
+void add_contact_motion(const PosedPath& posed, const std::vector<PathStation>& stations, Eigen::VectorXd& arm) {
+  std::vector<Sensitivity> contacts = contacts_of(posed, stations);
   // The tangent points of a contact are the ends of its neighbors' straight pieces: all derivatives
   // are solved together.
   const auto n = static_cast<Eigen::Index>(contacts.size());
@@ -161,11 +152,9 @@ void add_contact_motion(const BodyModel& model,
     const PathStation& tangent = stations[s.station];
     const auto add = [&](const PathStation& end, const Vec3& by_end_W) {
       const Vec3 by_end_G = s.X_GW.R * by_end_W;
-      add_pair_moment(model, state, tangent.body, end.p_G, end.body, end.p_G, by_end_G, arm);
-      if (end.source < 0) return;
-      const PathPoint& point = path.points[at(end.source)];
-      if (point.moving && point.moving->coordinate >= 0)
-        arm[point.moving->coordinate] -= by_end_G.dot(moving_rate(model, point, state, false));
+      add_pair_moment(posed.model, posed.state, tangent.body, end.p_G, end.body, end.p_G, by_end_G, arm);
+      if (const PathPoint* point = moving_point(posed.path, end))
+        arm[point->moving->coordinate] -= by_end_G.dot(moving_rate(posed, *point, false));
     };
     add(stations[s.station - 1], s.effect.head<3>());
     add(stations[s.station + 2], s.effect.tail<3>());

@@ -16,15 +16,11 @@ namespace myoid::model {
 
 /// Takes one Newton step towards tangent points that each fit their neighbors. `workspace.stations`
 /// hold the path; they stay unchanged if a contact is lost or the step is not finite.
-void refine_contacts(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace);
+void refine_contacts(const PosedPath& posed, PathWorkspace& workspace);
 
 /// Adds to `arm` the share of -dl/dq that comes from the tangent points' motion on their objects. The path must be at
 /// rest. The share is zero if every contact is the shortest way over its object.
-void add_contact_motion(const BodyModel& model,
-                        const MusclePath& path,
-                        const BodyState& state,
-                        const std::vector<PathStation>& stations,
-                        Eigen::VectorXd& arm);
+void add_contact_motion(const PosedPath& posed, const std::vector<PathStation>& stations, Eigen::VectorXd& arm);
 
 /// Returns the unit vector from one station to the next; zero if they coincide.
 [[nodiscard]] Vec3 straight_direction(const PathStation& a, const PathStation& b);

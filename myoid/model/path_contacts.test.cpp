@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/model/path_exact.h"
+#include "myoid/model/path_stations.h"
 
 namespace myoid::model {
 namespace {
@@ -37,7 +37,7 @@ TEST(RefineContacts, ComesToRestQuadraticallyFromNearby) {
   PathResult result;
   const MusclePath& path = m.muscles[0].path;
   result.moment_arm_m.resize(0);
-  compute_exact_path(m, path, state, workspace, result);
+  compute_exact_path({m, path, state}, workspace, result);
   ASSERT_TRUE(result.settled);
   const std::vector<PathStation> rest = workspace.stations;
   ASSERT_EQ(rest.size(), 6U);
@@ -47,13 +47,13 @@ TEST(RefineContacts, ComesToRestQuadraticallyFromNearby) {
       greatest = std::max(greatest, (workspace.stations[i].p_G - rest[i].p_G).norm());
     return greatest;
   };
-  refine_contacts(m, path, state, workspace);
+  refine_contacts({m, path, state}, workspace);
   EXPECT_LT(distance(), 1e-13);  // stays where it rests
   for (std::size_t i = 1; i < 5; ++i) workspace.stations[i].p_G += Vec3(1e-3, -5e-4, 3e-4);
   const double first = distance();
-  refine_contacts(m, path, state, workspace);
+  refine_contacts({m, path, state}, workspace);
   const double second = distance();
-  refine_contacts(m, path, state, workspace);
+  refine_contacts({m, path, state}, workspace);
   const double third = distance();
   EXPECT_LT(second, 0.1 * first);
   EXPECT_LT(third, 100.0 * second * second + 1e-14);  // curvatures of 50 per m
@@ -86,10 +86,10 @@ TEST(AddContactMotion, IsNothingOverShortestWays) {
   PathWorkspace workspace;
   PathResult result;
   result.moment_arm_m = Eigen::VectorXd::Zero(1);
-  compute_exact_path(moving, moving.muscles[0].path, s, workspace, result);
+  compute_exact_path({moving, moving.muscles[0].path, s}, workspace, result);
   ASSERT_EQ(workspace.stations.size(), 6U);
   Eigen::VectorXd arm = Eigen::VectorXd::Zero(1);
-  add_contact_motion(moving, moving.muscles[0].path, s, workspace.stations, arm);
+  add_contact_motion({moving, moving.muscles[0].path, s}, workspace.stations, arm);
   EXPECT_LT(std::abs(arm[0]), 1e-12);
   EXPECT_GT(std::abs(result.moment_arm_m[0]), 1e-3);
 }

@@ -1,9 +1,5 @@
-#include "myoid/model/path_exact.h"
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 #include "myoid/core/index.h"
 #include "myoid/model/path_contacts.h"
@@ -57,12 +53,8 @@ class SegmentSearch {
 /// Puts the contact of one wrap on its segment of the previous pass or, without contact there, on the segment that
 /// lengthens the path least. Returns the distance that its tangent points have moved. `final_loss`: an object that
 /// loses its contact in this pass is left out of all further passes.
-double insert_wrap(const BodyModel& model,
-                   const MusclePath& path,
-                   int number,
-                   const BodyState& state,
-                   bool final_loss,
-                   PathWorkspace& workspace) {
+double insert_wrap(const PosedPath& posed, int number, bool final_loss, PathWorkspace& workspace) {
+  const auto& [model, path, state] = posed;
   const PathWrap& wrap = path.wraps[at(number)];
   const WrapObject& object = model.wrap_objects[at(wrap.wrap_object)];
   auto& stations = workspace.stations;
@@ -100,19 +92,20 @@ double insert_wrap(const BodyModel& model,
 /// Fits each object in turn to its current neighbors until the tangent points rest. Two objects may
 /// push the path off each other, each in contact only without the other: the object that first
 /// loses its contact after some passes is then left out. False: the tangent points do not rest.
-bool wrap_all(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
+bool wrap_all(const PosedPath& posed, PathWorkspace& workspace) {
+  const std::size_t wraps = posed.path.wraps.size();
   constexpr int kMostPasses = 200;
   constexpr double kResting_m = 1e-13;
-  workspace.first_seen_G.resize(path.wraps.size());
-  workspace.is_seen.assign(path.wraps.size(), 0);
+  workspace.first_seen_G.resize(wraps);
+  workspace.is_seen.assign(wraps, 0);
   constexpr int kPatientPasses = 8;
-  const int passes = path.wraps.size() == 1 ? 1 : kMostPasses;
+  const int passes = wraps == 1 ? 1 : kMostPasses;
   for (int pass = 0; pass < passes; ++pass) {
     // Slow passes: a step of Newton's method on all tangent points at once.
-    if (pass >= kPatientPasses && pass % 3 == 0) refine_contacts(model, path, state, workspace);
+    if (pass >= kPatientPasses && pass % 3 == 0) refine_contacts(posed, workspace);
     double moved = 0.0;
-    for (std::size_t w = 0; w < path.wraps.size(); ++w)
-      moved = std::max(moved, insert_wrap(model, path, static_cast<int>(w), state, pass >= kPatientPasses, workspace));
+    for (std::size_t w = 0; w < wraps; ++w)
+      moved = std::max(moved, insert_wrap(posed, static_cast<int>(w), pass >= kPatientPasses, workspace));
     if (moved < kResting_m) return true;
   }
   return passes == 1;
@@ -120,13 +113,10 @@ bool wrap_all(const BodyModel& model, const MusclePath& path, const BodyState& s
 
 }  // namespace
 
-void compute_exact_path(const BodyModel& model,
-                        const MusclePath& path,
-                        const BodyState& state,
-                        PathWorkspace& workspace,
-                        PathResult& result) {
-  place_points(model, path, state, workspace);
-  result.settled = path.wraps.empty() || wrap_all(model, path, state, workspace);
+void compute_exact_path(const PosedPath& posed, PathWorkspace& workspace, PathResult& result) {
+  const auto& [model, path, state] = posed;
+  place_points(posed, workspace);
+  result.settled = path.wraps.empty() || wrap_all(posed, workspace);
   const auto& stations = workspace.stations;
   result.wrapped = false;
   bool shortest = true;
@@ -143,9 +133,9 @@ void compute_exact_path(const BodyModel& model,
     const Vec3 u = straight_direction(a, b);
     if (u.isZero(0.0)) continue;
     add_pair_moment(model, state, a.body, a.p_G, b.body, b.p_G, u, result.moment_arm_m);
-    add_moving_moments(model, path, state, a, b, u, false, result.moment_arm_m);
+    add_moving_moments(posed, a, b, u, false, result.moment_arm_m);
   }
-  if (!shortest) add_contact_motion(model, path, state, stations, result.moment_arm_m);
+  if (!shortest) add_contact_motion(posed, stations, result.moment_arm_m);
   result.speed_mps = -result.moment_arm_m.dot(state.qdot);
 }
 

@@ -1,10 +1,9 @@
-#include "myoid/model/path_exact.h"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "myoid/model/path_stations.h"
 #include "myoid/model/path_survey.h"
 #include "myoid/osim/osim_reader.h"
 
@@ -34,7 +33,7 @@ Found against_differences(const BodyModel& m, int postures) {
       for (const Muscle& muscle : m.muscles) {
         const auto path_at = [&](double step, PathResult& result) {
           compute_poses(m, q + step * Eigen::VectorXd::Unit(q.size(), c), state);
-          compute_exact_path(m, muscle.path, state, workspace, result);
+          compute_exact_path({m, muscle.path, state}, workspace, result);
         };
         here.moment_arm_m = ahead.moment_arm_m = behind.moment_arm_m = Eigen::VectorXd::Zero(q.size());
         path_at(2.0 * h, ahead);

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "myoid/core/index.h"
-#include "myoid/model/wrap_torus.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

@@ -16,7 +16,8 @@ bool is_active(const PathPoint& point, const BodyState& state) {
 
 }  // namespace
 
-void place_points(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace) {
+void place_points(const PosedPath& posed, PathWorkspace& workspace) {
+  const auto& [model, path, state] = posed;
   workspace.stations.clear();
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& point = path.points[i];
@@ -94,9 +95,15 @@ void add_pair_moment(const BodyModel& model,
   }
 }
 
-Vec3 moving_rate(const BodyModel& model, const PathPoint& point, const BodyState& state, bool beyond_range) {
+const PathPoint* moving_point(const MusclePath& path, const PathStation& station) {
+  if (station.source < 0) return nullptr;
+  const PathPoint& point = path.points[at(station.source)];
+  return point.moving && point.moving->coordinate >= 0 ? &point : nullptr;
+}
+
+Vec3 moving_rate(const PosedPath& posed, const PathPoint& point, bool beyond_range) {
+  const auto& [model, path, state] = posed;
   const PathPoint::Moving& moving = *point.moving;
-  if (moving.coordinate < 0) return Vec3::Zero();
   const Coordinate& coordinate = model.coordinates[at(moving.coordinate)];
   const double q = state.q[moving.coordinate];
   if (!beyond_range && (q < coordinate.lower || q > coordinate.upper)) return Vec3::Zero();
@@ -129,20 +136,15 @@ void insert_behind(std::vector<PathStation>& stations, int station, const std::a
   stations.insert(stations.insert(where, contact[1]), contact[0]);
 }
 
-void add_moving_moments(const BodyModel& model,
-                        const MusclePath& path,
-                        const BodyState& state,
+void add_moving_moments(const PosedPath& posed,
                         const PathStation& a,
                         const PathStation& b,
                         const Vec3& u,
                         bool beyond_range,
                         Eigen::VectorXd& arm) {
   const auto add = [&](const PathStation& s, double sign) {
-    if (s.source < 0) return;
-    const PathPoint& point = path.points[at(s.source)];
-    if (point.moving && point.moving->coordinate >= 0) {
-      arm[point.moving->coordinate] -= sign * u.dot(moving_rate(model, point, state, beyond_range));
-    }
+    if (const PathPoint* point = moving_point(posed.path, s))
+      arm[point->moving->coordinate] -= sign * u.dot(moving_rate(posed, *point, beyond_range));
   };
   add(b, 1.0);
   add(a, -1.0);

@@ -21,6 +21,13 @@ struct PathStation {
   double arc_after_m = 0.0;    ///< Length of that arc.
 };
 
+/// A path of a model at one posture.
+struct PosedPath {
+  const BodyModel& model;
+  const MusclePath& path;
+  const BodyState& state;
+};
+
 /// Space for computing paths, reused from call to call without allocation; one per thread. After a
 /// call `stations` is the path.
 struct PathWorkspace {
@@ -41,8 +48,14 @@ struct PathResult {
   bool settled = true;
 };
 
+/// Computes a path by the geometry of the model: continuous length, r = -dl/dq.
+void compute_exact_path(const PosedPath& posed, PathWorkspace& workspace, PathResult& result);
+
+/// Computes a path by the algorithm of OpenSim 4.5.2, with the defects that `model.compat` switches on.
+void compute_opensim_path(const PosedPath& posed, PathWorkspace& workspace, PathResult& result);
+
 /// Fills the stations of a path without wrap objects, the first step of all computations of a path.
-void place_points(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace);
+void place_points(const PosedPath& posed, PathWorkspace& workspace);
 
 /// First and last station between which a wrap may act: the wrap's range counts all points from 1
 /// and shrinks to the active points. {0, -1} if the range holds none.
@@ -80,18 +93,16 @@ void add_pair_moment(const BodyModel& model,
 /// Inserts two stations behind a station.
 void insert_behind(std::vector<PathStation>& stations, int station, const std::array<PathStation, 2>& contact);
 
-/// Returns the derivative of a moving point's location by its coordinate, in ground.
+/// Returns the moving point at a station, if a coordinate moves it; null at other stations.
+[[nodiscard]] const PathPoint* moving_point(const MusclePath& path, const PathStation& station);
+
+/// Returns the derivative of such a point's location by its coordinate, in ground.
 /// `beyond_range`: nonzero also outside the coordinate's range, as in OpenSim.
-[[nodiscard]] Vec3 moving_rate(const BodyModel& model,
-                               const PathPoint& point,
-                               const BodyState& state,
-                               bool beyond_range);
+[[nodiscard]] Vec3 moving_rate(const PosedPath& posed, const PathPoint& point, bool beyond_range);
 
 /// Adds to `arm` the moments of two moving points, a and b, by the coordinates that they follow; u
 /// is the direction from a to b. Other stations have none.
-void add_moving_moments(const BodyModel& model,
-                        const MusclePath& path,
-                        const BodyState& state,
+void add_moving_moments(const PosedPath& posed,
                         const PathStation& a,
                         const PathStation& b,
                         const Vec3& u,

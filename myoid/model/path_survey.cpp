@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
 #include "myoid/math/random.h"
 #include "myoid/model/constraints.h"
@@ -14,9 +15,9 @@ namespace myoid::model {
 namespace {
 
 bool moves(const BodyModel& model, int coordinate) {
-  const auto depends = [&](const CoordinateCoupler& k) { return k.dependent == coordinate; };
-  const Coordinate& c = model.coordinates[static_cast<std::size_t>(coordinate)];
-  return !c.locked && !c.prescribed && std::none_of(model.couplers.begin(), model.couplers.end(), depends);
+  const Coordinate& c = model.coordinates[at(coordinate)];
+  return !c.locked && !c.prescribed &&
+         std::ranges::find(model.couplers, coordinate, &CoordinateCoupler::dependent) == model.couplers.end();
 }
 
 /// Length and arm of one muscle along one coordinate.
@@ -128,8 +129,7 @@ std::vector<PathDifference> compare_with_opensim(const BodyModel& model,
   }
   std::erase_if(all, [&](const PathDifference& d) { return !(d.length_m > least_m || d.moment_arm_m > least_m); });
   for (PathDifference& d : all) d.typical_length_m = std::sqrt(d.typical_length_m);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const PathDifference& a, const PathDifference& b) { return a.length_m > b.length_m; });
+  std::ranges::stable_sort(all, std::ranges::greater(), &PathDifference::length_m);
   return all;
 }
 
@@ -138,7 +138,7 @@ std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double lengt
   for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
     for (int c = 0; c < static_cast<int>(model.coordinates.size()); ++c) {
       if (!moves(model, c)) continue;
-      const CoordinateRange range = usual_range(model.coordinates[static_cast<std::size_t>(c)]);
+      const CoordinateRange range = usual_range(model.coordinates[at(c)]);
       if (!(range.upper > range.lower)) continue;
       Sweep sweep(model, m, c);
       const double step = (range.upper - range.lower) / steps;
@@ -172,7 +172,7 @@ std::vector<PathJump> find_jumps(const BodyModel& model, int steps, double lengt
 }
 
 Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
-  const CoordinateRange range = usual_range(model.coordinates[static_cast<std::size_t>(coordinate)]);
+  const CoordinateRange range = usual_range(model.coordinates[at(coordinate)]);
   Sweep sweep(model, muscle, coordinate);
   Eigen::VectorXd arms(steps + 1);
   for (int step = 0; step <= steps; ++step)
@@ -181,10 +181,10 @@ Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordi
 }
 
 std::string describe(const BodyModel& model, const PathJump& jump) {
-  const Coordinate& c = model.coordinates[static_cast<std::size_t>(jump.coordinate)];
+  const Coordinate& c = model.coordinates[at(jump.coordinate)];
   const bool is_angle = c.motion == MotionType::rotational;
-  std::string text = fmt::format("{} at {} = {:.5g} {}:", model.muscles[static_cast<std::size_t>(jump.muscle)].name,
-                                 c.name, is_angle ? jump.at / kDegree : jump.at, is_angle ? "deg" : "m");
+  std::string text = fmt::format("{} at {} = {:.5g} {}:", model.muscles[at(jump.muscle)].name, c.name,
+                                 is_angle ? jump.at / kDegree : jump.at, is_angle ? "deg" : "m");
   if (jump.length_m > 0.0) text += fmt::format(" length jumps by {:.3g} mm", 1e3 * jump.length_m);
   if (jump.moment_arm_m > 0.0) {
     text += fmt::format("{} moment arm jumps by {:.3g} mm", jump.length_m > 0.0 ? "," : "", 1e3 * jump.moment_arm_m);

@@ -6,10 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/model/wrap_cylinder.h"
-#include "myoid/model/wrap_ellipsoid.h"
-#include "myoid/model/wrap_sphere.h"
-#include "myoid/model/wrap_torus.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

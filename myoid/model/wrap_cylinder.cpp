@@ -1,9 +1,7 @@
-#include "myoid/model/wrap_cylinder.h"
-
-#include <algorithm>
 #include <cmath>
 
 #include "myoid/core/units.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

@@ -1,11 +1,10 @@
-#include "myoid/model/wrap_ellipsoid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "myoid/core/units.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {
@@ -143,14 +142,10 @@ Vector3<T> plane_point(
       // The crossing must be well within the chord; towards its ends the axial point fades out.
       if (parallel > T(kBlendMin)) {
         const T to_end = t < T(1.0) - t ? t : T(1.0) - t;
-        T inside = to_end / T(kBoundary);
-        if (inside < T(0.0)) inside = T(0.0);
-        if (inside > T(1.0)) inside = T(1.0);
+        const T inside = std::clamp(T(to_end / T(kBoundary)), T(0.0), T(1.0));
         parallel = T(kBlendMin) + inside * (parallel - T(kBlendMin));
       }
-      fan_weight = (T(kBlendMax) - parallel) / T(kBlendMax - kBlendMin);
-      if (fan_weight < T(0.0)) fan_weight = T(0.0);
-      if (fan_weight > T(1.0)) fan_weight = T(1.0);
+      fan_weight = std::clamp(T((T(kBlendMax) - parallel) / T(kBlendMax - kBlendMin)), T(0.0), T(1.0));
     }
     if (fan_weight < T(1.0)) c = closest_point(radii, chord.at(t), axis);
     if (value_of(fan_weight) == 1.0) {

@@ -1,5 +1,3 @@
-#include "myoid/model/wrap_ellipsoid.h"
-
 #include <cmath>
 #include <string>
 
@@ -8,6 +6,7 @@
 #include "myoid/core/units.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
+#include "myoid/model/wrap_surfaces.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/tables/storage_reader.h"
 

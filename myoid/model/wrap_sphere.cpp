@@ -1,6 +1,6 @@
-#include "myoid/model/wrap_sphere.h"
-
 #include <cmath>
+
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

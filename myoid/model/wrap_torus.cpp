@@ -1,10 +1,8 @@
-#include "myoid/model/wrap_torus.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "myoid/model/wrap_cylinder.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

@@ -1,8 +1,8 @@
-#include "myoid/model/wrap_torus.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {

@@ -6,26 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
-#include "myoid/forces/muscle_analysis.h"
-#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/model/constraints.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/opensim_tools/moving_bodies.h"
-#include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid {
 namespace {
-
-struct KnownAnalysis {
-  std::string_view class_name;
-  void (*run)(AnalysisRun&, pugi::xml_node);
-};
 
 /// Indices of the objects that a list names; an empty list and "all" name every one. Unknown names are noted.
 std::vector<int> chosen(
@@ -40,7 +31,7 @@ std::vector<int> chosen(
     if (const std::optional<int> index = find(name)) {
       indices.push_back(*index);
     } else {
-      run.result.notes.push_back(fmt::format("<{}>: the model has no '{}'; it is left out", property, name));
+      run.note("<{}>: the model has no '{}'; it is left out", property, name);
     }
   }
   return indices;
@@ -53,62 +44,6 @@ Eigen::MatrixXd assembled(const model::BodyModel& model, const Eigen::MatrixXd& 
   for (Eigen::Index i = 0; i < q.rows(); ++i)
     result.row(i) = model::assemble(model, q.row(i).transpose()).q.transpose();
   return result;
-}
-
-void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
-  const auto& xml = run.setup.xml();
-  const auto& model = run.model;
-  const auto columns = chosen(run, node, "coordinates", model.coordinates.size(),
-                              [&](const std::string& name) { return model.find_coordinate(name); });
-  const bool in_degrees = xml.flag(node, "in_degrees", true);
-  std::vector<Channel> channels;
-  for (const int c : columns) {
-    const auto& coordinate = model.coordinates[at(c)];
-    channels.push_back(
-        {coordinate.name, coordinate.motion == model::MotionType::rotational ? Unit::radian : Unit::dimensionless});
-  }
-  const auto write = [&](const char* suffix, const char* title, const Eigen::MatrixXd& values) {
-    write_result(run, analysis_name(node) + suffix,
-                 {run.motion.q.time_s(), channels, Eigen::MatrixXd(values(Eigen::all, columns))},
-                 {.title = title, .in_degrees = in_degrees, .description = std::string("\n") + kUnitsNote});
-  };
-  write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
-  write("_u.sto", "Speeds", run.motion.qdot.values());
-  if (const Eigen::MatrixXd* qddot = accelerations_of(run)) write("_dudt.sto", "Accelerations", *qddot);
-}
-
-void report_muscles(AnalysisRun& run, pugi::xml_node node) {
-  const auto& xml = run.setup.xml();
-  const auto& model = run.model;
-  if (model.muscles.empty()) xml.fail(node, "MuscleAnalysis: the model has no muscles");
-  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
-  options.muscles = chosen(run, node, "muscle_list", model.muscles.size(),
-                           [&](const std::string& name) { return model.find_muscle(name); });
-  if (options.muscles.empty()) xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
-  if (xml.flag(node, "compute_moments", true)) {
-    options.coordinates = chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
-                                 [&](const std::string& name) { return model.find_coordinate(name); });
-  }
-  if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
-  if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
-  if (!run.equilibrium && run.fiber_length_m.size() == 0) {
-    run.result.notes.push_back(fmt::format(
-        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their "
-        "default lengths ({}), so that their velocities and forces mean little; lengths "
-        "of muscles and moment arms do not depend on it",
-        run.options.compat.class_fiber_length ? "0.1 m where the model gives none, as in OpenSim"
-                                              : "optimal ones where the model gives none; OpenSim takes 0.1 m"));
-  }
-  const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
-  run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
-  const std::string description =
-      std::string(
-          "\nThis analysis gathers basic information about muscles during a simulation (e.g., "
-          "forces, tendon lengths, moment arms, etc).\n") +
-      kUnitsNote;
-  for (const auto& [name, table] : analysis.tables) {
-    write_result(run, analysis_name(node) + "_" + name + ".sto", table, {.title = name, .description = description});
-  }
 }
 
 /// One output of the model that a report asks for.
@@ -180,12 +115,72 @@ std::array<OutputTable, 2> wanted_outputs(AnalysisRun& run, pugi::xml_node node)
     }
   }
   if (!missing.empty()) {
-    run.result.notes.push_back(
-        fmt::format("{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of "
-                    "markers and positions of bodies are reported",
-                    analysis_name(node), missing));
+    run.note(
+        "{}: outputs {} are left out; lengths and lengthening speeds of paths, locations of markers and "
+        "positions of bodies are reported",
+        analysis_name(node), missing);
   }
   return tables;
+}
+
+}  // namespace
+
+std::string analysis_name(pugi::xml_node node) {
+  const std::string name = model::OsimXml::name_of(node);
+  return name.empty() ? node.name() : name;
+}
+
+void report_kinematics(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const auto& model = run.model;
+  const auto columns = chosen(run, node, "coordinates", model.coordinates.size(),
+                              [&](const std::string& name) { return model.find_coordinate(name); });
+  const bool in_degrees = xml.flag(node, "in_degrees", true);
+  std::vector<Channel> channels;
+  for (const int c : columns) {
+    const auto& coordinate = model.coordinates[at(c)];
+    channels.push_back(
+        {coordinate.name, coordinate.motion == model::MotionType::rotational ? Unit::radian : Unit::dimensionless});
+  }
+  const auto write = [&](const char* suffix, const char* title, const Eigen::MatrixXd& values) {
+    write_result(run, analysis_name(node) + suffix,
+                 {run.motion.q.time_s(), channels, Eigen::MatrixXd(values(Eigen::all, columns))},
+                 {.title = title, .in_degrees = in_degrees, .description = std::string("\n") + kUnitsNote});
+  };
+  write("_q.sto", "Coordinates", assembled(model, run.motion.q.values()));
+  write("_u.sto", "Speeds", run.motion.qdot.values());
+  if (const Eigen::MatrixXd* qddot = accelerations_of(run)) write("_dudt.sto", "Accelerations", *qddot);
+}
+
+void report_muscles(AnalysisRun& run, pugi::xml_node node) {
+  const auto& xml = run.setup.xml();
+  const auto& model = run.model;
+  if (model.muscles.empty()) xml.fail(node, "MuscleAnalysis: the model has no muscles");
+  forces::MuscleAnalysisOptions options = muscle_options(run);
+  options.muscles = chosen(run, node, "muscle_list", model.muscles.size(),
+                           [&](const std::string& name) { return model.find_muscle(name); });
+  if (options.muscles.empty()) xml.fail(node, "MuscleAnalysis: no muscle of the list is in the model");
+  if (xml.flag(node, "compute_moments", true)) {
+    options.coordinates = chosen(run, node, "moment_arm_coordinate_list", model.coordinates.size(),
+                                 [&](const std::string& name) { return model.find_coordinate(name); });
+  }
+  if (!run.equilibrium && run.fiber_length_m.size() == 0) {
+    run.note(
+        "<solve_for_equilibrium_for_auxiliary_states> is false: fibers have their default lengths ({}), so that their "
+        "velocities and forces mean little; lengths of muscles and moment arms do not depend on it",
+        run.options.compat.class_fiber_length ? "0.1 m where the model gives none, as in OpenSim"
+                                              : "optimal ones where the model gives none; OpenSim takes 0.1 m");
+  }
+  const forces::MuscleAnalysis analysis = forces::muscle_analysis(model, run.motion, options);
+  run.add_notes(analysis.notes);
+  const std::string description =
+      std::string(
+          "\nThis analysis gathers basic information about muscles during a simulation (e.g., "
+          "forces, tendon lengths, moment arms, etc).\n") +
+      kUnitsNote;
+  for (const auto& [name, table] : analysis.tables) {
+    write_result(run, analysis_name(node) + "_" + name + ".sto", table, {.title = name, .description = description});
+  }
 }
 
 void report_outputs(AnalysisRun& run, pugi::xml_node node) {
@@ -227,46 +222,9 @@ void report_outputs(AnalysisRun& run, pugi::xml_node node) {
   }
 }
 
-constexpr std::array kKnown{
-    KnownAnalysis{"Actuation", report_actuation},     KnownAnalysis{"BodyKinematics", report_bodies},
-    KnownAnalysis{"ForceReporter", report_forces},    KnownAnalysis{"InverseDynamics", report_inverse_dynamics},
-    KnownAnalysis{"JointReaction", report_reactions}, KnownAnalysis{"Kinematics", report_kinematics},
-    KnownAnalysis{"MuscleAnalysis", report_muscles},  KnownAnalysis{"OutputReporter", report_outputs},
-    KnownAnalysis{"PointKinematics", report_point},   KnownAnalysis{"StaticOptimization", run_static_optimization}};
-
-const KnownAnalysis* find_analysis(std::string_view class_name) {
-  const auto known =
-      std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownAnalysis& k) { return k.class_name == class_name; });
-  return known == kKnown.end() ? nullptr : &*known;
-}
-
-}  // namespace
-
-std::string analysis_name(pugi::xml_node node) {
-  const std::string name = model::OsimXml::name_of(node);
-  return name.empty() ? node.name() : name;
-}
-
-bool is_known_analysis(std::string_view class_name) { return find_analysis(class_name) != nullptr; }
-
-std::string known_analyses() {
-  std::string names;
-  for (const KnownAnalysis& known : kKnown) names += (names.empty() ? "" : ", ") + std::string(known.class_name);
-  return names;
-}
-
-void run_analysis(AnalysisRun& run, pugi::xml_node node) {
-  const std::string_view kind = node.name();
-  // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
-  for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
-    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
-  find_analysis(kind)->run(run, node);
-  run.result.frames = static_cast<int>(run.motion.sample_count());
-}
-
 std::filesystem::path claim_result(AnalysisRun& run, const std::string& name) {
   const auto path = run.setup.results_folder() / (run.setup.name() + "_" + name);
-  claim_file(run.options, path, run.result);
+  run.claim(path);
   return path;
 }
 

@@ -4,19 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "myoid/dynamics/external_loads.h"
+#include "myoid/forces/muscle_analysis.h"
 #include "myoid/kinematics/joint_motion.h"
 #include "myoid/opensim_tools/opensim_files.h"
-#include "myoid/opensim_tools/opensim_setup.h"
-#include "myoid/opensim_tools/tool_result.h"
+#include "myoid/opensim_tools/tool_stages.h"
 
 namespace myoid {
 
 /// The inputs and results that all analyses of one AnalyzeTool share.
-struct AnalysisRun {
-  const OpensimSetup& setup;
-  const ToolOptions& options;
-  ToolResult& result;
+struct AnalysisRun : ToolRun {
   model::BodyModel model{};
   kinematics::JointMotion motion{};  ///< At the rows that the analysis records.
   std::vector<Eigen::Index> rows{};  ///< Their numbers in the file.
@@ -28,6 +24,8 @@ struct AnalysisRun {
   /// Kept for further analyses of the same rows (forces_of_states, accelerations_of).
   std::optional<TimeSeries> state_forces{};
   std::optional<Eigen::MatrixXd> accelerations{};
+
+  [[nodiscard]] const dynamics::ExternalLoads* loads_if_any() const { return loads ? &*loads : nullptr; }
 };
 
 /// Returns the analysis's name in the set-up, else its class.
@@ -35,10 +33,10 @@ struct AnalysisRun {
 
 /// Returns true if an analysis of this class can be run.
 [[nodiscard]] bool is_known_analysis(std::string_view class_name);
-/// Returns the names of the known analyses, for messages.
-[[nodiscard]] std::string known_analyses();
-/// Runs an analysis and writes its files: <results>/<tool>_<analysis>_<quantity>.sto.
-void run_analysis(AnalysisRun& run, pugi::xml_node node);
+/// Each reports one analysis: it writes its files, <results>/<tool>_<analysis>_<quantity>.sto.
+void report_kinematics(AnalysisRun& run, pugi::xml_node node);
+void report_muscles(AnalysisRun& run, pugi::xml_node node);
+void report_outputs(AnalysisRun& run, pugi::xml_node node);
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node);
 /// Returns the model without muscles. Every independent coordinate has an actuator of unit strength
 /// with the coordinate's name.
@@ -57,6 +55,8 @@ void report_bodies(AnalysisRun& run, pugi::xml_node node);
 /// Reports PointKinematics: place, velocity and acceleration of a point of a body, in the axes of another body.
 void report_point(AnalysisRun& run, pugi::xml_node node);
 
+/// Returns options to analyze muscles with their states at the motion's rows.
+[[nodiscard]] forces::MuscleAnalysisOptions muscle_options(const AnalysisRun& run);
 /// Returns the forces of all actuators at the motion's rows: tendon forces of muscles by their
 /// states, forces of other actuators by the set-up's controls, else 0. Computed once for the rows.
 [[nodiscard]] const TimeSeries& forces_of_states(AnalysisRun& run);

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/core/error.h"
-#include "myoid/opensim_tools/setup_files.h"
+#include "myoid/opensim_tools/opensim_setup.h"
 
 #include "tests/support/tool_folder.h"
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/spline.h"
@@ -18,9 +17,8 @@ namespace {
 
 using model::OsimXml;
 
-/// The task set of a set-up, inside it or in a separate file; the document must outlive the node.
+/// The task set of a set-up, inside it or in a separate document.
 struct TaskFile {
-  std::string text;
   std::unique_ptr<OsimXml> xml;
   pugi::xml_node set;
 };
@@ -34,8 +32,7 @@ TaskFile task_file(const OpensimSetup& setup, pugi::xml_node owner) {
     return file;
   }
   const auto path = setup.file_named(inside, name);
-  file.text = recording::read_text_file(path);
-  file.xml = std::make_unique<OsimXml>(file.text, path, OsimXml::Root::any);
+  file.xml = std::make_unique<OsimXml>(recording::read_text_file(path), path, OsimXml::Root::any);
   file.set = file.xml->root().child("IKTaskSet");
   if (!file.set) file.xml->fail(file.xml->root(), "expected an <IKTaskSet>");
   return file;
@@ -51,7 +48,7 @@ void add_coordinate_task(const OpensimSetup& setup,
                          std::vector<std::string>& notes) {
   const std::string name = OsimXml::name_of(node);
   const auto found = model.find_coordinate(name);
-  if (!found) xml.fail(node, fmt::format("IKCoordinateTask '{}': the model has no such coordinate", name));
+  if (!found) xml.fail(node, "IKCoordinateTask '{}': the model has no such coordinate", name);
   const model::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(*found)];
   kinematics::CoordinateTask task{name, coordinate.default_value, xml.number(node, "weight", 1.0)};
   if (!(task.weight > 0.0) || model.is_constrained(*found)) return;  // nothing to wish for
@@ -61,15 +58,13 @@ void add_coordinate_task(const OpensimSetup& setup,
   } else if (source == "from_file") {
     const auto file = setup.file(owner, "coordinate_file");
     if (!file)
-      xml.fail(node, fmt::format("IKCoordinateTask '{}' takes its values from a file, but the "
-                                 "set-up has no <coordinate_file>",
-                                 name));
+      xml.fail(node, "IKCoordinateTask '{}' takes its values from a file, but the set-up has no <coordinate_file>",
+               name);
     const TimeSeries wished = read_coordinates(model, *file, MissingCoordinate::default_value, notes);
     task.values = math::Spline::interpolate(wished.time_s(), wished.column(name)).evaluate(markers.time_s).value;
   } else if (!source.empty() && source != "default_value") {
-    xml.fail(node, fmt::format("IKCoordinateTask '{}': <value_type> '{}', expected default_value, "
-                               "manual_value or from_file",
-                               name, source));
+    xml.fail(node, "IKCoordinateTask '{}': <value_type> '{}', expected default_value, manual_value or from_file", name,
+             source);
   }
   ik.tasks.push_back(std::move(task));
 }
@@ -109,13 +104,13 @@ kinematics::IkOptions read_ik_tasks(const OpensimSetup& setup,
     const std::string_view kind = node.name();
     const bool marker_task = kind == "IKMarkerTask";
     if (!marker_task && kind != "IKCoordinateTask")
-      xml.fail(node, fmt::format("expected IKMarkerTask or IKCoordinateTask, found <{}>", kind));
+      xml.fail(node, "expected IKMarkerTask or IKCoordinateTask, found <{}>", kind);
     if (marker_task) ik.only_named_markers = true;
     if (!xml.flag(node, "apply", true)) continue;
     if (marker_task) {
       const double weight = xml.number(node, "weight", 1.0);
       if (!(weight >= 0.0)) {
-        xml.fail(node, fmt::format("IKMarkerTask '{}': weight {}, expected 0 or more", OsimXml::name_of(node), weight));
+        xml.fail(node, "IKMarkerTask '{}': weight {}, expected 0 or more", OsimXml::name_of(node), weight);
       }
       const std::string name = OsimXml::name_of(node);
       if (!named.insert(name).second)

@@ -25,10 +25,10 @@ namespace {
 using model::OsimXml;
 
 /// Returns one frame with every marker at its mean over the range.
-recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
+recording::MarkerSeries averaged(const ToolRun& run,
+                                 const recording::MarkerSeries& markers,
                                  std::pair<double, double> range,
-                                 double most_movement_m,
-                                 std::vector<std::string>& notes) {
+                                 double most_movement_m) {
   const auto [first, last] = frames_in(markers, range);
   recording::MarkerSeries mean{markers.time_s.segment(first, 1), markers.names,
                                Eigen::MatrixXd(1, markers.positions_m.cols())};
@@ -45,10 +45,8 @@ recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
     }
     mean.positions_m.block<1, 3>(0, 3 * m) = (sum / seen).transpose();
     if (most_movement_m > 0.0 && seen > 0 && (most - least).maxCoeff() > most_movement_m) {
-      notes.push_back(
-          fmt::format("marker '{}' moves by {:.1f} mm while the frames are averaged, more "
-                      "than <max_marker_movement>",
-                      markers.names[at(m)], 1000.0 * (most - least).maxCoeff()));
+      run.note("marker '{}' moves by {:.1f} mm while the frames are averaged, more than <max_marker_movement>",
+               markers.names[at(m)], 1000.0 * (most - least).maxCoeff());
     }
   }
   return mean;
@@ -56,43 +54,32 @@ recording::MarkerSeries averaged(const recording::MarkerSeries& markers,
 
 /// Returns the pose as a row of OpenSim's states.
 TimeSeries states_of(const model::BodyModel& model, const Eigen::VectorXd& q, double time_s) {
-  std::vector<Channel> channels;
-  std::vector<double> values;
+  ColumnTable table;
+  const auto add = [&](const std::string& path, double value) {
+    table.add(path, Unit::dimensionless, Eigen::VectorXd::Constant(1, value));
+  };
   for (std::size_t c = 0; c < model.coordinates.size(); ++c) {
     const model::Coordinate& coordinate = model.coordinates[c];
     const std::string path = "/jointset/" + model.joints[at(coordinate.joint)].name + "/" + coordinate.name;
-    channels.push_back({path + "/value", Unit::dimensionless});
-    channels.push_back({path + "/speed", Unit::dimensionless});
-    values.push_back(q[static_cast<Eigen::Index>(c)]);
-    values.push_back(coordinate.default_speed);
+    add(path + "/value", q[static_cast<Eigen::Index>(c)]);
+    add(path + "/speed", coordinate.default_speed);
   }
   for (const model::Muscle& muscle : model.muscles) {
-    bool activation = true, fiber = true;
-    if (const auto* millard = std::get_if<model::MillardCurves>(&muscle.properties.curves)) {
-      activation = !millard->ignore_activation_dynamics;
-      fiber = !millard->ignore_tendon_compliance;
-    }
-    if (activation) {
-      channels.push_back({"/forceset/" + muscle.name + "/activation", Unit::dimensionless});
-      values.push_back(muscle.properties.default_activation);
-    }
-    if (fiber) {
-      channels.push_back({"/forceset/" + muscle.name + "/fiber_length", Unit::dimensionless});
-      values.push_back(muscle.properties.default_fiber_length_m);
-    }
+    const model::MuscleProperties& p = muscle.properties;
+    const auto* millard = std::get_if<model::MillardCurves>(&p.curves);
+    if (millard == nullptr || !millard->ignore_activation_dynamics)
+      add("/forceset/" + muscle.name + "/activation", p.default_activation);
+    if (millard == nullptr || !millard->ignore_tendon_compliance)
+      add("/forceset/" + muscle.name + "/fiber_length", p.default_fiber_length_m);
   }
-  return {Eigen::VectorXd::Constant(1, time_s), std::move(channels),
-          Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))};
+  return table.at_times(Eigen::VectorXd::Constant(1, time_s));
 }
 
 std::string join_names(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 /// Notes coordinates at an end of their range: the static pose is then not the person's, and the
 /// model takes over the misfit of the markers.
-void note_limits(const model::BodyModel& model,
-                 const Eigen::VectorXd& q,
-                 bool held_inside,
-                 std::vector<std::string>& notes) {
+void note_limits(const ToolRun& run, const model::BodyModel& model, const Eigen::VectorXd& q, bool held_inside) {
   std::vector<std::string> at_limit;
   for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
     const model::Coordinate& c = model.coordinates[k];
@@ -105,19 +92,19 @@ void note_limits(const model::BodyModel& model,
                                    angle ? "degrees" : "m"));
   }
   if (at_limit.empty()) return;
-  notes.push_back(
-      fmt::format("static pose: the markers alone put {}{}; the markers placed from the pose take over what "
-                  "does not fit. Are the ranges right, and the markers' places in the model?",
-                  join_names(at_limit), held_inside ? " (the pose is held off there as in OpenSim's search)" : ""));
+  run.note(
+      "static pose: the markers alone put {}{}; the markers placed from the pose take over what does not "
+      "fit. Are the ranges right, and the markers' places in the model?",
+      join_names(at_limit), held_inside ? " (the pose is held off there as in OpenSim's search)" : "");
 }
 
 /// Notes the coordinates that no marker of the static pose determines, and the markers that are
 /// placed by these coordinates.
-void note_undetermined(const model::BodyModel& model,
+void note_undetermined(const ToolRun& run,
+                       const model::BodyModel& model,
                        const std::vector<std::string>& undetermined,
                        const kinematics::IkOptions& ik,
-                       bool held_inside,
-                       std::vector<std::string>& notes) {
+                       bool held_inside) {
   if (undetermined.empty()) return;
   std::vector<bool> carried(model.bodies.size(), false);
   for (const model::Joint& joint : model.joints) {
@@ -133,14 +120,13 @@ void note_undetermined(const model::BodyModel& model,
     const bool counts = weight != ik.marker_weights.end() ? weight->second > 0.0 : !ik.only_named_markers;
     if (carried[at(marker.body)] && !counts) placed.push_back(marker.name);
   }
-  notes.push_back(
-      fmt::format("static pose: no marker with a weight determines {}: {}{}. Give weight to markers that do, "
-                  "or "
-                  "the coordinates a task",
-                  join_names(undetermined),
-                  held_inside ? "each in the middle of its range, if it is clamped to one, as OpenSim's search has it"
-                              : "each at its default value",
-                  placed.empty() ? std::string() : fmt::format("; markers placed by that: {}", join_names(placed))));
+  run.note(
+      "static pose: no marker with a weight determines {}: {}{}. Give weight to markers that do, or the "
+      "coordinates a task",
+      join_names(undetermined),
+      held_inside ? "each in the middle of its range, if it is clamped to one, as OpenSim's search has it"
+                  : "each at its default value",
+      placed.empty() ? std::string() : fmt::format("; markers placed by that: {}", join_names(placed)));
 }
 
 /// Returns the barrier at which OpenSim's search for the static pose stops. For a model with constraints (locked
@@ -155,9 +141,9 @@ double barrier_of(const model::BodyModel& model) {
 
 }  // namespace
 
-recording::MarkerSeries markers_of(const Scaling& scaling, const std::filesystem::path& file) {
+recording::MarkerSeries markers_of(const ToolRun& run, const std::filesystem::path& file) {
   recording::MarkerFile markers = recording::read_markers(file);
-  auto& notes = scaling.result.notes;
+  auto& notes = run.result.notes;
   for (const recording::Repair& repair : markers.repairs) {
     const std::string note = recording::to_string(file, repair);
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
@@ -176,29 +162,29 @@ std::pair<Eigen::Index, Eigen::Index> frames_in(const recording::MarkerSeries& m
   return {first, last};
 }
 
-void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor) {
-  const OsimXml& xml = scaling.setup.xml();
-  auto& notes = scaling.result.notes;
-  const auto file = scaling.setup.required_file(placer, "marker_file");
-  const recording::MarkerSeries all = markers_of(scaling, file);
+void place_markers(const ToolRun& run, pugi::xml_node placer, model::OsimEditor& editor) {
+  const OsimXml& xml = run.setup.xml();
+  const auto file = run.setup.required_file(placer, "marker_file");
+  const recording::MarkerSeries all = markers_of(run, file);
   if (all.frame_count() == 0) throw InvalidInput(fmt::format("{}: there are no frames", file.string()));
-  const auto range = scaling.setup.time_range(placer, "time_range");
+  const auto range = run.setup.time_range(placer, "time_range");
   const recording::MarkerSeries pose =
-      averaged(all, range, 1e-3 * xml.number(placer, "max_marker_movement", -1.0), notes);
+      averaged(run, all, range, 1e-3 * xml.number(placer, "max_marker_movement", -1.0));
   editor.remove_markers([&](const std::string& name) {
     return std::find(pose.names.begin(), pose.names.end(), name) == pose.names.end();
   });
-  model::BodyModel model = model::parse_osim(editor.text(), editor.path(), {.compat = scaling.options.compat});
-  kinematics::IkOptions ik = read_ik_tasks(scaling.setup, placer, model, pose, notes);
+  model::BodyModel model = model::parse_osim(editor.text(), editor.path(), {.compat = run.options.compat});
+  kinematics::IkOptions ik = read_ik_tasks(run.setup, placer, model, pose, run.result.notes);
   kinematics::IkResult solved = kinematics::inverse_kinematics(model, pose, ik);
-  note_limits(model, solved.q.values().row(0).transpose(), barrier_of(model) > 0.0, notes);
-  note_undetermined(model, solved.undetermined, ik, barrier_of(model) > 0.0, notes);
   ik.range_barrier = barrier_of(model);
-  if (ik.range_barrier > 0.0) solved = kinematics::inverse_kinematics(model, pose, ik);
-  if (solved.frames_not_converged > 0) ++scaling.result.frames_failed;
+  const bool held_inside = ik.range_barrier > 0.0;
+  note_limits(run, model, solved.q.values().row(0).transpose(), held_inside);
+  note_undetermined(run, model, solved.undetermined, ik, held_inside);
+  if (held_inside) solved = kinematics::inverse_kinematics(model, pose, ik);
+  if (solved.frames_not_converged > 0) ++run.result.frames_failed;
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, pose, solved);
-  if (!misfit.warning.empty()) notes.push_back("static pose: " + misfit.warning);
-  scaling.result.wrong_unit = misfit.wrong_unit;
+  if (!misfit.warning.empty()) run.note("static pose: {}", misfit.warning);
+  run.result.wrong_unit = misfit.wrong_unit;
   const Eigen::VectorXd q = solved.q.values().row(0).transpose();
   model::BodyState state = model::make_state(model);
   model::compute_poses(model, q, state);
@@ -208,21 +194,20 @@ void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEdi
     const auto found = std::find(pose.names.begin(), pose.names.end(), marker.name);
     const Eigen::Index m = found - pose.names.begin();
     if (pose.missing(0, m)) {
-      notes.push_back(fmt::format("marker '{}' is never seen in the static pose: it stays where it is", marker.name));
+      run.note("marker '{}' is never seen in the static pose: it stays where it is", marker.name);
       continue;
     }
     editor.move_marker(marker.name, state.X_GB[at(marker.body)].inverse() * pose.position(0, m));
     ++moved;
   }
-  if (const auto out = scaling.setup.output_file(placer, "output_motion_file")) {
+  if (const auto out = run.setup.output_file(placer, "output_motion_file")) {
     write_opensim_storage(*out, states_of(model, q, pose.time_s[0]), {.title = "static pose"});
   }
-  if (const auto out = scaling.setup.output_file(placer, "output_marker_file"))
+  if (const auto out = run.setup.output_file(placer, "output_marker_file"))
     recording::write_file(*out, editor.marker_set_text());
-  scaling.result.summary +=
-      fmt::format("; static pose: marker error {:.1f} mm rms, {:.1f} mm at most; {} markers placed",
-                  1000.0 * solved.errors.column("marker_error_RMS")[0],
-                  1000.0 * solved.errors.column("marker_error_max")[0], moved);
+  run.result.summary += fmt::format("; static pose: marker error {:.1f} mm rms, {:.1f} mm at most; {} markers placed",
+                                    1000.0 * solved.errors.column("marker_error_RMS")[0],
+                                    1000.0 * solved.errors.column("marker_error_max")[0], moved);
 }
 
 }  // namespace myoid

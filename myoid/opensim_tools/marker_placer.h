@@ -12,15 +12,8 @@
 
 namespace myoid {
 
-/// One run of OpenSim's ScaleTool.
-struct Scaling {
-  const OpensimSetup& setup;
-  const ToolOptions& options;
-  ToolResult& result;
-};
-
 /// Reads the markers of a file. Measuring and placing usually read one file: each repair is noted once.
-[[nodiscard]] recording::MarkerSeries markers_of(const Scaling& scaling, const std::filesystem::path& file);
+[[nodiscard]] recording::MarkerSeries markers_of(const ToolRun& run, const std::filesystem::path& file);
 
 /// Returns the first and last frame of a time range; all frames for a range without a frame.
 [[nodiscard]] std::pair<Eigen::Index, Eigen::Index> frames_in(const recording::MarkerSeries& markers,
@@ -28,6 +21,6 @@ struct Scaling {
 
 /// Runs <MarkerPlacer>: fits the model to the mean of the static trial, moves all markers but the
 /// fixed ones to their measured places, and writes the pose and the marker set if asked for.
-void place_markers(const Scaling& scaling, pugi::xml_node placer, model::OsimEditor& editor);
+void place_markers(const ToolRun& run, pugi::xml_node placer, model::OsimEditor& editor);
 
 }  // namespace myoid

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/storage_reader.h"
 
@@ -53,8 +52,7 @@ Signal linear_control(const OsimXml& xml, pugi::xml_node node) {
 }
 
 void read_control_set(const std::filesystem::path& path, ModelControls& controls) {
-  const std::string text = recording::read_text_file(path);
-  OsimXml xml(text, path, OsimXml::Root::any);
+  OsimXml xml(recording::read_text_file(path), path, OsimXml::Root::any);
   const auto set = xml.root().child("ControlSet");
   if (!set) xml.fail(xml.root(), "expected a <ControlSet>");
   if (const auto defaults = set.child("defaults")) xml.set_prototypes(defaults);
@@ -66,9 +64,7 @@ void read_control_set(const std::filesystem::path& path, ModelControls& controls
     } else if (kind == "ControlConstant") {
       controls[name] = simulation::constant(xml.number(node, "value", 0.0));
     } else {
-      xml.fail(node, fmt::format("control '{}' of kind {} is not supported; ControlLinear and "
-                                 "ControlConstant are",
-                                 name, kind));
+      xml.fail(node, "control '{}' of kind {} is not supported; ControlLinear and ControlConstant are", name, kind);
     }
     simulation::validate(controls[name], fmt::format("{}: control of {}", path.string(), name));
   }
@@ -83,8 +79,8 @@ ModelControls read_model_controls(const OpensimSetup& setup, std::vector<std::st
     if (!xml.flag(node, "enabled", !xml.flag(node, "isDisabled", false))) continue;
     if (std::string_view(node.name()) != "ControlSetController") {
       const std::string message = fmt::format(
-          "controller '{}' of kind {} is not run; give its controls as a table to a "
-          "ControlSetController (<controls_file>)",
+          "controller '{}' of kind {} is not run; give its controls as a table to a ControlSetController "
+          "(<controls_file>)",
           OsimXml::name_of(node), node.name());
       if (notes == nullptr) xml.fail(node, message);
       notes->push_back(message);

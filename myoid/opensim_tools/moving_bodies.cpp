@@ -18,20 +18,12 @@ void MovingBodies::set(Eigen::Index row) {
   model::compute_accelerations(model_, qddot, state_, acceleration_);
 }
 
-PointMotion MovingBodies::point(std::size_t body, const Vec3& p_B) const {
-  const Pose& X_GB = state_.X_GB[body];
-  return {X_GB * p_B, state_.v_GB[body] + state_.w_GB[body].cross(Vec3(X_GB.R * p_B)),
-          acceleration_.of_station(state_, static_cast<model::BodyIndex>(body), p_B)};
-}
-
-PointMotion MovingBodies::center(std::size_t body) const { return point(body, model_.bodies[body].p_BBcm_B); }
-
-PointMotion MovingBodies::center_of_all() const {
+model::PointMotion MovingBodies::center_of_all() const {
   double mass_kg = 0.0;
-  PointMotion sum;
+  model::PointMotion sum;
   for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
     const double m = model_.bodies[b].mass_kg;
-    const PointMotion c = center(b);
+    const model::PointMotion c = center(b);
     mass_kg += m;
     sum = {sum.p + m * c.p, sum.v + m * c.v, sum.a + m * c.a};
   }

@@ -7,11 +7,6 @@
 
 namespace myoid {
 
-/// Place [m], velocity [m/s] and acceleration [m/s^2] of a point, in ground.
-struct PointMotion {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
-};
-
 /// The bodies of a model along a motion, one frame at a time. The postures obey the constraints.
 class MovingBodies {
  public:
@@ -27,10 +22,12 @@ class MovingBodies {
   [[nodiscard]] const Pose& pose(std::size_t body) const { return state_.X_GB[body]; }
   [[nodiscard]] const Vec3& angular_velocity(std::size_t body) const { return state_.w_GB[body]; }
   [[nodiscard]] const Vec3& angular_acceleration(std::size_t body) const { return acceleration_.alpha_GB[body]; }
-  [[nodiscard]] PointMotion point(std::size_t body, const Vec3& p_B) const;
+  [[nodiscard]] model::PointMotion point(std::size_t body, const Vec3& p_B) const {
+    return acceleration_.of_station(state_, static_cast<model::BodyIndex>(body), p_B);
+  }
   /// Returns the mass center of a body.
-  [[nodiscard]] PointMotion center(std::size_t body) const;
-  [[nodiscard]] PointMotion center_of_all() const;
+  [[nodiscard]] model::PointMotion center(std::size_t body) const { return point(body, model_.bodies[body].p_BBcm_B); }
+  [[nodiscard]] model::PointMotion center_of_all() const;
 
  private:
   const model::BodyModel& model_;

@@ -51,11 +51,11 @@ TEST(MovingBodies, ThePendulumOnACartMovesAsItsFormulasSay) {
   const Vec3 v(dx + L * da * std::cos(a), L * da * std::sin(a), 0.0);
   const Vec3 acceleration(ddx + L * (dda * std::cos(a) - da * da * std::sin(a)),
                           L * (dda * std::sin(a) + da * da * std::cos(a)), 0.0);
-  const PointMotion center = moving.center(2);
+  const model::PointMotion center = moving.center(2);
   EXPECT_LT((center.p - p).norm(), 1e-14);
   EXPECT_LT((center.v - v).norm(), 1e-14);
   EXPECT_LT((center.a - acceleration).norm(), 1e-14);
-  const PointMotion all = moving.center_of_all();
+  const model::PointMotion all = moving.center_of_all();
   EXPECT_LT((all.p - (2.0 * Vec3(x, 0.0, 0.0) + 3.0 * p) / 5.0).norm(), 1e-14);
   EXPECT_LT((all.v - (2.0 * Vec3(dx, 0.0, 0.0) + 3.0 * v) / 5.0).norm(), 1e-14);
   EXPECT_LT((all.a - (2.0 * Vec3(ddx, 0.0, 0.0) + 3.0 * acceleration) / 5.0).norm(), 1e-14);

@@ -83,11 +83,6 @@ Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s) {
   return std::max<Eigen::Index>(0, end - times_s.data() - 1);
 }
 
-TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last) {
-  const Eigen::Index count = last - first + 1;
-  return {series.time_s().segment(first, count), series.channels(), series.values().middleRows(first, count)};
-}
-
 TimeSeries ColumnTable::at_times(const Eigen::VectorXd& times_s) const {
   Eigen::MatrixXd values(times_s.size(), static_cast<Eigen::Index>(columns_.size()));
   for (Eigen::Index c = 0; c < values.cols(); ++c) values.col(c) = columns_[at(c)];

@@ -25,8 +25,15 @@ enum class MissingCoordinate { default_value, zero };
 /// Returns the row of the greatest time that is not after `time_s`; the first row if all times are later.
 [[nodiscard]] Eigen::Index row_at(const Eigen::VectorXd& times_s, double time_s);
 
-/// Rows `first` to `last`, both included.
-[[nodiscard]] TimeSeries rows_of(const TimeSeries& series, Eigen::Index first, Eigen::Index last);
+/// Returns rows of a series or a motion; `rows` is a list or a sequence of Eigen.
+template <typename Rows>
+[[nodiscard]] TimeSeries rows_of(const TimeSeries& series, const Rows& rows) {
+  return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
+}
+template <typename Rows>
+[[nodiscard]] kinematics::JointMotion rows_of(const kinematics::JointMotion& motion, const Rows& rows) {
+  return {rows_of(motion.q, rows), rows_of(motion.qdot, rows), rows_of(motion.qddot, rows)};
+}
 
 /// Returns the series of coordinates with only its angles in radians. OpenSim gives coupled
 /// coordinates no unit in files and never converts them to degrees.

@@ -59,7 +59,7 @@ TEST(OpensimFiles, RowsAreThoseNotAfterATime) {
   EXPECT_EQ(row_at(t, 0.3), 1);
   EXPECT_EQ(row_at(t, 0.5), 2);
   EXPECT_EQ(row_at(t, 9.0), 4);
-  const TimeSeries rows = rows_of({t, {{"x", Unit::meter}}, Eigen::MatrixXd(t)}, 1, 2);
+  const TimeSeries rows = rows_of(TimeSeries(t, {{"x", Unit::meter}}, Eigen::MatrixXd(t)), Eigen::seq(1, 2));
   EXPECT_EQ(rows.sample_count(), 2);
   EXPECT_DOUBLE_EQ(rows.values()(0, 0), 0.25);
 }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
 
@@ -22,12 +21,12 @@ constexpr const char* kTools[] = {
 /// Returns advice on tools that replace a tool that is not run.
 std::string in_place_of(std::string_view tool) {
   if (tool == "CMCTool") {
-    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the "
-           "muscles' forces along a motion, with MuscleAnalysis their fibers";
+    return "; in place of computed muscle control: AnalyzeTool with StaticOptimization gives the muscles' forces along "
+           "a motion, with MuscleAnalysis their fibers";
   }
   if (tool == "RRATool") {
-    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the "
-           "pelvis, and ScaleTool adjusts the model's mass";
+    return "; in place of residual reduction: InverseDynamicsTool shows the residual forces of the pelvis, and "
+           "ScaleTool adjusts the model's mass";
   }
   return "";
 }
@@ -54,17 +53,11 @@ std::vector<pugi::xml_node> holders_of(pugi::xml_node tool) {
   return holders;
 }
 
-template <typename Force>
-void drop(std::vector<Force>& forces, const auto& is_dropped) {
-  forces.erase(std::remove_if(forces.begin(), forces.end(), is_dropped), forces.end());
-}
-
 }  // namespace
 
 OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead)
     : path_(path),
-      text_(recording::read_text_file(path)),
-      xml_(text_, path_, model::OsimXml::Root::any),
+      xml_(recording::read_text_file(path), path_, model::OsimXml::Root::any),
       instead_(std::move(instead)) {
   const pugi::xml_node root = xml_.root();
   for (const char* kind : kTools) {
@@ -76,11 +69,10 @@ OpensimSetup::OpensimSetup(const std::filesystem::path& path, SetupFiles instead
   if (!tool_) {
     const auto first = model::OsimXml::first_element(root, {"defaults"});
     xml_.fail(first ? first : root,
-              fmt::format("found <{}>, expected a set-up of InverseKinematicsTool, "
-                          "InverseDynamicsTool, ForwardTool, ScaleTool, IMUPlacer, IMUInverseKinematicsTool or "
-                          "AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, ...); other "
-                          "tools are not run{}",
-                          first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string()));
+              "found <{}>, expected a set-up of InverseKinematicsTool, InverseDynamicsTool, ForwardTool, ScaleTool, "
+              "IMUPlacer, IMUInverseKinematicsTool or AnalyzeTool (StaticOptimization, MuscleAnalysis, Kinematics, "
+              "...); other tools are not run{}",
+              first ? first.name() : "nothing", first ? in_place_of(first.name()) : std::string());
   }
   if (const auto defaults = root.child("defaults")) xml_.set_prototypes(defaults);
   if (!instead_.external_loads.empty() && kind() != "AnalyzeTool" && kind() != "InverseDynamicsTool") {
@@ -112,9 +104,10 @@ std::filesystem::path OpensimSetup::replacement(std::string_view name) const {
 std::filesystem::path OpensimSetup::file_named(pugi::xml_node node, std::string_view name) const {
   const recording::NamedFile found = recording::find_named_file(path_.parent_path(), name);
   if (found.exists) return found.path;
-  xml_.fail(node, fmt::format("<{}> names '{}', and there is no such file; a file of that name "
-                              "beside this set-up or one folder up would be taken",
-                              node.name(), name));
+  xml_.fail(node,
+            "<{}> names '{}', and there is no such file; a file of that name beside this set-up or one folder up would "
+            "be taken",
+            node.name(), name);
 }
 
 std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, const char* name) const {
@@ -127,8 +120,8 @@ std::optional<std::filesystem::path> OpensimSetup::file(pugi::xml_node object, c
 std::filesystem::path OpensimSetup::required_file(pugi::xml_node object, const char* name) const {
   if (const auto found = file(object, name)) return *found;
   const auto node = object.child(name);
-  xml_.fail(node ? node : object, fmt::format("<{}> expected: a file's name, relative to this set-up{}", name,
-                                              std::string_view(name) == "model_file" ? ", or --model FILE" : ""));
+  xml_.fail(node ? node : object, "<{}> expected: a file's name, relative to this set-up{}", name,
+            std::string_view(name) == "model_file" ? ", or --model FILE" : "");
 }
 
 std::vector<std::filesystem::path> OpensimSetup::files(pugi::xml_node object, const char* name) const {
@@ -152,28 +145,26 @@ std::optional<std::filesystem::path> OpensimSetup::output_file(pugi::xml_node ob
   return recording::native_path(path_.parent_path(), text);
 }
 
-std::vector<std::pair<pugi::xml_node, const char*>> OpensimSetup::input_elements() const {
-  std::vector<std::pair<pugi::xml_node, const char*>> found;
+std::vector<std::pair<const char*, recording::NamedFile>> OpensimSetup::named_inputs() const {
+  std::vector<std::pair<const char*, recording::NamedFile>> found;
   for (const char* name : {"model_file", "marker_file", "marker_set_file", "coordinates_file", "coordinate_file",
                            "states_file", "speeds_file", "external_loads_file", "force_set_files", "actuator_set_files",
                            "forces_file", "orientations_file", "orientation_file_for_calibration"}) {
-    if (!replacement(name).empty()) found.emplace_back(tool_, name);
-    for (const auto holder : holders_of(tool_))
-      if (holder.child(name)) found.emplace_back(holder, name);
+    const recording::NamedFile given{replacement(name), true};
+    if (!given.path.empty()) found.emplace_back(name, given);
+    for (const auto holder : holders_of(tool_)) {
+      if (!holder.child(name)) continue;
+      found.emplace_back(
+          name, given.path.empty() ? recording::find_named_file(path_.parent_path(), named_in(holder, name)) : given);
+    }
   }
   return found;
 }
 
 std::vector<std::filesystem::path> OpensimSetup::inputs() const {
   std::vector<std::filesystem::path> files{path_};
-  for (const auto& [object, name] : input_elements()) {
-    if (const auto given = replacement(name); !given.empty()) {
-      files.push_back(given);
-      continue;
-    }
-    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
-    if (found.exists) files.push_back(found.path);
-  }
+  for (const auto& [element, file] : named_inputs())
+    if (file.exists) files.push_back(file.path);
   return files;
 }
 
@@ -183,20 +174,17 @@ std::vector<std::string> OpensimSetup::notes() const {
     std::string note = fmt::format("<{}>: {}", name, text);
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   };
-  for (const auto& [object, name] : input_elements()) {
-    if (!replacement(name).empty()) continue;
-    const auto found = recording::find_named_file(path_.parent_path(), named_in(object, name));
-    if (!found.note.empty()) add(name, found.note);
-  }
+  for (const auto& [element, file] : named_inputs())
+    if (!file.note.empty()) add(element, file.note);
   if (!instead_.out.empty()) return notes;
   for (const auto holder : holders_of(tool_)) {
     for (const char* name :
          {"results_directory", "output_motion_file", "output_model_file", "output_scale_file", "output_marker_file"}) {
       const std::string text = holder.child(name) ? named_in(holder, name) : "";
       if (is_elsewhere(path_.parent_path(), text))
-        add(name, fmt::format("'{}' is not on this computer; results go beside the set-up (--out "
-                              "DIR puts them elsewhere)",
-                              text));
+        add(name,
+            fmt::format("'{}' is not on this computer; results go beside the set-up (--out DIR puts them elsewhere)",
+                        text));
     }
   }
   return notes;
@@ -215,9 +203,8 @@ std::pair<double, double> OpensimSetup::time_range(pugi::xml_node object, const 
   if (!node || model::OsimXml::text_of(node).empty()) return {-infinity, infinity};
   const auto values = xml_.numbers(node);
   if (values.size() != 2 || !(values[0] <= values[1])) {
-    xml_.fail(node, fmt::format("<{}>: expected two times, the first not after the second, found "
-                                "'{}'",
-                                name, model::OsimXml::text_of(node)));
+    xml_.fail(node, "<{}>: expected two times, the first not after the second, found '{}'", name,
+              model::OsimXml::text_of(node));
   }
   return {values[0], values[1]};
 }
@@ -231,16 +218,14 @@ void OpensimSetup::check_range(std::pair<double, double> asked_s,
   const double first_s = recorded_s[0], last_s = recorded_s[count - 1];
   const double interval_s = count > 1 ? (last_s - first_s) / static_cast<double>(count - 1) : 0.0;
   if (start_s > last_s + interval_s || end_s < first_s - interval_s) {
-    xml_.fail(tool_, fmt::format("the set-up asks for {} to {} s, but {} holds {} to {} s; nothing "
-                                 "is written",
-                                 start_s, end_s, file.string(), first_s, last_s));
+    xml_.fail(tool_, "the set-up asks for {} to {} s, but {} holds {} to {} s; nothing is written", start_s, end_s,
+              file.string(), first_s, last_s);
   }
   const bool early = start_s < first_s - interval_s && std::isfinite(start_s);
   const bool late = end_s > last_s + interval_s && std::isfinite(end_s);
   if (early || late) {
     notes.push_back(
-        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these "
-                    "times are used, as in OpenSim",
+        fmt::format("the set-up asks for {} to {} s; {} holds {} to {} s, and these times are used, as in OpenSim",
                     start_s, end_s, file.string(), first_s, last_s));
   }
 }
@@ -256,10 +241,7 @@ model::BodyModel setup_model(const OpensimSetup& setup,
       xml.flag(setup.tool(), "replace_force_set", xml.flag(setup.tool(), "replace_actuator_set", false));
   if (replaces) {
     model.muscles.clear();
-    model.actuators.clear();
-    model.point_actuators.clear();
-    model.torque_actuators.clear();
-    model.path_actuators.clear();
+    model::visit_actuators(model, [](auto& list) { list.clear(); });
     model.passive_forces.clear();
     model.force_order.clear();
   }
@@ -275,12 +257,9 @@ model::BodyModel setup_model(const OpensimSetup& setup,
     const auto named = [&](const auto& force) { return all || force.name == name; };
     const auto actuator = [&](const auto& force) { return actuators || force.name == name; };
     if (muscles || actuators) model.muscles.clear();  // a muscle is an actuator, too
-    drop(model.muscles, named);
-    drop(model.actuators, actuator);
-    drop(model.point_actuators, actuator);
-    drop(model.torque_actuators, actuator);
-    drop(model.path_actuators, actuator);
-    drop(model.passive_forces, named);
+    std::erase_if(model.muscles, named);
+    model::visit_actuators(model, [&](auto& list) { std::erase_if(list, actuator); });
+    std::erase_if(model.passive_forces, named);
   }
   for (const std::string& text : model.unsupported) notes.push_back(fmt::format("{}: {}", path.string(), text));
   return model;

@@ -6,11 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include "myoid/files/named_file.h"
 #include "myoid/model/body_model.h"
-#include "myoid/opensim_tools/setup_files.h"
 #include "myoid/osim/osim_xml.h"
 
 namespace myoid {
+
+/// Files that replace the files named in a set-up; an empty path leaves the set-up's own.
+struct SetupFiles {
+  std::filesystem::path model;
+  /// The recorded motion: coordinates or states, for inverse kinematics and scaling the markers.
+  std::filesystem::path motion;
+  std::filesystem::path external_loads;
+  std::filesystem::path out;  ///< Folder of all results.
+};
 
 /// A set-up file of one of OpenSim's tools. Its names of files are relative to its folder; files
 /// named on another computer are searched for in that folder and one folder up (find_named_file).
@@ -64,11 +73,11 @@ class OpensimSetup {
   [[nodiscard]] std::filesystem::path replacement(std::string_view name) const;
   /// Returns the text of an element that names a file; empty for "Unassigned".
   [[nodiscard]] std::string named_in(pugi::xml_node object, const char* name) const;
-  /// Elements that name a file to be read, in the tool or, when scaling, in one of its stages.
-  [[nodiscard]] std::vector<std::pair<pugi::xml_node, const char*>> input_elements() const;
+  /// Returns the elements that name a file to be read, in the tool or, when scaling, in one of its stages, with the
+  /// file.
+  [[nodiscard]] std::vector<std::pair<const char*, recording::NamedFile>> named_inputs() const;
 
   std::filesystem::path path_;
-  std::string text_;
   model::OsimXml xml_;
   pugi::xml_node tool_;
   SetupFiles instead_;

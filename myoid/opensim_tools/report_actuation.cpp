@@ -1,8 +1,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/forces/actuation.h"
@@ -21,18 +19,14 @@ model::BodyModel without_bounds(model::BodyModel model) {
     force.max_control = kInfinity;
   };
   for (model::Muscle& muscle : model.muscles) free(muscle.properties);
-  for (auto& actuator : model.actuators) free(actuator);
-  for (auto& actuator : model.point_actuators) free(actuator);
-  for (auto& actuator : model.torque_actuators) free(actuator);
-  for (auto& actuator : model.path_actuators) free(actuator);
+  model::visit_actuators(model, [&](auto& list) {
+    for (auto& actuator : list) free(actuator);
+  });
   return model;
 }
 
 model::BodyModel with_coordinate_actuators_only(model::BodyModel model) {
-  model.actuators.clear();
-  model.point_actuators.clear();
-  model.torque_actuators.clear();
-  model.path_actuators.clear();
+  model::visit_actuators(model, [](auto& list) { list.clear(); });
   return with_coordinate_actuators(std::move(model));
 }
 
@@ -73,14 +67,13 @@ void report_inverse_dynamics(AnalysisRun& run, pugi::xml_node node) {
     if (!model.is_constrained(static_cast<int>(c))) ++unknown;
   const std::size_t count = forces::actuators_of(model).size();
   if (count < unknown) {
-    xml.fail(node, fmt::format("InverseDynamics: {} muscles and actuators for {} coordinates that "
-                               "move; append actuators (<force_set_files>), or set "
-                               "<use_model_force_set> false",
-                               count, unknown));
+    xml.fail(node,
+             "InverseDynamics: {} muscles and actuators for {} coordinates that move; append actuators "
+             "(<force_set_files>), or set <use_model_force_set> false",
+             count, unknown);
   }
   const forces::StaticOptimizationResult solved = forces::static_optimization(
-      model, run.motion,
-      {.muscle_physiology = false, .loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+      model, run.motion, {.muscle_physiology = false, .loads = run.loads_if_any(), .progress = run.options.progress});
   std::vector<Channel> channels = solved.force.channels();
   if (!use_forces) {
     for (Channel& channel : channels)

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/opensim_tools/analysis_reports.h"
@@ -43,9 +42,7 @@ Wanted wanted_bodies(AnalysisRun& run, pugi::xml_node node) {
     } else if (const auto body = model.find_body(name)) {
       wanted.bodies.push_back(*body);
     } else {
-      run.setup.xml().fail(node, fmt::format("<bodies>: the model has no body '{}'; expected bodies, "
-                                             "{}, or all",
-                                             name, kWholeBody));
+      run.setup.xml().fail(node, "<bodies>: the model has no body '{}'; expected bodies, {}, or all", name, kWholeBody);
     }
   }
   return wanted;
@@ -83,7 +80,7 @@ MotionTables body_tables(
     for (const model::BodyIndex body : wanted.bodies) {
       const std::size_t b = at(body);
       const Mat3 axes = local ? Mat3(moving.pose(b).R.transpose()) : Mat3(Mat3::Identity());
-      const PointMotion center = moving.center(b);
+      const model::PointMotion center = moving.center(b);
       fill(position, column, center.p);
       fill(velocity, column, axes * center.v);
       fill(acceleration, column, axes * center.a);
@@ -93,7 +90,7 @@ MotionTables body_tables(
       column += 6;
     }
     if (!wanted.whole_body) continue;
-    const PointMotion center = moving.center_of_all();
+    const model::PointMotion center = moving.center_of_all();
     fill(position, column, center.p);
     fill(velocity, column, center.v);
     fill(acceleration, column, center.a);
@@ -138,7 +135,7 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
     if (const auto slash = name.rfind('/'); slash != std::string::npos) name.erase(0, slash + 1);
     if (name.empty() || name == "Unassigned") name = "ground";
     const auto body = model.find_body(name);
-    if (!body) xml.fail(node, fmt::format("<{}>: the model has no body '{}'", property, name));
+    if (!body) xml.fail(node, "<{}>: the model has no body '{}'", property, name);
     return at(*body);
   };
   const std::size_t body = body_of("body_name"), relative = body_of("relative_to_body_name");
@@ -151,7 +148,7 @@ void report_point(AnalysisRun& run, pugi::xml_node node) {
   MovingBodies moving(run.model, run.motion, qddot);
   for (Eigen::Index i = 0; i < frames; ++i) {
     moving.set(i);
-    const PointMotion motion = moving.point(body, point);
+    const model::PointMotion motion = moving.point(body, point);
     const Pose& X_GR = moving.pose(relative);
     // The other body gives velocity and acceleration its axes only.
     position.row(i) = (X_GR.inverse() * motion.p).transpose();

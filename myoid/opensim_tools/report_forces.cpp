@@ -1,14 +1,11 @@
 #include <array>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/dynamics/passive_forces.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/forces/driven_frame.h"
-#include "myoid/forces/muscle_analysis.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/model_controls.h"
 #include "myoid/opensim_tools/moving_bodies.h"
@@ -33,8 +30,7 @@ void add_passive(const AnalysisRun& run, const model::BodyModel& model, const st
     if (const auto* limit = std::get_if<model::CoordinateLimitForce>(&force.law)) {
       table.add(name, Unit::dimensionless, limit_forces(run, *limit));
     } else {
-      run.result.notes.push_back(
-          fmt::format("force '{}' of class {} acts, but has no column among the forces", name, force.class_name));
+      run.note("force '{}' of class {} acts, but has no column among the forces", name, force.class_name);
     }
   }
 }
@@ -94,6 +90,13 @@ TimeSeries force_table(const AnalysisRun& run, const model::BodyModel& model, co
 
 }  // namespace
 
+forces::MuscleAnalysisOptions muscle_options(const AnalysisRun& run) {
+  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
+  if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
+  if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
+  return options;
+}
+
 const TimeSeries& forces_of_states(AnalysisRun& run) {
   if (run.state_forces) return *run.state_forces;
   const std::vector<forces::Actuator> actuators = forces::actuators_of(run.model);
@@ -101,14 +104,12 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
       Eigen::MatrixXd::Zero(run.motion.sample_count(), static_cast<Eigen::Index>(actuators.size()));
   std::vector<Channel> channels;
   for (const forces::Actuator& a : actuators) channels.push_back({a.name, Unit::newton});
-  forces::MuscleAnalysisOptions options{.equilibrium = run.equilibrium, .progress = run.options.progress};
+  forces::MuscleAnalysisOptions options = muscle_options(run);
   for (const forces::Actuator& a : actuators)
     if (a.kind == forces::Actuator::Kind::muscle) options.muscles.push_back(static_cast<int>(a.index));
   if (!options.muscles.empty()) {
-    if (run.activation.size() > 0) options.activation = run.activation(run.rows, Eigen::all);
-    if (run.fiber_length_m.size() > 0) options.fiber_length_m = run.fiber_length_m(run.rows, Eigen::all);
     const forces::MuscleAnalysis analysis = forces::muscle_analysis(run.model, run.motion, options);
-    run.result.notes.insert(run.result.notes.end(), analysis.notes.begin(), analysis.notes.end());
+    run.add_notes(analysis.notes);
     for (const auto& [name, table] : analysis.tables) {
       if (name != "TendonForce") continue;
       for (std::size_t k = 0; k < actuators.size(); ++k) {
@@ -132,18 +133,15 @@ const TimeSeries& forces_of_states(AnalysisRun& run) {
 
 const Eigen::MatrixXd* accelerations_of(AnalysisRun& run) {
   if (!run.accelerations) {
-    std::vector<std::string>& notes = run.result.notes;
     try {
-      run.accelerations =
-          forces::driven_accelerations(run.model, run.motion, forces_of_states(run),
-                                       {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
-      notes.emplace_back(
-          "accelerations follow from the forces, as in OpenSim, and differ from the motion's "
-          "second "
-          "derivatives: muscles pull by their states, other actuators by their controls");
+      run.accelerations = forces::driven_accelerations(run.model, run.motion, forces_of_states(run),
+                                                       {.loads = run.loads_if_any(), .progress = run.options.progress});
+      run.note(
+          "accelerations follow from the forces, as in OpenSim, and differ from the motion's second derivatives: "
+          "muscles pull by their states, other actuators by their controls");
     } catch (const ModelError& error) {
       run.accelerations.emplace();
-      notes.push_back(fmt::format("accelerations are not written: {}", error.what()));
+      run.note("accelerations are not written: {}", error.what());
     }
   }
   return run.accelerations->size() > 0 ? &*run.accelerations : nullptr;
@@ -166,7 +164,7 @@ void write_forces(AnalysisRun& run,
 void report_forces(AnalysisRun& run, pugi::xml_node node) {
   const std::string name = analysis_name(node);
   if (run.setup.xml().flag(node, "include_constraint_forces", false)) {
-    run.result.notes.push_back(fmt::format("{}: forces of constraints are not computed and not written", name));
+    run.note("{}: forces of constraints are not computed and not written", name);
   }
   write_forces(run, run.model, claim_result(run, name + "_forces.sto"), forces_of_states(run));
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/forces/actuator_columns.h"
@@ -41,15 +40,10 @@ std::pair<model::FixedFrame, std::string> frame_named(const AnalysisRun& run,
   const std::string last = name.substr(name.find_last_of('/') + 1);
   const auto file = run.setup.required_file(run.setup.tool(), "model_file");
   if (const auto frame = model::find_frame(model, file, name)) return {*frame, last};
-  run.setup.xml().fail(node, fmt::format("<express_in_frame>: the model has no frame '{}'; "
-                                         "expected ground, child, parent, a body or the path of a "
-                                         "frame, as /jointset/knee_r/tibia_r_offset",
-                                         name));
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return text;
+  run.setup.xml().fail(node,
+                       "<express_in_frame>: the model has no frame '{}'; expected ground, child, parent, a body or the "
+                       "path of a frame, as /jointset/knee_r/tibia_r_offset",
+                       name);
 }
 
 /// Returns the entry for the k-th joint of a list with one entry for all or one each.
@@ -65,16 +59,14 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   if (names.empty() || recording::equal_ignoring_case(names[0], "all")) {
     std::vector<const model::Joint*> joints;
     for (const model::Joint& joint : model.joints) joints.push_back(&joint);
-    std::stable_sort(joints.begin(), joints.end(),
-                     [](const model::Joint* a, const model::Joint* b) { return a->place_in_file < b->place_in_file; });
+    std::ranges::stable_sort(joints, {}, &model::Joint::place_in_file);
     names.clear();
     for (const model::Joint* joint : joints) names.push_back(joint->name);
   }
   const auto list = [&](const char* property) {
     std::vector<std::string> words = xml.words(node, property);
     if (words.size() > 1 && words.size() != names.size()) {
-      run.result.notes.push_back(
-          fmt::format("<{}>: {} entries for {} joints; the default is taken", property, words.size(), names.size()));
+      run.note("<{}>: {} entries for {} joints; the default is taken", property, words.size(), names.size());
       words.clear();
     }
     return words;
@@ -82,15 +74,14 @@ std::vector<Asked> asked_joints(AnalysisRun& run, pugi::xml_node node) {
   const auto on = list("apply_on_bodies"), in = list("express_in_frame");
   std::vector<Asked> asked;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
-                                    [&](const model::Joint& j) { return j.name == names[k]; });
+    const auto joint = std::ranges::find(model.joints, names[k], &model::Joint::name);
     if (joint == model.joints.end()) {
-      run.result.notes.push_back(fmt::format("<joint_names>: the model has no '{}'; it is left out", names[k]));
+      run.note("<joint_names>: the model has no '{}'; it is left out", names[k]);
       continue;
     }
     Asked a;
     a.joint = static_cast<std::size_t>(joint - model.joints.begin());
-    a.on_child = lower(entry(on, k, "child")) == "child";
+    a.on_child = model::lower_case(entry(on, k, "child")) == "child";
     auto [frame, frame_name] = frame_named(run, node, *joint, entry(in, k, "ground"));
     a.expressed_in = std::move(frame);
     a.label = fmt::format("{}_on_{}_in_{}", joint->name,
@@ -127,13 +118,11 @@ TimeSeries actuator_forces(AnalysisRun& run, pugi::xml_node node) {
       return linear_at(file, times);
     }
     notes.push_back(
-        fmt::format("{}: no column for {}; as in OpenSim all forces follow from "
-                    "the muscles' states, and other actuators exert nothing",
+        fmt::format("{}: no column for {}; as in OpenSim all forces follow from the muscles' states, and other "
+                    "actuators exert nothing",
                     path->string(), missing));
   } else {
-    notes.push_back(
-        "JointReaction without <forces_file>: muscles pull by their states, other actuators do "
-        "nothing");
+    notes.push_back("JointReaction without <forces_file>: muscles pull by their states, other actuators do nothing");
   }
   return forces_of_states(run);
 }
@@ -177,13 +166,12 @@ void report_reactions(AnalysisRun& run, pugi::xml_node node) {
   const std::vector<Asked> asked = asked_joints(run, node);
   const std::string name = analysis_name(node);
   const auto path = claim_result(run, name + "_ReactionLoads.sto");
-  const auto loads =
-      forces::joint_reactions(run.model, run.motion, actuator_forces(run, node),
-                              {.loads = run.loads ? &*run.loads : nullptr, .progress = run.options.progress});
+  const auto loads = forces::joint_reactions(run.model, run.motion, actuator_forces(run, node),
+                                             {.loads = run.loads_if_any(), .progress = run.options.progress});
   for (const model::PassiveForce& force : run.model.passive_forces) {
     if (std::holds_alternative<model::PathSpring>(force.law) || std::holds_alternative<model::Ligament>(force.law)) {
-      run.result.notes.push_back(fmt::format("{}: the pull of '{}' ({}) moves the model, but does not load the joints",
-                                             name, force.name, force.class_name));
+      run.note("{}: the pull of '{}' ({}) moves the model, but does not load the joints", name, force.name,
+               force.class_name);
     }
   }
   const TimeSeries table =

@@ -1,35 +1,27 @@
 #include "myoid/opensim_tools/run_tool.h"
 
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/opensim_tools/setup_elements.h"
-#include "myoid/opensim_tools/tool_forward.h"
-#include "myoid/opensim_tools/tool_orientations.h"
 #include "myoid/opensim_tools/tool_stages.h"
 
 namespace myoid {
 
 namespace {
 
-void run_named_tool(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
-  if (result.tool == "InverseKinematicsTool") {
-    run_inverse_kinematics(setup, options, result);
-  } else if (result.tool == "InverseDynamicsTool") {
-    run_inverse_dynamics(setup, options, result);
-  } else if (result.tool == "ScaleTool") {
-    run_scale(setup, options, result);
-  } else if (result.tool == "ForwardTool") {
-    run_forward(setup, options, result);
-  } else if (result.tool == "IMUPlacer") {
-    run_imu_placer(setup, options, result);
-  } else if (result.tool == "IMUInverseKinematicsTool") {
-    run_imu_inverse_kinematics(setup, options, result);
-  } else {
-    run_analyses(setup, options, result);
-  }
-}
+constexpr std::pair<std::string_view, void (*)(const ToolRun&)> kRuns[] = {
+    {"InverseKinematicsTool", run_inverse_kinematics},
+    {"InverseDynamicsTool", run_inverse_dynamics},
+    {"AnalyzeTool", run_analyses},
+    {"ScaleTool", run_scale},
+    {"ForwardTool", run_forward},
+    {"IMUPlacer", run_imu_placer},
+    {"IMUInverseKinematicsTool", run_imu_inverse_kinematics}};
 
 }  // namespace
 
@@ -39,17 +31,18 @@ ToolResult run_tool(const std::filesystem::path& path, const ToolOptions& option
   result.inputs = setup.inputs();
   result.notes = setup.notes();
   const std::vector<std::string> unknown = unknown_elements(setup.xml(), setup.tool());
-  result.notes.insert(result.notes.end(), unknown.begin(), unknown.end());
+  const ToolRun run{setup, options, result};
+  run.add_notes(unknown);
   result.tool = setup.kind();
   try {
-    run_named_tool(setup, options, result);
+    for (const auto& [name, run_named] : kRuns)
+      if (name == result.tool) run_named(run);
   } catch (const InvalidInput& error) {
     // A misspelt element is often the cause: the intended element is missing.
     if (unknown.empty()) throw;
     throw InvalidInput(fmt::format("{}; {}", error.what(), fmt::join(unknown, "; ")));
   }
-  const std::vector<std::string>& defaulted = setup.xml().defaulted();
-  result.notes.insert(result.notes.end(), defaulted.begin(), defaulted.end());
+  run.add_notes(setup.xml().defaulted());
   return result;
 }
 

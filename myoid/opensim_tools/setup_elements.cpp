@@ -18,24 +18,22 @@ using Names = std::vector<std::string>;
 std::map<std::string, std::string, std::less<>> make_elements() {
   const std::string set = "objects groups defaults";
   const std::string folders = "results_directory input_directory ";
-  const std::string run = folders +
-                          "model_file replace_force_set replace_actuator_set force_set_files actuator_set_files "
-                          "output_precision initial_time final_time solve_for_equilibrium_for_auxiliary_states "
-                          "maximum_number_of_integrator_steps maximum_integrator_step_size "
-                          "minimum_integrator_step_size integrator_error_tolerance integrator_fine_tolerance "
-                          "AnalysisSet ControllerSet controls_file states_file pseudo_states_file external_loads_file "
-                          "external_loads_model_kinematics_file external_loads_body1 external_loads_body2 "
-                          "body1_linear_velocity_file lowpass_cutoff_frequency_for_load_kinematics ";
-  const std::string fit = folders +
-                          "model_file constraint_weight accuracy time_range output_motion_file "
-                          "report_errors report_marker_locations ";
-  const std::string marker_fit = fit +
-                                 "IKTaskSet IKTrialSet marker_file coordinate_file "
-                                 "optimizer_algorithm model_marker_set";
+  const std::string run =
+      folders +
+      "model_file replace_force_set replace_actuator_set force_set_files actuator_set_files output_precision "
+      "initial_time final_time solve_for_equilibrium_for_auxiliary_states maximum_number_of_integrator_steps "
+      "maximum_integrator_step_size minimum_integrator_step_size integrator_error_tolerance integrator_fine_tolerance "
+      "AnalysisSet ControllerSet controls_file states_file pseudo_states_file external_loads_file "
+      "external_loads_model_kinematics_file external_loads_body1 external_loads_body2 body1_linear_velocity_file "
+      "lowpass_cutoff_frequency_for_load_kinematics ";
+  const std::string fit =
+      folders +
+      "model_file constraint_weight accuracy time_range output_motion_file report_errors report_marker_locations ";
+  const std::string marker_fit =
+      fit + "IKTaskSet IKTrialSet marker_file coordinate_file optimizer_algorithm model_marker_set";
   const std::string analysis = "on start_time end_time step_interval in_degrees ";
   const std::string files =
-      "output_model_file output_motion_file output_marker_file output_scale_file "
-      "output_joint_file output_muscle_file ";
+      "output_model_file output_motion_file output_marker_file output_scale_file output_joint_file output_muscle_file ";
   return {
       {"InverseKinematicsTool", marker_fit},
       {"IKTool", marker_fit},
@@ -47,16 +45,16 @@ std::map<std::string, std::string, std::less<>> make_elements() {
       {"ScaleTool", folders + "mass height age notes GenericModelMaker ModelScaler MarkerPlacer use_model_marker_set"},
       {"IMUPlacer", folders + "model_file base_imu_label base_heading_axis sensor_to_opensim_rotations "
                               "orientation_file_for_calibration output_model_file"},
-      {"IMUInverseKinematicsTool", fit + "sensor_to_opensim_rotations orientations_file orientation_weights "
-                                         "OrientationWeightSet"},
+      {"IMUInverseKinematicsTool",
+       fit + "sensor_to_opensim_rotations orientations_file orientation_weights OrientationWeightSet"},
       {"orientation_weights", set + " OrientationWeightSet"},
       {"OrientationWeightSet", set},
       {"OrientationWeight", "weight"},
       {"GenericModelMaker", "model_file marker_set_file"},
-      {"ModelScaler", files + "apply scaling_order MeasurementSet ScaleSet marker_file time_range "
-                              "preserve_mass_distribution"},
-      {"MarkerPlacer", files + "apply IKTaskSet marker_file coordinate_file time_range max_marker_movement "
-                               "optimizer_algorithm"},
+      {"ModelScaler",
+       files + "apply scaling_order MeasurementSet ScaleSet marker_file time_range preserve_mass_distribution"},
+      {"MarkerPlacer",
+       files + "apply IKTaskSet marker_file coordinate_file time_range max_marker_movement optimizer_algorithm"},
       {"MeasurementSet", set},
       {"Measurement", "apply MarkerPairSet BodyScaleSet"},
       {"MarkerPairSet", set},
@@ -98,43 +96,27 @@ const Names* elements_of(std::string_view class_name) {
   return known == kElements.end() ? nullptr : &known->second;
 }
 
-class UnknownElements {
- public:
-  explicit UnknownElements(const model::OsimXml& xml) : xml_(xml) {}
-
-  void look_into(pugi::xml_node parent) {
-    const Names* known = elements_of(parent.name());
-    for (const pugi::xml_node child : parent.children()) {
-      if (child.type() != pugi::node_element) continue;
-      if (known != nullptr && std::find(known->begin(), known->end(), child.name()) == known->end()) {
-        tell(child, *known);
-      } else if (known != nullptr || std::string_view(parent.name()) == "objects") {
-        look_into(child);
-      }
+void look_into(const model::OsimXml& xml, pugi::xml_node parent, Names& sentences) {
+  const Names* known = elements_of(parent.name());
+  for (const pugi::xml_node child : parent.children()) {
+    if (child.type() != pugi::node_element) continue;
+    if (known != nullptr && std::find(known->begin(), known->end(), child.name()) == known->end()) {
+      const auto near = recording::nearest_word(child.name(), *known);
+      sentences.push_back(fmt::format(
+          "line {}: <{}> has no element <{}>{}; OpenSim and this program ignore the element", xml.line_of(child),
+          parent.name(), child.name(), near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
+    } else if (known != nullptr || std::string_view(parent.name()) == "objects") {
+      look_into(xml, child, sentences);
     }
   }
-
-  Names sentences;
-
- private:
-  void tell(pugi::xml_node child, const Names& known) {
-    const auto near = recording::nearest_word(child.name(), known);
-    sentences.push_back(
-        fmt::format("line {}: <{}> has no element <{}>{}; OpenSim and this program "
-                    "ignore the element",
-                    xml_.line_of(child), child.parent().name(), child.name(),
-                    near ? fmt::format(" (did you mean <{}>?)", *near) : ""));
-  }
-
-  const model::OsimXml& xml_;
-};
+}
 
 }  // namespace
 
 std::vector<std::string> unknown_elements(const model::OsimXml& xml, pugi::xml_node tool) {
-  UnknownElements unknown(xml);
-  unknown.look_into(tool);
-  return std::move(unknown.sentences);
+  Names sentences;
+  look_into(xml, tool, sentences);
+  return sentences;
 }
 
 }  // namespace myoid

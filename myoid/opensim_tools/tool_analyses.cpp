@@ -1,24 +1,44 @@
 #include <algorithm>
-#include <memory>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
+#include "myoid/kinematics/angular_speeds.h"
 #include "myoid/math/spline.h"
 #include "myoid/opensim_tools/analysis_reports.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/signals/opensim_lowpass.h"
-#include "myoid/tables/storage_reader.h"
 
 namespace myoid {
 namespace {
 
 using model::OsimXml;
+
+struct KnownAnalysis {
+  std::string_view class_name;
+  void (*run)(AnalysisRun&, pugi::xml_node);
+};
+
+constexpr KnownAnalysis kKnown[] = {
+    {"Actuation", report_actuation},     {"BodyKinematics", report_bodies},
+    {"ForceReporter", report_forces},    {"InverseDynamics", report_inverse_dynamics},
+    {"JointReaction", report_reactions}, {"Kinematics", report_kinematics},
+    {"MuscleAnalysis", report_muscles},  {"OutputReporter", report_outputs},
+    {"PointKinematics", report_point},   {"StaticOptimization", run_static_optimization}};
+
+void run_analysis(AnalysisRun& run, pugi::xml_node node) {
+  const std::string_view kind = node.name();
+  // These analyses report velocities of bodies, which follow from the speeds as angular velocities.
+  for (const char* moving : {"BodyKinematics", "JointReaction", "OutputReporter", "PointKinematics"})
+    if (kind == moving) run.motion = kinematics::moved_by_speeds(run.model, run.motion);
+  std::ranges::find(kKnown, kind, &KnownAnalysis::class_name)->run(run, node);
+  run.result.frames = static_cast<int>(run.motion.sample_count());
+}
 
 /// Derivatives of every channel at its samples, by the natural quintic spline.
 TimeSeries derivative(const TimeSeries& series, const std::vector<Channel>& channels) {
@@ -53,17 +73,13 @@ kinematics::JointMotion motion_of(const model::BodyModel& model,
 }
 
 /// Reads the motion. The range is compared with the times of the file, for a filter adds times at both ends.
-kinematics::JointMotion read_motion(AnalysisRun& run,
-                                    const OpensimSetup& setup,
-                                    std::pair<double, double> range_s,
-                                    bool with_accelerations) {
-  const auto& xml = setup.xml();
+kinematics::JointMotion read_motion(AnalysisRun& run, std::pair<double, double> range_s, bool with_accelerations) {
+  const OpensimSetup& setup = run.setup;
   const auto tool = setup.tool();
   auto& notes = run.result.notes;
   if (const auto states = setup.file(tool, "states_file")) {
     for (const char* other : {"coordinates_file", "speeds_file"}) {
-      if (setup.names_file(tool, other))
-        notes.push_back(fmt::format("<{}> is not read: there is a <states_file>", other));
+      if (setup.names_file(tool, other)) run.note("<{}> is not read: there is a <states_file>", other);
     }
     TimeSeries q = read_coordinates(run.model, *states, MissingCoordinate::default_value, notes);
     setup.check_range(range_s, q.time_s(), *states, notes);
@@ -72,11 +88,11 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
   }
   const auto path = setup.file(tool, "coordinates_file");
   if (!path) {
-    xml.fail(tool, "expected a <states_file> or a <coordinates_file>: the motion to analyze");
+    setup.xml().fail(tool, "expected a <states_file> or a <coordinates_file>: the motion to analyze");
   }
   TimeSeries q = read_coordinates(run.model, *path, MissingCoordinate::zero, notes);
   setup.check_range(range_s, q.time_s(), *path, notes);
-  const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
+  const double cutoff_hz = setup.xml().number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   std::optional<TimeSeries> speeds;
   if (const auto file = setup.file(tool, "speeds_file")) {
@@ -94,10 +110,6 @@ kinematics::JointMotion read_motion(AnalysisRun& run,
   return motion_of(run.model, std::move(q), std::move(speeds), with_accelerations);
 }
 
-TimeSeries chosen_rows(const TimeSeries& series, const std::vector<Eigen::Index>& rows) {
-  return {series.time_s()(rows), series.channels(), series.values()(rows, Eigen::all)};
-}
-
 /// Returns the rows that an analysis records: the first, every row whose number the interval divides, the last.
 std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, int interval) {
   std::vector<Eigen::Index> rows;
@@ -107,12 +119,11 @@ std::vector<Eigen::Index> recorded_rows(Eigen::Index first, Eigen::Index last, i
   return rows;
 }
 
-void read_loads(AnalysisRun& run, const OpensimSetup& setup) {
-  const auto file = setup.file(setup.tool(), "external_loads_file");
+void read_loads(AnalysisRun& run) {
+  const auto file = run.setup.file(run.setup.tool(), "external_loads_file");
   if (!file) return;
   run.loads = dynamics::read_external_loads(run.model, *file);
-  auto& notes = run.result.notes;
-  notes.insert(notes.end(), run.loads->notes.begin(), run.loads->notes.end());
+  run.add_notes(run.loads->notes);
 }
 
 /// Throws ReadError for an unknown class: the user would not notice the missing files of a misspelt analysis.
@@ -124,20 +135,24 @@ void require_opensim_analysis(const OsimXml& xml, pugi::xml_node node) {
   const std::string kind = node.name();
   if (std::find(kOfOpensim.begin(), kOfOpensim.end(), kind) != kOfOpensim.end()) return;
   const auto near = recording::nearest_word(kind, kOfOpensim);
-  xml.fail(node, fmt::format("OpenSim has no analysis <{}>{}; there are {}", kind,
-                             near ? fmt::format(" (did you mean {}?)", *near) : "", fmt::join(kOfOpensim, ", ")));
+  xml.fail(node, "OpenSim has no analysis <{}>{}; there are {}", kind,
+           near ? fmt::format(" (did you mean {}?)", *near) : "", fmt::join(kOfOpensim, ", "));
 }
 
 }  // namespace
 
-void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
-  const auto& xml = setup.xml();
-  const auto tool = setup.tool();
-  AnalysisRun run{.setup = setup, .options = options, .result = result};
-  run.model = setup_model(setup, options.compat, {}, result.notes);
+bool is_known_analysis(std::string_view class_name) {
+  return std::ranges::find(kKnown, class_name, &KnownAnalysis::class_name) != std::end(kKnown);
+}
+
+void run_analyses(const ToolRun& tool_run) {
+  AnalysisRun run{tool_run};
+  const auto& xml = run.setup.xml();
+  const auto tool = run.setup.tool();
+  run.model = setup_model(run.setup, run.options.compat, {}, run.result.notes);
   run.decimals = static_cast<int>(xml.number(tool, "output_precision", 8.0));
   if (run.decimals < 1 || run.decimals > 30) {
-    xml.fail(tool, fmt::format("<output_precision> {}, expected 1 to 30", run.decimals));
+    xml.fail(tool, "<output_precision> {}, expected 1 to 30", run.decimals);
   }
   run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
   const auto set = xml.property(tool, "AnalysisSet");
@@ -149,11 +164,11 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) {
       require_opensim_analysis(xml, node);
-      result.notes.push_back(fmt::format("analysis {} is not supported: its files are not written; {} are", node.name(),
-                                         known_analyses()));
+      run.note("analysis {} is not supported: its files are not written; {} are", node.name(),
+               fmt::join(kKnown | std::views::transform(&KnownAnalysis::class_name), ", "));
     }
   }
-  read_loads(run, setup);
+  read_loads(run);
   const bool accelerates = std::any_of(analyses.begin(), analyses.end(), [](pugi::xml_node node) {
     const std::string_view name = node.name();
     return name == "StaticOptimization" || name == "InverseDynamics";
@@ -161,22 +176,20 @@ void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolRes
   const double start_s = xml.number(tool, "initial_time", 0.0);
   const double end_s = xml.number(tool, "final_time", 1.0);
   if (!(start_s <= end_s)) {
-    xml.fail(tool, fmt::format("<initial_time> {} and <final_time> {}, expected the first not "
-                               "after the second",
-                               start_s, end_s));
+    xml.fail(tool, "<initial_time> {} and <final_time> {}, expected the first not after the second", start_s, end_s);
   }
-  const kinematics::JointMotion all = read_motion(run, setup, {start_s, end_s}, accelerates);
+  const kinematics::JointMotion all = read_motion(run, {start_s, end_s}, accelerates);
   const Eigen::VectorXd& times = all.q.time_s();
   const Eigen::Index first = row_at(times, start_s), last = row_at(times, end_s);
   if (run.loads) {
-    note_missing_loads(*run.loads, *setup.file(tool, "external_loads_file"), times.segment(first, last - first + 1),
-                       result.notes);
+    note_missing_loads(run, *run.loads, *run.setup.file(tool, "external_loads_file"),
+                       times.segment(first, last - first + 1));
   }
   for (const auto node : analyses) {
     if (!is_known_analysis(node.name())) continue;
     const auto rows = recorded_rows(first, last, static_cast<int>(xml.number(node, "step_interval", 1.0)));
     if (rows != run.rows) {
-      run.motion = {chosen_rows(all.q, rows), chosen_rows(all.qdot, rows), chosen_rows(all.qddot, rows)};
+      run.motion = rows_of(all, rows);
       run.rows = rows;
       run.state_forces.reset();
       run.accelerations.reset();

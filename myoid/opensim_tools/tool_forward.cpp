@@ -1,12 +1,9 @@
-#include "myoid/opensim_tools/tool_forward.h"
-
 #include <algorithm>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/forces/actuator_columns.h"
 #include "myoid/opensim_tools/analysis_reports.h"
@@ -54,9 +51,7 @@ SimulationStart start_of(AnalysisRun& run, const SimulationModel& model, double&
 }
 
 /// Returns the control of every muscle, clamped to its bounds as in OpenSim; a muscle without control rests.
-std::vector<Signal> excitations_of(const SimulationModel& model,
-                                   const ModelControls& controls,
-                                   std::vector<std::string>& notes) {
+std::vector<Signal> excitations_of(const ToolRun& run, const SimulationModel& model, const ModelControls& controls) {
   std::vector<Signal> result;
   std::string without;
   for (const simulation::ModelMuscle& muscle : model.muscles) {
@@ -72,7 +67,7 @@ std::vector<Signal> excitations_of(const SimulationModel& model,
     for (double& value : signal.value) value = std::clamp(value, least, 1.0);
     result.push_back(std::move(signal));
   }
-  if (!without.empty()) notes.push_back(fmt::format("no control for {}: at their least activation", without));
+  if (!without.empty()) run.note("no control for {}: at their least activation", without);
   return result;
 }
 
@@ -103,9 +98,9 @@ std::vector<Signal> coordinate_forces(const OpensimSetup& setup,
       const auto& values = control->second.value;
       if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; })) continue;
       setup.xml().fail(setup.tool(),
-                       fmt::format("actuator '{}' acts on bodies and is controlled: such forces are not part of "
-                                   "forward dynamics here; muscles and CoordinateActuators are",
-                                   a.name));
+                       "actuator '{}' acts on bodies and is controlled: such forces are not part of forward dynamics "
+                       "here; muscles and CoordinateActuators are",
+                       a.name);
     }
     const model::CoordinateActuator& actuator = model.actuators[a.index];
     parts[at(actuator.coordinate)].emplace_back(actuator.optimal_force, &control->second);
@@ -151,31 +146,32 @@ TimeSeries controls_table(const model::BodyModel& model,
 }
 
 /// Throws ReadError for external loads; notes the analyses that are not run.
-void refuse_and_note(const OpensimSetup& setup, std::vector<std::string>& notes) {
+void refuse_and_note(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
   const auto& xml = setup.xml();
   const std::string loads = xml.word(setup.tool(), "external_loads_file");
   if (!loads.empty() && loads != "Unassigned") {
     xml.fail(xml.property(setup.tool(), "external_loads_file"),
-             "loads on bodies are not part of forward dynamics here; leave them out, or use "
-             "InverseDynamicsTool and StaticOptimization for a motion that is known");
+             "loads on bodies are not part of forward dynamics here; leave them out, or use InverseDynamicsTool and "
+             "StaticOptimization for a motion that is known");
   }
   for (const auto node : model::OsimXml::objects(xml.property(setup.tool(), "AnalysisSet"))) {
     if (!xml.flag(node, "on", true)) continue;
-    notes.push_back(
-        fmt::format("analysis {} is not done: run an AnalyzeTool with it and "
-                    "<states_file> {}_states.sto",
-                    node.name(), setup.name()));
+    run.note("analysis {} is not done: run an AnalyzeTool with it and <states_file> {}_states.sto", node.name(),
+             setup.name());
   }
 }
 
 }  // namespace
 
-void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+void run_forward(const ToolRun& tool_run) {
+  AnalysisRun run{tool_run};
+  const OpensimSetup& setup = run.setup;
+  ToolResult& result = run.result;
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
-  refuse_and_note(setup, result.notes);
-  AnalysisRun run{.setup = setup, .options = options, .result = result};
-  run.model = setup_model(setup, options.compat, {}, result.notes);
+  refuse_and_note(run);
+  run.model = setup_model(setup, run.options.compat, {}, result.notes);
   run.decimals = std::clamp(static_cast<int>(xml.number(tool, "output_precision", 8.0)), 1, 30);
   run.equilibrium = xml.flag(tool, "solve_for_equilibrium_for_auxiliary_states", false);
   const auto states_file = claim_result(run, "states.sto");
@@ -188,13 +184,13 @@ void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResu
   simulation::SimulationOptions how;
   how.end_s = xml.number(tool, "final_time", 1.0);
   if (!(how.end_s > start_s)) {
-    xml.fail(tool, fmt::format("<final_time> {} s, expected after the start at {} s", how.end_s, start_s));
+    xml.fail(tool, "<final_time> {} s, expected after the start at {} s", how.end_s, start_s);
   }
   how.ode.relative_tolerance = std::min(1e-8, xml.number(tool, "integrator_error_tolerance", 1e-5));
   how.ode.absolute_tolerance = 0.01 * how.ode.relative_tolerance;
-  how.progress = options.progress;
+  how.progress = run.options.progress;
   const simulation::Simulation done = simulation::simulate(model,
-                                                           {.excitation = excitations_of(model, controls, result.notes),
+                                                           {.excitation = excitations_of(run, model, controls),
                                                             .external = coordinate_forces(setup, run.model, controls),
                                                             .device = simulation::default_devices(model)},
                                                            start, how);
@@ -207,7 +203,7 @@ void run_forward(const OpensimSetup& setup, const ToolOptions& options, ToolResu
   result.summary = fmt::format("{} to {} s, {} rows", start_s, done.reached_s, result.frames);
   if (done.status != math::OdeStatus::done) {
     result.frames_failed = 1;
-    result.notes.push_back(fmt::format("not simulated to the end: {}", done.message));
+    run.note("not simulated to the end: {}", done.message);
   }
 }
 

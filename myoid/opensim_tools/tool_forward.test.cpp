@@ -1,5 +1,3 @@
-#include "myoid/opensim_tools/tool_forward.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -8,6 +6,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
 #include "myoid/opensim_tools/model_controls.h"
+#include "myoid/opensim_tools/tool_stages.h"
 
 #include "tests/support/tool_folder.h"
 

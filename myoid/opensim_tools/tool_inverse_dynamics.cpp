@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/dynamics/inverse_dynamics.h"
 #include "myoid/files/named_file.h"
 #include "myoid/forces/muscle_analysis.h"
@@ -40,11 +39,11 @@ TimeSeries without_muscles(const model::BodyModel& model,
 
 /// Notes the difference between OpenSim's moments, computed with rates of angles as angular
 /// velocities, and the exact ones.
-void note_angular_speeds(const model::BodyModel& model,
+void note_angular_speeds(const ToolRun& run,
+                         const model::BodyModel& model,
                          const kinematics::JointMotion& motion,
                          const dynamics::InverseDynamicsOptions& options,
-                         const TimeSeries& tau,
-                         std::vector<std::string>& notes) {
+                         const TimeSeries& tau) {
   const std::vector<int> joints = kinematics::angular_speed_joints(model);
   if (joints.empty()) return;
   const bool as_opensim = kinematics::takes_rates_for_speeds(model);
@@ -56,52 +55,53 @@ void note_angular_speeds(const model::BodyModel& model,
   const double largest = difference.maxCoeff(&row, &column);
   std::string names;
   for (const int j : joints) {
-    const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
+    const model::Joint& joint = model.joints[at(j)];
     names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", joint.name, joint.class_name);
   }
-  notes.push_back(
-      fmt::format("joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
-                  "difference is {:.3g} {}, {} at {:.4g} s",
-                  names, as_opensim ? "so does this result, --compat exact does not" : "this result does not", largest,
-                  tau.channels()[static_cast<std::size_t>(column)].unit == Unit::newton ? "N" : "N m",
-                  tau.channels()[static_cast<std::size_t>(column)].name, tau.time_s()[row]));
+  run.note(
+      "joints {}: OpenSim takes the rates of their angles for angular velocities; {}; the largest "
+      "difference is {:.3g} {}, {} at {:.4g} s",
+      names, as_opensim ? "so does this result, --compat exact does not" : "this result does not", largest,
+      tau.channels()[at(column)].unit == Unit::newton ? "N" : "N m", tau.channels()[at(column)].name,
+      tau.time_s()[row]);
 }
 
 /// Returns the file of the result. As in OpenSim a folder in its name does not count, and the
 /// default extension is .sto.
-std::filesystem::path force_file(const OpensimSetup& setup, std::vector<std::string>& notes) {
-  const std::string text = setup.xml().word(setup.tool(), "output_gen_force_file");
+std::filesystem::path force_file(const ToolRun& run) {
+  const std::string text = run.setup.xml().word(run.setup.tool(), "output_gen_force_file");
   std::filesystem::path name = recording::last_part(text.empty() ? "inverse_dynamics" : text);
   if (name.extension().empty()) name += ".sto";
-  const auto path = setup.results_folder() / name;
+  const auto path = run.setup.results_folder() / name;
   if (text.find_first_of("/\\") != std::string::npos) {
-    notes.push_back(
-        fmt::format("<output_gen_force_file> '{}': only the name of the file counts, as "
-                    "in OpenSim; it is {}",
-                    text, path.string()));
+    run.note("<output_gen_force_file> '{}': only the name of the file counts, as in OpenSim; it is {}", text,
+             path.string());
   }
   return path;
 }
 
 }  // namespace
 
-void run_inverse_dynamics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+void run_inverse_dynamics(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
+  const ToolOptions& options = run.options;
+  ToolResult& result = run.result;
   const auto& xml = setup.xml();
   const auto tool = setup.tool();
-  const auto out = force_file(setup, result.notes);
-  claim_file(options, out, result);
+  const auto out = force_file(run);
+  run.claim(out);
   const auto excluded = xml.words(tool, "forces_to_exclude");
   const model::BodyModel model = setup_model(setup, options.compat, excluded, result.notes);
   if (!model.muscles.empty()) {
-    result.notes.push_back(options.compat.class_fiber_length
-                               ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their "
-                                 "default activations and fiber lengths (0.1 m where the model gives none)"
-                               : "forces_to_exclude does not name the muscles: they pull with their default "
-                                 "activations and fiber lengths (optimal ones where the model gives none; OpenSim "
-                                 "takes 0.1 m)");
+    result.notes.push_back(
+        options.compat.class_fiber_length
+            ? "forces_to_exclude does not name the muscles: as in OpenSim they pull with their default activations and "
+              "fiber lengths (0.1 m where the model gives none)"
+            : "forces_to_exclude does not name the muscles: they pull with their default activations and fiber lengths "
+              "(optimal ones where the model gives none; OpenSim takes 0.1 m)");
   }
   if (!xml.words(tool, "joints_to_report_body_forces").empty())
-    result.notes.push_back("joints_to_report_body_forces: body forces at joints are not written");
+    run.note("joints_to_report_body_forces: body forces at joints are not written");
   const auto motion_file = setup.required_file(tool, "coordinates_file");
   TimeSeries q = read_coordinates(model, motion_file, MissingCoordinate::default_value, result.notes);
   const auto [start_s, end_s] = setup.time_range(tool, "time_range");
@@ -109,25 +109,23 @@ void run_inverse_dynamics(const OpensimSetup& setup, const ToolOptions& options,
   const double cutoff_hz = xml.number(tool, "lowpass_cutoff_frequency_for_coordinates", -1.0);
   if (cutoff_hz > 0.0) q = signals::opensim_lowpass(q, cutoff_hz);
   kinematics::JointMotion motion = kinematics::joint_motion(model, q).motion;
-  const Eigen::Index first = row_at(motion.q.time_s(), start_s);
-  const Eigen::Index last = row_at(motion.q.time_s(), end_s);
-  motion = {rows_of(motion.q, first, last), rows_of(motion.qdot, first, last), rows_of(motion.qddot, first, last)};
+  const Eigen::VectorXd& times = motion.q.time_s();
+  motion = rows_of(motion, Eigen::seq(row_at(times, start_s), row_at(times, end_s)));
   dynamics::InverseDynamicsOptions dynamics_options{.passive_forces = true};
   dynamics::ExternalLoads loads;
   if (const auto file = setup.file(tool, "external_loads_file")) {
     loads = dynamics::read_external_loads(model, *file);
     dynamics_options.loads = &loads;
-    result.notes.insert(result.notes.end(), loads.notes.begin(), loads.notes.end());
-    note_missing_loads(loads, *file, motion.q.time_s(), result.notes);
+    run.add_notes(loads.notes);
+    note_missing_loads(run, loads, *file, motion.q.time_s());
   }
   TimeSeries tau = dynamics::inverse_dynamics(model, motion, dynamics_options);
-  note_angular_speeds(model, motion, dynamics_options, tau, result.notes);
+  note_angular_speeds(run, model, motion, dynamics_options, tau);
   if (!model.muscles.empty()) tau = without_muscles(model, motion, tau, options.progress);
   // OpenSim's columns are in the order of the tree.
   std::vector<std::string> columns;
   for (const model::Joint& joint : model.joints) {
-    for (const int c : joint.coordinates)
-      columns.push_back(dynamics::generalized_force_name(model.coordinates[static_cast<std::size_t>(c)]));
+    for (const int c : joint.coordinates) columns.push_back(dynamics::generalized_force_name(model.coordinates[at(c)]));
   }
   write_opensim_storage(out, tau.select(columns), {.title = "Inverse Dynamics Generalized Forces"});
   result.frames = static_cast<int>(tau.sample_count());

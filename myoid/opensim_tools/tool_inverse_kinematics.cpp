@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/kinematics/inverse_kinematics.h"
 #include "myoid/kinematics/marker_misfit.h"
 #include "myoid/opensim_tools/opensim_files.h"
@@ -32,14 +31,14 @@ recording::MarkerSeries within(recording::MarkerSeries markers, double start_s, 
 }
 
 /// Returns the element with the task: the tool itself or, in documents before 20300, the first trial of its set.
-pugi::xml_node trial_of(const OpensimSetup& setup, std::vector<std::string>& notes) {
-  pugi::xml_node trial = setup.tool();
+pugi::xml_node trial_of(const ToolRun& run) {
+  pugi::xml_node trial = run.setup.tool();
   int count = 0;
-  for (const auto node : OsimXml::objects(setup.tool().child("IKTrialSet"))) {
+  for (const auto node : OsimXml::objects(run.setup.tool().child("IKTrialSet"))) {
     if (std::string_view(node.name()) != "IKTrial") continue;
     if (count++ == 0) trial = node;
   }
-  if (count > 1) notes.push_back(fmt::format("of the {} trials the first is solved, as in OpenSim", count));
+  if (count > 1) run.note("of the {} trials the first is solved, as in OpenSim", count);
   return trial;
 }
 
@@ -48,7 +47,8 @@ struct IkFiles {
   std::optional<std::filesystem::path> motion, errors, locations;
 };
 
-IkFiles claimed_files(const OpensimSetup& setup, pugi::xml_node trial, const ToolOptions& options, ToolResult& result) {
+IkFiles claimed_files(const ToolRun& run, pugi::xml_node trial) {
+  const OpensimSetup& setup = run.setup;
   const auto report = [&](const char* flag, bool otherwise, const char* ending) {
     return setup.xml().flag(setup.tool(), flag, otherwise)
                ? std::optional(setup.results_folder() / (setup.name() + ending))
@@ -58,8 +58,8 @@ IkFiles claimed_files(const OpensimSetup& setup, pugi::xml_node trial, const Too
                       report("report_errors", true, "_ik_marker_errors.sto"),
                       report("report_marker_locations", false, "_ik_model_marker_locations.sto")};
   for (const auto& file : {files.motion, files.errors, files.locations})
-    if (file) claim_file(options, *file, result);
-  if (!files.motion) result.notes.push_back("the set-up has no <output_motion_file>: no motion is written");
+    if (file) run.claim(*file);
+  if (!files.motion) run.note("the set-up has no <output_motion_file>: no motion is written");
   return files;
 }
 
@@ -79,22 +79,24 @@ void write_files(const IkFiles& files, const model::BodyModel& model, const kine
 }
 
 /// Notes the frames without a converged solution and the coordinates that no marker determines.
-void note_unsolved(const kinematics::IkResult& solved, std::vector<std::string>& notes) {
+void note_unsolved(const ToolRun& run, const kinematics::IkResult& solved) {
   for (std::size_t i = 0; i < solved.status.size(); ++i) {
     if (solved.status[i] == kinematics::FrameStatus::not_converged)
-      notes.push_back(fmt::format("no converged solution at {} s", solved.q.time_s()[static_cast<Eigen::Index>(i)]));
+      run.note("no converged solution at {} s", solved.q.time_s()[static_cast<Eigen::Index>(i)]);
   }
   if (!solved.undetermined.empty()) {
-    notes.push_back(fmt::format("not determined by the markers: {}", fmt::join(solved.undetermined, ", ")));
+    run.note("not determined by the markers: {}", fmt::join(solved.undetermined, ", "));
   }
 }
 
 }  // namespace
 
-void run_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
-  const auto trial = trial_of(setup, result.notes);
-  const IkFiles files = claimed_files(setup, trial, options, result);
-  const model::BodyModel model = setup_model(setup, options.compat, {}, result.notes);
+void run_inverse_kinematics(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
+  ToolResult& result = run.result;
+  const auto trial = trial_of(run);
+  const IkFiles files = claimed_files(run, trial);
+  const model::BodyModel model = setup_model(setup, run.options.compat, {}, result.notes);
   const auto marker_path = setup.required_file(trial, "marker_file");
   recording::MarkerFile file = recording::read_markers(marker_path);
   for (const recording::Repair& repair : file.repairs)
@@ -104,14 +106,14 @@ void run_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& option
   const recording::MarkerSeries markers = within(std::move(file.markers), range_s.first, range_s.second);
 
   kinematics::IkOptions ik = read_ik_tasks(setup, setup.tool(), model, markers, result.notes);
-  ik.progress = options.progress;
+  ik.progress = run.options.progress;
   const kinematics::IkResult solved = kinematics::inverse_kinematics(model, markers, ik);
   // Tasks name the markers that count: markers without counterpart are no news then.
-  if (!ik.only_named_markers) result.notes.insert(result.notes.end(), solved.notes.begin(), solved.notes.end());
+  if (!ik.only_named_markers) run.add_notes(solved.notes);
   write_files(files, model, solved);
   result.frames = static_cast<int>(solved.status.size());
   result.frames_failed = solved.frames_not_converged;
-  note_unsolved(solved, result.notes);
+  note_unsolved(run, solved);
   const kinematics::MarkerMisfit misfit = kinematics::marker_misfit(model, markers, solved);
   if (!misfit.warning.empty()) result.notes.push_back(misfit.warning);
   result.wrong_unit = misfit.wrong_unit;

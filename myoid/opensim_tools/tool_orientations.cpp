@@ -1,5 +1,3 @@
-#include "myoid/opensim_tools/tool_orientations.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,12 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/kinematics/orientation_fit.h"
-#include "myoid/model/constraints.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
@@ -60,10 +56,10 @@ OrientationSeries rows_between(const OrientationSeries& series,
   return {series.time_s(rows), series.names, series.quaternions(rows, Eigen::all)};
 }
 
-/// Reads orientations; adds the repairs of the reader to `notes`.
-OrientationSeries orientations_of(const std::filesystem::path& path, std::vector<std::string>& notes) {
+/// Reads orientations; notes the repairs of the reader.
+OrientationSeries orientations_of(const ToolRun& run, const std::filesystem::path& path) {
   OrientationSeries series = recording::read_orientations(path);
-  for (const recording::Repair& repair : series.repairs) notes.push_back(recording::to_string(path, repair));
+  for (const recording::Repair& repair : series.repairs) run.result.notes.push_back(recording::to_string(path, repair));
   return series;
 }
 
@@ -71,8 +67,7 @@ OrientationSeries orientations_of(const std::filesystem::path& path, std::vector
 Vec3 heading_axis(const OpensimSetup& setup, const std::string& name) {
   const char letter = name.empty() ? ' ' : static_cast<char>(name.back() | 0x20);
   if (letter < 'x' || letter > 'z') {
-    setup.xml().fail(setup.tool(),
-                     fmt::format("<base_heading_axis>: expected x, -x, y, -y, z or -z, found '{}'", name));
+    setup.xml().fail(setup.tool(), "<base_heading_axis>: expected x, -x, y, -y, z or -z, found '{}'", name);
   }
   return (name.front() == '-' ? -1.0 : 1.0) * Vec3::Unit(letter - 'x');
 }
@@ -88,9 +83,8 @@ Mat3 heading_correction(const OpensimSetup& setup,
   if (label.empty() || axis.empty()) return Mat3::Identity();
   const auto place = std::find(series.names.begin(), series.names.end(), label);
   if (place == series.names.end()) {
-    setup.xml().fail(setup.tool(), fmt::format("<base_imu_label>: there is no sensor '{}'; there "
-                                               "are {}",
-                                               label, fmt::join(series.names, ", ")));
+    setup.xml().fail(setup.tool(), "<base_imu_label>: there is no sensor '{}'; there are {}", label,
+                     fmt::join(series.names, ", "));
   }
   const model::Joint* base = nullptr;
   for (const model::Joint& joint : model.joints) {
@@ -105,11 +99,11 @@ Mat3 heading_correction(const OpensimSetup& setup,
   return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
 }
 
-std::vector<model::SensorPlace> place_sensors(const model::BodyModel& model,
+std::vector<model::SensorPlace> place_sensors(const ToolRun& run,
+                                              const model::BodyModel& model,
                                               const model::BodyState& state,
                                               const OrientationSeries& series,
-                                              const std::map<std::string, model::NamedFrame>& frames,
-                                              std::vector<std::string>& notes) {
+                                              const std::map<std::string, model::NamedFrame>& frames) {
   std::vector<model::SensorPlace> places;
   for (std::size_t k = 0; k < series.names.size(); ++k) {
     const std::string& name = series.names[k];
@@ -117,9 +111,9 @@ std::vector<model::SensorPlace> place_sensors(const model::BodyModel& model,
     const auto frame = end == std::string::npos ? frames.end() : frames.find(name.substr(0, end));
     const Mat3 R = series.rotation(0, k);
     if (frame == frames.end() || !R.allFinite()) {
-      notes.push_back(fmt::format("sensor '{}' is not placed: {}", name,
-                                  frame == frames.end() ? "expected the name of a body or frame and '_imu'"
-                                                        : "its first orientation is not known"));
+      run.note("sensor '{}' is not placed: {}", name,
+               frame == frames.end() ? "expected the name of a body or frame and '_imu'"
+                                     : "its first orientation is not known");
       continue;
     }
     const int body = *model.find_body(frame->second.body);
@@ -146,7 +140,7 @@ Sensors sensors_of(const OpensimSetup& setup,
   if (const auto inner = set.child("OrientationWeightSet")) set = inner;
   for (const auto node : model::OsimXml::objects(set)) {
     const double weight = setup.xml().number(node, "weight", 1.0);
-    if (!(weight >= 0.0)) setup.xml().fail(node, fmt::format("<weight> {}, expected 0 or more", weight));
+    if (!(weight >= 0.0)) setup.xml().fail(node, "<weight> {}, expected 0 or more", weight);
     weights[model::OsimXml::name_of(node)] = weight;
   }
   Sensors sensors;
@@ -174,50 +168,50 @@ std::filesystem::path motion_file(const OpensimSetup& setup, const std::filesyst
   return folder / (name.find('.') == std::string::npos ? name + ".mot" : name);
 }
 
-void note_fit(const kinematics::OrientationFit& fit, std::vector<std::string>& notes) {
+void note_fit(const ToolRun& run, const kinematics::OrientationFit& fit) {
   if (!fit.undetermined.empty()) {
-    notes.push_back(
-        fmt::format("the sensors do not determine {}; they stay where they are", fmt::join(fit.undetermined, ", ")));
+    run.note("the sensors do not determine {}; they stay where they are", fmt::join(fit.undetermined, ", "));
   }
   if (fit.frames_without_sensors > 0) {
-    notes.push_back(
-        fmt::format("{} frames without any orientation keep the pose of the one before", fit.frames_without_sensors));
+    run.note("{} frames without any orientation keep the pose of the one before", fit.frames_without_sensors);
   }
 }
 
 }  // namespace
 
-void run_imu_placer(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+void run_imu_placer(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
+  ToolResult& result = run.result;
   const auto tool = setup.tool();
   const auto model_path = setup.required_file(tool, "model_file");
   const auto named = setup.output_file(tool, "output_model_file");
   if (!named) setup.xml().fail(tool, "<output_model_file> expected: a file's name, relative to this set-up");
   const std::filesystem::path& out = *named;
-  claim_file(options, out, result);
+  run.claim(out);
   const std::string old_text = recording::read_text_file(model_path);
   const model::UpdatedOsim updated =
-      model::updated_osim(old_text, model_path, {.six_digits = options.compat.six_digit_offsets});
-  result.notes.insert(result.notes.end(), updated.notes.begin(), updated.notes.end());
-  const model::BodyModel model = model::parse_osim(updated.text, model_path, {.compat = options.compat});
+      model::updated_osim(old_text, model_path, {.six_digits = run.options.compat.six_digit_offsets});
+  run.add_notes(updated.notes);
+  const model::BodyModel model = model::parse_osim(updated.text, model_path, {.compat = run.options.compat});
   const auto orientations = setup.required_file(tool, "orientation_file_for_calibration");
-  OrientationSeries series = turned(orientations_of(orientations, result.notes), sensor_to_ground(setup));
-  model::BodyState state = model::make_state(model);
-  model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
+  OrientationSeries series = turned(orientations_of(run, orientations), sensor_to_ground(setup));
+  const model::BodyState state = default_state(model);
   series = turned(std::move(series), heading_correction(setup, model, state, series));
-  const auto places = place_sensors(model, state, series, model::named_frames(updated.text, model_path), result.notes);
+  const auto places = place_sensors(run, model, state, series, model::named_frames(updated.text, model_path));
   if (places.empty()) {
-    setup.xml().fail(tool, fmt::format("{}: no sensor is named after a body or frame of the model "
-                                       "and '_imu' (as pelvis_imu); there are {}",
-                                       orientations.string(), fmt::join(series.names, ", ")));
+    setup.xml().fail(
+        tool, "{}: no sensor is named after a body or frame of the model and '_imu' (as pelvis_imu); there are {}",
+        orientations.string(), fmt::join(series.names, ", "));
   }
   recording::write_file(out, model::with_sensors(updated.text, model_path, places));
   result.summary = fmt::format("{} sensors placed by their orientations at {} s", places.size(), series.time_s[0]);
   result.frames = 1;
 }
 
-void run_imu_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+void run_imu_inverse_kinematics(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
+  ToolResult& result = run.result;
   const auto tool = setup.tool();
-  auto& notes = result.notes;
   const auto path = setup.required_file(tool, "orientations_file");
   const auto motion_path = motion_file(setup, path);
   auto errors_path = motion_path;
@@ -225,28 +219,26 @@ void run_imu_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& op
   errors_path.replace_filename((wanted ? wanted->filename().string() : motion_path.stem().string()) +
                                "_orientationErrors.sto");
   const bool report_errors = setup.xml().flag(tool, "report_errors", true);
-  claim_file(options, motion_path, result);
-  if (report_errors) claim_file(options, errors_path, result);
-  const model::BodyModel model = setup_model(setup, options.compat, {}, notes);
-  OrientationSeries series = orientations_of(path, notes);
+  run.claim(motion_path);
+  if (report_errors) run.claim(errors_path);
+  const model::BodyModel model = setup_model(setup, run.options.compat, {}, result.notes);
+  OrientationSeries series = orientations_of(run, path);
   const auto range_s = setup.time_range(tool, "time_range");
-  setup.check_range(range_s, series.time_s, path, notes);
+  setup.check_range(range_s, series.time_s, path, result.notes);
   series = turned(rows_between(series, range_s, setup), sensor_to_ground(setup));
   const auto model_path = setup.required_file(tool, "model_file");
   const Sensors sensors =
       sensors_of(setup, model, series, model::named_frames(recording::read_text_file(model_path), model_path));
   if (sensors.on_bodies.empty()) {
-    setup.xml().fail(tool, fmt::format("{}: the model has no frame of the name of a sensor ({}); "
-                                       "run IMUPlacer first",
-                                       path.string(), fmt::join(series.names, ", ")));
+    setup.xml().fail(tool, "{}: the model has no frame of the name of a sensor ({}); run IMUPlacer first",
+                     path.string(), fmt::join(series.names, ", "));
   }
   if (!sensors.without_frame.empty()) {
-    notes.push_back(fmt::format("the model has no frame {}: these orientations do not count",
-                                fmt::join(sensors.without_frame, ", ")));
+    run.note("the model has no frame {}: these orientations do not count", fmt::join(sensors.without_frame, ", "));
   }
   const kinematics::OrientationFit fit =
-      kinematics::fit_orientations(model, series, sensors.on_bodies, options.progress);
-  note_fit(fit, notes);
+      kinematics::fit_orientations(model, series, sensors.on_bodies, run.options.progress);
+  note_fit(run, fit);
   write_opensim_storage(motion_path, with_file_units(model, fit.q),
                         {.title = motion_path.filename().string(), .in_degrees = true, .decimals = 12});
   if (report_errors) {

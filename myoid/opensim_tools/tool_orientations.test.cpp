@@ -1,5 +1,3 @@
-#include "myoid/opensim_tools/tool_orientations.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -10,6 +8,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/model/constraints.h"
 #include "myoid/opensim_tools/opensim_files.h"
+#include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/osim/osim_named_frames.h"
 
 #include "tests/support/data_folder.h"

@@ -8,7 +8,7 @@
 #include "myoid/core/progress.h"
 #include "myoid/forces/static_optimization.h"
 #include "myoid/model/opensim_defects/compat.h"
-#include "myoid/opensim_tools/setup_files.h"
+#include "myoid/opensim_tools/opensim_setup.h"
 
 namespace myoid {
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -9,11 +8,8 @@
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
-#include "myoid/model/constraints.h"
-#include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
 #include "myoid/opensim_tools/marker_placer.h"
-#include "myoid/opensim_tools/opensim_files.h"
 #include "myoid/opensim_tools/tool_stages.h"
 #include "myoid/osim/osim_editor.h"
 #include "myoid/osim/osim_reader.h"
@@ -23,14 +19,8 @@ namespace {
 
 using model::OsimXml;
 
-model::BodyState default_state(const model::BodyModel& model) {
-  model::BodyState state = model::make_state(model);
-  model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
-  return state;
-}
-
 /// Returns the factor of one measurement: the mean over its pairs of measured distance / model distance.
-std::optional<double> measured_factor(const Scaling& scaling,
+std::optional<double> measured_factor(const ToolRun& run,
                                       pugi::xml_node measurement,
                                       const model::BodyModel& model,
                                       const model::BodyState& state,
@@ -40,14 +30,13 @@ std::optional<double> measured_factor(const Scaling& scaling,
   int count = 0;
   const std::string name = OsimXml::name_of(measurement);
   const auto refuse = [&](const std::string& why) {
-    scaling.result.notes.push_back(fmt::format("measurement '{}' is not used: {}", name, why));
+    run.note("measurement '{}' is not used: {}", name, why);
     return std::nullopt;
   };
   const auto [first, last] = frames_in(markers, range);
   for (const auto pair : OsimXml::objects(measurement.child("MarkerPairSet"))) {
-    const auto names = scaling.setup.xml().words(pair, "markers");
-    if (names.size() != 2)
-      scaling.setup.xml().fail(pair, fmt::format("<markers>: expected two names, found {}", names.size()));
+    const auto names = run.setup.xml().words(pair, "markers");
+    if (names.size() != 2) run.setup.xml().fail(pair, "<markers>: expected two names, found {}", names.size());
     Vec3 p[2];
     Eigen::Index column[2];
     for (std::size_t k = 0; k < 2; ++k) {
@@ -76,14 +65,13 @@ std::optional<double> measured_factor(const Scaling& scaling,
   return sum / count;
 }
 
-model::OsimEditor::Factors factors_of(const Scaling& scaling, pugi::xml_node scaler, const model::BodyModel& model) {
-  const OsimXml& xml = scaling.setup.xml();
+model::OsimEditor::Factors factors_of(const ToolRun& run, pugi::xml_node scaler, const model::BodyModel& model) {
+  const OsimXml& xml = run.setup.xml();
   model::OsimEditor::Factors factors;
   for (const model::Body& body : model.bodies) factors[body.name] = Vec3::Ones();
   const auto known = [&](pugi::xml_node node, const std::string& body) {
     if (factors.contains(body)) return true;
-    scaling.result.notes.push_back(
-        fmt::format("{}: the model has no body '{}'; its factor is not used", node.name(), body));
+    run.note("{}: the model has no body '{}'; its factor is not used", node.name(), body);
     return false;
   };
   for (const std::string& method : xml.words(scaler, "scaling_order")) {
@@ -92,9 +80,9 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling, pugi::xml_node sca
       const model::BodyState state = default_state(model);
       for (const auto node : OsimXml::objects(scaler.child("MeasurementSet"))) {
         if (!xml.flag(node, "apply", true)) continue;
-        if (!markers) markers = markers_of(scaling, scaling.setup.required_file(scaler, "marker_file"));
+        if (!markers) markers = markers_of(run, run.setup.required_file(scaler, "marker_file"));
         const auto factor =
-            measured_factor(scaling, node, model, state, *markers, scaling.setup.time_range(scaler, "time_range"));
+            measured_factor(run, node, model, state, *markers, run.setup.time_range(scaler, "time_range"));
         if (!factor) continue;
         for (const auto body : OsimXml::objects(node.child("BodyScaleSet"))) {
           const std::string name = OsimXml::name_of(body);
@@ -102,7 +90,7 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling, pugi::xml_node sca
           for (const std::string& axis : xml.words(body, "axes")) {
             const auto k = std::string_view("XYZxyz").find(axis);
             if (axis.size() != 1 || k == std::string_view::npos)
-              xml.fail(body, fmt::format("<axes>: expected X, Y, Z, found '{}'", axis));
+              xml.fail(body, "<axes>: expected X, Y, Z, found '{}'", axis);
             factors[name][static_cast<Eigen::Index>(k % 3)] = *factor;
           }
         }
@@ -114,28 +102,27 @@ model::OsimEditor::Factors factors_of(const Scaling& scaling, pugi::xml_node sca
         if (known(node, name)) factors[name] = xml.vec3(node, "scales", Vec3::Ones());
       }
     } else {
-      xml.fail(scaler.child("scaling_order"),
-               fmt::format("<scaling_order>: expected measurements or manualScale, found '{}'", method));
+      xml.fail(scaler.child("scaling_order"), "<scaling_order>: expected measurements or manualScale, found '{}'",
+               method);
     }
   }
   for (const auto& [name, f] : factors) {
     if (!(f.cwiseAbs().minCoeff() > 0.0) || !f.allFinite())
-      xml.fail(scaler,
-               fmt::format("the factors of body '{}' are {} {} {}, expected other than 0", name, f[0], f[1], f[2]));
+      xml.fail(scaler, "the factors of body '{}' are {} {} {}, expected other than 0", name, f[0], f[1], f[2]);
   }
   return factors;
 }
 
-void scale(const Scaling& scaling,
+void scale(const ToolRun& run,
            pugi::xml_node scaler,
            model::OsimEditor& editor,
            const model::OsimEditor::Factors& factors) {
-  const OsimXml& xml = scaling.setup.xml();
-  const model::OsimOptions as_opensim{.compat = scaling.options.compat};
+  const OsimXml& xml = run.setup.xml();
+  const model::OsimOptions as_opensim{.compat = run.options.compat};
   const model::BodyModel before = model::parse_osim(editor.text(), editor.path(), as_opensim);
   editor.scale_geometry(factors);
   editor.scale_masses(factors, xml.flag(scaler, "preserve_mass_distribution", false),
-                      xml.number(scaling.setup.tool(), "mass", -1.0));
+                      xml.number(run.setup.tool(), "mass", -1.0));
   const model::BodyModel after = model::parse_osim(editor.text(), editor.path(), as_opensim);
   const model::BodyState state_before = default_state(before), state_after = default_state(after);
   const auto paths_before = paths_of(before), paths_after = paths_of(after);
@@ -165,34 +152,33 @@ std::string scale_set_text(const model::OsimEditor::Factors& factors, const mode
 
 /// Keeps the scaled model's original beside a result that replaces it, which OpenSim allows too.
 /// Refuses a second run, which would scale a scaled model.
-void keep_model(const std::filesystem::path& file, const std::filesystem::path& model_file, ToolResult& result) {
+void keep_model(const ToolRun& run, const std::filesystem::path& file, const std::filesystem::path& model_file) {
   std::error_code ignored;
   if (!std::filesystem::equivalent(file, model_file, ignored)) return;
   auto kept = model_file;
   kept.replace_filename(model_file.stem().string() + "_unscaled" + model_file.extension().string());
   if (std::filesystem::exists(kept, ignored)) {
     throw InvalidInput(
-        fmt::format("{} is the result of an earlier run of this set-up, which kept the model as {}; name that "
-                    "as <model_file>, or give --model {}",
+        fmt::format("{} is the result of an earlier run of this set-up, which kept the model as {}; name that as "
+                    "<model_file>, or give --model {}",
                     model_file.string(), kept.string(), kept.string()));
   }
   recording::write_file(kept, recording::read_text_file(model_file));
-  result.notes.push_back(
-      fmt::format("{} is read by this set-up and replaced by its result, as in "
-                  "OpenSim; the model that was read is kept as {}",
-                  model_file.string(), kept.string()));
-  std::erase_if(result.inputs, [&](const std::filesystem::path& input) {
+  run.note("{} is read by this set-up and replaced by its result, as in OpenSim; the model that was read is kept as {}",
+           model_file.string(), kept.string());
+  std::erase_if(run.result.inputs, [&](const std::filesystem::path& input) {
     return std::filesystem::equivalent(input, model_file, ignored);
   });
-  result.inputs.push_back(kept);
+  run.result.inputs.push_back(kept);
 }
 
 }  // namespace
 
-void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result) {
+void run_scale(const ToolRun& run) {
+  const OpensimSetup& setup = run.setup;
+  ToolResult& result = run.result;
   const OsimXml& xml = setup.xml();
   const auto tool = setup.tool();
-  const Scaling scaling{setup, options, result};
   const auto maker = tool.child("GenericModelMaker");
   const auto scaler = tool.child("ModelScaler");
   const auto placer = tool.child("MarkerPlacer");
@@ -202,8 +188,8 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
   const auto model_file = setup.required_file(maker, "model_file");
   const auto claim = [&](bool on, pugi::xml_node stage, const char* name) {
     const auto file = on ? setup.output_file(stage, name) : std::nullopt;
-    if (file) keep_model(*file, model_file, result);
-    if (file) claim_file(options, *file, result);
+    if (file) keep_model(run, *file, model_file);
+    if (file) run.claim(*file);
     return file;
   };
   const auto scaled_file = claim(scales, scaler, "output_model_file");
@@ -215,21 +201,20 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
   model::OsimEditor editor(recording::read_text_file(model_file), model_file);
   if (!setup.name().empty()) editor.set_name(setup.name());
   if (const auto markers = setup.file(maker, "marker_set_file")) editor.add_markers(*markers);
-  const model::BodyModel generic = model::parse_osim(editor.text(), editor.path(), {.compat = options.compat});
-  for (const std::string& text : generic.unsupported)
-    result.notes.push_back(fmt::format("{}: {}", model_file.string(), text));
+  const model::BodyModel generic = model::parse_osim(editor.text(), editor.path(), {.compat = run.options.compat});
+  for (const std::string& text : generic.unsupported) run.note("{}: {}", model_file.string(), text);
   if (scales) {
-    const auto factors = factors_of(scaling, scaler, generic);
-    scale(scaling, scaler, editor, factors);
+    const auto factors = factors_of(run, scaler, generic);
+    scale(run, scaler, editor, factors);
     if (factors_file) recording::write_file(*factors_file, scale_set_text(factors, generic));
     if (scaled_file) recording::write_file(*scaled_file, editor.text());
   }
   double mass = 0.0;
   for (const model::Body& body : model::parse_osim(editor.text(), editor.path()).bodies) mass += body.mass_kg;
   result.summary = fmt::format("model of {:.4g} kg", mass);
-  if (places) place_markers(scaling, placer, editor);
+  if (places) place_markers(run, placer, editor);
   if (placed_file) recording::write_file(*placed_file, editor.text());
-  result.notes.insert(result.notes.end(), editor.notes().begin(), editor.notes().end());
+  run.add_notes(editor.notes());
   result.frames = 1;
 }
 

@@ -3,19 +3,24 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/model/constraints.h"
 
 namespace myoid {
 
-void note_missing_loads(const dynamics::ExternalLoads& loads,
+void ToolRun::add_notes(const std::vector<std::string>& notes) const {
+  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
+}
+
+void note_missing_loads(const ToolRun& run,
+                        const dynamics::ExternalLoads& loads,
                         const std::filesystem::path& file,
-                        const Eigen::VectorXd& times_s,
-                        std::vector<std::string>& notes) {
+                        const Eigen::VectorXd& times_s) {
   const double first_s = times_s[0], last_s = times_s[times_s.size() - 1];
   if (first_s >= loads.start_s - 1e-3 && last_s <= loads.end_s + 1e-3) return;
-  notes.push_back(
-      fmt::format("{}: the loads are known from {} to {} s, the motion goes from {} to {} s; straight lines "
-                  "continue the loads beyond",
-                  file.string(), loads.start_s, loads.end_s, first_s, last_s));
+  run.note(
+      "{}: the loads are known from {} to {} s, the motion goes from {} to {} s; straight lines continue "
+      "the loads beyond",
+      file.string(), loads.start_s, loads.end_s, first_s, last_s);
 }
 
 std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(const model::BodyModel& model) {
@@ -29,14 +34,19 @@ std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(const mod
   return paths;
 }
 
-void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result) {
+model::BodyState default_state(const model::BodyModel& model) {
+  model::BodyState state = model::make_state(model);
+  model::compute_poses(model, model::assemble(model, model.default_q()).q, state);
+  return state;
+}
+
+void ToolRun::claim(const std::filesystem::path& path) const {
   std::error_code ignored;
   const bool exists = std::filesystem::exists(path, ignored);
   for (const std::filesystem::path& input : result.inputs) {
     if (path != input && (!exists || !std::filesystem::equivalent(path, input, ignored))) continue;
     throw InvalidInput(
-        fmt::format("{} is read by this set-up and would be replaced by its result; name another file for one "
-                    "of them",
+        fmt::format("{} is read by this set-up and would be replaced by its result; name another file for one of them",
                     path.string()));
   }
   if (options.claim) options.claim(path);

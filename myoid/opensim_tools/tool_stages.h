@@ -1,17 +1,46 @@
 #pragma once
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/model/kinematic_tree.h"
 #include "myoid/opensim_tools/opensim_setup.h"
 #include "myoid/opensim_tools/tool_result.h"
 
 namespace myoid {
 
-/// Runs one tool and fills the result. run_tool chooses the function.
-void run_inverse_kinematics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
-void run_inverse_dynamics(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
-void run_analyses(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
-void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult& result);
+/// One run of a tool: its set-up, the wishes of the caller, and the result that the run fills.
+struct ToolRun {
+  const OpensimSetup& setup;
+  const ToolOptions& options;
+  ToolResult& result;
+
+  template <typename... T>
+  void note(fmt::format_string<T...> text, T&&... values) const {
+    result.notes.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+  void add_notes(const std::vector<std::string>& notes) const;
+  /// Asks `claim` and remembers the file.
+  void claim(const std::filesystem::path& path) const;
+};
+
+/// Each runs one tool. run_tool chooses the function.
+void run_inverse_kinematics(const ToolRun& run);
+void run_inverse_dynamics(const ToolRun& run);
+void run_analyses(const ToolRun& run);
+void run_scale(const ToolRun& run);
+/// Integrates the model from a row of its <states_file> (or its default state) under the controls of a
+/// ControlSetController, and writes <name>_states.sto, _states_degrees.mot and _controls.sto. Throws ReadError for
+/// loads on bodies, other controllers and controls of actuators that act on bodies.
+void run_forward(const ToolRun& run);
+/// Writes the model with the frames of inertial sensors, which follow from their first orientations on the model's
+/// default posture. A sensor "<body>_imu" belongs to that body.
+void run_imu_placer(const ToolRun& run);
+/// Finds the motion that fits the sensors' orientations best, and the remaining angles.
+void run_imu_inverse_kinematics(const ToolRun& run);
 
 /// Returns the marker and coordinate tasks of an element with an <IKTaskSet> (inside, or in a file that it names) and,
 /// for tasks from a file, a <coordinate_file>. Without any marker task every marker has equal weight.
@@ -22,15 +51,15 @@ void run_scale(const OpensimSetup& setup, const ToolOptions& options, ToolResult
                                                   std::vector<std::string>& notes);
 
 /// Adds a note if the loads of `file` do not cover all of these times.
-void note_missing_loads(const dynamics::ExternalLoads& loads,
+void note_missing_loads(const ToolRun& run,
+                        const dynamics::ExternalLoads& loads,
                         const std::filesystem::path& file,
-                        const Eigen::VectorXd& times_s,
-                        std::vector<std::string>& notes);
+                        const Eigen::VectorXd& times_s);
 
 /// Returns every path of the model with the name of its owner: of muscles, path actuators, path springs and ligaments.
 [[nodiscard]] std::vector<std::pair<std::string, const model::MusclePath*>> paths_of(const model::BodyModel& model);
 
-/// Asks `claim` and remembers the file.
-void claim_file(const ToolOptions& options, const std::filesystem::path& path, ToolResult& result);
+/// Returns the bodies of a model in its default posture, which obeys the constraints.
+[[nodiscard]] model::BodyState default_state(const model::BodyModel& model);
 
 }  // namespace myoid

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -62,7 +61,6 @@ model::BodyModel with_coordinate_actuators(model::BodyModel model) {
 
 void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   const auto& xml = run.setup.xml();
-  auto& notes = run.result.notes;
   const std::string name = analysis_name(node);
   const auto activation_file = claim_result(run, name + "_activation.sto");
   const auto force_file = claim_result(run, name + "_force.sto");
@@ -71,17 +69,15 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   const model::BodyModel model = use_forces ? run.model : with_coordinate_actuators(run.model);
   const forces::StaticOptimizationOptions options{.exponent = xml.number(node, "activation_exponent", 2.0),
                                                   .muscle_physiology = xml.flag(node, "use_muscle_physiology", true),
-                                                  .loads = run.loads ? &*run.loads : nullptr,
+                                                  .loads = run.loads_if_any(),
                                                   .progress = run.options.progress,
                                                   .inspect = run.options.inspect};
   if (!(options.exponent > 1.0)) {
     xml.fail(xml.property(node, "activation_exponent"),
-             fmt::format("<activation_exponent> {}, expected above 1: only then are the activations "
-                         "determined",
-                         options.exponent));
+             "<activation_exponent> {}, expected above 1: only then are the activations determined", options.exponent);
   }
   const forces::StaticOptimizationResult solved = forces::static_optimization(model, run.motion, options);
-  notes.insert(notes.end(), solved.notes.begin(), solved.notes.end());
+  run.add_notes(solved.notes);
   write_opensim_storage(activation_file, solved.control,
                         {.title = "Static Optimization",
                          .description = "This file contains static optimization results.\n\n",
@@ -90,13 +86,12 @@ void run_static_optimization(AnalysisRun& run, pugi::xml_node node) {
   recording::write_file(controls_file, controls_text(solved.control), recording::Flush::later);
   const auto infeasible = std::count(solved.is_feasible.begin(), solved.is_feasible.end(), false);
   if (infeasible > 0) {
-    notes.push_back(
-        fmt::format("in {} frames, from {} s, muscles and actuators cannot make the accelerations; the "
-                    "controls that come nearest are written. Append stronger reserve actuators "
-                    "(<force_set_files>)",
-                    infeasible,
-                    run.motion.q.time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
-                                          solved.is_feasible.begin()]));
+    run.note(
+        "in {} frames, from {} s, muscles and actuators cannot make the accelerations; the controls that "
+        "come nearest are written. Append stronger reserve actuators (<force_set_files>)",
+        infeasible,
+        run.motion.q.time_s()[std::find(solved.is_feasible.begin(), solved.is_feasible.end(), false) -
+                              solved.is_feasible.begin()]);
   }
   run.result.frames_failed = solved.frames_failed;
   run.result.summary =

@@ -1,11 +1,7 @@
-#include "myoid/osim/osim_constraints.h"
-
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "myoid/core/error.h"
-#include "myoid/osim/osim_functions.h"
+#include "myoid/core/index.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -16,12 +12,12 @@ void read_function_constraint(OsimReading& r,
                               const std::string& name,
                               const std::vector<std::string>& independent) {
   auto function =
-      multi_function_property(r, node, "coupled_coordinates_function", static_cast<int>(independent.size()));
+      multi_function(r, function_node(r, node, "coupled_coordinates_function"), static_cast<int>(independent.size()));
   if (!function) {
-    r.model.unsupported.push_back(
-        fmt::format("constraint '{}' couples {} independent coordinates by another function than a "
-                    "LinearFunction or a MultivariatePolynomialFunction; it is not enforced",
-                    name, independent.size()));
+    r.leave_out(
+        "constraint '{}' couples {} independent coordinates by another function than a LinearFunction or a "
+        "MultivariatePolynomialFunction; it is not enforced",
+        name, independent.size());
     return;
   }
   FunctionConstraint law;
@@ -29,7 +25,7 @@ void read_function_constraint(OsimReading& r,
   for (const std::string& coordinate : independent) {
     law.independent.push_back(coordinate_named(r, node, coordinate));
     if (law.independent.back() == law.dependent)
-      r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+      r.xml.fail(node, "constraint '{}' couples a coordinate with itself", name);
   }
   law.function = *std::move(function);
   law.function.scale *= r.xml.number(node, "scale_factor", 1.0);
@@ -43,9 +39,8 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   const std::size_t listed = r.model.unsupported.size();
   const auto function = function_property(r, node, "coupled_coordinates_function");
   if (independent.size() != 1 || !function || r.model.unsupported.size() > listed) {
-    r.model.unsupported.push_back(
-        fmt::format("constraint '{}' couples {} independent coordinates{}; it is not enforced", name,
-                    independent.size(), function ? "" : " by no function"));
+    r.leave_out("constraint '{}' couples {} independent coordinates{}; it is not enforced", name, independent.size(),
+                function ? "" : " by no function");
     return;
   }
   CoordinateCoupler coupler;
@@ -55,11 +50,11 @@ void read_coupler(OsimReading& r, pugi::xml_node node, const std::string& name) 
   coupler.function = *function;
   coupler.function.scale *= r.xml.number(node, "scale_factor", 1.0);
   if (coupler.independent == coupler.dependent)
-    r.xml.fail(node, fmt::format("constraint '{}' couples a coordinate with itself", name));
+    r.xml.fail(node, "constraint '{}' couples a coordinate with itself", name);
   for (const CoordinateCoupler& other : r.model.couplers) {
     if (other.dependent == coupler.dependent) {
-      r.xml.fail(node, fmt::format("constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
-                                   r.model.coordinates[static_cast<std::size_t>(coupler.dependent)].name));
+      r.xml.fail(node, "constraints '{}' and '{}' both set coordinate '{}'", other.name, name,
+                 r.model.coordinates[at(coupler.dependent)].name);
     }
   }
   r.model.couplers.push_back(std::move(coupler));
@@ -89,24 +84,20 @@ void read_constraint(OsimReading& r, pugi::xml_node node, const std::string& own
     law.X_BF2.p = second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero());
     r.model.constraints.push_back({name, kind, law});
   } else if (kind == "ConstantDistanceConstraint") {
-    const FixedFrame first = frame_of(r, node, "body_1", owner, "body_1");
-    const FixedFrame second = frame_of(r, node, "body_2", owner, "body_2");
-    r.model.constraints.push_back(
-        {name, kind,
-         DistanceConstraint{first.body, second.body, first.X_BF * r.xml.vec3(node, "location_body_1", Vec3::Zero()),
-                            second.X_BF * r.xml.vec3(node, "location_body_2", Vec3::Zero()),
-                            r.xml.number(node, "constant_distance", 0.0)}});
+    const BodyPoint first = point_of(r, node, owner, "body_1", "location_body_1");
+    const BodyPoint second = point_of(r, node, owner, "body_2", "location_body_2");
+    r.model.constraints.push_back({name, kind,
+                                   DistanceConstraint{first.body, second.body, first.p_B, second.p_B,
+                                                      r.xml.number(node, "constant_distance", 0.0)}});
   } else if (kind == "PointOnLineConstraint") {
     const FixedFrame line = frame_of(r, node, "line_body", owner, "line_body");
-    const FixedFrame follower = frame_of(r, node, "follower_body", owner, "follower_body");
+    const Vec3 direction = line.X_BF.R * direction_of(r, node, "line_direction_vec", Vec3::UnitX());
+    const BodyPoint start = point_of(r, node, owner, "line_body", "point_on_line");
+    const BodyPoint follower = point_of(r, node, owner, "follower_body", "point_on_follower");
     r.model.constraints.push_back(
-        {name, kind,
-         LineConstraint{line.body, follower.body,
-                        line.X_BF.R * direction_of(r, node, "line_direction_vec", Vec3::UnitX()),
-                        line.X_BF * r.xml.vec3(node, "point_on_line", Vec3::Zero()),
-                        follower.X_BF * r.xml.vec3(node, "point_on_follower", Vec3::Zero())}});
+        {name, kind, LineConstraint{line.body, follower.body, direction, start.p_B, follower.p_B}});
   } else {
-    r.model.unsupported.push_back(fmt::format("constraint '{}' of kind {} is not enforced", name, kind));
+    r.leave_out("constraint '{}' of kind {} is not enforced", name, kind);
   }
 }
 

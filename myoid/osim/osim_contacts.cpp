@@ -1,10 +1,10 @@
-#include "myoid/osim/osim_contacts.h"
-
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -36,10 +36,9 @@ std::optional<Surface> read_surface(OsimReading& r, pugi::xml_node force, const 
   const auto node = geometry_named(r, name);
   const std::string_view kind = node.name();
   if (kind != "ContactSphere" && kind != "ContactHalfSpace") {
-    r.model.unsupported.push_back(
-        fmt::format("{} '{}': {}; what touches it makes no force", force.name(), OsimXml::name_of(force),
-                    node ? fmt::format("contact geometry '{}' of kind {} is not supported", name, kind)
-                         : fmt::format("there is no contact geometry '{}'", name)));
+    r.leave_out("{} '{}': {}; what touches it makes no force", force.name(), OsimXml::name_of(force),
+                node ? fmt::format("contact geometry '{}' of kind {} is not supported", name, kind)
+                     : fmt::format("there is no contact geometry '{}'", name));
     return {};
   }
   const FixedFrame frame = frame_of(r, node, "frame", "/contactgeometryset/" + name, "body_name");
@@ -47,8 +46,7 @@ std::optional<Surface> read_surface(OsimReading& r, pugi::xml_node force, const 
   if (kind == "ContactSphere") {
     surface.radius_m = r.xml.number(node, "radius", 0.0);
     if (!(*surface.radius_m > 0.0) || !std::isfinite(*surface.radius_m)) {
-      r.xml.fail(node,
-                 fmt::format("ContactSphere '{}': expected <radius> above 0 m, found {}", name, *surface.radius_m));
+      r.xml.fail(node, "ContactSphere '{}': expected <radius> above 0 m, found {}", name, *surface.radius_m);
     }
   }
   return surface;
@@ -60,15 +58,14 @@ Contact::Material material_of(const OsimReading& r, pugi::xml_node node) {
                             .static_friction = r.xml.number(node, "static_friction", 0.0),
                             .dynamic_friction = r.xml.number(node, "dynamic_friction", 0.0),
                             .viscous_friction = r.xml.number(node, "viscous_friction", 0.0)};
-  if (!(m.stiffness > 0.0))
-    r.xml.fail(node, fmt::format("contact: expected <stiffness> above 0, found {}", m.stiffness));
+  if (!(m.stiffness > 0.0)) r.xml.fail(node, "contact: expected <stiffness> above 0, found {}", m.stiffness);
   return m;
 }
 
 double transition_velocity(const OsimReading& r, pugi::xml_node force) {
   const double v = r.xml.number(force, "transition_velocity", 0.01);
   if (!(v > 0.0)) {
-    r.xml.fail(force, fmt::format("contact: expected <transition_velocity> above 0 m/s, found {}", v));
+    r.xml.fail(force, "contact: expected <transition_velocity> above 0 m/s, found {}", v);
   }
   return v;
 }
@@ -106,8 +103,7 @@ std::vector<Contact> read_contacts(OsimReading& r, pugi::xml_node force) {
     return contacts;
   }
   std::vector<Surface> surfaces;
-  auto set = force.child("HuntCrossleyForce::ContactParametersSet");
-  if (!set) set = force.child("contact_parameters");
+  const auto set = either_child(force, "HuntCrossleyForce::ContactParametersSet", "contact_parameters");
   for (const auto parameters : OsimXml::objects(set)) {
     for (const std::string& name : r.xml.words(parameters, "geometry")) {
       if (auto surface = read_surface(r, force, name)) {

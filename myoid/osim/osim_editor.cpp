@@ -1,22 +1,21 @@
 #include "myoid/osim/osim_editor.h"
 
 #include <cmath>
-#include <set>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
+#include "myoid/osim/osim_update_parts.h"
 
 namespace myoid::model {
 namespace {
 
 void set_text(pugi::xml_node object, const char* name, const std::string& text) {
-  auto child = object.child(name);
-  if (!child) child = object.append_child(name);
-  child.text().set(text.c_str());
+  child_or_new(object, name).text().set(text.c_str());
 }
 
 void set_vec3(pugi::xml_node object, const char* name, const Vec3& v) {
@@ -73,13 +72,12 @@ Vec3 stretch(const Mat3& R, const Vec3& factor) {
 }  // namespace
 
 OsimEditor::OsimEditor(std::string text, std::filesystem::path path)
-    : text_(std::move(text)), path_(std::move(path)), xml_(text_, path_) {
+    : path_(std::move(path)), xml_(std::move(text), path_), reading_(xml_) {
   model_ = xml_.root().child("Model");
   if (!model_) xml_.fail(xml_.root(), "the document has no <Model>");
   xml_.set_prototypes(model_.child("defaults"));
   skeleton_ = skeleton_of(model_);
-  reading_.reset(new OsimReading{xml_, {}, {}, {}});
-  read_bodies(*reading_, skeleton_);
+  read_bodies(reading_, skeleton_);
 }
 
 std::string OsimEditor::text() const {
@@ -89,15 +87,9 @@ std::string OsimEditor::text() const {
   return stream.str();
 }
 
-void OsimEditor::set_name(const std::string& name) {
-  auto attribute = model_.attribute("name");
-  if (!attribute) attribute = model_.append_attribute("name");
-  attribute = name.c_str();
-}
+void OsimEditor::set_name(const std::string& name) { set_attribute(model_, "name", name); }
 
-pugi::xml_node OsimEditor::marker_set() const {
-  return skeleton_.child("MarkerSet") ? skeleton_.child("MarkerSet") : model_.child("MarkerSet");
-}
+pugi::xml_node OsimEditor::marker_set() const { return set_of(skeleton_, model_, "MarkerSet"); }
 
 pugi::xml_node OsimEditor::marker(const std::string& name) const {
   for (const auto node : OsimXml::objects(marker_set())) {
@@ -107,32 +99,30 @@ pugi::xml_node OsimEditor::marker(const std::string& name) const {
 }
 
 void OsimEditor::add_markers(const std::filesystem::path& file) {
-  const std::string text = recording::read_text_file(file);
-  OsimXml source(text, file, OsimXml::Root::any);
+  OsimXml source(recording::read_text_file(file), file, OsimXml::Root::any);
   auto set = source.root().child("MarkerSet");
   if (!set) source.fail(source.root(), "expected a <MarkerSet>");
   source.set_prototypes(set.child("defaults"));
   auto own = marker_set();
   if (!own) own = skeleton_.append_child("MarkerSet");
-  auto objects = own.child("objects");
-  if (!objects) objects = own.append_child("objects");
-  const OsimReading reading{source, {}, {}, {}};
+  auto objects = child_or_new(own, "objects");
+  const OsimReading reading{source};
   for (const auto node : OsimXml::objects(set)) {
     if (std::string_view(node.name()) != "Marker") continue;
     const std::string name = OsimXml::name_of(node);
     if (const auto old = marker(name)) objects.remove_child(old);
     std::string body = socket(reading, node, "parent_frame", "body");
-    if (body.empty()) source.fail(node, fmt::format("marker '{}' is on no body", name));
+    if (body.empty()) source.fail(node, "marker '{}' is on no body", name);
     auto added = objects.append_child("Marker");
     added.append_attribute("name") = name.c_str();
-    if (reading_->is_old()) {
+    if (reading_.is_old()) {
       if (const auto slash = body.rfind('/'); slash != std::string::npos) body.erase(0, slash + 1);
       set_text(added, "body", body);
     } else {
-      if (body.find('/') == std::string::npos) body = body == "ground" ? "/ground" : "/bodyset/" + body;
+      if (body.find('/') == std::string::npos) body = body_path(body);
       set_text(added, "socket_parent_frame", body);
     }
-    (void)resolve_frame(*reading_, node, body, "");
+    (void)resolve_frame(reading_, node, body, "");
     set_vec3(added, "location", source.vec3(node, "location", Vec3::Zero()));
     set_text(added, "fixed", source.flag(node, "fixed", false) ? "true" : "false");
   }
@@ -155,7 +145,7 @@ bool OsimEditor::is_fixed(const std::string& name) const {
 void OsimEditor::move_marker(const std::string& name, const Vec3& p_B) {
   const auto node = marker(name);
   if (!node) throw InvalidInput(fmt::format("the model has no marker '{}'", name));
-  const FixedFrame frame = frame_of(*reading_, node, "parent_frame", "/markerset/" + name);
+  const FixedFrame frame = frame_of(reading_, node, "parent_frame", "/markerset/" + name);
   set_vec3(node, "location", frame.X_BF.inverse() * p_B);
 }
 
@@ -169,14 +159,14 @@ std::string OsimEditor::marker_set_text() const {
 }
 
 Vec3 OsimEditor::factor_of(const Factors& factors, BodyIndex body) const {
-  const auto it = factors.find(reading_->model.bodies[static_cast<std::size_t>(body)].name);
+  const auto it = factors.find(reading_.model.bodies[at(body)].name);
   return it == factors.end() ? Vec3(Vec3::Ones()) : it->second;
 }
 
 void OsimEditor::scale_wraps(pugi::xml_node holder, const FixedFrame& frame, const Vec3& factor) {
   for (const auto node : OsimXml::objects(holder.child("WrapObjectSet"))) {
     // Factors along the object's own axes.
-    const Pose X_FW = pose_of(*reading_, node, "translation", "xyz_body_rotation");
+    const Pose X_FW = pose_of(reading_, node, "translation", "xyz_body_rotation");
     const Vec3 along = stretch((frame.X_BF * X_FW).R, factor);
     multiply(xml_, node, "translation", factor);
     const std::string_view kind = node.name();
@@ -215,10 +205,8 @@ void OsimEditor::scale_joint(pugi::xml_node joint, const Vec3& parent, const Vec
 void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
   const std::string owner = "/forceset/" + OsimXml::name_of(force);
   const auto scale_path = [&](pugi::xml_node path) {
-    auto points = path.child("PathPointSet");
-    if (!points) points = path.child("MusclePointSet");
-    for (const auto point : OsimXml::objects(points)) {
-      const FixedFrame frame = frame_of(*reading_, point, "parent_frame", owner);
+    for (const auto point : OsimXml::objects(either_child(path, "PathPointSet", "MusclePointSet"))) {
+      const FixedFrame frame = frame_of(reading_, point, "parent_frame", owner);
       const Vec3 factor = factor_of(factors, frame.body);
       multiply(xml_, point, "location", factor);
       multiply(xml_, point, "attachment", factor);
@@ -235,7 +223,7 @@ void OsimEditor::scale_points(pugi::xml_node force, const Factors& factors) {
   for (const auto path : force.child("path").children()) scale_path(path);
   for (const auto frame : force.child("frames").children()) {
     if (std::string_view(frame.name()) != "PhysicalOffsetFrame") continue;
-    const FixedFrame parent = frame_of(*reading_, frame, "parent", owner);
+    const FixedFrame parent = frame_of(reading_, frame, "parent", owner);
     multiply(xml_, frame, "translation", factor_of(factors, parent.body));
   }
 }
@@ -244,21 +232,20 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   // Objects that refer to frames are scaled before the frames.
   for (const auto node : OsimXml::objects(marker_set())) {
     if (std::string_view(node.name()) != "Marker") continue;
-    const FixedFrame frame = frame_of(*reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
+    const FixedFrame frame = frame_of(reading_, node, "parent_frame", "/markerset/" + OsimXml::name_of(node));
     multiply(xml_, node, "location", factor_of(factors, frame.body));
   }
-  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
-  for (const auto force : OsimXml::objects(forces)) scale_points(force, factors);
+  for (const auto force : OsimXml::objects(either_child(model_, "ForceSet", "ActuatorSet")))
+    scale_points(force, factors);
   for (const auto& [joint, owner] : components_of(skeleton_, "JointSet", "Joint")) {
-    scale_joint(joint, factor_of(factors, frame_of(*reading_, joint, "parent_frame", owner).body),
-                factor_of(factors, frame_of(*reading_, joint, "child_frame", owner).body));
+    scale_joint(joint, factor_of(factors, frame_of(reading_, joint, "parent_frame", owner).body),
+                factor_of(factors, frame_of(reading_, joint, "child_frame", owner).body));
   }
   std::vector<std::pair<pugi::xml_node, Vec3>> frames;
-  for (const auto& [path, frame] : reading_->frames) {
-    const BodyIndex body = resolve_frame(*reading_, frame.node, path, "").body;
-    const FixedFrame own = resolve_frame(*reading_, frame.node, path, "");
-    frames.emplace_back(frame.node, factor_of(factors, body));
-    scale_wraps(frame.node, own, factor_of(factors, body));
+  for (const auto& [path, frame] : reading_.frames) {
+    const FixedFrame own = resolve_frame(reading_, frame.node, path, "");
+    frames.emplace_back(frame.node, factor_of(factors, own.body));
+    scale_wraps(frame.node, own, factor_of(factors, own.body));
   }
   for (const auto& [node, factor] : frames) {
     multiply(xml_, node, "translation", factor);
@@ -266,22 +253,20 @@ void OsimEditor::scale_geometry(const Factors& factors) {
   }
   scale_wraps(model_.child("Ground"), {}, factor_of(factors, 0));
   for (const auto& [node, path] : components_of(skeleton_, "BodySet", "Body")) {
-    const auto body = reading_->find_body(OsimXml::name_of(node)).value_or(0);
+    const auto body = reading_.find_body(OsimXml::name_of(node)).value_or(0);
     const Vec3 factor = factor_of(factors, body);
     multiply(xml_, node, "mass_center", factor);
     scale_wraps(node, {body, {}}, factor);
     scale_meshes(xml_, node, factor);
     auto joint = OsimXml::first_element(node.child("Joint"));
     if (!joint) continue;
-    const auto parent = reading_->find_body(xml_.word(joint, "parent_body")).value_or(0);
+    const auto parent = reading_.find_body(xml_.word(joint, "parent_body")).value_or(0);
     multiply(xml_, joint, "location_in_parent", factor_of(factors, parent));
     multiply(xml_, joint, "location", factor);
     multiply(xml_, joint, "location_in_child", factor);
     scale_joint(joint, factor_of(factors, parent), factor);
   }
-  const auto constraints =
-      skeleton_.child("ConstraintSet") ? skeleton_.child("ConstraintSet") : model_.child("ConstraintSet");
-  for (const auto node : OsimXml::objects(constraints)) {
+  for (const auto node : OsimXml::objects(set_of(skeleton_, model_, "ConstraintSet"))) {
     const std::string_view kind = node.name();
     if (kind == "PointConstraint" || kind == "ConstantDistanceConstraint" || kind == "PointOnLineConstraint") {
       notes_.push_back(
@@ -294,7 +279,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
   std::vector<double> masses;
   std::vector<Mat3> inertias;
   double total = 0.0;
-  for (const Body& body : reading_->model.bodies) {
+  for (const Body& body : reading_.model.bodies) {
     const auto it = factors.find(body.name);
     double mass = body.mass_kg;
     Mat3 inertia = body.I_BBcm_B;
@@ -330,13 +315,13 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
   }
   const double share = total_kg > 0.0 && total > 0.0 ? total_kg / total : 1.0;
   for (const auto& [node, path] : components_of(skeleton_, "BodySet", "Body")) {
-    const auto body = reading_->find_body(OsimXml::name_of(node));
+    const auto body = reading_.find_body(OsimXml::name_of(node));
     if (!body || *body == 0) continue;
     const auto b = static_cast<std::size_t>(*body);
     set_text(node, "mass", fmt::format("{}", share * masses[b]));
     const Mat3 I = share * inertias[b];
     const double values[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
-    if (reading_->is_old()) {
+    if (reading_.is_old()) {
       const char* names[] = {"inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
       for (int k = 0; k < 6; ++k) set_text(node, names[k], fmt::format("{}", values[k]));
     } else {
@@ -347,8 +332,7 @@ void OsimEditor::scale_masses(const Factors& factors, bool keep_masses, double t
 }
 
 void OsimEditor::scale_lengths(const std::string& name, double factor) {
-  const auto forces = model_.child("ForceSet") ? model_.child("ForceSet") : model_.child("ActuatorSet");
-  for (const auto force : OsimXml::objects(forces)) {
+  for (const auto force : OsimXml::objects(either_child(model_, "ForceSet", "ActuatorSet"))) {
     if (OsimXml::name_of(force) != name) continue;
     for (const char* property : {"optimal_fiber_length", "tendon_slack_length", "resting_length"})
       multiply(xml_, force, property, factor);

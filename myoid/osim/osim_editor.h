@@ -3,9 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "myoid/core/geometry.h"
@@ -60,12 +58,11 @@ class OsimEditor {
   [[nodiscard]] pugi::xml_node marker_set() const;
   [[nodiscard]] pugi::xml_node marker(const std::string& name) const;
 
-  std::string text_;
   std::filesystem::path path_;
   OsimXml xml_;
   pugi::xml_node model_;     ///< <Model>
   pugi::xml_node skeleton_;  ///< The parent of the bodies: the model or, in old documents, its engine.
-  std::unique_ptr<OsimReading> reading_;
+  OsimReading reading_;
   std::vector<std::string> notes_;
 };
 

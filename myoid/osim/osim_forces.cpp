@@ -1,16 +1,9 @@
-#include "myoid/osim/osim_forces.h"
-
-#include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
-#include "myoid/osim/osim_contacts.h"
-#include "myoid/osim/osim_functions.h"
-#include "myoid/osim/osim_muscles.h"
-#include "myoid/osim/osim_paths.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -26,7 +19,7 @@ void read_common(const OsimReading& r, pugi::xml_node node, ActuatorBase& actuat
 CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int coordinate) {
   CoordinateLimitForce f;
   f.coordinate = coordinate;
-  const bool angle = r.model.coordinates[static_cast<std::size_t>(coordinate)].motion == MotionType::rotational;
+  const bool angle = r.model.coordinates[at(coordinate)].motion == MotionType::rotational;
   const double unit_rad = angle ? kDegree : 1.0;  // limits in degrees, stiffness per degree
   f.upper_limit = unit_rad * r.xml.number(node, "upper_limit", 0.0);
   f.lower_limit = unit_rad * r.xml.number(node, "lower_limit", 0.0);
@@ -35,7 +28,7 @@ CoordinateLimitForce read_limit(const OsimReading& r, pugi::xml_node node, int c
   f.damping = r.xml.number(node, "damping", 0.001) / unit_rad;
   f.transition = unit_rad * r.xml.number(node, "transition", 0.1);
   if (!(f.transition > 0.0))
-    r.xml.fail(node, fmt::format("CoordinateLimitForce '{}': expected <transition> above 0", OsimXml::name_of(node)));
+    r.xml.fail(node, "CoordinateLimitForce '{}': expected <transition> above 0", OsimXml::name_of(node));
   return f;
 }
 
@@ -58,7 +51,7 @@ Expression formula_of(const OsimReading& r,
   try {
     return text.empty() ? Expression() : Expression(text, variables);
   } catch (const InvalidInput& error) {
-    r.xml.fail(node, fmt::format("{} '{}': <{}>: {}", node.name(), OsimXml::name_of(node), name, error.what()));
+    r.xml.fail(node, "{} '{}': <{}>: {}", node.name(), OsimXml::name_of(node), name, error.what());
   }
 }
 
@@ -80,8 +73,7 @@ Bushing read_shaped_bushing(OsimReading& r, pugi::xml_node node) {
     bushing.functions.push_back(function_property(r, node, name).value_or(Function(Constant{0.0})));
   if (r.compat.opensim_paths &&
       (!bushing.rotational_damping.isZero(0.0) || !bushing.translational_damping.isZero(0.0))) {
-    r.model.notes.push_back(fmt::format("FunctionBasedBushingForce '{}': its damping does not act, as in OpenSim 4.5.2",
-                                        OsimXml::name_of(node)));
+    r.note("FunctionBasedBushingForce '{}': its damping does not act, as in OpenSim 4.5.2", OsimXml::name_of(node));
     bushing.rotational_damping = bushing.translational_damping = Vec3::Zero();
   }
   return bushing;
@@ -97,9 +89,8 @@ PrescribedForce read_prescribed(OsimReading& r, pugi::xml_node node) {
   const auto three = [&](const char* name) {
     std::vector<Function> functions = functions_property(r, node, name);
     if (!functions.empty() && functions.size() != 3) {
-      r.xml.fail(node, fmt::format("PrescribedForce '{}': <{}> has {} functions, expected three or "
-                                   "none",
-                                   OsimXml::name_of(node), name, functions.size()));
+      r.xml.fail(node, "PrescribedForce '{}': <{}> has {} functions, expected three or none", OsimXml::name_of(node),
+                 name, functions.size());
     }
     return functions;
   };
@@ -111,12 +102,12 @@ PrescribedForce read_prescribed(OsimReading& r, pugi::xml_node node) {
 
 PointSpring read_point_spring(const OsimReading& r, pugi::xml_node node) {
   const std::string owner = "/forceset/" + OsimXml::name_of(node);
-  const FixedFrame first = frame_of(r, node, "body1", owner, "body1");
-  const FixedFrame second = frame_of(r, node, "body2", owner, "body2");
+  const BodyPoint first = point_of(r, node, owner, "body1", "point1");
+  const BodyPoint second = point_of(r, node, owner, "body2", "point2");
   return {first.body,
           second.body,
-          first.X_BF * r.xml.vec3(node, "point1", Vec3::Zero()),
-          second.X_BF * r.xml.vec3(node, "point2", Vec3::Zero()),
+          first.p_B,
+          second.p_B,
           r.xml.number(node, "stiffness", 0.0),
           r.xml.number(node, "rest_length", 0.0)};
 }
@@ -180,8 +171,7 @@ bool read_driven(OsimReading& r, pugi::xml_node node) {
     r.model.path_actuators.push_back(std::move(actuator));
   } else if (kind == "BodyActuator") {
     // Six controls without bounds: OpenSim's tools that solve for controls ignore them.
-    r.model.notes.push_back(fmt::format("BodyActuator '{}' makes no force: every tool keeps its six controls at zero",
-                                        OsimXml::name_of(node)));
+    r.note("BodyActuator '{}' makes no force: every tool keeps its six controls at zero", OsimXml::name_of(node));
   } else {
     return false;
   }
@@ -193,10 +183,8 @@ std::optional<Ligament> read_ligament(OsimReading& r, pugi::xml_node node) {
   Ligament ligament{read_path(r, node), r.xml.number(node, "resting_length", 0.0),
                     r.xml.number(node, "pcsa_force", 0.0), default_ligament_curve()};
   if (!(ligament.rest_length_m > 0.0)) {
-    r.model.unsupported.push_back(
-        fmt::format("Ligament '{}' has no <resting_length> above 0; it is left out of inverse "
-                    "dynamics",
-                    OsimXml::name_of(node)));
+    r.leave_out("Ligament '{}' has no <resting_length> above 0; it is left out of inverse dynamics",
+                OsimXml::name_of(node));
     return std::nullopt;
   }
   if (auto curve = function_property(r, node, "force_length_curve")) ligament.force_length = std::move(*curve);
@@ -247,11 +235,9 @@ void read_law(OsimReading& r, pugi::xml_node node) {
   const std::string kind = node.name();
   const std::string name = OsimXml::name_of(node);
   if (const std::string path = foreign_path(r, node); !path.empty()) {
-    r.model.unsupported.push_back(
-        fmt::format("{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path));
+    r.leave_out("{} '{}' has a path of kind {}, which is not supported: it is left out", kind, name, path);
   } else if (!read_driven(r, node) && !read_passive(r, node) && is_enabled(r, node, "appliesForce")) {
-    r.model.unsupported.push_back(
-        fmt::format("force '{}' of kind {} is not part of inverse dynamics here", name, kind));
+    r.leave_out("force '{}' of kind {} is not part of inverse dynamics here", name, kind);
   }
 }
 
@@ -259,8 +245,9 @@ void read_law(OsimReading& r, pugi::xml_node node) {
 
 void read_force(OsimReading& r, pugi::xml_node node) {
   const auto count = [&] {
-    return r.model.muscles.size() + r.model.actuators.size() + r.model.point_actuators.size() +
-           r.model.torque_actuators.size() + r.model.path_actuators.size() + r.model.passive_forces.size();
+    std::size_t sum = r.model.muscles.size() + r.model.passive_forces.size();
+    visit_actuators(r.model, [&](const auto& list) { sum += list.size(); });
+    return sum;
   };
   const std::size_t before = count();
   read_law(r, node);

@@ -1,13 +1,9 @@
-#include "myoid/osim/osim_forces.h"
-
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/osim/osim_constraints.h"
-#include "myoid/osim/osim_contacts.h"
-#include "myoid/osim/osim_functions.h"
+#include "myoid/osim/osim_parts.h"
 #include "myoid/osim/osim_reader.h"
 
 namespace myoid::model {

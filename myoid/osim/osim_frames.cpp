@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::model {
@@ -46,8 +47,7 @@ Mat3 inertia_of(const OsimReading& r, pugi::xml_node node, const std::string& bo
   if (const auto element = r.xml.property(node, "inertia")) {
     const auto values = r.xml.numbers(element);
     if (values.size() != 6) {
-      r.xml.fail(element,
-                 fmt::format("body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, values.size()));
+      r.xml.fail(element, "body '{}': expected six numbers xx yy zz xy xz yz, found {}", body, values.size());
     }
     std::copy(values.begin(), values.end(), v);
   } else if (r.is_old()) {
@@ -69,8 +69,7 @@ FixedFrame station_defined(const OsimReading& r, pugi::xml_node node, const std:
   const auto point = [&](const char* name) {
     const std::string target = socket(r, node, name);
     if (target.empty()) {
-      r.xml.fail(node,
-                 fmt::format("StationDefinedFrame '{}': the socket '{}' is missing", OsimXml::name_of(node), name));
+      r.xml.fail(node, "StationDefinedFrame '{}': the socket '{}' is missing", OsimXml::name_of(node), name);
     }
     return resolve(r, node, target, owner, depth + 1);
   };
@@ -86,7 +85,7 @@ FixedFrame station_defined(const OsimReading& r, pugi::xml_node node, const std:
     const bool has_sign = text.front() == '-' || text.front() == '+';
     const char letter = text.size() == (has_sign ? 2U : 1U) ? text.back() : '?';
     if (letter < 'x' || letter > 'z') {
-      r.xml.fail(node, fmt::format("<{}>: expected +x, -x, +y, -y, +z or -z, found '{}'", name, text));
+      r.xml.fail(node, "<{}>: expected +x, -x, +y, -y, +z or -z, found '{}'", name, text);
     }
     return Axis{letter - 'x', text.front() == '-' ? -1.0 : 1.0};
   };
@@ -95,9 +94,10 @@ FixedFrame station_defined(const OsimReading& r, pugi::xml_node node, const std:
   const Vec3 across = ab.cross(c.X_BF.p - a.X_BF.p);
   if (a.body != b.body || a.body != c.body || a.body != origin.body || first.index == second.index ||
       !(across.norm() > 0.0)) {
-    r.xml.fail(node, fmt::format("StationDefinedFrame '{}': expected four points of one body, three "
-                                 "of them not on a line, and two different axes",
-                                 OsimXml::name_of(node)));
+    r.xml.fail(node,
+               "StationDefinedFrame '{}': expected four points of one body, three of them not on a line, and two "
+               "different axes",
+               OsimXml::name_of(node));
   }
   Mat3 R;
   R.col(first.index) = first.sign * ab.normalized();
@@ -108,7 +108,7 @@ FixedFrame station_defined(const OsimReading& r, pugi::xml_node node, const std:
 }
 
 FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name, const std::string& owner, int depth) {
-  if (depth > 32) r.xml.fail(where, fmt::format("frame '{}' refers to itself", name));
+  if (depth > 32) r.xml.fail(where, "frame '{}' refers to itself", name);
   const auto found = [&](const std::string& path) -> std::optional<FixedFrame> {
     if (path == "/ground") return FixedFrame{};
     // Bodies are in their set or among the components; their names are unique.
@@ -123,7 +123,7 @@ FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name,
       return station_defined(r, frame, it->second.owner, depth);
     const bool is_point = std::strcmp(frame.name(), "Station") == 0;
     const std::string target = socket(r, frame, is_point ? "parent_frame" : "parent");
-    if (target.empty()) r.xml.fail(frame, fmt::format("frame '{}': the socket 'parent' is missing", name));
+    if (target.empty()) r.xml.fail(frame, "frame '{}': the socket 'parent' is missing", name);
     const FixedFrame parent = resolve(r, frame, target, it->second.owner, depth + 1);
     if (is_point) {
       return FixedFrame{parent.body, parent.X_BF * Pose{Mat3::Identity(), r.xml.vec3(frame, "location", Vec3::Zero())}};
@@ -144,21 +144,13 @@ FixedFrame resolve(const OsimReading& r, pugi::xml_node where, std::string name,
     }
     if (const auto frame = found("/frameset/" + name)) return *frame;
   }
-  r.xml.fail(where, fmt::format("there is no frame '{}'", name));
+  r.xml.fail(where, "there is no frame '{}'", name);
 }
-
-}  // namespace
-
-namespace {
 
 using Places = std::map<std::string, int, std::less<>>;
 
 /// Returns "/bodyset" for "BodySet".
-std::string path_of_set(std::string_view name) {
-  std::string path = "/";
-  for (const char c : name) path += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return path;
-}
+std::string path_of_set(std::string_view name) { return "/" + lower_case(name); }
 
 std::optional<int> place_of(const Places& places, std::string_view name) {
   const auto it = places.find(name);
@@ -194,6 +186,11 @@ std::optional<int> OsimReading::find_coordinate(std::string_view name) const {
   return name.find('/') == std::string_view::npos ? std::nullopt : model.find_coordinate(name);
 }
 
+pugi::xml_node set_of(pugi::xml_node skeleton, pugi::xml_node model, const char* name) {
+  const auto set = skeleton.child(name);
+  return set ? set : model.child(name);
+}
+
 pugi::xml_node skeleton_of(pugi::xml_node model) {
   const auto engine = OsimXml::first_element(model.child("DynamicsEngine"));
   return engine && !model.child("BodySet") ? engine : model;
@@ -223,23 +220,21 @@ void read_bodies(OsimReading& r, pugi::xml_node model) {
     body.name = OsimXml::name_of(node);
     if (body.name.empty()) r.xml.fail(node, "a body has no name");
     if (body.name == "ground") continue;
-    if (r.find_body(body.name)) r.xml.fail(node, fmt::format("two bodies are named '{}'", body.name));
+    if (r.find_body(body.name)) r.xml.fail(node, "two bodies are named '{}'", body.name);
     body.mass_kg = r.xml.number(node, "mass", r.is_old() ? 0.0 : std::nan(""));
     if (!(body.mass_kg >= 0.0) || !std::isfinite(body.mass_kg)) {
-      r.xml.fail(node, fmt::format("body '{}': expected a mass of 0 or more in kg, found '{}'", body.name,
-                                   r.xml.word(node, "mass")));
+      r.xml.fail(node, "body '{}': expected a mass of 0 or more in kg, found '{}'", body.name,
+                 r.xml.word(node, "mass"));
     }
     body.p_BBcm_B = r.xml.vec3(node, "mass_center", Vec3::Zero());
     body.I_BBcm_B = body.mass_kg == 0.0 ? Mat3::Zero() : inertia_of(r, node, body.name);
     if (!body.p_BBcm_B.allFinite() || !body.I_BBcm_B.allFinite()) {
-      r.xml.fail(node, fmt::format("body '{}': mass center or inertia is not finite", body.name));
+      r.xml.fail(node, "body '{}': mass center or inertia is not finite", body.name);
     }
     for (int k = 0; k < 3; ++k) {
       if (body.I_BBcm_B(k, k) < 0.0) {
-        r.model.notes.push_back(
-            fmt::format("body '{}': the moment of inertia about its axis {} is negative, {} kg m^2; it is used "
-                        "as it is",
-                        body.name, "xyz"[k], body.I_BBcm_B(k, k)));
+        r.note("body '{}': the moment of inertia about its axis {} is negative, {} kg m^2; it is used as it is",
+               body.name, "xyz"[k], body.I_BBcm_B(k, k));
       }
     }
     collect_frames(r, node.child("components"), path);
@@ -272,10 +267,16 @@ FixedFrame frame_of(const OsimReading& r,
                     const char* old_name) {
   std::string target = socket(r, node, socket_name, old_name);
   if (target.empty()) {
-    r.xml.fail(node, fmt::format("{} '{}': the socket '{}' is missing; expected the name of a frame", node.name(),
-                                 OsimXml::name_of(node), socket_name));
+    r.xml.fail(node, "{} '{}': the socket '{}' is missing; expected the name of a frame", node.name(),
+               OsimXml::name_of(node), socket_name);
   }
   return resolve_frame(r, node, std::move(target), owner);
+}
+
+BodyPoint point_of(
+    const OsimReading& r, pugi::xml_node node, const std::string& owner, const char* frame, const char* place) {
+  const FixedFrame fixed = frame_of(r, node, frame, owner, frame);
+  return {fixed.body, fixed.X_BF * r.xml.vec3(node, place, Vec3::Zero())};
 }
 
 Pose pose_of(const OsimReading& r, pugi::xml_node node, const char* location, const char* orientation, bool rounded) {
@@ -295,7 +296,7 @@ int coordinate_named(const OsimReading& r, pugi::xml_node where, std::string_vie
     for (const Joint& joint : r.model.joints)
       if (const auto index = r.find_coordinate(fmt::format("{}/{}", joint.name, text))) return *index;
   }
-  r.xml.fail(where, fmt::format("there is no coordinate '{}'", text));
+  r.xml.fail(where, "there is no coordinate '{}'", text);
 }
 
 bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive) {
@@ -307,8 +308,7 @@ bool is_enabled(const OsimReading& r, pugi::xml_node node, const char* positive)
 double positive(const OsimReading& r, pugi::xml_node node, const char* name, double otherwise) {
   const double value = r.xml.number(node, name, otherwise);
   if (!(value > 0.0) || !std::isfinite(value)) {
-    r.xml.fail(node, fmt::format("{} '{}': expected <{}> above 0, found {}", node.name(), OsimXml::name_of(node), name,
-                                 value));
+    r.xml.fail(node, "{} '{}': expected <{}> above 0, found {}", node.name(), OsimXml::name_of(node), name, value);
   }
   return value;
 }
@@ -316,15 +316,14 @@ double positive(const OsimReading& r, pugi::xml_node node, const char* name, dou
 Vec3 direction_of(const OsimReading& r, pugi::xml_node node, const char* name, const Vec3& otherwise) {
   const Vec3 v = r.xml.vec3(node, name, otherwise);
   if (!(v.norm() > 0.0) || !v.allFinite())
-    r.xml.fail(node, fmt::format("{} '{}': <{}> is no direction", node.name(), OsimXml::name_of(node), name));
+    r.xml.fail(node, "{} '{}': <{}> is no direction", node.name(), OsimXml::name_of(node), name);
   return v.normalized();
 }
 
 std::optional<FixedFrame> find_frame(const BodyModel& model,
                                      const std::filesystem::path& path,
                                      const std::string& name) {
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path);
+  const OsimXml xml(recording::read_text_file(path), path);
   OsimReading r{xml, model.compat};
   read_bodies(r, skeleton_of(xml.root().child("Model")));
   try {
@@ -337,7 +336,7 @@ std::optional<FixedFrame> find_frame(const BodyModel& model,
   const std::string frame = name.substr(slash + 1);
   for (const Joint& joint : model.joints) {
     if (!("/" + name.substr(0, slash)).ends_with("/" + joint.name)) continue;
-    const auto offset = [&](BodyIndex body) { return model.bodies[static_cast<std::size_t>(body)].name + "_offset"; };
+    const auto offset = [&](BodyIndex body) { return model.bodies[at(body)].name + "_offset"; };
     if (frame == offset(joint.child)) return FixedFrame{joint.child, joint.X_BM};
     if (frame == offset(joint.parent)) return FixedFrame{joint.parent, joint.X_PF};
   }

@@ -40,6 +40,15 @@ struct OsimReading {
 
   /// Starts from a model that is partly read.
   explicit OsimReading(const OsimXml& document, const Compat& as = {}, BodyModel known = {}, Frames known_frames = {});
+  template <typename... T>
+  void note(fmt::format_string<T...> text, T&&... values) {
+    model.notes.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+  /// Lists a part of the file in `BodyModel::unsupported`.
+  template <typename... T>
+  void leave_out(fmt::format_string<T...> text, T&&... values) {
+    model.unsupported.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
   int add(Body body);
   int add(Coordinate coordinate);
   [[nodiscard]] std::optional<int> find_body(std::string_view name) const;
@@ -62,6 +71,9 @@ struct ModelComponent {
 
 /// Returns the element that holds bodies and joints: the model or, before 10700, an engine in it.
 [[nodiscard]] pugi::xml_node skeleton_of(pugi::xml_node model);
+
+/// Returns a set that stands in the skeleton or in the model: "MarkerSet", "ConstraintSet".
+[[nodiscard]] pugi::xml_node set_of(pugi::xml_node skeleton, pugi::xml_node model, const char* name);
 
 /// Reads the bodies (with the inertia of old documents) and collects the offset frames of ground, bodies, joints and
 /// the model. Throws ReadError for a body without a name or a mass, and for two bodies of one name.
@@ -87,6 +99,16 @@ void read_bodies(OsimReading& reading, pugi::xml_node model);
                                   std::string_view socket_name,
                                   const std::string& owner,
                                   const char* old_name = "body");
+
+/// A point fixed in a body.
+struct BodyPoint {
+  BodyIndex body = 0;
+  Vec3 p_B = Vec3::Zero();
+};
+
+/// Returns the point that a socket with a frame and a property with a place in that frame give.
+[[nodiscard]] BodyPoint point_of(
+    const OsimReading& reading, pugi::xml_node node, const std::string& owner, const char* frame, const char* place);
 
 /// Returns the frame of that path or name in a model file: a body, an offset frame of the model, of
 /// a body or of a joint, or a frame that OpenSim gives to the joints of old documents

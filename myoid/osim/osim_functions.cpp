@@ -1,21 +1,18 @@
-#include "myoid/osim/osim_functions.h"
-
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
 
 constexpr const char* kSupported =
-    "supported are Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, "
-    "PiecewiseConstantFunction, StepFunction, Sine, SimmSpline, NaturalCubicSpline, GCVSpline that "
-    "interpolates (degree 1, 3, 5 or 7), MultivariatePolynomialFunction of one variable and "
-    "MultiplierFunction";
+    "supported are Constant, LinearFunction, PolynomialFunction, PiecewiseLinearFunction, PiecewiseConstantFunction, "
+    "StepFunction, Sine, SimmSpline, NaturalCubicSpline, GCVSpline that interpolates (degree 1, 3, 5 or 7), "
+    "MultivariatePolynomialFunction of one variable and MultiplierFunction";
 
 bool is_simm_spline(std::string_view kind) {
   return kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "natCubicSpline" ||
@@ -41,8 +38,7 @@ std::string place_of(pugi::xml_node node) {
 }
 
 Function unsupported(OsimReading& r, pugi::xml_node node, const std::string& why) {
-  r.model.unsupported.push_back(
-      fmt::format("function <{}>{} {}; it is taken as zero ({})", node.name(), place_of(node), why, kSupported));
+  r.leave_out("function <{}>{} {}; it is taken as zero ({})", node.name(), place_of(node), why, kSupported);
   return Constant{0.0};
 }
 
@@ -91,17 +87,17 @@ double unwrap(const OsimReading& r, pugi::xml_node& node) {
 
 }  // namespace
 
-std::optional<Function> function_in(OsimReading& r, pugi::xml_node holder) {
-  const auto element = OsimXml::first_element(holder);
-  if (!element) return std::nullopt;
-  return read_function(r, element);
+pugi::xml_node function_node(const OsimReading& r, pugi::xml_node object, const char* property) {
+  if (const auto holder = r.xml.property(object, property)) return OsimXml::first_element(holder);
+  return object.find_child_by_attribute("name", property);
+}
+
+std::optional<Function> function_at(OsimReading& r, pugi::xml_node node) {
+  return node ? std::optional(read_function(r, node)) : std::nullopt;
 }
 
 std::optional<Function> function_property(OsimReading& r, pugi::xml_node object, const char* property) {
-  if (const auto holder = r.xml.property(object, property)) return function_in(r, holder);
-  const auto node = object.find_child_by_attribute("name", property);
-  if (!node) return std::nullopt;
-  return read_function(r, node);
+  return function_at(r, function_node(r, object, property));
 }
 
 std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, const char* property) {
@@ -111,16 +107,6 @@ std::vector<Function> functions_property(OsimReading& r, pugi::xml_node object, 
   std::vector<Function> functions;
   for (const auto node : OsimXml::objects(set)) functions.push_back(read_function(r, node));
   return functions;
-}
-
-std::optional<MultiPolynomial> multi_function_property(const OsimReading& r,
-                                                       pugi::xml_node object,
-                                                       const char* property,
-                                                       int dimension) {
-  const auto holder = r.xml.property(object, property);
-  const auto node = holder ? OsimXml::first_element(holder) : object.find_child_by_attribute("name", property);
-  if (!node) return std::nullopt;
-  return multi_function(r, node, dimension);
 }
 
 std::optional<MultiPolynomial> multi_function(const OsimReading& r, pugi::xml_node node, int dimension) {
@@ -136,9 +122,8 @@ std::optional<MultiPolynomial> multi_function(const OsimReading& r, pugi::xml_no
     const double order = r.xml.number(node, "order", 0.0);
     constexpr double kHighest = 100.0;
     if (stated != dimension || !(order >= 0.0 && order <= kHighest)) {
-      r.xml.fail(node, fmt::format("<dimension> {} and <order> {}, expected a function of {} "
-                                   "variables and an order of 0 to {}",
-                                   stated, order, dimension, kHighest));
+      r.xml.fail(node, "<dimension> {} and <order> {}, expected a function of {} variables and an order of 0 to {}",
+                 stated, order, dimension, kHighest);
     }
     f.degree = static_cast<int>(order);
     f.coefficients = coefficients_of(r, node);
@@ -147,9 +132,8 @@ std::optional<MultiPolynomial> multi_function(const OsimReading& r, pugi::xml_no
   }
   const double needed = term_count(f.dimension, f.degree);
   if (static_cast<double>(f.coefficients.size()) != needed) {
-    r.xml.fail(node, fmt::format("<coefficients>: expected {} for {} variables and order {}, found "
-                                 "{}",
-                                 needed, f.dimension, f.degree, f.coefficients.size()));
+    r.xml.fail(node, "<coefficients>: expected {} for {} variables and order {}, found {}", needed, f.dimension,
+               f.degree, f.coefficients.size());
   }
   return f;
 }
@@ -162,7 +146,7 @@ Function read_function(OsimReading& r, pugi::xml_node node) {
     const auto given = r.xml.property(node, "coefficients");
     const auto c = given ? r.xml.numbers(given) : std::vector<double>{1.0, 0.0};
     if (c.size() != 2) {
-      r.xml.fail(node, fmt::format("<coefficients>: expected slope and intercept, found {} numbers", c.size()));
+      r.xml.fail(node, "<coefficients>: expected slope and intercept, found {} numbers", c.size());
     }
     return {Linear{c[0], c[1]}, scale};
   }
@@ -182,9 +166,7 @@ Function read_function(OsimReading& r, pugi::xml_node node) {
     const SmoothStep step{r.xml.number(node, "start_time", 0.0), r.xml.number(node, "end_time", 1.0),
                           r.xml.number(node, "start_value", 0.0), r.xml.number(node, "end_value", 1.0)};
     if (!(step.end > step.start)) {
-      r.xml.fail(node, fmt::format("<StepFunction>: expected <end_time> after <start_time> {}, "
-                                   "found {}",
-                                   step.start, step.end));
+      r.xml.fail(node, "<StepFunction>: expected <end_time> after <start_time> {}, found {}", step.start, step.end);
     }
     return {step, scale};
   }

@@ -1,5 +1,3 @@
-#include "myoid/osim/osim_joints.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/units.h"
-#include "myoid/osim/osim_functions.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -20,9 +18,8 @@ constexpr const char* kSlots[6] = {"rotation1",    "rotation2",    "rotation3",
 
 /// Returns the coordinate elements of a joint, in documents of any version.
 auto coordinates_of(pugi::xml_node joint) {
-  auto coordinates = joint.child("coordinates");
-  if (!coordinates) coordinates = joint.child("CoordinateSet").child("objects");
-  return coordinates.children("Coordinate");
+  const auto coordinates = joint.child("coordinates");
+  return (coordinates ? coordinates : joint.child("CoordinateSet").child("objects")).children("Coordinate");
 }
 
 /// Returns a coordinate's name in the model, with its joint's name if several joints have a coordinate of that name.
@@ -35,14 +32,13 @@ void read_coordinate(OsimReading& r, pugi::xml_node node, const std::string& joi
   Coordinate c;
   c.name = model_name(r, joint, OsimXml::name_of(node));
   if (c.name.empty()) xml.fail(node, "a coordinate has no name");
-  if (r.find_coordinate(c.name)) xml.fail(node, fmt::format("two coordinates are named '{}'", c.name));
+  if (r.find_coordinate(c.name)) xml.fail(node, "two coordinates are named '{}'", c.name);
   c.default_value = xml.number(node, "default_value", xml.number(node, "initial_value", 0.0));
   c.default_speed = xml.number(node, "default_speed_value", 0.0);
-  if (!std::isfinite(c.default_value))
-    xml.fail(node, fmt::format("coordinate '{}': the default value is not finite", c.name));
+  if (!std::isfinite(c.default_value)) xml.fail(node, "coordinate '{}': the default value is not finite", c.name);
   if (const auto range = xml.property(node, "range")) {
     const auto v = xml.numbers(range);
-    if (v.size() != 2) xml.fail(range, fmt::format("<range>: expected two numbers, found {}", v.size()));
+    if (v.size() != 2) xml.fail(range, "<range>: expected two numbers, found {}", v.size());
     c.lower = std::min(v[0], v[1]);
     c.upper = std::max(v[0], v[1]);
   }
@@ -74,15 +70,14 @@ int coordinate_of_axis(const OsimReading& r, pugi::xml_node slot, const Joint& j
   const auto names = slot.child("coordinates") ? r.xml.words(slot, "coordinates") : r.xml.words(slot, "coordinate");
   if (names.empty()) return -1;
   if (names.size() > 1) {
-    r.xml.fail(slot, fmt::format("<coordinates>: an axis of joint '{}' depends on {} coordinates; "
-                                 "only one is supported",
-                                 joint.name, names.size()));
+    r.xml.fail(slot, "<coordinates>: an axis of joint '{}' depends on {} coordinates; only one is supported",
+               joint.name, names.size());
   }
   // Some files give the path of the coordinate.
   const std::string own = names[0].substr(names[0].find_last_of('/') + 1);
   const auto index = r.find_coordinate(model_name(r, joint.name, own));
   if (!index || std::find(joint.coordinates.begin(), joint.coordinates.end(), *index) == joint.coordinates.end()) {
-    r.xml.fail(slot, fmt::format("<coordinates>: joint '{}' has no coordinate '{}'", joint.name, names[0]));
+    r.xml.fail(slot, "<coordinates>: joint '{}' has no coordinate '{}'", joint.name, names[0]);
   }
   return *index;
 }
@@ -108,12 +103,12 @@ void reorder_coordinates(OsimReading& r, Joint& joint, const std::vector<int>& o
   std::vector<Coordinate> sorted;
   std::map<int, int> moved;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    sorted.push_back(r.model.coordinates[static_cast<std::size_t>(order[k])]);
+    sorted.push_back(r.model.coordinates[at(order[k])]);
     moved[order[k]] = joint.coordinates[k];
   }
   for (std::size_t k = 0; k < order.size(); ++k) {
     r.coordinate_places[sorted[k].name] = joint.coordinates[k];
-    r.model.coordinates[static_cast<std::size_t>(joint.coordinates[k])] = sorted[k];
+    r.model.coordinates[at(joint.coordinates[k])] = sorted[k];
   }
   for (auto* axes : {&joint.rotation, &joint.translation}) {
     for (TransformAxis& axis : *axes) {
@@ -140,14 +135,14 @@ void set_custom_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
   reorder_coordinates(r, joint, order);
   const Mat3 axes = (Mat3() << joint.rotation[0].axis, joint.rotation[1].axis, joint.rotation[2].axis).finished();
   if (axes.col(0).cross(axes.col(1)).norm() < 1e-5 || axes.col(1).cross(axes.col(2)).norm() < 1e-5) {
-    r.xml.fail(node, fmt::format("joint '{}': two successive axes of rotation are parallel", joint.name));
+    r.xml.fail(node, "joint '{}': two successive axes of rotation are parallel", joint.name);
   }
 }
 
 void need_coordinates(const OsimReading& r, pugi::xml_node node, const Joint& joint, std::size_t count) {
   if (joint.coordinates.size() == count) return;
-  r.xml.fail(node, fmt::format("joint '{}' ({}): expected {} coordinates, found {}", joint.name, joint.class_name,
-                               count, joint.coordinates.size()));
+  r.xml.fail(node, "joint '{}' ({}): expected {} coordinates, found {}", joint.name, joint.class_name, count,
+             joint.coordinates.size());
 }
 
 /// Reads the length of a ConstantCurvatureJoint; returns its neutral angles about x, z, y [rad].
@@ -155,73 +150,63 @@ Vec3 read_rod(OsimReading& r, pugi::xml_node node, Joint& joint) {
   const Vec3 neutral_rad = r.xml.vec3(node, "neutral_angle_x_z_y", Vec3::Zero());
   joint.rod_length_m = r.xml.number(node, "length", 1.0);
   if (!std::isfinite(*joint.rod_length_m) || !neutral_rad.allFinite())
-    r.xml.fail(node, fmt::format("joint '{}': length or neutral angle is not finite", joint.name));
-  for (const int c : joint.coordinates) r.model.coordinates[static_cast<std::size_t>(c)].clamped = true;
-  r.model.notes.push_back(
-      fmt::format("joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move "
-                  "its end along the arc; OpenSim gives its velocities in the axes of the child and leaves a "
-                  "part of its accelerations out, so that moment arms, inverse dynamics and static "
-                  "optimization differ there",
-                  joint.name));
+    r.xml.fail(node, "joint '{}': length or neutral angle is not finite", joint.name);
+  for (const int c : joint.coordinates) r.model.coordinates[at(c)].clamped = true;
+  r.note(
+      "joint '{}' (ConstantCurvatureJoint): its speeds are the rates of its coordinates and move its end along the "
+      "arc; OpenSim gives its velocities in the axes of the child and leaves a part of its accelerations out, so that "
+      "moment arms, inverse dynamics and static optimization differ there",
+      joint.name);
   return neutral_rad;
 }
 
-/// Gives a joint of a fixed kind its axes; false if the kind is not known.
-bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
-  for (std::size_t k = 0; k < 3; ++k) {
+/// The axes of the coordinates of a joint class, in their order: those of the rotations, then those of the
+/// translations.
+struct ClassAxes {
+  std::string_view class_name, rotations, translations;
+};
+constexpr ClassAxes kClassAxes[] = {{"WeldJoint", "", ""},         {"PinJoint", "z", ""},
+                                    {"SliderJoint", "", "x"},      {"UniversalJoint", "xy", ""},
+                                    {"PlanarJoint", "z", "xy"},    {"BallJoint", "xyz", ""},
+                                    {"GimbalJoint", "xyz", ""},    {"FreeJoint", "xyz", "xyz"},
+                                    {"EllipsoidJoint", "xyz", ""}, {"ConstantCurvatureJoint", "xzy", ""}};
+
+/// Lets the coordinates of a joint, in their order, drive its rotations and translations about and along these axes;
+/// the other axes rest.
+void drive_axes(Joint& joint, std::string_view rotations, std::string_view translations) {
+  for (std::size_t k = 0; k < 3; ++k)
     joint.rotation[k].axis = joint.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
-  }
-  const std::string& kind = joint.class_name;
-  std::size_t used = 0;
-  const auto drive = [&](TransformAxis& axis, Eigen::Index direction) {
-    axis.axis = Vec3::Unit(direction);
-    axis.coordinate = joint.coordinates[used++];
-    axis.function = Linear{1.0, 0.0};
-  };
+  auto coordinate = joint.coordinates.begin();
+  for (std::size_t k = 0; k < rotations.size(); ++k)
+    joint.rotation[k] = {Vec3::Unit(rotations[k] - 'x'), *coordinate++, Linear{1.0, 0.0}};
+  for (std::size_t k = 0; k < translations.size(); ++k)
+    joint.translation[k] = {Vec3::Unit(translations[k] - 'x'), *coordinate++, Linear{1.0, 0.0}};
+}
+
+/// Gives a joint its axes; false if the class is not known.
+bool set_axes(OsimReading& r, pugi::xml_node node, Joint& joint) {
+  drive_axes(joint, "", "");
+  const std::string_view kind = joint.class_name;
   if (kind == "CustomJoint") {
     set_custom_axes(r, node, joint);
-  } else if (kind == "WeldJoint") {
-    need_coordinates(r, node, joint, 0);
-  } else if (kind == "PinJoint") {
-    need_coordinates(r, node, joint, 1);
-    drive(joint.rotation[0], 2);
-    joint.rotation[2].axis = Vec3::UnitX();
-  } else if (kind == "SliderJoint") {
-    need_coordinates(r, node, joint, 1);
-    drive(joint.translation[0], 0);
-  } else if (kind == "UniversalJoint") {
-    need_coordinates(r, node, joint, 2);
-    drive(joint.rotation[0], 0);
-    drive(joint.rotation[1], 1);
-  } else if (kind == "PlanarJoint") {
-    need_coordinates(r, node, joint, 3);
-    drive(joint.rotation[0], 2);
-    joint.rotation[2].axis = Vec3::UnitX();
-    drive(joint.translation[0], 0);
-    drive(joint.translation[1], 1);
-  } else if (kind == "BallJoint" || kind == "GimbalJoint" || kind == "FreeJoint" || kind == "EllipsoidJoint") {
-    need_coordinates(r, node, joint, kind == "FreeJoint" ? 6 : 3);
-    for (std::size_t k = 0; k < 3; ++k) drive(joint.rotation[k], static_cast<Eigen::Index>(k));
-    if (kind == "FreeJoint") {
-      for (std::size_t k = 0; k < 3; ++k) drive(joint.translation[k], static_cast<Eigen::Index>(k));
-    }
-    if (kind == "EllipsoidJoint") joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
-  } else if (kind == "ConstantCurvatureJoint") {
-    need_coordinates(r, node, joint, 3);
+    return true;
+  }
+  const auto* known = std::ranges::find(kClassAxes, kind, &ClassAxes::class_name);
+  if (known == std::end(kClassAxes)) return false;
+  need_coordinates(r, node, joint, known->rotations.size() + known->translations.size());
+  drive_axes(joint, known->rotations, known->translations);
+  if (known->rotations == "z") joint.rotation[2].axis = Vec3::UnitX();  // all three axes differ
+  if (kind == "EllipsoidJoint") joint.ellipsoid_radii_m = r.xml.vec3(node, "radii_x_y_z", Vec3::Ones());
+  if (kind == "ConstantCurvatureJoint") {
     const Vec3 neutral_rad = read_rod(r, node, joint);
-    constexpr std::array<Eigen::Index, 3> kOrder{0, 2, 1};  // x, z, y
-    for (std::size_t k = 0; k < 3; ++k) {
-      drive(joint.rotation[k], kOrder[k]);
+    for (std::size_t k = 0; k < 3; ++k)
       joint.rotation[k].function = Linear{1.0, neutral_rad[static_cast<Eigen::Index>(k)]};
-    }
-  } else {
-    return false;
   }
   if (kind == "BallJoint" || kind == "FreeJoint" || kind == "EllipsoidJoint") {
-    r.model.notes.push_back(
-        fmt::format("joint '{}' ({}): its speeds are the rates of its coordinates; OpenSim's tools "
-                    "take them for angular velocities, which --compat opensim reproduces",
-                    joint.name, kind));
+    r.note(
+        "joint '{}' ({}): its speeds are the rates of its coordinates; OpenSim's tools take them for angular "
+        "velocities, which --compat opensim reproduces",
+        joint.name, kind);
   }
   return true;
 }
@@ -238,7 +223,7 @@ void set_motion_types(OsimReading& r, const Joint& joint) {
       if (line != nullptr && std::abs(std::abs(line->slope * axis.function.scale) - 1.0) < 1e-12)
         type = MotionType::rotational;
     }
-    r.model.coordinates[static_cast<std::size_t>(index)].motion = type;
+    r.model.coordinates[at(index)].motion = type;
   }
 }
 
@@ -259,10 +244,7 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   ellipsoid.X_BM = Pose{quarter, Vec3::Zero()};
   ellipsoid.coordinates.resize(3);
   ellipsoid.ellipsoid_radii_m = Vec3(radii.y(), radii.x(), radii.z());
-  for (std::size_t k = 0; k < 3; ++k) {
-    ellipsoid.rotation[k] = {Vec3::Unit(static_cast<Eigen::Index>(k)), joint.coordinates[k], Linear{1.0, 0.0}};
-    ellipsoid.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
-  }
+  drive_axes(ellipsoid, "xyz", "");
   Joint hinge = joint;
   const Vec3 axis(-std::sin(winging_rad), std::cos(winging_rad), 0.0);
   const Pose at_axis{Mat3::Identity(), {origin[0], origin[1], 0.0}};
@@ -270,20 +252,16 @@ void add_scapulothoracic(OsimReading& r, pugi::xml_node node, Joint joint) {
   hinge.X_PF = at_axis;
   hinge.X_BM = joint.X_BM * at_axis;
   hinge.coordinates = {joint.coordinates[3]};
-  for (std::size_t k = 0; k < 3; ++k) {
-    hinge.rotation[k].axis = hinge.translation[k].axis = Vec3::Unit(static_cast<Eigen::Index>(k));
-  }
-  hinge.rotation[0] = {axis, joint.coordinates[3], Linear{1.0, 0.0}};
+  drive_axes(hinge, "x", "");
+  hinge.rotation[0].axis = axis;
   hinge.rotation[1].axis = Vec3::UnitZ();
   hinge.rotation[2].axis = axis.cross(Vec3::UnitZ());
-  for (const int c : joint.coordinates)
-    r.model.coordinates[static_cast<std::size_t>(c)].motion = MotionType::rotational;
-  r.model.notes.push_back(
-      fmt::format("joint '{}' (ScapulothoracicJoint) is an ellipsoid joint and a hinge with the massless body "
-                  "'{}_winging_base' between; its speeds are the rates of its coordinates; OpenSim's tools "
-                  "take "
-                  "them for angular velocities, which --compat opensim reproduces",
-                  joint.name, joint.name));
+  for (const int c : joint.coordinates) r.model.coordinates[at(c)].motion = MotionType::rotational;
+  r.note(
+      "joint '{}' (ScapulothoracicJoint) is an ellipsoid joint and a hinge with the massless body '{}_winging_base' "
+      "between; its speeds are the rates of its coordinates; OpenSim's tools take them for angular velocities, which "
+      "--compat opensim reproduces",
+      joint.name, joint.name);
   r.model.joints.push_back(std::move(ellipsoid));
   r.model.joints.push_back(std::move(hinge));
 }
@@ -297,7 +275,7 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     const bool rounded = r.compat.six_digit_offsets;
     const std::string parent = r.xml.word(node, "parent_body");
     if (parent.empty()) {
-      r.xml.fail(node, fmt::format("joint '{}' has no <parent_body>; expected the name of a body", joint.name));
+      r.xml.fail(node, "joint '{}' has no <parent_body>; expected the name of a body", joint.name);
     }
     joint.parent = resolve_frame(r, node, parent, "").body;
     joint.X_PF = pose_of(r, node, "location_in_parent", "orientation_in_parent", rounded);
@@ -323,8 +301,7 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     std::swap(joint.X_PF, joint.X_BM);
   }
   if (joint.parent == joint.child) {
-    r.xml.fail(node, fmt::format("joint '{}' connects body '{}' with itself", joint.name,
-                                 r.model.bodies[static_cast<std::size_t>(joint.parent)].name));
+    r.xml.fail(node, "joint '{}' connects body '{}' with itself", joint.name, r.model.bodies[at(joint.parent)].name);
   }
   for (const auto element : coordinates_of(node)) {
     joint.coordinates.push_back(static_cast<int>(r.model.coordinates.size()));
@@ -335,10 +312,8 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
     return;
   }
   if (!set_axes(r, node, joint)) {
-    r.model.unsupported.push_back(
-        fmt::format("joint '{}' of kind {} is held at its default position; body '{}' and what "
-                    "hangs on it are misplaced",
-                    joint.name, joint.class_name, r.model.bodies[static_cast<std::size_t>(joint.child)].name));
+    r.leave_out("joint '{}' of kind {} is held at its default position; body '{}' and what hangs on it are misplaced",
+                joint.name, joint.class_name, r.model.bodies[at(joint.child)].name);
   }
   set_motion_types(r, joint);
   r.model.joints.push_back(std::move(joint));
@@ -346,21 +321,17 @@ void read_joint(OsimReading& r, pugi::xml_node node, const std::string& path, Bo
 
 void add_free_joint(OsimReading& r, BodyIndex body) {
   Joint joint;
-  joint.name = r.model.bodies[static_cast<std::size_t>(body)].name + "_free";
+  joint.name = r.model.bodies[at(body)].name + "_free";
   joint.class_name = "FreeJoint";
   joint.child = body;
   for (std::size_t k = 0; k < 6; ++k) {
     Coordinate c;
     c.name = fmt::format("{}_coord_{}", joint.name, k);
     c.motion = k < 3 ? MotionType::rotational : MotionType::translational;
-    TransformAxis& axis = k < 3 ? joint.rotation[k] : joint.translation[k - 3];
-    axis = {Vec3::Unit(static_cast<Eigen::Index>(k % 3)), static_cast<int>(r.model.coordinates.size()),
-            Linear{1.0, 0.0}};
-    joint.coordinates.push_back(axis.coordinate);
-    r.add(std::move(c));
+    joint.coordinates.push_back(r.add(std::move(c)));
   }
-  r.model.notes.push_back(
-      fmt::format("body '{}' has no joint; it is free to move", r.model.bodies[static_cast<std::size_t>(body)].name));
+  drive_axes(joint, "xyz", "xyz");
+  r.note("body '{}' has no joint; it is free to move", r.model.bodies[at(body)].name);
   r.model.joints.push_back(std::move(joint));
 }
 
@@ -380,11 +351,10 @@ void find_shared_names(OsimReading& r, pugi::xml_node model) {
   for (const auto& [name, joints] : joints_of) {
     if (joints.size() < 2) continue;
     r.shared_coordinate_names.insert(name);
-    r.model.notes.push_back(
-        fmt::format("{} joints have a coordinate '{}'; here their names are {}_{} to {}_{} (columns "
-                    "of files may also name them /jointset/{}/{}); where the model names no joint, the first "
-                    "is meant, as in OpenSim",
-                    joints.size(), name, joints.front(), name, joints.back(), name, joints.front(), name));
+    r.note(
+        "{} joints have a coordinate '{}'; here their names are {}_{} to {}_{} (columns of files may also name them "
+        "/jointset/{}/{}); where the model names no joint, the first is meant, as in OpenSim",
+        joints.size(), name, joints.front(), name, joints.back(), name, joints.front(), name);
   }
 }
 
@@ -400,12 +370,12 @@ void read_joints(OsimReading& r, pugi::xml_node model) {
       const auto index = r.find_body(OsimXml::name_of(body));
       if (!index || *index == 0) continue;
       read_joint(r, node, {}, *index);
-      has_joint[static_cast<std::size_t>(*index)] = true;  // a reversed joint has it as the parent
+      has_joint[at(*index)] = true;  // a reversed joint has it as the parent
     }
   }
   if (!r.is_old()) return;
   has_joint.resize(r.model.bodies.size(), false);
-  for (const Joint& joint : r.model.joints) has_joint[static_cast<std::size_t>(joint.child)] = true;
+  for (const Joint& joint : r.model.joints) has_joint[at(joint.child)] = true;
   for (std::size_t b = 1; b < bodies; ++b) {
     if (!has_joint[b]) add_free_joint(r, static_cast<BodyIndex>(b));
   }

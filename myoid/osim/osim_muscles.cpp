@@ -1,5 +1,3 @@
-#include "myoid/osim/osim_muscles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,9 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "myoid/core/error.h"
-#include "myoid/osim/osim_functions.h"
-#include "myoid/osim/osim_paths.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -118,14 +114,12 @@ void note_classes(BodyModel& model) {
     constexpr std::size_t kNamed = 3;
     const std::vector<std::string> named(
         muscles.begin(), muscles.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, muscles.size())));
-    model.notes.push_back(
-        fmt::format("{} {} of class {} ({}{}): identification starts from the numbers that the "
-                    "class shares with "
-                    "Thelen's; {}",
-                    muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
-                    named.size() < muscles.size() ? ", ..." : "",
-                    own ? "so, run-tool and simulate use the class's own curves"
-                        : "so, run-tool and simulate take Thelen's curves with their numbers"));
+    model.notes.push_back(fmt::format(
+        "{} {} of class {} ({}{}): identification starts from the numbers that the class shares with Thelen's; {}",
+        muscles.size(), muscles.size() == 1 ? "muscle is" : "muscles are", name, fmt::join(named, ", "),
+        named.size() < muscles.size() ? ", ..." : "",
+        own ? "so, run-tool and simulate use the class's own curves"
+            : "so, run-tool and simulate take Thelen's curves with their numbers"));
   }
 }
 
@@ -139,7 +133,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   muscle.name = OsimXml::name_of(node);
   muscle.class_name = node.name();
   if (muscle.name.empty()) r.xml.fail(node, "a muscle has no name");
-  if (r.model.find_muscle(muscle.name)) r.xml.fail(node, fmt::format("two muscles are named '{}'", muscle.name));
+  if (r.model.find_muscle(muscle.name)) r.xml.fail(node, "two muscles are named '{}'", muscle.name);
   muscle.applies_force = is_enabled(r, node, "appliesForce");
   const bool thelen = muscle.class_name.starts_with("Thelen2003Muscle");
   const bool de_groote = muscle.class_name.starts_with("DeGrooteFregly2016");
@@ -149,7 +143,7 @@ Muscle read_muscle(OsimReading& r, pugi::xml_node node) {
   const auto set = [&](const char* name, double& value) {
     value = r.xml.number(node, name, value);
     if (!std::isfinite(value) && std::string_view(name) != "min_control" && std::string_view(name) != "max_control")
-      r.xml.fail(node, fmt::format("muscle '{}': <{}> is not finite", muscle.name, name));
+      r.xml.fail(node, "muscle '{}': <{}> is not finite", muscle.name, name);
   };
   if (!thelen) {
     p.activation_time_s = de_groote ? 0.015 : 0.01;

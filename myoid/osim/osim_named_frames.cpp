@@ -2,8 +2,6 @@
 
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_frames.h"
@@ -25,20 +23,16 @@ pugi::xml_node element_named(pugi::xml_node node, const char* kind, const std::s
 }
 
 void add_sensor(pugi::xml_node model, pugi::xml_node carrier, const SensorPlace& sensor) {
-  auto components = carrier.child("components");
-  if (!components) components = carrier.append_child("components");
-  append_frame(components, sensor.name, "..", numbers(sensor.p), numbers(sensor.angles_rad));
-  auto own = model.child("components");
-  if (!own) own = model.append_child("components");
-  auto imu = own.append_child("IMU");
-  imu.append_attribute("name").set_value(sensor.name.c_str());
+  append_frame(child_or_new(carrier, "components"), sensor.name, "..", numbers(sensor.p), numbers(sensor.angles_rad));
+  auto imu = child_or_new(model, "components").append_child("IMU");
+  set_attribute(imu, "name", sensor.name);
   append_text(imu, "socket_frame", sensor.carrier.path + "/" + sensor.name);
 }
 
 }  // namespace
 
 std::map<std::string, NamedFrame> named_frames(std::string_view text, const std::filesystem::path& path) {
-  OsimXml xml(text, path);
+  OsimXml xml(std::string(text), path);
   const auto model = xml.root().child("Model");
   xml.set_prototypes(model.child("defaults"));
   OsimReading reading{xml};
@@ -60,22 +54,20 @@ std::map<std::string, NamedFrame> named_frames(std::string_view text, const std:
 std::string with_sensors(std::string_view text,
                          const std::filesystem::path& path,
                          const std::vector<SensorPlace>& sensors) {
-  const OsimXml source(text, path);
+  const OsimXml source(std::string(text), path);
   pugi::xml_document document;
   (void)document.load_buffer(text.data(), text.size(),
                              pugi::parse_default | pugi::parse_comments | pugi::parse_declaration);
   const auto model = document.child("OpenSimDocument").child("Model");
   for (const SensorPlace& sensor : sensors) {
     if (auto frame = element_named(model, "PhysicalOffsetFrame", sensor.name)) {
-      auto orientation = frame.child("orientation");
-      if (!orientation) orientation = frame.append_child("orientation");
-      orientation.text().set(numbers(sensor.angles_rad).c_str());
+      child_or_new(frame, "orientation").text().set(numbers(sensor.angles_rad).c_str());
       continue;
     }
     const std::string name = sensor.carrier.path.substr(sensor.carrier.path.find_last_of('/') + 1);
     auto carrier = element_named(model, "Body", name);
     if (!carrier) carrier = element_named(model, "PhysicalOffsetFrame", name);
-    if (!carrier) source.fail(source.root(), fmt::format("there is no body or frame '{}'", name));
+    if (!carrier) source.fail(source.root(), "there is no body or frame '{}'", name);
     add_sensor(model, carrier, sensor);
   }
   std::ostringstream out;

@@ -1,26 +1,21 @@
-#include "myoid/osim/osim_paths.h"
-
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/text_file.h"
-#include "myoid/osim/osim_functions.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
 
 Quadrant read_quadrant(const OsimReading& r, pugi::xml_node node) {
-  std::string text = r.xml.word(node, "quadrant");
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  std::string text = lower_case(r.xml.word(node, "quadrant"));
   if (text.empty() || text == "all" || text == "unassigned") return 0;
   const bool negative = text.front() == '-';
   if (negative || text.front() == '+') text.erase(0, 1);
   if (text.size() != 1 || text[0] < 'x' || text[0] > 'z') {
-    r.xml.fail(
-        node, fmt::format("<quadrant>: expected all, x, -x, y, -y, z or -z, found '{}'", r.xml.word(node, "quadrant")));
+    r.xml.fail(node, "<quadrant>: expected all, x, -x, y, -y, z or -z, found '{}'", r.xml.word(node, "quadrant"));
   }
   const int axis = text[0] - 'x' + 1;
   return negative ? -axis : axis;
@@ -44,12 +39,11 @@ void read_wraps_of(OsimReading& r, pugi::xml_node holder, const FixedFrame& fram
     } else if (kind == "WrapEllipsoid") {
       const Vec3 radii = r.xml.vec3(node, "dimensions", Vec3::Constant(0.05));
       if (!(radii.minCoeff() > 0.0) || !radii.allFinite())
-        r.xml.fail(node, fmt::format("wrap object '{}': expected <dimensions> above 0", wrap.name));
+        r.xml.fail(node, "wrap object '{}': expected <dimensions> above 0", wrap.name);
       wrap.shape = EllipsoidShape{radii};
     } else {
       wrap.active = false;
-      r.model.unsupported.push_back(
-          fmt::format("wrap object '{}' of kind {}: paths run straight through it", wrap.name, kind));
+      r.leave_out("wrap object '{}' of kind {}: paths run straight through it", wrap.name, kind);
     }
     r.model.wrap_objects.push_back(std::move(wrap));
   }
@@ -62,7 +56,7 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
   const char* old_coordinates[3] = {"XCoordinate", "YCoordinate", "ZCoordinate"};
   for (std::size_t k = 0; k < 3; ++k) {
     auto function = function_property(r, node, fmt::format("{}_location", axes[k]).c_str());
-    if (!function) function = function_in(r, node.child(old_axes[k]));
+    if (!function) function = function_at(r, OsimXml::first_element(node.child(old_axes[k])));
     if (!function) continue;
     moving.location[k] = *function;
     const std::string name = fmt::format("{}_coordinate", axes[k]);
@@ -71,10 +65,8 @@ PathPoint::Moving read_moving(OsimReading& r, pugi::xml_node node) {
     if (target.empty()) continue;
     const int coordinate = coordinate_named(r, node, target);
     if (moving.coordinate >= 0 && coordinate != moving.coordinate) {
-      r.xml.fail(node, fmt::format("moving point '{}' depends on two coordinates, '{}' and '{}'; "
-                                   "one is expected",
-                                   OsimXml::name_of(node),
-                                   r.model.coordinates[static_cast<std::size_t>(moving.coordinate)].name, target));
+      r.xml.fail(node, "moving point '{}' depends on two coordinates, '{}' and '{}'; one is expected",
+                 OsimXml::name_of(node), r.model.coordinates[at(moving.coordinate)].name, target);
     }
     moving.coordinate = coordinate;
   }
@@ -94,7 +86,7 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
   }
   const bool attachment = !r.xml.property(node, "location") && node.child("attachment");
   point.p_BP = frame.X_BF * r.xml.vec3(node, attachment ? "attachment" : "location", Vec3::Zero());
-  if (!point.p_BP.allFinite()) r.xml.fail(node, fmt::format("path point '{}': its location is not finite", point.name));
+  if (!point.p_BP.allFinite()) r.xml.fail(node, "path point '{}': its location is not finite", point.name);
   if (kind == "ConditionalPathPoint" || kind == "MuscleViaPoint") {
     PathPoint::Condition condition;
     std::string target = socket(r, node, "coordinate", "coordinate");
@@ -108,15 +100,9 @@ PathPoint read_point(OsimReading& r, pugi::xml_node node, const std::string& own
     }
     point.condition = condition;
   } else if (kind != "PathPoint" && kind != "MusclePoint") {
-    r.model.unsupported.push_back(
-        fmt::format("path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind));
+    r.leave_out("path of '{}': point '{}' of kind {} is taken as fixed", owner, point.name, kind);
   }
   return point;
-}
-
-pugi::xml_node either(pugi::xml_node parent, const char* name, const char* old_name) {
-  const auto child = parent.child(name);
-  return child ? child : parent.child(old_name);
 }
 
 PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& owner) {
@@ -125,7 +111,7 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
   for (std::size_t w = 0; w < r.model.wrap_objects.size() && wrap.wrap_object < 0; ++w) {
     if (r.model.wrap_objects[w].name == name) wrap.wrap_object = static_cast<int>(w);
   }
-  if (wrap.wrap_object < 0) r.xml.fail(node, fmt::format("path of '{}': there is no wrap object '{}'", owner, name));
+  if (wrap.wrap_object < 0) r.xml.fail(node, "path of '{}': there is no wrap object '{}'", owner, name);
   const std::string method = r.xml.word(node, "method");
   using recording::equal_ignoring_case;
   if (equal_ignoring_case(method, "midpoint")) {
@@ -133,7 +119,7 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
   } else if (equal_ignoring_case(method, "axial")) {
     wrap.method = WrapMethod::axial;
   } else if (!method.empty() && !equal_ignoring_case(method, "hybrid") && !equal_ignoring_case(method, "Unassigned")) {
-    r.xml.fail(node, fmt::format("<method>: expected hybrid, midpoint or axial, found '{}'", method));
+    r.xml.fail(node, "<method>: expected hybrid, midpoint or axial, found '{}'", method);
   }
   if (const auto range = r.xml.property(node, "range")) {
     const auto v = r.xml.numbers(range);
@@ -141,7 +127,7 @@ PathWrap read_path_wrap(OsimReading& r, pugi::xml_node node, const std::string& 
       wrap.range_start = static_cast<int>(v[0]);
       wrap.range_end = static_cast<int>(v[1]);
     } else if (!v.empty()) {
-      r.xml.fail(range, fmt::format("<range>: expected two numbers, found {}", v.size()));
+      r.xml.fail(range, "<range>: expected two numbers, found {}", v.size());
     }
   }
   return wrap;
@@ -153,7 +139,7 @@ std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node n
   for (const std::string& name : r.xml.words(node, "coordinates"))
     path.coordinates.push_back(coordinate_named(r, node, name));
   const auto count = static_cast<int>(path.coordinates.size());
-  auto length = multi_function_property(r, node, "length_function", count);
+  auto length = multi_function(r, function_node(r, node, "length_function"), count);
   if (!length || count == 0) return std::nullopt;
   path.length = *std::move(length);
   const auto arms = r.xml.property(node, "moment_arm_functions");
@@ -164,8 +150,8 @@ std::optional<FunctionPath> function_path(const OsimReading& r, pugi::xml_node n
     path.moment_arms.push_back(*std::move(arm));
   }
   if (!path.moment_arms.empty() && path.moment_arms.size() != path.coordinates.size()) {
-    r.xml.fail(node, fmt::format("<moment_arm_functions>: {} functions for {} coordinates", path.moment_arms.size(),
-                                 path.coordinates.size()));
+    r.xml.fail(node, "<moment_arm_functions>: {} functions for {} coordinates", path.moment_arms.size(),
+               path.coordinates.size());
   }
   return path;
 }
@@ -177,7 +163,7 @@ void read_wrap_objects(OsimReading& r, pugi::xml_node model) {
   // A path refers to the first object of a name over the bodies in tree order.
   std::vector<pugi::xml_node> nodes(r.model.bodies.size());
   for (const auto& [node, path] : components_of(model, "BodySet", "Body")) {
-    if (const auto body = r.find_body(OsimXml::name_of(node))) nodes[static_cast<std::size_t>(*body)] = node;
+    if (const auto body = r.find_body(OsimXml::name_of(node))) nodes[at(*body)] = node;
   }
   if (nodes[0]) read_wraps_of(r, nodes[0], {});
   for (std::size_t b = 1; b < nodes.size(); ++b) {
@@ -209,15 +195,14 @@ MusclePath read_path(OsimReading& r, pugi::xml_node node) {
   pugi::xml_node geometry = node.child("GeometryPath");
   if (!geometry) geometry = OsimXml::first_element(node.child("path"));
   if (!geometry && (node.child("MusclePointSet") || node.child("PathPointSet"))) geometry = node;
-  if (!geometry) r.xml.fail(node, fmt::format("{} '{}' has no <GeometryPath>", node.name(), owner));
+  if (!geometry) r.xml.fail(node, "{} '{}' has no <GeometryPath>", node.name(), owner);
   MusclePath path;
-  for (const auto point : OsimXml::objects(either(geometry, "PathPointSet", "MusclePointSet")))
+  for (const auto point : OsimXml::objects(either_child(geometry, "PathPointSet", "MusclePointSet")))
     path.points.push_back(read_point(r, point, owner));
-  for (const auto wrap : OsimXml::objects(either(geometry, "PathWrapSet", "MuscleWrapSet")))
+  for (const auto wrap : OsimXml::objects(either_child(geometry, "PathWrapSet", "MuscleWrapSet")))
     path.wraps.push_back(read_path_wrap(r, wrap, owner));
   if (path.points.size() < 2) {
-    r.xml.fail(geometry, fmt::format("{} '{}' has {} path points; at least two are needed", node.name(), owner,
-                                     path.points.size()));
+    r.xml.fail(geometry, "{} '{}' has {} path points; at least two are needed", node.name(), owner, path.points.size());
   }
   return path;
 }

@@ -9,12 +9,8 @@
 #include "myoid/core/error.h"
 #include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
-#include "myoid/osim/osim_constraints.h"
-#include "myoid/osim/osim_forces.h"
 #include "myoid/osim/osim_frames.h"
-#include "myoid/osim/osim_joints.h"
-#include "myoid/osim/osim_muscles.h"
-#include "myoid/osim/osim_paths.h"
+#include "myoid/osim/osim_parts.h"
 
 namespace myoid::model {
 namespace {
@@ -25,7 +21,7 @@ void read_marker(OsimReading& r, pugi::xml_node node, const std::string& path) {
   const FixedFrame frame = frame_of(r, node, "parent_frame", path);
   marker.body = frame.body;
   marker.p_BM = frame.X_BF * r.xml.vec3(node, "location", Vec3::Zero());
-  if (!marker.p_BM.allFinite()) r.xml.fail(node, fmt::format("marker '{}': its location is not finite", marker.name));
+  if (!marker.p_BM.allFinite()) r.xml.fail(node, "marker '{}': its location is not finite", marker.name);
   r.model.markers.push_back(std::move(marker));
 }
 
@@ -55,17 +51,15 @@ void read_set(OsimReading& r, pugi::xml_node set, const Read& read) {
   const std::string file = file_of(set);
   if (file.empty()) return read(r, set);
   const auto named = recording::find_named_file(r.xml.path().parent_path(), file);
-  if (!named.note.empty()) r.model.notes.push_back(fmt::format("<{}>: {}", set.name(), named.note));
+  if (!named.note.empty()) r.note("<{}>: {}", set.name(), named.note);
   const std::filesystem::path& path = named.path;
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path, OsimXml::Root::any);
+  const OsimXml xml(recording::read_text_file(path), path, OsimXml::Root::any);
   const auto other = xml.root().child(set.name());
-  if (!other) xml.fail(xml.root(), fmt::format("expected a <{}>", set.name()));
+  if (!other) xml.fail(xml.root(), "expected a <{}>", set.name());
   OsimReading inner{xml, r.compat, std::move(r.model), r.frames};
   read(inner, other);
   r.model = std::move(inner.model);
-  for (const std::string& sentence : xml.defaulted())
-    r.model.notes.push_back(fmt::format("{}: {}", path.string(), sentence));
+  for (const std::string& sentence : xml.defaulted()) r.note("{}: {}", path.string(), sentence);
 }
 
 /// Lists other sets in files of their own, so that their absence is reported.
@@ -74,7 +68,7 @@ void list_external_sets(OsimReading& r, pugi::xml_node model) {
     const std::string file = file_of(node);
     const std::string_view set = node.name();
     if (!file.empty() && set != "MarkerSet" && set != "ForceSet") {
-      r.model.unsupported.push_back(fmt::format("<{}> is in another file, '{}', which is not read", node.name(), file));
+      r.leave_out("<{}> is in another file, '{}', which is not read", node.name(), file);
     }
   }
 }
@@ -82,15 +76,14 @@ void list_external_sets(OsimReading& r, pugi::xml_node model) {
 }  // namespace
 
 BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, const OsimOptions& options) {
-  OsimXml xml(text, path);
+  OsimXml xml(std::string(text), path);
   auto model = xml.root().child("Model");
   if (!model) {
     xml.fail(xml.root(), "the document has no <Model>; this is another kind of OpenSim file (a set-up?)");
   }
   if (xml.version() < 10600) {
-    xml.fail(xml.root(), fmt::format("document version {} is too old (before 10600): open the model "
-                                     "in OpenSim and save it again",
-                                     xml.version()));
+    xml.fail(xml.root(), "document version {} is too old (before 10600): open the model in OpenSim and save it again",
+             xml.version());
   }
   xml.set_prototypes(model.child("defaults"));
   OsimReading r{xml, options.compat, {}, {}};
@@ -104,10 +97,10 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
     xml.fail(model, "the model has no <BodySet>, and no <Body> among its components");
   read_bodies(r, skeleton);
   read_joints(r, skeleton);
-  read_set(r, skeleton.child("MarkerSet") ? skeleton.child("MarkerSet") : model.child("MarkerSet"), read_markers);
+  read_set(r, set_of(skeleton, model, "MarkerSet"), read_markers);
   read_wrap_objects(r, skeleton);
-  read_set(r, model.child("ForceSet") ? model.child("ForceSet") : model.child("ActuatorSet"), read_forces);
-  read_constraints(r, skeleton.child("ConstraintSet") ? skeleton.child("ConstraintSet") : model.child("ConstraintSet"));
+  read_set(r, either_child(model, "ForceSet", "ActuatorSet"), read_forces);
+  read_constraints(r, set_of(skeleton, model, "ConstraintSet"));
   read_loose_components(r, model);
   note_classes(r.model);
   for (const std::string& sentence : xml.defaulted()) r.model.notes.push_back(sentence);
@@ -119,13 +112,11 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
 }
 
 BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& options) {
-  const std::string text = recording::read_text_file(path);
-  return parse_osim(text, path, options);
+  return parse_osim(recording::read_text_file(path), path, options);
 }
 
 BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
-  const std::string text = recording::read_text_file(path);
-  const OsimXml xml(text, path);
+  const OsimXml xml(recording::read_text_file(path), path);
   const auto set = xml.root().child("ForceSet");
   if (!set) xml.fail(xml.root(), "expected a <ForceSet> in <OpenSimDocument>");
   OsimReading r{xml, model.compat, std::move(model), {}};
@@ -140,10 +131,10 @@ BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {
     }
   }
   if (!repeated.empty()) {
-    r.model.notes.push_back(
-        fmt::format("{}: the model has forces of these names already; as in OpenSim the model's "
-                    "own act and the file's are left out: {}",
-                    path.string(), repeated));
+    r.note(
+        "{}: the model has forces of these names already; as in OpenSim the model's own act and the file's are left "
+        "out: {}",
+        path.string(), repeated);
   }
   return finalize(std::move(r.model));
 }

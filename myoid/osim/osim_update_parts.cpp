@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_xml.h"
@@ -52,8 +51,7 @@ void update_switch(pugi::xml_node object) {
   const char* name = kind.ends_with("Constraint")                   ? "isEnforced"
                      : ends_with_any(kind, {"Controller", "Probe"}) ? "enabled"
                                                                     : "appliesForce";
-  const std::string text = child_text(object, "isDisabled");
-  const bool disabled = recording::equal_ignoring_case(text, "true") || text == "1";
+  const bool disabled = is_true(child_text(object, "isDisabled"));
   if (!object.child(name)) object.insert_child_before(name, old).text().set(disabled ? "false" : "true");
   object.remove_child(old);
 }
@@ -112,8 +110,7 @@ void update_path_point(pugi::xml_node point) {
 /// Turns two bodies, each with a place and a rotation, into two frames of the object.
 void bodies_to_frames(pugi::xml_node object) {
   if (!object.child("body_1") && !object.child("body_2")) return;
-  auto frames = object.child("frames");
-  if (!frames) frames = object.append_child("frames");
+  const auto frames = child_or_new(object, "frames");
   for (const std::string k : {"1", "2"}) {
     const auto take = [&](const std::string& property) {
       const std::string text = child_text(object, property.c_str());
@@ -149,11 +146,7 @@ void update_path_holder(pugi::xml_node force) {
     for (const char* set : {"PathPointSet", "PathWrapSet"})
       if (const auto child = force.child(set)) path.append_move(child);
   }
-  if (auto path = force.child("GeometryPath")) {
-    auto name = path.attribute("name");
-    if (!name) name = path.append_attribute("name");
-    name.set_value("path");
-  }
+  if (const auto path = force.child("GeometryPath")) set_attribute(path, "name", "path");
 }
 
 void update_force(pugi::xml_node object, int version) {
@@ -179,8 +172,7 @@ void update_force(pugi::xml_node object, int version) {
 
 void update_object(pugi::xml_node object, int version) {
   const std::string_view old_kind = object.name();
-  const auto renamed =
-      std::find_if(std::begin(kClasses), std::end(kClasses), [&](const Renaming& r) { return r.first == old_kind; });
+  const auto* renamed = std::ranges::find(kClasses, old_kind, &Renaming::first);
   if (renamed != std::end(kClasses)) object.set_name(renamed->second);
   const std::string_view kind = object.name();
   update_switch(object);
@@ -209,6 +201,8 @@ void rename_child(pugi::xml_node object, const char* old_name, const char* new_n
   if (auto child = object.child(old_name); child && !object.child(new_name)) child.set_name(new_name);
 }
 
+bool is_true(std::string_view text) { return recording::equal_ignoring_case(text, "true") || text == "1"; }
+
 std::string body_path(std::string_view name) {
   const std::string text(recording::trim(name));
   if (text.starts_with('/')) return text;
@@ -229,7 +223,7 @@ pugi::xml_node append_frame(pugi::xml_node parent,
                             const std::string& translation,
                             const std::string& orientation) {
   auto frame = parent.append_child("PhysicalOffsetFrame");
-  frame.append_attribute("name").set_value(name.c_str());
+  set_attribute(frame, "name", name);
   append_text(frame, "socket_parent", body);
   append_text(frame, "translation", translation.empty() ? "0 0 0" : translation);
   append_text(frame, "orientation", orientation.empty() ? "0 0 0" : orientation);
@@ -237,14 +231,9 @@ pugi::xml_node append_frame(pugi::xml_node parent,
 }
 
 void update_parts(pugi::xml_node document, int version) {
-  std::vector<pugi::xml_node> waiting{document};
-  while (!waiting.empty()) {
-    const pugi::xml_node node = waiting.back();
-    waiting.pop_back();
+  for_each_element(document, [&](pugi::xml_node node) {
     if (node.type() == pugi::node_element) update_object(node, version);
-    for (const auto child : node.children())
-      if (child.type() == pugi::node_element) waiting.push_back(child);
-  }
+  });
 }
 
 }  // namespace myoid::model

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <pugixml.hpp>
 
@@ -11,6 +12,21 @@ namespace myoid::model {
 /// other elements: names of classes and properties, switches, sockets of markers, path points, forces and constraints.
 void update_parts(pugi::xml_node document, int version);
 
+/// Visits an element (or document) and all elements below it; each before its children.
+template <typename Visit>
+void for_each_element(pugi::xml_node top, const Visit& visit) {
+  std::vector<pugi::xml_node> waiting{top};
+  while (!waiting.empty()) {
+    const pugi::xml_node node = waiting.back();
+    waiting.pop_back();
+    visit(node);
+    for (const auto child : node.children())
+      if (child.type() == pugi::node_element) waiting.push_back(child);
+  }
+}
+
+/// Returns true for the text of a flag that is set.
+[[nodiscard]] bool is_true(std::string_view text);
 /// Renames a child unless a child of the new name exists.
 void rename_child(pugi::xml_node object, const char* old_name, const char* new_name);
 /// Returns the path of a body by its name in an old document: "/bodyset/x", "/ground".

@@ -1,6 +1,5 @@
 #include "myoid/osim/osim_updater.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
 #include "myoid/files/text_file.h"
 #include "myoid/osim/osim_update_parts.h"
 #include "myoid/osim/osim_xml.h"
@@ -63,9 +61,9 @@ class ModelUpdate {
     auto set = model_.child("JointSet");
     if (!set) {
       set = model_.insert_child_after("JointSet", model_.child("BodySet"));
-      set.append_attribute("name").set_value("jointset");
+      set_attribute(set, "name", "jointset");
     }
-    return set.child("objects") ? set.child("objects") : set.append_child("objects");
+    return child_or_new(set, "objects");
   }
 
   [[nodiscard]] std::string digits(const std::string& text) const {
@@ -79,8 +77,6 @@ class ModelUpdate {
     }
     return result;
   }
-
-  static bool is_true(const std::string& text) { return recording::equal_ignoring_case(text, "true") || text == "1"; }
 
   /// Reverses a joint that moves its parent on its child, which documents until 30514 allow.
   static void reverse_sockets(pugi::xml_node joint) {
@@ -135,8 +131,7 @@ class ModelUpdate {
     if (child.empty()) child = take("child_body");
     if (child.empty()) child = body_of("socket_child_body");
     if (child.empty()) child = take("socket_child_frame");
-    if (parent.empty() || child.empty())
-      source_.fail(joint, fmt::format("joint '{}' does not name its parent and child", name));
+    if (parent.empty() || child.empty()) source_.fail(joint, "joint '{}' does not name its parent and child", name);
     std::string place_in_parent = digits(take("location_in_parent"));
     std::string turn_in_parent = digits(take("orientation_in_parent"));
     const bool in_child = static_cast<bool>(joint.child("location_in_child"));
@@ -157,8 +152,7 @@ class ModelUpdate {
       for (const auto node : nodes) coordinates.append_move(node);
       joint.remove_child(set);
     }
-    auto frames = joint.child("frames");
-    if (!frames) frames = joint.append_child("frames");
+    const auto frames = child_or_new(joint, "frames");
     append_frame(frames, last(parent), frame_path(parent), place_in_parent, turn_in_parent);
     append_frame(frames, last(child), frame_path(child), place, turn);
     update_axes(joint);
@@ -192,8 +186,7 @@ class ModelUpdate {
         const bool known = slots.contains(slot);
         auto axis = known ? transform.append_move(slots[slot]) : transform.append_child("TransformAxis");
         axis.set_name("TransformAxis");
-        if (!axis.attribute("name")) axis.append_attribute("name");
-        axis.attribute("name").set_value(slot.c_str());
+        set_attribute(axis, "name", slot);
         if (known) continue;
         append_text(axis, "axis", kAxes[k]);
         append_text(axis.append_child("function").append_child("Constant"), "value", "0");
@@ -216,15 +209,12 @@ class ModelUpdate {
       const std::string name = OsimXml::name_of(body);
       if (name == "ground" || has_joint_.contains(name)) continue;
       auto joint = joints_.append_child("FreeJoint");
-      joint.append_attribute("name").set_value((name + "_free").c_str());
+      set_attribute(joint, "name", name + "_free");
       append_text(joint, "socket_parent_frame", "ground_offset");
       append_text(joint, "socket_child_frame", name + "_offset");
       auto coordinates = joint.append_child("coordinates");
-      for (int k = 0; k < 6; ++k) {
-        coordinates.append_child("Coordinate")
-            .append_attribute("name")
-            .set_value(fmt::format("{}_free_coord_{}", name, k).c_str());
-      }
+      for (int k = 0; k < 6; ++k)
+        set_attribute(coordinates.append_child("Coordinate"), "name", fmt::format("{}_free_coord_{}", name, k));
       auto frames = joint.append_child("frames");
       append_frame(frames, "ground_offset", "/ground", {}, {});
       append_frame(frames, name + "_offset", body_path(name), {}, {});
@@ -235,7 +225,7 @@ class ModelUpdate {
     auto ground = model_.child("Ground");
     if (!ground) {
       ground = model_.insert_child_before("Ground", model_.child("BodySet"));
-      ground.append_attribute("name").set_value("ground");
+      set_attribute(ground, "name", "ground");
     }
     for (const char* part : {"attached_geometry", "components", "WrapObjectSet"})
       if (const auto child = body.child(part); child && !ground.child(part)) ground.append_move(child);
@@ -283,15 +273,11 @@ class ModelUpdate {
     for (std::string word; words >> word; w.push_back(word))
       placed = placed || std::strtod(word.c_str(), nullptr) != 0.0;
     if (placed && w.size() == 6) {
-      auto components = body.child("components");
-      if (!components) components = body.append_child("components");
-      holder = append_frame(components, fmt::format("{}_geom_frame_{}", name, number), "..",
+      holder = append_frame(child_or_new(body, "components"), fmt::format("{}_geom_frame_{}", name, number), "..",
                             w[3] + " " + w[4] + " " + w[5], w[0] + " " + w[1] + " " + w[2]);
     }
-    auto geometry = holder.child("attached_geometry");
-    if (!geometry) geometry = holder.append_child("attached_geometry");
-    auto mesh = geometry.append_child("Mesh");
-    mesh.append_attribute("name").set_value(fmt::format("{}_geom_{}", name, number).c_str());
+    auto mesh = child_or_new(holder, "attached_geometry").append_child("Mesh");
+    set_attribute(mesh, "name", fmt::format("{}_geom_{}", name, number));
     append_text(mesh, "socket_frame", "..");
     append_text(mesh, "scale_factors", product(scale, child_text(shape, "scale_factors")));
     auto look = mesh.append_child("Appearance");
@@ -333,33 +319,23 @@ void spread_defaults(pugi::xml_node holder) {
 /// Paths like /bodyset/femur begin with the names of the model's sets, which old files leave open.
 void name_sets(pugi::xml_node model, int old_version) {
   for (auto set : model.children()) {
-    std::string name = set.name();
-    if (!name.ends_with("Set")) continue;
-    for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    if (old_version >= 40000 && !OsimXml::name_of(set).empty()) continue;
-    if (!set.attribute("name")) set.append_attribute("name");
-    set.attribute("name").set_value(name.c_str());
+    if (!std::string_view(set.name()).ends_with("Set")) continue;
+    if (old_version < 40000 || OsimXml::name_of(set).empty()) set_attribute(set, "name", lower_case(set.name()));
   }
 }
 
-void drop_visible(pugi::xml_node node, int& count) {
-  std::vector<pugi::xml_node> waiting{node};
-  while (!waiting.empty()) {
-    const pugi::xml_node at = waiting.back();
-    waiting.pop_back();
-    while (at.child("VisibleObject")) {
-      pugi::xml_node(at).remove_child("VisibleObject");
-      ++count;
-    }
-    for (const auto child : at.children())
-      if (child.type() == pugi::node_element) waiting.push_back(child);
-  }
+int drop_visible(pugi::xml_node root) {
+  int count = 0;
+  for_each_element(root, [&](pugi::xml_node node) {
+    while (node.remove_child("VisibleObject")) ++count;
+  });
+  return count;
 }
 
 }  // namespace
 
 UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& path, const OsimUpdateOptions& options) {
-  const OsimXml source(text, path, OsimXml::Root::any);
+  const OsimXml source(std::string(text), path, OsimXml::Root::any);
   UpdatedOsim result;
   result.old_version = source.version();
   pugi::xml_document document;
@@ -385,16 +361,13 @@ UpdatedOsim updated_osim(std::string_view text, const std::filesystem::path& pat
       }
     }
   }
-  int looks = 0;
-  drop_visible(root, looks);
-  if (looks > 0) {
+  if (const int looks = drop_visible(root); looks > 0) {
     result.notes.push_back(
-        fmt::format("{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows "
-                    "them as it shows new ones",
+        fmt::format("{} descriptions of how paths, markers or wrap objects look are left out; OpenSim shows them as it "
+                    "shows new ones",
                     looks));
   }
-  if (!root.attribute("Version")) root.append_attribute("Version");
-  if (result.old_version < kNewestOsimVersion) root.attribute("Version").set_value(kNewestOsimVersion);
+  if (result.old_version < kNewestOsimVersion) set_attribute(root, "Version", std::to_string(kNewestOsimVersion));
   while (document.child("OpenSimDocument") != document.first_child() &&
          document.first_child().type() == pugi::node_declaration)
     document.remove_child(document.first_child());

@@ -57,9 +57,7 @@ class RawText {
   RawText(std::string_view text, const std::filesystem::path& path) : text_(text) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
       throw ModelError(
-          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as "
-                      "UTF-8",
-                      path.string()));
+          fmt::format("{}: a model in UTF-16 cannot be changed in place; save it as UTF-8", path.string()));
     }
     // The parser's offsets do not count the byte-order mark.
     if (text.starts_with("\xEF\xBB\xBF")) mark_ = 3;
@@ -160,7 +158,7 @@ std::string with_edits(std::string_view text, std::vector<Edit> edits, const std
 std::string changed_osim(std::string_view text,
                          const std::filesystem::path& path,
                          const std::vector<OsimChange>& changes) {
-  const OsimXml xml(text, path);
+  const OsimXml xml(std::string(text), path);
   const RawText raw(text, path);
   std::vector<Edit> edits;
   for (std::size_t i = 0; i < changes.size(); ++i) {

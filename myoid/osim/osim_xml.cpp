@@ -32,8 +32,9 @@ std::size_t line_at(std::string_view text, std::ptrdiff_t offset) {
 
 }  // namespace
 
-OsimXml::OsimXml(std::string_view text, std::filesystem::path path, Root root) : text_(text), path_(std::move(path)) {
-  const auto parsed = document_.load_buffer(text.data(), text.size(), pugi::parse_default);
+OsimXml::OsimXml(std::string text, std::filesystem::path path, Root root)
+    : text_(std::move(text)), path_(std::move(path)) {
+  const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
   if (!parsed) {
     using recording::FileFormat;
     const std::string other =
@@ -102,7 +103,7 @@ std::vector<double> OsimXml::numbers(pugi::xml_node node) const {
   const std::string text = text_of(node);
   for (const std::string_view w : split_words(text)) {
     const auto value = parse_number(w);
-    if (!value || std::isnan(*value)) fail(node, fmt::format("<{}>: expected numbers, found '{}'", node.name(), w));
+    if (!value || std::isnan(*value)) fail(node, "<{}>: expected numbers, found '{}'", node.name(), w);
     values.push_back(*value);
   }
   return values;
@@ -114,7 +115,7 @@ double OsimXml::number(pugi::xml_node object, const char* name, double otherwise
   const std::string_view text = trim(node.text().get());
   if (const auto value = parse_number(text); value && !std::isnan(*value)) return *value;
   const auto values = numbers(node);
-  if (values.size() != 1) fail(node, fmt::format("<{}>: expected one number, found {}", name, values.size()));
+  if (values.size() != 1) fail(node, "<{}>: expected one number, found {}", name, values.size());
   return values[0];
 }
 
@@ -122,7 +123,7 @@ Vec3 OsimXml::vec3(pugi::xml_node object, const char* name, const Vec3& otherwis
   const auto node = value_of(object, name);
   if (!node) return otherwise;
   const auto values = numbers(node);
-  if (values.size() != 3) fail(node, fmt::format("<{}>: expected three numbers, found {}", name, values.size()));
+  if (values.size() != 3) fail(node, "<{}>: expected three numbers, found {}", name, values.size());
   return {values[0], values[1], values[2]};
 }
 
@@ -133,7 +134,7 @@ bool OsimXml::flag(pugi::xml_node object, const char* name, bool otherwise) cons
   if (text.empty()) return otherwise;
   if (equal_ignoring_case(text, "true") || text == "1") return true;
   if (equal_ignoring_case(text, "false") || text == "0") return false;
-  fail(node, fmt::format("<{}>: expected true or false, found '{}'", name, text));
+  fail(node, "<{}>: expected true or false, found '{}'", name, text);
 }
 
 std::vector<pugi::xml_node> OsimXml::objects(pugi::xml_node set) {
@@ -152,6 +153,27 @@ pugi::xml_node OsimXml::first_element(pugi::xml_node parent, std::initializer_li
     return child;
   }
   return {};
+}
+
+pugi::xml_node either_child(pugi::xml_node parent, const char* name, const char* other) {
+  const auto child = parent.child(name);
+  return child ? child : parent.child(other);
+}
+
+pugi::xml_node child_or_new(pugi::xml_node parent, const char* name) {
+  const auto child = parent.child(name);
+  return child ? child : parent.append_child(name);
+}
+
+void set_attribute(pugi::xml_node node, const char* name, const std::string& value) {
+  auto attribute = node.attribute(name);
+  (attribute ? attribute : node.append_attribute(name)).set_value(value.c_str());
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return lower;
 }
 
 }  // namespace myoid::model

@@ -2,11 +2,12 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "myoid/core/geometry.h"
@@ -15,14 +16,14 @@ namespace myoid::model {
 
 /// An OpenSim document in memory with the one way to read its values. For an element that an object
 /// omits, the prototype of its class in `<defaults>` gives the value. A text that is no value of
-/// the expected kind throws ReadError with the line. The text must outlive the document.
+/// the expected kind throws ReadError with the line.
 class OsimXml {
  public:
   /// The element that the document must have at its root. With `any`, root() is the document itself
   /// unless its root is <OpenSimDocument> (task sets and loads of old set-ups).
   enum class Root { opensim_document, any };
   /// Parses; throws ReadError (with the line) if the text is no XML or its root is not <OpenSimDocument>.
-  OsimXml(std::string_view text, std::filesystem::path path, Root root = Root::opensim_document);
+  OsimXml(std::string text, std::filesystem::path path, Root root = Root::opensim_document);
 
   [[nodiscard]] pugi::xml_node root() const { return root_; }
   /// Returns the document version in OpenSim's count: 10600, 20303, 30000, 40000, ...; 0 without a version.
@@ -30,6 +31,13 @@ class OsimXml {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   [[noreturn]] void fail(pugi::xml_node where, const std::string& message) const;
+  template <typename First, typename... Rest>
+  [[noreturn]] void fail(pugi::xml_node where,
+                         fmt::format_string<First, Rest...> text,
+                         First&& first,
+                         Rest&&... rest) const {
+    fail(where, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
   /// Returns the line of an element in the text, counted from 1.
   [[nodiscard]] std::size_t line_of(pugi::xml_node where) const;
 
@@ -60,7 +68,7 @@ class OsimXml {
   /// Returns the element as `property` does; lists an empty element in `defaulted`.
   [[nodiscard]] pugi::xml_node value_of(pugi::xml_node object, const char* name) const;
 
-  std::string_view text_;
+  std::string text_;
   std::filesystem::path path_;
   pugi::xml_document document_;
   pugi::xml_node root_;
@@ -68,5 +76,14 @@ class OsimXml {
   std::map<std::string, pugi::xml_node, std::less<>> prototypes_;
   mutable std::vector<std::string> defaulted_;
 };
+
+/// Returns the child of this name, else the child of the other name.
+[[nodiscard]] pugi::xml_node either_child(pugi::xml_node parent, const char* name, const char* other);
+/// Returns the child of this name, appended if there is none.
+pugi::xml_node child_or_new(pugi::xml_node parent, const char* name);
+/// Sets an attribute, appended if there is none.
+void set_attribute(pugi::xml_node node, const char* name, const std::string& value);
+/// Replaces the capital letters of ASCII.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 }  // namespace myoid::model

@@ -93,7 +93,7 @@ void simplify(const MeshOptions& options, LoadedMeshes& loaded) {
 }  // namespace
 
 std::vector<MeshUse> list_meshes(std::string_view osim, const fs::path& path) {
-  OsimXml xml(osim, path);
+  OsimXml xml(std::string(osim), path);
   const auto node = xml.root().child("Model");
   if (!node) xml.fail(xml.root(), "the document has no <Model>");
   OsimReading r{xml, {}, {}, {}};

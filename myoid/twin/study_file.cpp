@@ -40,7 +40,7 @@ std::string modelled_as(std::size_t muscle, bool seven_heads) {
   std::string list;
   for (const model::ArmHead& head : model::arm7_heads()) {
     if (static_cast<std::size_t>(head.lump) != muscle) continue;
-    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", head.name);
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", head.path.name);
   }
   return list;
 }

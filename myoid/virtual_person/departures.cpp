@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "myoid/arm/arm_osim.h"
+#include "myoid/arm/arm4.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::twin {

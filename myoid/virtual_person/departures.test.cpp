@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "myoid/arm/arm_osim.h"
+#include "myoid/arm/arm4.h"
 #include "myoid/core/units.h"
 #include "myoid/muscle/de_groote.h"
 #include "myoid/muscle/hill_muscle.h"

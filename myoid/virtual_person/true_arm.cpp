@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "myoid/arm/arm7.h"
-#include "myoid/arm/arm_osim.h"
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/units.h"
 #include "myoid/virtual_person/departures.h"
@@ -75,7 +74,7 @@ TrueArm draw_true_arm(const TruthSpec& spec, const VirtualSubject& subject, math
     const auto lump = static_cast<std::size_t>(from.lump);
     const MuscleDraw& d = draws[lump];
     TrueHead& head = arm.heads[i];
-    head.name = from.name;
+    head.name = from.path.name;
     head.muscle = lump;
     head.electrode_share = kElectrodeShare[i];
     muscle::HillParameters<double> hill = from.hill;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "myoid/arm/arm7.h"
-#include "myoid/arm/arm_osim.h"
 #include "myoid/core/units.h"
 #include "myoid/virtual_person/virtual_arm.h"
 

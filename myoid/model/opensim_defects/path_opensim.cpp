@@ -1,10 +1,10 @@
-#include "myoid/model/opensim_defects/path_opensim.h"
-
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "myoid/core/index.h"
 #include "myoid/model/opensim_defects/wrap_opensim.h"
+#include "myoid/model/path_stations.h"
 
 namespace myoid::model {
 namespace {
@@ -12,12 +12,12 @@ namespace {
 /// The wrapping of one path at one posture.
 class Wrapping {
  public:
-  Wrapping(const BodyModel& model, const MusclePath& path, const BodyState& state, PathWorkspace& workspace)
-      : model_(model), path_(path), state_(state), w_(workspace) {
-    w_.is_seen.assign(path.wraps.size(), 0);
-    w_.first_seen_G.resize(path.wraps.size());
-    w_.order.resize(path.wraps.size());
-    for (std::size_t i = 0; i < path.wraps.size(); ++i) w_.order[i] = static_cast<int>(i);
+  Wrapping(const PosedPath& posed, PathWorkspace& workspace)
+      : model_(posed.model), path_(posed.path), state_(posed.state), w_(workspace) {
+    w_.is_seen.assign(path_.wraps.size(), 0);
+    w_.first_seen_G.resize(path_.wraps.size());
+    w_.order.resize(path_.wraps.size());
+    std::iota(w_.order.begin(), w_.order.end(), 0);
   }
 
   void run() {
@@ -118,25 +118,21 @@ class Wrapping {
 };
 
 /// Returns the velocity of a station: the body's at that point plus the station's in the body.
-Vec3 velocity(const BodyModel& model, const MusclePath& path, const BodyState& state, const PathStation& s) {
+Vec3 velocity(const PosedPath& posed, const PathStation& s) {
+  const BodyState& state = posed.state;
   const std::size_t b = at(s.body);
   Vec3 v = state.v_GB[b] + state.w_GB[b].cross(state.X_GB[b].R * s.p_B);
-  if (s.source < 0) return v;
-  const PathPoint& point = path.points[at(s.source)];
-  if (point.moving && point.moving->coordinate >= 0)
-    v += state.qdot[point.moving->coordinate] * moving_rate(model, point, state, true);
+  if (const PathPoint* point = moving_point(posed.path, s))
+    v += state.qdot[point->moving->coordinate] * moving_rate(posed, *point, true);
   return v;
 }
 
 }  // namespace
 
-void compute_opensim_path(const BodyModel& model,
-                          const MusclePath& path,
-                          const BodyState& state,
-                          PathWorkspace& workspace,
-                          PathResult& result) {
-  place_points(model, path, state, workspace);
-  if (!path.wraps.empty()) Wrapping(model, path, state, workspace).run();
+void compute_opensim_path(const PosedPath& posed, PathWorkspace& workspace, PathResult& result) {
+  const auto& [model, path, state] = posed;
+  place_points(posed, workspace);
+  if (!path.wraps.empty()) Wrapping(posed, workspace).run();
   const auto& stations = workspace.stations;
   result.length_m = length_of(stations);
   result.speed_mps = 0.0;
@@ -150,14 +146,14 @@ void compute_opensim_path(const BodyModel& model,
     const double length = along.norm();
     if (length == 0.0) continue;
     const Vec3 u = along / length;
-    result.speed_mps += (velocity(model, path, state, b) - velocity(model, path, state, a)).dot(u);
+    result.speed_mps += (velocity(posed, b) - velocity(posed, a)).dot(u);
     const bool one_body = a.body == b.body;
     if (one_body && model.compat.unseen_moving_points) continue;
     if (!one_body) {
       add_pair_moment(model, state, a.body, state.X_GB[at(a.body)] * a.p_B, b.body, state.X_GB[at(b.body)] * b.p_B, u,
                       result.moment_arm_m);
     }
-    add_moving_moments(model, path, state, a, b, u, true, result.moment_arm_m);
+    add_moving_moments(posed, a, b, u, true, result.moment_arm_m);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "myoid/model/opensim_defects/wrap_opensim.h"
 
-#include "myoid/model/opensim_defects/wrap_opensim_ellipsoid.h"
 #include "myoid/model/opensim_defects/wrap_opensim_surfaces.h"
 
 namespace myoid::model {

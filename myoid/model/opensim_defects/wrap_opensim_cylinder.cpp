@@ -34,13 +34,8 @@ NearestOfLines nearest_of_lines(const Vec3& p1, const Vec3& p2, const Vec3& p3, 
   return n;
 }
 
-/// The tangent points on one circle, counterclockwise (a) and clockwise (b).
-struct CylinderTangents {
-  Vec3 a, b;
-};
-
 /// Returns the feet of the tangents from p to the cylinder in the plane across z through p.
-CylinderTangents tangents_from(const Vec3& p, double radius) {
+Tangents tangents_from(const Vec3& p, double radius) {
   const Vec3 radial(p.x(), p.y(), 0.0);
   const double distance = radial.norm();
   const Vec3 v = distance > 0.0 ? Vec3(radial / distance) : Vec3::Zero();
@@ -132,8 +127,7 @@ struct ChosenTangents {
 };
 
 /// Returns the pair of tangent points on the side that counts.
-ChosenTangents choose_on_side(
-    const Side& side, const CylinderTangents& t1, const CylinderTangents& t2, const Vec3& p, const Vec3& q) {
+ChosenTangents choose_on_side(const Side& side, const Tangents& t1, const Tangents& t2, const Vec3& p, const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
   const auto angle = [&](const Vec3& r1, const Vec3& r2) {
@@ -169,32 +163,12 @@ ChosenTangents choose_on_side(
   return c;
 }
 
-ChosenTangents choose_nearest(const CylinderTangents& t1, const CylinderTangents& t2, const Vec3& p, const Vec3& q) {
+ChosenTangents choose_nearest(const Tangents& t1, const Tangents& t2, const Vec3& p, const Vec3& q) {
   const Vec3 foot1(0.0, 0.0, p.z());
   const Vec3 foot2(0.0, 0.0, q.z());
-  const Vec3 a1 = unit_or_zero(t1.a - foot1);
-  const Vec3 b1 = unit_or_zero(t1.b - foot1);
-  const Vec3 a2 = unit_or_zero(t2.a - foot2);
-  const Vec3 b2 = unit_or_zero(t2.b - foot2);
-  const double aa = a1.dot(a2);
-  const double ab = a1.dot(b2);
-  const double ba = b1.dot(a2);
-  const double bb = b1.dot(b2);
-  ChosenTangents c;
-  if (aa > ab && aa > ba && aa > bb) {
-    c.first = t1.a;
-    c.second = t2.a;
-  } else if (ab > ba && ab > bb) {
-    c.first = t1.a;
-    c.second = t2.b;
-  } else if (ba > bb) {
-    c.first = t1.b;
-    c.second = t2.a;
-  } else {
-    c.first = t1.b;
-    c.second = t2.b;
-  }
-  return c;
+  const auto [first_is_a, second_is_a] = nearest_directions({unit_or_zero(t1.a - foot1), unit_or_zero(t1.b - foot1)},
+                                                            {unit_or_zero(t2.a - foot2), unit_or_zero(t2.b - foot2)});
+  return {first_is_a ? t1.a : t1.b, second_is_a ? t2.a : t2.b};
 }
 
 /// Moves the tangent points, which were found across the axis, along their generators into the
@@ -227,6 +201,14 @@ void slide_to_plane(const Vec3& p, const Vec3& q, double radius, ChosenTangents&
 
 }  // namespace
 
+ChosenOfEnds nearest_directions(const Tangents& first, const Tangents& second) {
+  const double aa = first.a.dot(second.a), ab = first.a.dot(second.b);
+  const double ba = first.b.dot(second.a), bb = first.b.dot(second.b);
+  if (aa > ab && aa > ba && aa > bb) return {true, true};
+  if (ab > ba && ab > bb) return {true, false};
+  return {false, ba > bb};
+}
+
 OpenSimContact opensim_cylinder_contact(
     const CylinderShape& cylinder, const Side& side, const Vec3& p, const Vec3& q, bool single, const Compat& compat) {
   OpenSimContact result;
@@ -251,8 +233,8 @@ OpenSimContact opensim_cylinder_contact(
       return result;
     }
   }
-  const CylinderTangents t1 = tangents_from(p, radius);
-  const CylinderTangents t2 = tangents_from(q, radius);
+  const Tangents t1 = tangents_from(p, radius);
+  const Tangents t2 = tangents_from(q, radius);
   ChosenTangents chosen = side.sign != 0 ? choose_on_side(side, t1, t2, p, q) : choose_nearest(t1, t2, p, q);
   slide_to_plane(p, q, radius, chosen);
   if (std::abs(chosen.first.z()) > half && std::abs(chosen.second.z()) > half) return result;

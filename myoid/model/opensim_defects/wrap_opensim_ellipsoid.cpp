@@ -1,14 +1,12 @@
-#include "myoid/model/opensim_defects/wrap_opensim_ellipsoid.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/LU>
 
 #include "myoid/core/units.h"
-#include "myoid/model/wrap_ellipsoid.h"
+#include "myoid/model/opensim_defects/wrap_opensim_surfaces.h"
+#include "myoid/model/wrap_surfaces.h"
 
 namespace myoid::model {
 namespace {
@@ -208,9 +206,7 @@ Polyline polyline(const Vec3& r1, const Vec3& r2, const Vec3& a, const Plane& pl
   }
   const int pieces = chord_m < 1e3 ? std::min(static_cast<int>(chord_m / kChord_m), 499) : 499;
   Eigen::Index greatest = 0;
-  for (Eigen::Index i = 1; i < 3; ++i) {
-    if (std::abs(plane.n[i]) > std::abs(plane.n[greatest])) greatest = i;
-  }
+  plane.n.cwiseAbs().maxCoeff(&greatest);
   const Vec3 center = -plane.d / plane.n[greatest] * Vec3::Unit(greatest);
   const Vec3 u = (r1 - center).normalized();
   const Vec3 w = (r2 - center).normalized();
@@ -259,9 +255,7 @@ PlanePoint plane_point(const Vec3& a,
   const Vec3 chord = r2 - r1;
   Vec3 mu = (q - p).normalized().cwiseAbs();
   Eigen::Index best = 0;
-  for (Eigen::Index i = 1; i < 3; ++i) {
-    if (mu[i] > mu[best]) best = i;
-  }
+  mu.maxCoeff(&best);
   const double t = -r1[best] / chord[best];
   double fan_weight = -std::numeric_limits<double>::infinity();
   PlanePoint result{Vec3::Zero(), r1, r2};

@@ -5,15 +5,6 @@
 #include "myoid/model/opensim_defects/wrap_opensim_surfaces.h"
 
 namespace myoid::model {
-namespace {
-
-/// The tangent points on one circle, counterclockwise (a) and clockwise (b).
-struct SphereTangents {
-  Vec3 a, b;
-};
-
-}  // namespace
-
 OpenSimContact opensim_sphere_contact(
     const SphereShape& sphere, const Side& side, const Vec3& p, const Vec3& q, const Compat& compat) {
   OpenSimContact result;
@@ -46,33 +37,17 @@ OpenSimContact opensim_sphere_contact(
     const Vec3 aside = n.cross(inward);
     const double tilt = std::asin(radius / distance);
     const double reach = distance * std::cos(tilt);
-    return SphereTangents{end + reach * (std::cos(tilt) * inward + std::sin(tilt) * aside),
-                          end + reach * (std::cos(tilt) * inward - std::sin(tilt) * aside)};
+    return Tangents{end + reach * (std::cos(tilt) * inward + std::sin(tilt) * aside),
+                    end + reach * (std::cos(tilt) * inward - std::sin(tilt) * aside)};
   };
-  const SphereTangents t1 = tangents(p);
-  const SphereTangents t2 = tangents(q);
-  const Vec3 a1 = t1.a.normalized();
-  const Vec3 b1 = t1.b.normalized();
-  const Vec3 a2 = t2.a.normalized();
-  const Vec3 b2 = t2.b.normalized();
-  const double aa = a1.dot(a2);
-  const double ab = a1.dot(b2);
-  const double ba = b1.dot(a2);
-  const double bb = b1.dot(b2);
-  bool first_is_a = true;
-  bool second_is_a = true;
-  if (aa > ab && aa > ba && aa > bb) {
-  } else if (ab > ba && ab > bb) {
-    second_is_a = false;
-  } else if (ba > bb) {
-    first_is_a = false;
-  } else {
-    first_is_a = second_is_a = false;
-  }
+  const Tangents t1 = tangents(p);
+  const Tangents t2 = tangents(q);
+  const Tangents u1{t1.a.normalized(), t1.b.normalized()}, u2{t2.a.normalized(), t2.b.normalized()};
+  ChosenOfEnds chosen = nearest_directions(u1, u2);
   result.action = WrapAction::wrapped;
   bool far_side = false;
-  const auto first = [&] { return first_is_a ? t1.a : t1.b; };
-  const auto second = [&] { return second_is_a ? t2.a : t2.b; };
+  const auto first = [&] { return chosen.first_is_a ? t1.a : t1.b; };
+  const auto second = [&] { return chosen.second_is_a ? t2.a : t2.b; };
   if (side.sign != 0) {
     if (side.has(p) || side.has(q)) {
       const double foot_m = -p.dot(-u);  // from p towards q
@@ -87,13 +62,9 @@ OpenSimContact opensim_sphere_contact(
     }
     if (!side.has(p) || !side.has(q)) {
       const Vec3 inward = -(p + q).normalized();
-      first_is_a = a1.dot(inward) > b1.dot(inward);
-      second_is_a = a2.dot(inward) > b2.dot(inward);
+      chosen = {u1.a.dot(inward) > u1.b.dot(inward), u2.a.dot(inward) > u2.b.dot(inward)};
       const Vec3 sum = (first() - p) + (second() - q);
-      if (side.sign * sum[side.axis] < 0.0) {
-        first_is_a = !first_is_a;
-        second_is_a = !second_is_a;
-      }
+      if (side.sign * sum[side.axis] < 0.0) chosen = {!chosen.first_is_a, !chosen.second_is_a};
       far_side = (first() + second()).dot((first() - p) + (second() - q)) < 0.0;
     }
   }

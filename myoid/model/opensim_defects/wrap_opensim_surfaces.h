@@ -23,6 +23,19 @@ struct Side {
   [[nodiscard]] bool has(const Vec3& p) const { return (p[axis] >= 0.0 ? 1 : -1) == sign; }
 };
 
+/// The tangent points on one circle, counterclockwise (a) and clockwise (b).
+struct Tangents {
+  Vec3 a, b;
+};
+
+/// The tangent point, a or b, that counts at each end.
+struct ChosenOfEnds {
+  bool first_is_a = true, second_is_a = true;
+};
+
+/// Returns the tangent points whose directions, one of each end, are nearest to each other.
+[[nodiscard]] ChosenOfEnds nearest_directions(const Tangents& first, const Tangents& second);
+
 /// Each computes opensim_contact for one kind of surface.
 [[nodiscard]] OpenSimContact opensim_cylinder_contact(const CylinderShape& cylinder,
                                                       const Side& side,
@@ -34,5 +47,14 @@ struct Side {
     const SphereShape& sphere, const Side& side, const Vec3& p_W, const Vec3& q_W, const Compat& compat);
 [[nodiscard]] OpenSimContact opensim_torus_contact(
     const TorusShape& torus, const Side& side, const Vec3& p_W, const Vec3& q_W, bool single, const Compat& compat);
+
+/// The contact is in the plane through p, q and a point of the surface, whose choice `method` names. A damped iteration
+/// (to 1e-4) finds the tangent points, and the arc between them is a polyline of about 1 mm.
+[[nodiscard]] OpenSimContact opensim_ellipsoid_contact(const EllipsoidShape& ellipsoid,
+                                                       Quadrant quadrant,
+                                                       WrapMethod method,
+                                                       const Vec3& p_W,
+                                                       const Vec3& q_W,
+                                                       const Compat& compat);
 
 }  // namespace myoid::model

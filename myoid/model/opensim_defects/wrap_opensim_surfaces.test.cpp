@@ -6,7 +6,6 @@
 
 #include "myoid/core/units.h"
 #include "myoid/model/opensim_defects/wrap_opensim.h"
-#include "myoid/model/opensim_defects/wrap_opensim_ellipsoid.h"
 
 namespace myoid::model {
 namespace {
