@@ -144,10 +144,8 @@ void validate(const StudyData& data) {
       return x.size() == 0 || (x.size() == n && x.allFinite());
     };
     if (!resting_or_none(trial.resting_nm))
-      throw InvalidInput(
-          fmt::format("trial '{}': the resting torque must be {} samples or none, "
-                      "found {}",
-                      trial.name, n, trial.resting_nm.size()));
+      throw InvalidInput(fmt::format("trial '{}': the resting torque must be {} samples or none, found {}", trial.name,
+                                     n, trial.resting_nm.size()));
     for (const JointData& joint : trial.more_joints) {
       if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) || !joint.torque_nm.allFinite() ||
           !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm)) {

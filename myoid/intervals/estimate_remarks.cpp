@@ -64,9 +64,8 @@ void RouteRemarks::compare(ParameterEstimate& e) {
 void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count) const {
   if (disagree_ > 0) {
     warnings.push_back(fmt::format(
-        "the routes to the interval disagree by more than chance makes of them for {} of {} "
-        "numbers, "
-        "most for {}: {} (routes_disagree in parameters.csv)",
+        "the routes to the interval disagree by more than chance makes of them for {} of {} numbers, most for {}: {} "
+        "(routes_disagree in parameters.csv)",
         disagree_, count, worst_text_,
         beyond_ == 0 ? std::string("the wider one is what is reported")
                      : fmt::format("for {} of them a route is wider than what is reported: trust that one", beyond_)));
@@ -75,9 +74,8 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
   constexpr std::size_t kNamed = 4;
   const std::size_t named = std::min(kNamed, open_.size());
   warnings.push_back(fmt::format(
-      "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at "
-      "most",
-      open_.size(), count, fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+      "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at most", open_.size(),
+      count, fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
       open_.size() > named ? ", ..." : ""));
 }
 
@@ -183,11 +181,10 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
 void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances) {
   for (const PriorDistance& d : distances) {
     if (std::max(d.distance, d.farthest_distance) <= VerdictRules{}.prior_conflict) continue;
-    warnings.push_back(
-        fmt::format("{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations "
-                    "of their priors away, {} {:.1f}: use none of them before the cause is known (electrode, "
-                    "sign, unit, mass, geometry)",
-                    d.muscle, d.distance, d.farthest, d.farthest_distance));
+    warnings.push_back(fmt::format(
+        "{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations of their priors "
+        "away, {} {:.1f}: use none of them before the cause is known (electrode, sign, unit, mass, geometry)",
+        d.muscle, d.distance, d.farthest, d.farthest_distance));
   }
 }
 
@@ -195,13 +192,13 @@ std::string lag_remark(const IdentificationResult& result) {
   if (!result.shared_lag_gain) return {};
   const double gain = std::abs(*result.shared_lag_gain);
   const bool clear = gain >= 4.0;  // two standard deviations
-  return fmt::format("The muscles follow their EMG {}; {}.",
-                     result.lag == EmgLag::shared
-                         ? "with the lags of excitation and activation, of which the delay is the mean"
-                         : "with a delay that leaves its shape as it is, not with the lags of excitation and "
-                           "activation",
-                     clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
-                           : std::string("the recording hardly tells which"));
+  return fmt::format(
+      "The muscles follow their EMG {}; {}.",
+      result.lag == EmgLag::shared
+          ? "with the lags of excitation and activation, of which the delay is the mean"
+          : "with a delay that leaves its shape as it is, not with the lags of excitation and activation",
+      clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
+            : std::string("the recording hardly tells which"));
 }
 
 void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {

@@ -234,8 +234,8 @@ ParameterEstimate RowMaker::judged(UnjudgedRow row, Eigen::Index at, int owner) 
   if (unknown(at).is(Scope::channel, kGain)) {
     e.verdict = Verdict::prior_dominated;
     e.reason =
-        "carries the uncertainty of the EMG normalisation into the intervals of F_max; the "
-        "recording cannot tell it from F_max";
+        "carries the uncertainty of the EMG normalisation into the intervals of F_max; the recording cannot tell it "
+        "from F_max";
   }
   return e;
 }

@@ -57,8 +57,7 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     // No muscle has this curve, so the place of its peak says nothing even with a narrow interval.
     e.verdict = Verdict::not_identifiable;
     e.reason = fmt::format(
-        "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of "
-        "the optimal length)",
+        "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of the optimal length)",
         context.curve_width);
   } else if (no_muscle && e.verdict == Verdict::weak && ground != Ground::impossible_curve) {
     e.reason += "; by a force-length curve that no muscle has";
@@ -68,8 +67,8 @@ void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRul
     e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context), context.beforehand);
   if (context.tendon_share > rules.mostly_tendon && e.verdict != Verdict::identified && std::isfinite(e.estimate))
     e.reason +=
-        "; most of its uncertainty is that of the tendon slack length, which is no measurement: "
-        "with a rigid tendon the recording tells the sum of both";
+        "; most of its uncertainty is that of the tendon slack length, which is no measurement: with a rigid tendon "
+        "the recording tells the sum of both";
   if (e.parameter == "concentric_curvature" && context.speed_is_free && e.verdict != Verdict::identified &&
       e.verdict != Verdict::non_physical)
     e.reason += "; v_max is not known, and another v_max asks for another V_sh";

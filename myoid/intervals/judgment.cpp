@@ -15,30 +15,25 @@ namespace {
 std::string diagnosis(const ParameterEstimate& e) {
   const std::string& p = e.parameter;
   if (p == "eccentric_plateau" && e.estimate < 1.0) {
-    return "force in lengthening below the isometric one contradicts muscle physiology: EMG and "
-           "assigned force disagree in gain while "
-           "lengthening (co-contraction that force sharing set to zero, or F_max too high), not a "
-           "property of the muscle";
+    return "force in lengthening below the isometric one contradicts muscle physiology: EMG and assigned force "
+           "disagree in gain while lengthening (co-contraction that force sharing set to zero, or F_max too high), not "
+           "a property of the muscle";
   }
   if (p == "eccentric_curvature_product" && e.estimate <= 0.0) {
-    return "a product that is not positive is no force-velocity curve: the velocity effect in "
-           "lengthening is not resolved (an EMG delay "
-           "that was not accounted for does this)";
+    return "a product that is not positive is no force-velocity curve: the velocity effect in lengthening is not "
+           "resolved (an EMG delay that was not accounted for does this)";
   }
   if (p == "concentric_curvature") {
-    return e.estimate > 1.0 ? "a curvature above 1 means a straight line: the velocity effect in "
-                              "shortening is not resolved (an EMG delay that "
-                              "was not accounted for does this)"
-                            : "a curvature this small is below that of the slowest muscle: "
-                              "co-contraction that force sharing set to zero does this";
+    return e.estimate > 1.0 ? "a curvature above 1 means a straight line: the velocity effect in shortening is not "
+                              "resolved (an EMG delay that was not accounted for does this)"
+                            : "a curvature this small is below that of the slowest muscle: co-contraction that force "
+                              "sharing set to zero does this";
   }
   if (p == "force_length_width") {
-    return e.initial > 0.0 && e.estimate > e.initial
-               ? "a width this size is no muscle's: F_max or the EMG gain too high, a wrong "
-                 "geometry "
-                 "or electrode flattens the curve"
-               : "a width this size is no muscle's: co-contraction set to zero, a delay, a wrong "
-                 "geometry or electrode narrows the curve";
+    return e.initial > 0.0 && e.estimate > e.initial ? "a width this size is no muscle's: F_max or the EMG gain too "
+                                                       "high, a wrong geometry or electrode flattens the curve"
+                                                     : "a width this size is no muscle's: co-contraction set to zero, "
+                                                       "a delay, a wrong geometry or electrode narrows the curve";
   }
   return "the value lies outside what a muscle can have: the fit describes something else";
 }
@@ -97,8 +92,7 @@ MaybeJudgment without_muscle(const ParameterEstimate& e, const VerdictContext& c
   }
   if (e.parameter == "force_length_width" && e.at_bound && !context.given_bound) {
     return Judgment{Ground::width_at_bound, Verdict::non_physical,
-                    fmt::format("the recording pulls beyond what muscles have, {} to {} of the optimal "
-                                "length: {}",
+                    fmt::format("the recording pulls beyond what muscles have, {} to {} of the optimal length: {}",
                                 rules.relative_width.lower, rules.relative_width.upper, diagnosis(e))};
   }
   if (context.bad_company.empty()) return std::nullopt;
@@ -112,10 +106,10 @@ MaybeJudgment on_a_bound(const ParameterEstimate& e, const VerdictContext& conte
   if (!e.at_bound) return std::nullopt;
   if (e.parameter == "emg_delay" && e.estimate <= rules.no_delay_s && e.ci_high) {
     if (*e.ci_high > rules.delay_weak_s) {
-      return Judgment{Ground::any_delay, Verdict::not_identifiable,
-                      fmt::format("any delay up to {:.0f} ms does as well: the EMG changes too little or "
-                                  "too slowly to show one",
-                                  1000.0 * *e.ci_high)};
+      return Judgment{
+          Ground::any_delay, Verdict::not_identifiable,
+          fmt::format("any delay up to {:.0f} ms does as well: the EMG changes too little or too slowly to show one",
+                      1000.0 * *e.ci_high)};
     }
     const bool known = *e.ci_high <= rules.delay_identified_s && !unexplained(context, rules);
     return Judgment{Ground::no_delay, known ? Verdict::identified : Verdict::weak,
@@ -123,9 +117,9 @@ MaybeJudgment on_a_bound(const ParameterEstimate& e, const VerdictContext& conte
   }
   if (is_none(e)) return std::nullopt;
   return Judgment{Ground::at_bound, Verdict::not_identifiable,
-                  context.given_bound ? "the best fit leans on the bound that was given: the recording pulls beyond it"
-                                      : "the best fit leans on a bound: the recording pulls beyond what is physically "
-                                        "possible"};
+                  context.given_bound
+                      ? "the best fit leans on the bound that was given: the recording pulls beyond it"
+                      : "the best fit leans on a bound: the recording pulls beyond what is physically possible"};
 }
 
 /// Judges a number on which alone nothing in the recording depends.
@@ -143,8 +137,8 @@ MaybeJudgment without_effect(const ParameterEstimate& e, const VerdictContext& c
   return Judgment{
       Ground::flat_plateau,
       e.shrinkage && *e.shrinkage < rules.least_shrinkage ? Verdict::prior_dominated : Verdict::not_identifiable,
-      "no rise of force in lengthening is resolved (V_ml not clearly above 1), and "
-      "without one this number has no effect"};
+      "no rise of force in lengthening is resolved (V_ml not clearly above 1), and without one this number has no "
+      "effect"};
 }
 
 /// Judges a number that the recording hardly improves beyond its prior.
@@ -163,8 +157,8 @@ MaybeJudgment mostly_prior(const ParameterEstimate& e, const VerdictContext& con
                               : 0.0;
   if (conflict > rules.prior_conflict) {
     return Judgment{Ground::contradicts_prior, Verdict::not_identifiable,
-                    fmt::format("mostly {}, which the recording contradicts by {:.1f} of their standard "
-                                "deviations: use neither before the cause is known",
+                    fmt::format("mostly {}, which the recording contradicts by {:.1f} of their standard deviations: "
+                                "use neither before the cause is known",
                                 context.beforehand, conflict)};
   }
   if (context.prior_distance <= rules.prior_stays)
@@ -200,8 +194,7 @@ Judgment by_width(const ParameterEstimate& e, const VerdictContext& context, con
   // For a number that is 0 by nature, an interval of any width bounds the number's size.
   if (context.prior_distance > rules.prior_conflict && (prior_sd > 0.0 || relative <= rules.weak_half_width)) {
     return {Ground::far_from_prior, Verdict::weak,
-            fmt::format("{} away from {}: a simplification of the model, or the EMG, may be what is "
-                        "fitted",
+            fmt::format("{} away from {}: a simplification of the model, or the EMG, may be what is fitted",
                         deviations(context.prior_distance, context), context.beforehand)};
   }
   if (relative <= rules.identified_half_width) return {Ground::known, Verdict::identified, known};
@@ -222,10 +215,11 @@ MaybeJudgment weakened(const ParameterEstimate& e,
                        const VerdictRules& rules) {
   const auto weak = [](Ground why, std::string reason) { return Judgment{why, Verdict::weak, std::move(reason)}; };
   if (unexplained(context, rules))
-    return weak(Ground::unexplained,
-                fmt::format("{}, but by a fit that explains little of the torque (R2 {:.2f}): what "
-                            "it finds describes no muscle",
-                            known, context.r2));
+    return weak(
+        Ground::unexplained,
+        fmt::format(
+            "{}, but by a fit that explains little of the torque (R2 {:.2f}): what it finds describes no muscle", known,
+            context.r2));
   if (e.shrinkage && *e.shrinkage < rules.half_shrinkage)
     return weak(Ground::half_of_prior, known + ", but about as much from the literature as from the recording");
   if (!context.shares_electrode_with.empty())
@@ -233,9 +227,11 @@ MaybeJudgment weakened(const ParameterEstimate& e,
                                                       "and what is taken from the one is given to the other",
                                                       known, context.shares_electrode_with));
   if (context.model_error > rules.model_error)
-    return weak(Ground::model_error, fmt::format("{}, but what the model leaves of the torque depends on posture and "
-                                                 "effort as if it were wrong by {:.0f} %",
-                                                 known, 100.0 * context.model_error));
+    return weak(
+        Ground::model_error,
+        fmt::format(
+            "{}, but what the model leaves of the torque depends on posture and effort as if it were wrong by {:.0f} %",
+            known, 100.0 * context.model_error));
   if (!rules.possible(context.curve_width))
     return weak(Ground::impossible_curve, known + ", but by a force-length curve that no muscle has");
   if (context.width_leans)
@@ -243,24 +239,22 @@ MaybeJudgment weakened(const ParameterEstimate& e,
                 known + ", but by a force-length curve that leans on the bound of what muscles have");
   if (context.muscle_distance > rules.prior_conflict)
     return weak(Ground::muscle_far_from_prior,
-                fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations of "
-                            "their priors away from these: a wrong label, sign, mass or geometry may be what is "
-                            "fitted",
+                fmt::format("{}, but this muscle's numbers together are {:.1f} standard deviations of their priors "
+                            "away from these: a wrong label, sign, mass or geometry may be what is fitted",
                             known, context.muscle_distance));
   if (!context.rests_on.empty())
-    return weak(Ground::rests_on_a_trial, fmt::format("rests on trial '{}': without it the value would leave its own "
-                                                      "interval; record more like it",
-                                                      context.rests_on));
+    return weak(
+        Ground::rests_on_a_trial,
+        fmt::format("rests on trial '{}': without it the value would leave its own interval; record more like it",
+                    context.rests_on));
   if (context.shared_forces)
-    return weak(Ground::shared_forces,
-                known +
-                    ", but about the forces that an optimizer assigned, which carry its assumptions and "
-                    "no co-contraction; method torque does not need them");
+    return weak(Ground::shared_forces, known +
+                                           ", but about the forces that an optimizer assigned, which carry its "
+                                           "assumptions and no co-contraction; method torque does not need them");
   if (context.given_strength)
-    return weak(Ground::given_strength,
-                known +
-                    " if F_max is what it was held at: an error in it goes into every other number; "
-                    "method force finds it along with them");
+    return weak(Ground::given_strength, known +
+                                            " if F_max is what it was held at: an error in it goes into every other "
+                                            "number; method force finds it along with them");
   return std::nullopt;
 }
 
@@ -288,8 +282,8 @@ Judgment judgment_of(const ParameterEstimate& e, const VerdictContext& context, 
 
 std::string beside_the_maximum(std::string_view parameter, bool from_mvc) {
   if (from_mvc || parameter != "max_isometric_force") return "";
-  return "; no maximal contraction was recorded, so this is the force at the study's largest EMG, "
-         "not the muscle's maximum";
+  return "; no maximal contraction was recorded, so this is the force at the study's largest EMG, not the muscle's "
+         "maximum";
 }
 
 }  // namespace myoid::identification

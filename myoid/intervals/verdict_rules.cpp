@@ -6,9 +6,8 @@ namespace myoid::identification {
 
 std::string one_length_text(double span) {
   return fmt::format(
-      "while active the muscle's length changed by {:.1f} % of the optimal one: at one length "
-      "F_max "
-      "and the force-length curve are one number; record other joint angles",
+      "while active the muscle's length changed by {:.1f} % of the optimal one: at one length F_max and the "
+      "force-length curve are one number; record other joint angles",
       100.0 * span);
 }
 

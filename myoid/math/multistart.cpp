@@ -33,9 +33,8 @@ void validate(const MultistartOptions& options) {
     const bool logarithmic = !options.logarithmic.empty() && options.logarithmic[static_cast<std::size_t>(j)];
     if (!std::isfinite(low) || !std::isfinite(high) || low > high || (logarithmic && low <= 0.0)) {
       throw InvalidInput(
-          fmt::format("multistart: parameter {} has the box [{}, {}]; finite ends that rise{} are "
-                      "needed",
-                      j + 1, low, high, logarithmic ? ", both positive (it is logarithmic)," : ""));
+          fmt::format("multistart: parameter {} has the box [{}, {}]; finite ends that rise{} are needed", j + 1, low,
+                      high, logarithmic ? ", both positive (it is logarithmic)," : ""));
     }
   }
   for (const Eigen::VectorXd& start : options.given) {

@@ -19,9 +19,7 @@ double normal_quantile(double p) {
 
 double student_quantile(double p, double freedom) {
   if (!(p > 0.0 && p < 1.0 && freedom > 0.0))
-    throw InvalidInput(
-        "Student's quantile: the probability must lie between 0 and 1, the degrees of freedom "
-        "above 0");
+    throw InvalidInput("Student's quantile: the probability must lie between 0 and 1, the degrees of freedom above 0");
   return boost::math::quantile(boost::math::students_t(freedom), p);
 }
 

@@ -104,9 +104,9 @@ void report_other_minima(const BasinTable& table,
   if (outside.empty()) return;
   const std::size_t named = std::min(kNamed, outside.size());
   result.warnings.push_back(
-      fmt::format("{} of {} other starts of the search end at a minimum that is {}, with numbers outside of "
-                  "their intervals ({}{}): an interval describes one minimum only, and which of them is "
-                  "the person's this recording does not tell; more kinds of movement tell them apart",
+      fmt::format("{} of {} other starts of the search end at a minimum that is {}, with numbers outside of their "
+                  "intervals ({}{}): an interval describes one minimum only, and which of them is the person's this "
+                  "recording does not tell; more kinds of movement tell them apart",
                   starts, table.starts,
                   least < cost - kLower ? fmt::format("lower (chi-square less by {:.1f})", 2.0 * (cost - least))
                                         : std::string("as good"),

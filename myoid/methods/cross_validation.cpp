@@ -49,9 +49,8 @@ std::vector<Split> block_splits(const StudyData& data,
   for (const TrialData* trial : trials) longest_s = std::max(longest_s, duration_s(*trial));
   if (longest_s < least_s) {
     why_not = fmt::format(
-        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither "
-        "side, and half of a trial must be left to fit); the longest has {:.2g} s; leave out "
-        "whole trials",
+        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither side, and half of a "
+        "trial must be left to fit); the longest has {:.2g} s; leave out whole trials",
         least_s, how.gap_s, longest_s);
     return {};
   }
@@ -340,12 +339,10 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
   const bool bad = count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
   if (!bad) return "";
   return fmt::format(
-      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of "
-      "{:.3g}; most in '{}'). The samples of one movement share the model's error, and many of "
-      "them "
-      "pull the numbers along with this error, away from the priors. Record other movements "
-      "(angles, speeds, loads) rather than more of the same, "
-      "and trust neither numbers nor predictions beyond the movements that were fitted",
+      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of {:.3g}; most in "
+      "'{}'). The samples of one movement share the model's error, and many of them pull the numbers along with this "
+      "error, away from the priors. Record other movements (angles, speeds, loads) rather than more of the same, and "
+      "trust neither numbers nor predictions beyond the movements that were fitted",
       std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
 }
 

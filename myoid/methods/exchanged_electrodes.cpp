@@ -26,10 +26,8 @@ struct Sides {
 
 std::string ExchangedElectrodes::sentence() const {
   return fmt::format(
-      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 "
-      "{:.2f}), as they are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in "
-      "or "
-      "labelled the wrong way round?",
+      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 {:.2f}), as they "
+      "are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in or labelled the wrong way round?",
       first, second, exchanged.rms_nm, exchanged.r2, as_named.rms_nm, as_named.r2);
 }
 

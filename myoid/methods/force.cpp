@@ -20,10 +20,9 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   one.muscles.push_back(data.muscles[muscle]);
   for (const TrialData& trial : data.trials) {
     if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(
-          fmt::format("method force: trial '{}' has no muscle forces; measure them, or share the torque first "
-                      "(myoid so)",
-                      trial.name));
+      throw InvalidInput(fmt::format(
+          "method force: trial '{}' has no muscle forces; measure them, or share the torque first (myoid so)",
+          trial.name));
     }
     TrialData t;
     t.name = trial.name;
@@ -87,8 +86,8 @@ void take_over(
     if (shared_forces && e.verdict == Verdict::identified) {
       e.verdict = Verdict::weak;
       e.reason +=
-          ", but about the forces that an optimizer assigned, which carry its assumptions and "
-          "no co-contraction; method torque does not need them";
+          ", but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; "
+          "method torque does not need them";
     }
   }
   for (BasinTable& table : fit.basins) table.fit = name;

@@ -234,9 +234,8 @@ ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
   const bool ended = loop.fit.termination == math::Termination::converged;
   loop.end = ended ? LoopEnd::converged : LoopEnd::diverged;
   loop.message = ended ? fmt::format(
-                             "the posterior of the torque finds the muscles without shared "
-                             "forces; the forces that these muscles share leave {:.2g} N m "
-                             "of the torque, whose root mean square is {:.3g} N m",
+                             "the posterior of the torque finds the muscles without shared forces; the forces that "
+                             "these muscles share leave {:.2g} N m of the torque, whose root mean square is {:.3g} N m",
                              shared.reserve_nm, torque_size_nm(data))
                        : "the search for the posterior's mode did not end: " + loop.fit.message;
   return loop;
@@ -287,16 +286,14 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
       break;
     case LoopEnd::diverged:
       loop.message = fmt::format(
-          "forces and parameters drive each other away: {} changed by {:.2g} in round {}, more "
-          "than "
-          "in each of the rounds before; do not use these numbers",
+          "forces and parameters drive each other away: {} changed by {:.2g} in round {}, more than in each of the "
+          "rounds before; do not use these numbers",
           last.parameter, last.parameter_change, count);
       break;
     case LoopEnd::not_settled:
-      loop.message = fmt::format(
-          "forces and parameters had not settled after {} rounds: {} still changes by {:.2g} a "
-          "round",
-          count, last.parameter, last.parameter_change);
+      loop.message =
+          fmt::format("forces and parameters had not settled after {} rounds: {} still changes by {:.2g} a round",
+                      count, last.parameter, last.parameter_change);
       break;
   }
   if (!bounds.empty()) loop.message += "; at a bound: " + bounds;

@@ -128,8 +128,8 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
     return weighted_quantile(values, of.sample.weight, p);
   };
   return fmt::format(
-      "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest "
-      "EMG, between {:.0f} and {:.0f} % of its maximum",
+      "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest EMG, between {:.0f} "
+      "and {:.0f} % of its maximum",
       reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025), 100.0 * reach(share, 0.975));
 }
 
@@ -308,26 +308,23 @@ void add_warnings(const std::vector<Candidate>& candidates,
                   IdentificationResult& result) {
   if (candidates.size() > 1)
     result.warnings.push_back(
-        fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of "
-                    "it: the intervals are over all of them",
+        fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of it: the intervals "
+                    "are over all of them",
                     candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
-    result.warnings.push_back(
-        fmt::format("the draws of the posterior are not to be relied on: the chains of the sampler differ "
-                    "(R-hat {:.2f}; 1.10 is the limit) or took {:.0f} % of their proposals (40 % is the "
-                    "limit). "
-                    "Ask for more draws",
-                    sample.rhat, 100.0 * sample.accepted));
+    result.warnings.push_back(fmt::format(
+        "the draws of the posterior are not to be relied on: the chains of the sampler differ (R-hat {:.2f}; 1.10 is "
+        "the limit) or took {:.0f} % of their proposals (40 % is the limit). Ask for more draws",
+        sample.rhat, 100.0 * sample.accepted));
   if (unlikeness > kUnlike)
     result.warnings.push_back(
-        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the "
-                    "priors are that much wider here. Was the model scaled to this person?",
+        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the priors are "
+                    "that much wider here. Was the model scaled to this person?",
                     unlikeness));
   if (result.model_error > VerdictRules{}.model_error)
-    result.warnings.push_back(
-        fmt::format("what the model leaves of the torque depends on posture, effort and speed as if it were "
-                    "wrong by {:.0f} %",
-                    100.0 * result.model_error));
+    result.warnings.push_back(fmt::format(
+        "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %",
+        100.0 * result.model_error));
   add_distances_to(result.warnings, result.prior_distances);
 }
 
@@ -337,8 +334,8 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   validate(data);
   if (!options.priors)
     throw InvalidInput(
-        "the estimator posterior rests on what is known of people, and the study does without "
-        "(priors = false): take the estimator least_squares");
+        "the estimator posterior rests on what is known of people, and the study does without (priors = false): take "
+        "the estimator least_squares");
   const auto begin = std::chrono::steady_clock::now();
   const Exploration explored = explore(data, options);
   const std::vector<Candidate>& candidates = explored.modes;
