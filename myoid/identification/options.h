@@ -132,6 +132,13 @@ struct EstimatorOptions {
   int posterior_draws = 0;              ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool marginals = true;                ///< The approximation includes the skewness of each unknown.
   std::shared_ptr<DriveMemory> drives;  ///< Drives that fits of one recording share.
+
+  /// Returns the held delay, else the expected one.
+  [[nodiscard]] double usual_delay_s() const { return delay_s.value_or(delay_prior_mean_s); }
+  /// Returns `emg_bandwidth_hz` of the channel; 0: not known, because another program made the envelope.
+  [[nodiscard]] double bandwidth_hz(const std::string& channel) const;
+  /// Returns `emg_rest` of the channel; 0 where not known, or where what was subtracted from the envelope is not known.
+  [[nodiscard]] double rest_level(const std::string& channel) const;
 };
 
 }  // namespace myoid::identification

@@ -70,6 +70,11 @@ constexpr std::array kFields = {
 
 }  // namespace
 
+double& ModelValues::number(Scope scope, int owner, int field) {
+  const auto k = static_cast<std::size_t>(owner), f = static_cast<std::size_t>(field);
+  return scope == muscle ? muscles[k][f] : scope == channel ? channels[k][f] : joints[k][f];
+}
+
 std::span<const ParameterField> parameter_fields() { return kFields; }
 
 bool zero_by_nature(std::string_view parameter) {

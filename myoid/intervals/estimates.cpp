@@ -16,7 +16,7 @@
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/uncertainty.h"
 #include "myoid/intervals/verdict_rules.h"
-#include "myoid/math/explained_share.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {

@@ -57,13 +57,6 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-/// Returns the precision of the prior of every unknown; 0: no prior.
-Eigen::VectorXd prior_precision(const std::vector<Unknown>& free) {
-  Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t j = 0; j < free.size(); ++j) precision[static_cast<Eigen::Index>(j)] = free[j].prior_precision();
-  return precision;
-}
-
 double largest_log_sd(const std::vector<NoiseLevel>& noise) {
   double largest = 0.0;
   for (const NoiseLevel& level : noise) largest = std::max(largest, level.log_variance_sd);
@@ -75,16 +68,8 @@ Eigen::MatrixXd with_priors(Eigen::MatrixXd of_data, const Eigen::VectorXd& prec
   return of_data;
 }
 
-/// The part of the parameters that the data alone determine, in the fields of Sandwich.
-struct Rank {
-  int rank = 0;
-  double condition = 0.0;
-  std::vector<bool> determined;
-  Eigen::MatrixXd undetermined;
-};
-
-/// Computes the rank by the eigenvectors of the information scaled to unit columns.
-Rank rank_of(const Eigen::MatrixXd& information) {
+/// Finds the parameters that the data alone determine, by the eigenvectors of the information scaled to unit columns.
+void find_determined(const Eigen::MatrixXd& information, Sandwich& result) {
   const Eigen::Index p = information.rows();
   const Eigen::VectorXd norm = information.diagonal().cwiseSqrt();
   const double largest_norm = norm.maxCoeff();
@@ -93,20 +78,17 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   const math::SymmetricEigen eigen = math::symmetric_eigen(unit.asDiagonal() * information * unit.asDiagonal());
   const Eigen::VectorXd& values = eigen.values;  // rising
   const double top = values[values.size() - 1];
-  Rank result;
   result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
   std::vector<Eigen::Index> open;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     // The values are squares of singular values, with round-off of 1e-16 of the largest.
     if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
   }
-  result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
   result.undetermined = eigen.vectors(Eigen::all, open);
   result.determined.assign(static_cast<std::size_t>(p), true);
   for (Eigen::Index j = 0; j < p; ++j) {
     result.determined[static_cast<std::size_t>(j)] = norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
   }
-  return result;
 }
 
 /// Returns the covariance of the scores' sum by the autocorrelation of all residuals together.
@@ -215,16 +197,12 @@ BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found, std:
 Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
   const ResidualModel& model = estimator.model();
   const Estimator::Scores by_sample = estimator.scores(solution);
-  const Eigen::VectorXd precision = prior_precision(estimator.free());
+  const Eigen::VectorXd& precision = estimator.prior_precision();
   Sandwich result;
   result.information = by_sample.information;
   result.model_based = inverse_of(with_priors(result.information, precision));
   result.by_noise = largest_log_sd(solution.weighting.noise) * result.model_based * by_sample.attenuation;
-  Rank rank = rank_of(result.information);
-  result.rank = rank.rank;
-  result.condition = rank.condition;
-  result.determined = std::move(rank.determined);
-  result.undetermined = std::move(rank.undetermined);
+  find_determined(result.information, result);
 
   const Eigen::MatrixXd scores = by_sample.scores.transpose();
   const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));

@@ -35,7 +35,6 @@ struct Sandwich {
   /// Change of the estimates if the variance of the EMG's noise grows by its own spread (NoiseLevel::log_variance_sd).
   /// The change is large if the data hardly separate the muscles from quantities without noise.
   Eigen::VectorXd by_noise;
-  int rank = 0;                  ///< Rank of the data with unit columns, tolerance 1e-7.
   double condition = 0.0;        ///< Condition of J with unit columns.
   std::vector<bool> determined;  ///< True: the data alone determine the parameter.
   Eigen::MatrixXd undetermined;  ///< Unit columns: combinations that the data leave open.

@@ -18,14 +18,13 @@ BasinTable find_basins(const math::LocalSearch& search,
                        const Progress& progress) {
   BasinTable table;
   math::MultistartOptions options;
-  options.starts = 0;
-  options.given = starts_in(box, starts);
+  options.starts = starts_in(box, starts);
   options.lower = box.lower;
   options.upper = box.upper;
   options.x_tolerance = 1e-2;  // of the box, which is four spreads wide
   options.progress = progress;
   const math::MultistartResult found = math::multistart(search, options);
-  table.starts = static_cast<int>(found.starts.size());
+  table.starts = static_cast<int>(found.minima.size());
   table.failed = static_cast<int>(found.failed.size());
   constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   for (const math::Basin& basin : found.basins) {
@@ -48,7 +47,7 @@ BasinTable find_basins(const math::LocalSearch& search,
 
 BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, int starts) {
   BasinTable table = find_basins(
-      [&](const Eigen::VectorXd& start, Eigen::Index) {
+      [&](const Eigen::VectorXd& start) {
         const NormalSearchResult end = estimator.search(start, weighting, 1e-9, 1e-12);
         return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
       },
@@ -132,7 +131,7 @@ BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool sho
   const StartBox box = start_box(samples, data.muscles[muscle]);
   BasinTable table;
   if (box.given.size() > 0 && samples.obstacle().empty()) {
-    const auto search = [&](const Eigen::VectorXd& start, Eigen::Index) {
+    const auto search = [&](const Eigen::VectorXd& start) {
       const math::LeastSquaresResult end = search_as_published(samples, start);
       return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
     };

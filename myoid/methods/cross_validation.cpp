@@ -257,7 +257,7 @@ std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const Estimat
                 .literature = literature,
                 .shortening = literature,
                 .lengthening = literature,
-                .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
+                .literature_delay_s = options.usual_delay_s(),
                 .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
   std::vector<TrialData> training, held;
   for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);

@@ -119,8 +119,7 @@ void take_over(
 void predict_unfitted(const StudyData& one, std::size_t k, const EstimatorOptions& options, IdentificationResult& all) {
   const auto column = static_cast<Eigen::Index>(k);
   for (std::size_t t = 0; t < one.trials.size(); ++t) {
-    const Prediction p =
-        predict(one, one.trials[t], {one.muscles.front().start}, options.delay_s.value_or(options.delay_prior_mean_s));
+    const Prediction p = predict(one, one.trials[t], {one.muscles.front().start}, options.usual_delay_s());
     all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
     all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
   }

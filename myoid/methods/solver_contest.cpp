@@ -90,7 +90,7 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
   }
   options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
   result.basins =
-      find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return searched(who.levenberg_marquardt, x); }, box,
+      find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
                   options.basin_starts, who.plain_samples, stop);
 
   Eigen::VectorXd best = box.given;

@@ -23,7 +23,7 @@ void add_predictions(const StudyData& data, const TorqueOptions& options, Identi
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
     literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
   for (ChannelValues& channel : literature.channels) {
-    channel[kDelay] = options.delay_s.value_or(options.delay_prior_mean_s);
+    channel[kDelay] = options.usual_delay_s();
     channel[kGain] = 1.0;
     channel[kShape] = 0.0;
     channel[kExponent] = 1.0;
