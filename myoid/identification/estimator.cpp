@@ -187,10 +187,8 @@ NormalSearchResult Estimator::search(const Eigen::VectorXd& start,
                                      const Variant& variant,
                                      const std::vector<bool>& held) const {
   return minimize_normal(
-      [&](const Eigen::VectorXd& z, bool derivatives, NormalEquations& out) {
-        out = normal_equations(z, weighting, derivatives ? Derivatives::curvature : Derivatives::none, variant);
-      },
-      lower_, upper_, start,
+      [&](const Eigen::VectorXd& z) { return normal_equations(z, weighting, Derivatives::curvature, variant); }, lower_,
+      upper_, start,
       {.gauss_newton = options_.gauss_newton,
        .max_iterations = iterations,
        .step_tolerance = step_tolerance,

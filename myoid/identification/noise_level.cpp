@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/math/statistics.h"

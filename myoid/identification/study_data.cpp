@@ -12,6 +12,14 @@
 
 namespace myoid::identification {
 
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool covers(const std::vector<std::string>& names, std::string_view name) {
+  return names.empty() || contains(names, name);
+}
+
 std::map<std::string, Prior> literature_priors(const muscle::HillParameters<double>& start) {
   std::map<std::string, Prior> priors;
   for (const muscle::HillField& field : muscle::kHillFields) {
@@ -28,12 +36,8 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
 
 std::vector<std::string> unstated_speeds(const StudyData& data, const std::vector<std::string>& wanted) {
   std::vector<std::string> names;
-  const auto is_in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
   for (const MuscleSetup& setup : data.muscles) {
-    if ((wanted.empty() || is_in(wanted, setup.name)) && !is_in(setup.fixed, "max_shortening_speed"))
-      names.push_back(setup.name);
+    if (covers(wanted, setup.name) && !contains(setup.fixed, "max_shortening_speed")) names.push_back(setup.name);
   }
   return names;
 }
@@ -42,7 +46,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   const muscle::Range usual = muscle::hill_field("max_shortening_speed").bounds;
   std::vector<ParameterRule> rules;
   for (MuscleSetup& setup : data.muscles) {
-    if (std::find(muscles.begin(), muscles.end(), setup.name) == muscles.end()) continue;
+    if (!contains(muscles, setup.name)) continue;
     ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
     // A model's own value may lie outside a person's range; the bounds then lie about this value.
     const double start = setup.start.max_shortening_speed_mps;
@@ -113,7 +117,7 @@ Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
 std::vector<std::string> joint_names(const StudyData& data) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
   };
   for (const TrialData& trial : data.trials) {
     add(trial.joint);

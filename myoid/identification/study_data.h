@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,11 @@ struct MuscleSetup {
   std::vector<std::string> given_priors;  ///< Names of the `priors` that the study gives.
   MuscleExtras extras;                    ///< Terms beyond the source paper's law.
 };
+
+[[nodiscard]] bool contains(const std::vector<std::string>& names, std::string_view name);
+
+/// Returns true if the names hold this one, or are none: all are meant.
+[[nodiscard]] bool covers(const std::vector<std::string>& names, std::string_view name);
 
 /// A request of the study for a parameter; later rules win.
 struct ParameterRule {

@@ -8,6 +8,7 @@
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/product_estimate.h"
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -38,7 +39,7 @@ struct RowMaker {
     const Eigen::Index at = map.find(Scope::muscle, kPlateau, muscle);
     if (at < 0) return false;
     const double quantile = math::normal_quantile(0.5 + 0.5 * kReportedProbability);
-    return z[at] - quantile * std::sqrt(std::max(0.0, fit.covariance(at, at))) < VerdictRules{}.flat_plateau;
+    return z[at] - quantile * std::sqrt(std::max(0.0, fit.covariance(at, at))) < kVerdictRules.flat_plateau;
   }
 
   /// Returns true if the force-length width is on a bound of physiology, not of the study.

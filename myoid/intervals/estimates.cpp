@@ -127,13 +127,13 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
         "the noise of the EMG is too large against what the recording tells of the muscles' torques for its effect on "
         "the strengths to be taken out: they may come out too weak, above all where muscles work against each other");
   }
-  if (result.r2 < VerdictRules{}.least_r2) {
+  if (result.r2 < kVerdictRules.least_r2) {
     warnings.push_back(
         fmt::format("the fit explains little of what it was fitted to (R2 {:.2f}): no number is called identified; "
                     "look for a wrong sign, unit, order of files or column",
                     result.r2));
   }
-  if (result.model_error > VerdictRules{}.model_error) {
+  if (result.model_error > kVerdictRules.model_error) {
     warnings.push_back(fmt::format(
         "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %: the "
         "estimates describe the fit rather than the muscles, and the truth may lie outside the intervals",

@@ -1,6 +1,5 @@
 #include "myoid/intervals/held_tendon.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,7 @@ namespace {
 constexpr const char* kSlackName = "tendon_slack_length";
 
 bool concerns(const ParameterRule& rule, const std::string& muscle) {
-  return rule.parameter == kSlackName &&
-         (rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(), muscle) != rule.owners.end());
+  return rule.parameter == kSlackName && covers(rule.owners, muscle);
 }
 
 /// Returns the derivative of the fitted torques by a held slack length, n.
@@ -48,7 +46,7 @@ double held_slack_sd_m(const StudyData& data, std::size_t muscle) {
   double sd_m = 0.0;
   if (const auto known = setup.priors.find(kSlackName); known != setup.priors.end())
     sd_m = known->second.sd * (known->second.logarithmic ? setup.start.tendon_slack_length_m : 1.0);
-  if (std::find(setup.fixed.begin(), setup.fixed.end(), kSlackName) != setup.fixed.end()) sd_m = 0.0;
+  if (contains(setup.fixed, kSlackName)) sd_m = 0.0;
   for (const ParameterRule& rule : data.rules) {
     if (!concerns(rule, setup.name)) continue;
     if (rule.prior_sd) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -277,7 +276,9 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
   return bootstrap_result(found, blocks.size(), p);
 }
 
-std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, double limit, std::size_t count) {
+std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information) {
+  constexpr double kLimit = 10.0;
+  constexpr std::size_t kMost = 12;
   const Eigen::Index p = information.rows();
   std::vector<CollinearSet> found;
   std::vector<Eigen::Index> usable;
@@ -293,10 +294,10 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, dou
     });
   };
   const auto consider = [&](const std::vector<Eigen::Index>& set) {
-    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set)) return;
+    if (above_in_all_directions(unit, set, 0.999 / (kLimit * kLimit)) || contains_smaller(set)) return;
     const double smallest = math::symmetric_eigenvalues(unit(set, set))[0];
     const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
-    if (index > limit) found.push_back({set, index});
+    if (index > kLimit) found.push_back({set, index});
   };
   const std::size_t n = usable.size();
   for (std::size_t i = 0; i < n; ++i)
@@ -312,7 +313,7 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, dou
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const CollinearSet& a, const CollinearSet& b) { return a.index > b.index; });
-  if (found.size() > count) found.resize(count);
+  if (found.size() > kMost) found.resize(kMost);
   return found;
 }
 

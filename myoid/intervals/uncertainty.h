@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -63,10 +62,8 @@ struct CollinearSet {
   std::vector<Eigen::Index> parameters;
   double index = 0.0;
 };
-/// Returns at most `count` sets of two to four with an index above `limit`, the worst first; no set
-/// contains a smaller one. `information` is J'WJ.
-[[nodiscard]] std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
-                                                       double limit = 10.0,
-                                                       std::size_t count = 12);
+/// Returns at most twelve sets of two to four with an index above 10, the worst first; no set contains a smaller one.
+/// `information` is J'WJ.
+[[nodiscard]] std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information);
 
 }  // namespace myoid::identification

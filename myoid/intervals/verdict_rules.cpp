@@ -11,7 +11,8 @@ std::string one_length_text(double span) {
       100.0 * span);
 }
 
-std::string verdict_rules_markdown(const VerdictRules& r) {
+std::string verdict_rules_markdown() {
+  constexpr const VerdictRules& r = kVerdictRules;
   std::string text = "| rule | threshold |\n| --- | --- |\n";
   const auto row = [&text](std::string_view rule, const std::string& threshold) {
     text += fmt::format("| {} | {} |\n", rule, threshold);

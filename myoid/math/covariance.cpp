@@ -1,7 +1,6 @@
 #include "myoid/math/covariance.h"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/SVD>
 #include <fmt/format.h>

@@ -28,8 +28,8 @@ void validate(const CountedCost& cost, const AnnealingOptions& options) {
   if (options.cycles < 1 || options.adjustments < 1 || !(options.first_temperature >= 0.0) ||
       !(options.spread_cooling >= 0.0)) {
     throw InvalidInput(
-        "simulated annealing: cycles and adjustments must be at least 1, the first temperature and "
-        "the cooling by spread not negative");
+        "simulated annealing: cycles and adjustments must be at least 1, the first temperature and the cooling by "
+        "spread not negative");
   }
 }
 

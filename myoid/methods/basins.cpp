@@ -10,6 +10,11 @@
 #include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
+namespace {
+
+constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
+
+}  // namespace
 
 BasinTable find_basins(const math::LocalSearch& search,
                        const StartBox& box,
@@ -26,7 +31,6 @@ BasinTable find_basins(const math::LocalSearch& search,
   const math::MultistartResult found = math::multistart(search, options);
   table.starts = static_cast<int>(found.minima.size());
   table.failed = static_cast<int>(found.failed.size());
-  constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   for (const math::Basin& basin : found.basins) {
     if (basin.converged == 0 && &basin != found.basins.data()) {
       table.failed += static_cast<int>(basin.members.size());
@@ -75,7 +79,6 @@ void report_other_minima(const BasinTable& table,
                          const std::vector<Unknown>& free,
                          double cost,
                          IdentificationResult& result) {
-  constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   constexpr double kLower = 0.05;
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> outside;
@@ -113,7 +116,8 @@ void report_other_minima(const BasinTable& table,
                   outside.size() > named ? fmt::format("; and {} more", outside.size() - named) : ""));
 }
 
-void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result, int starts) {
+void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result) {
+  constexpr int kUsualStarts = 24;
   if (!options.weights || options.estimator == EstimatorKind::posterior || result.exact ||
       result.termination != math::Termination::converged)
     return;
@@ -122,8 +126,9 @@ void look_around(const StudyData& data, EstimatorOptions options, Identification
   const Estimator estimator(data, options);
   if (result.solution.size() != estimator.model().parameters().size()) return;
   const Estimator::Solution here = estimator.solve(result.solution);
-  report_other_minima(result.basins.empty() ? find_basins(estimator, here.weighting, starts) : result.basins.front(),
-                      estimator.free(), here.search.cost, result);
+  report_other_minima(
+      result.basins.empty() ? find_basins(estimator, here.weighting, kUsualStarts) : result.basins.front(),
+      estimator.free(), here.search.cost, result);
 }
 
 BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool shortening, int starts) {

@@ -45,6 +45,10 @@ struct Shared {
   double reserve_nm = 0.0;
 };
 
+ForceLoopRound round_of(const Change& change, const Shared& shared) {
+  return {change.size, change.where, shared.force_change, shared.reserve_nm};
+}
+
 Shared share_all(StudyData& data,
                  const std::vector<MuscleValues>& muscles,
                  double delay_s,
@@ -67,6 +71,12 @@ Shared share_all(StudyData& data,
   shared.force_change = forces > 0.0 ? std::sqrt(changed / forces) : 0.0;
   shared.reserve_nm = std::sqrt(reserve / std::max(1.0, samples));
   return shared;
+}
+
+std::vector<MuscleValues> starting_values(const StudyData& data) {
+  std::vector<MuscleValues> values;
+  for (const MuscleSetup& setup : data.muscles) values.push_back(muscle_values(setup.start, setup.extras));
+  return values;
 }
 
 std::vector<MuscleValues> values_of(const StudyData& data, const IdentificationResult& fit) {
@@ -136,18 +146,6 @@ Eigen::MatrixXd torques_of_muscles(const TrialData& trial) {
 
 }  // namespace
 
-std::string_view name(LoopEnd end) {
-  switch (end) {
-    case LoopEnd::converged:
-      return "converged";
-    case LoopEnd::diverged:
-      return "diverged";
-    case LoopEnd::not_settled:
-      return "not_settled";
-  }
-  return "?";
-}
-
 InformedForces informed_forces(const TrialData& trial,
                                const Eigen::MatrixXd& measured,
                                const std::vector<MuscleValues>& muscles,
@@ -194,8 +192,7 @@ InformedForces informed_forces(const TrialData& trial,
     }
     result.activation.row(i) = solution.activation.transpose();
     for (Eigen::Index k = 0; k < m; ++k) {
-      const double share = muscles[static_cast<std::size_t>(k)][kShare];
-      result.force_n(i, k) = force_n(i, k, solution.activation[k] / share);
+      result.force_n(i, k) = force_n(i, k, solution.activation[k] / muscles[static_cast<std::size_t>(k)][kShare]);
     }
     result.reserve_nm.row(i) = (torques - arms * result.force_n.row(i).transpose()).transpose();
   }
@@ -221,16 +218,11 @@ ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
   EstimatorOptions estimator = options.force.estimator;
   estimator.predictions = false;
   loop.fit = identify_torque(data, estimator);
-  std::vector<MuscleValues> before;
-  for (const MuscleSetup& setup : data.muscles) before.push_back(muscle_values(setup.start, setup.extras));
   const std::vector<MuscleValues>& found = loop.fit.values.muscles;
-  const Change change = change_of(data.muscles, before, found);
+  const Change change = change_of(data.muscles, starting_values(data), found);
   Shared shared = share_all(data, found, loop.fit.delay_s, options.sharing);
   loop.forces = std::move(shared.trials);
-  loop.rounds.push_back({.parameter_change = change.size,
-                         .parameter = change.where,
-                         .force_change = shared.force_change,
-                         .reserve_nm = shared.reserve_nm});
+  loop.rounds.push_back(round_of(change, shared));
   const bool ended = loop.fit.termination == math::Termination::converged;
   loop.end = ended ? LoopEnd::converged : LoopEnd::diverged;
   loop.message = ended ? fmt::format(
@@ -249,8 +241,7 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
     return forces_of_posterior(std::move(data), options);
   ForceLoop loop;
   double delay_s = options.delay_s;
-  std::vector<MuscleValues> muscles;
-  for (const MuscleSetup& setup : data.muscles) muscles.push_back(muscle_values(setup.start, setup.extras));
+  std::vector<MuscleValues> muscles = starting_values(data);
   Shared shared = share_all(data, muscles, delay_s, options.sharing);
   for (int round = 0; round < options.max_rounds; ++round) {
     options.force.estimator.progress.check();
@@ -260,10 +251,7 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
     muscles = found;
     delay_s = found_delay(loop.fit, delay_s);
     shared = share_all(data, muscles, delay_s, options.sharing);
-    loop.rounds.push_back({.parameter_change = change.size,
-                           .parameter = change.where,
-                           .force_change = shared.force_change,
-                           .reserve_nm = shared.reserve_nm});
+    loop.rounds.push_back(round_of(change, shared));
     options.force.estimator.progress.tell(
         static_cast<double>(round + 1) / options.max_rounds,
         fmt::format("round {}: {} changes by {:.2g}", round + 1, change.where, change.size));

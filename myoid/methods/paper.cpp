@@ -21,7 +21,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/paper_case.h"
-#include "myoid/methods/trial_fit.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
@@ -323,9 +323,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
-    if (!options.muscles.empty() &&
-        std::find(options.muscles.begin(), options.muscles.end(), data.muscles[k].name) == options.muscles.end())
-      continue;
+    if (!covers(options.muscles, data.muscles[k].name)) continue;
     const auto shortening = fit_case(data, k, true, options, fit);
     const auto lengthening = fit_case(data, k, false, options, fit);
     if (options.multistart > 1) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -11,7 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/estimate_rows.h"
-#include "myoid/intervals/judgment.h"
+#include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
@@ -159,7 +158,7 @@ void judge_row(const Reporting& of,
   }
   if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
-    facts.possible = VerdictRules{}.possible(muscle[kWidth] / muscle[kFiberLength]);
+    facts.possible = kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]);
   }
   const Finding found = finding(facts);
   e.verdict = verdict_of(found);
@@ -295,7 +294,7 @@ void add_warnings(const std::vector<Candidate>& candidates,
         fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the priors are "
                     "that much wider here. Was the model scaled to this person?",
                     unlikeness));
-  if (result.model_error > VerdictRules{}.model_error)
+  if (result.model_error > kVerdictRules.model_error)
     result.warnings.push_back(fmt::format(
         "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %",
         100.0 * result.model_error));

@@ -138,7 +138,9 @@ Sampled sample_density(
     chains.emplace_back(density, mode, math::Random(seed, static_cast<std::uint64_t>(c)));
   const auto each_chain = [&](const auto& run) {
     parallel_ranges(kChains, Eigen::Index{1}, [&](const auto& range) {
-      for (Eigen::Index c = range.begin(); c < range.end(); ++c) run(chains[static_cast<std::size_t>(c)], c);
+      for (Eigen::Index c = range.begin(); c < range.end(); ++c) {
+        run(chains[static_cast<std::size_t>(c)], c);
+      }
     });
   };
   // First Laplace's covariance, then the density's own, with which the draws are taken.

@@ -108,8 +108,9 @@ std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& 
       std::count_if(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; });
   std::vector<Drives> drives(data.trials.size());
   parallel_ranges(data.trials.size(), std::size_t{1}, [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (data.trials[i].calibration) drives[i] = drives_of(data.trials[i], options, map);
+    }
   });
   std::vector<TrialRun> runs;
   double before = 0.0;

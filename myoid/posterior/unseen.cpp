@@ -21,26 +21,20 @@ constexpr double kSlopeReach = 0.1;        // of the range of an unknown without
 constexpr double kStep = 1e-5;             // of an unknown's range: a difference for a derivative
 
 /// Collects quantities one after the other.
-class Collector {
- public:
-  Collector(const StudyData& data,
-            const UnseenSpreads& spreads,
-            const ParameterMap& map,
-            const Recorded& recorded,
-            const std::vector<TrialRun>& runs,
-            const ModelValues& values,
-            const std::vector<RunEvaluation>& at,
-            const std::vector<Stepped>& steps)
-      : data_(data),
-        spreads_(spreads),
-        map_(map),
-        recorded_(recorded),
-        runs_(runs),
-        values_(values),
-        at_(at),
-        steps_(steps),
-        columns_(runs.size()),
-        by_slope_(runs.size()) {}
+struct Collector {
+  const StudyData& data_;
+  const UnseenSpreads& spreads_;
+  const ParameterMap& map_;
+  const Recorded& recorded_;
+  const std::vector<TrialRun>& runs_;
+  const ModelValues& values_;
+  const std::vector<RunEvaluation>& at_;
+  const std::vector<Stepped>& steps_;
+  std::vector<UnseenQuantity> quantities_ = {};
+  std::vector<std::size_t> lags_ = {};                              ///< Per muscle: index of its lag's quantity.
+  std::vector<std::vector<Eigen::ArrayXd>> columns_{runs_.size()};  ///< Per run, one for each quantity.
+  std::vector<Unseen::Slope> slopes_ = {};
+  std::vector<std::vector<Eigen::ArrayXd>> by_slope_{runs_.size()};  ///< Per run, one for each slope.
 
   void add_geometry(std::size_t k, bool priors) {
     for (int joint = 0; joint < recorded_.parts.joint_count(); ++joint) {
@@ -169,7 +163,6 @@ class Collector {
     return unseen;
   }
 
- private:
   /// A muscle at one joint of one run: its torque r F, the derivatives of this torque by length and
   /// rate, and length and rate themselves.
   struct OfMuscle {
@@ -335,20 +328,6 @@ class Collector {
       if (map_.channel_of_muscle(k) == static_cast<int>(c)) for_runs(k, fill);
     }
   }
-
-  const StudyData& data_;
-  const UnseenSpreads& spreads_;
-  const ParameterMap& map_;
-  const Recorded& recorded_;
-  const std::vector<TrialRun>& runs_;
-  const ModelValues& values_;
-  const std::vector<RunEvaluation>& at_;
-  const std::vector<Stepped>& steps_;
-  std::vector<UnseenQuantity> quantities_;
-  std::vector<std::size_t> lags_;                     ///< Per muscle: index of its lag's quantity.
-  std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
-  std::vector<Unseen::Slope> slopes_;
-  std::vector<std::vector<Eigen::ArrayXd>> by_slope_;  ///< Per run, one for each slope.
 };
 
 }  // namespace
@@ -382,7 +361,7 @@ Unseen unseen_quantities(const StudyData& data,
                          const ModelValues& values,
                          const std::vector<RunEvaluation>& at,
                          const std::vector<Stepped>& steps) {
-  Collector collector(data, options.unseen, map, recorded, runs, values, at, steps);
+  Collector collector{data, options.unseen, map, recorded, runs, values, at, steps};
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);

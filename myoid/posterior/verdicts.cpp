@@ -21,7 +21,7 @@ double half_width(double value, double low, double high, bool absolute) {
 }
 
 bool is_far(const PosteriorFacts& facts) {
-  return facts.prior_distance && *facts.prior_distance > VerdictRules{}.prior_conflict;
+  return facts.prior_distance && *facts.prior_distance > kVerdictRules.prior_conflict;
 }
 
 std::string size_text(double half, bool is_delay) {
@@ -43,7 +43,7 @@ std::string sources_text(const SourceShares& shares) {
 }  // namespace
 
 Finding finding(const PosteriorFacts& facts) {
-  const VerdictRules rules;
+  constexpr const VerdictRules& rules = kVerdictRules;
   if (!facts.converged) return Finding::not_converged;
   if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
   if (!facts.possible) return Finding::impossible;
