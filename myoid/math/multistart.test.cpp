@@ -96,8 +96,11 @@ TEST(Multistart, GivesTheSameOnOneThreadAndOnMany) {
 TEST(Multistart, FindsNistsCertifiedMinimumOfGauss3FromABox) {
   // Two Gaussian peaks that may swap their names: the box keeps them in order.
   const test::NistProblem nist = test::read_nist("Gauss3");
-  const MultistartResult result =
-      multistart(fits(least_squares(nist)), box(16, 0.5 * nist.certified, 1.6 * nist.certified));
+  MultistartOptions options = box(16, 0.5 * nist.certified, 1.6 * nist.certified);
+  // Positive parameters: the starts are spread evenly in the logarithms.
+  options.starts = points(16, options.lower.array().log().matrix(), options.upper.array().log().matrix());
+  for (Eigen::VectorXd& start : options.starts) start = start.array().exp().matrix().eval();
+  const MultistartResult result = multistart(fits(least_squares(nist)), options);
   ASSERT_FALSE(result.basins.empty());
   for (Eigen::Index j = 0; j < 8; ++j) EXPECT_NEAR(result.basins.front().x[j] / nist.certified[j], 1.0, 1e-6);
   EXPECT_NEAR(2.0 * result.basins.front().cost / nist.residual_sum_of_squares, 1.0, 1e-9);
