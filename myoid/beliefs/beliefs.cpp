@@ -61,15 +61,12 @@ std::optional<Prior> literature_prior(std::string_view parameter, double start, 
 }
 
 std::string beliefs_markdown() {
-  std::string text =
-      "| quantity | expected | spread | unit | used | source |\n| --- | --- | --- | --- | --- | "
-      "--- "
-      "|\n";
+  std::string text = "| quantity | expected | spread | unit | used | source |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const Belief* belief : beliefs::kAll) {
     const bool parameter = belief->name.find(' ') == std::string_view::npos;
     text += fmt::format("| {}{}{} | {} | {} | {} | {} | {} |\n", parameter ? "`" : "", belief->name,
-                        parameter ? "`" : "", belief->mean, spread_text(*belief),
-                        belief->unit.empty() ? "–" : belief->unit, belief->when, belief->source);
+                        parameter ? "`" : "", belief->mean.empty() ? fmt::format("{:g}", belief->value) : belief->mean,
+                        spread_text(*belief), belief->unit.empty() ? "–" : belief->unit, belief->when, belief->source);
   }
   return text;
 }

@@ -10,7 +10,7 @@
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
 #include "myoid/methods/cross_validation.h"
-#include "myoid/methods/solver_contests.h"
+#include "myoid/methods/solver_contest.h"
 #include "myoid/results/parameter_files.h"
 
 namespace myoid::commands {

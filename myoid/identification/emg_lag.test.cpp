@@ -1,10 +1,9 @@
-#include "myoid/identification/emg_lag.h"
-
 #include <cstdint>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "myoid/identification/options.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameters.h"
 
 namespace myoid::identification {

@@ -1,5 +1,3 @@
-#include "myoid/identification/error_shapes.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,12 +15,6 @@ constexpr Eigen::Index kOwnLag = 6;
 constexpr double kLogRange = 2.3;
 constexpr Eigen::Index kPerJoint = 2;  // the first two of a muscle's shapes, without its force
 
-/// Returns true if one of the unknowns is this number of this owner.
-bool is_found(const ParameterMap& map, Scope scope, int field, int owner) {
-  return std::any_of(map.free().begin(), map.free().end(),
-                     [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
-}
-
 /// Marks the shapes of a muscle that are unknowns of the fit: the data determine these, and a prior
 /// bounds them. A number of an EMG channel that drives other muscles too, or that is tied to
 /// another channel's, belongs to no single muscle.
@@ -36,7 +28,7 @@ std::array<bool, kPerMuscle> found_of_muscle(const ParameterMap& map, int muscle
            });
   };
   std::array<bool, kPerMuscle> found{};
-  const bool strength = measured_is_force && is_found(map, Scope::muscle, kMaxForce, muscle);
+  const bool strength = measured_is_force && map.find(Scope::muscle, kMaxForce, muscle) >= 0;
   found[0] = own(kGain) || strength;
   found[kLogActivation] = own(kExponent) || own(kShape);
   found[kOwnLag] = own(kDelay);
@@ -117,8 +109,8 @@ ErrorShapes shapes_without_values(
   }
   for (Eigen::Index j = 0; j < joints; ++j) {
     auto weight = result.weight.segment<kPerJoint>(kPerMuscle * muscles + kPerJoint * j);
-    weight << (is_found(map, Scope::joint, kOffset, static_cast<int>(j)) ? 0.0 : 1.0),
-        (is_found(map, Scope::joint, kStiffness, static_cast<int>(j)) ? 0.0 : 1.0);
+    weight << (map.find(Scope::joint, kOffset, static_cast<int>(j)) >= 0 ? 0.0 : 1.0),
+        (map.find(Scope::joint, kStiffness, static_cast<int>(j)) >= 0 ? 0.0 : 1.0);
   }
   return result;
 }

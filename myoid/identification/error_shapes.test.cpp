@@ -1,5 +1,3 @@
-#include "myoid/identification/error_shapes.h"
-
 #include <gtest/gtest.h>
 
 #include "myoid/identification/residual_model.h"

@@ -19,8 +19,7 @@ Estimator::Estimator(const StudyData& data, const EstimatorOptions& options)
   channel_variance_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(channels.size()));
   emg_noise_known_ = true;
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    const auto known = options.emg_bandwidth_hz.find(channels[c]);
-    if (known == options.emg_bandwidth_hz.end() || !(known->second > 0.0)) {
+    if (!(options.bandwidth_hz(channels[c]) > 0.0)) {
       emg_noise_known_ = false;
       continue;
     }
@@ -61,9 +60,8 @@ Eigen::VectorXd Estimator::exponents(const Eigen::VectorXd& z) const {
 Estimator::ChannelSlope Estimator::channel_slope(Eigen::Index j, const Eigen::VectorXd& exponent) const {
   const int channel = model_->channel_of_variable(j);
   if (channel < 0) return {};
-  const ParameterField& field = *free()[static_cast<std::size_t>(j)].field;
   // The solver's variable is ln p: dp = p d ln p, and p times T_ch / p is T_ch.
-  return {channel, exponent[channel], field.scope == Scope::channel && field.field == kExponent};
+  return {channel, exponent[channel], free()[static_cast<std::size_t>(j)].is(Scope::channel, kExponent)};
 }
 
 Estimator::RowSums Estimator::weigh(const Weighting& weighting,
@@ -189,10 +187,8 @@ NormalSearchResult Estimator::search(const Eigen::VectorXd& start,
                                      const Variant& variant,
                                      const std::vector<bool>& held) const {
   return minimize_normal(
-      [&](const Eigen::VectorXd& z, bool derivatives, NormalEquations& out) {
-        out = normal_equations(z, weighting, derivatives ? Derivatives::curvature : Derivatives::none, variant);
-      },
-      lower_, upper_, start,
+      [&](const Eigen::VectorXd& z) { return normal_equations(z, weighting, Derivatives::curvature, variant); }, lower_,
+      upper_, start,
       {.gauss_newton = options_.gauss_newton,
        .max_iterations = iterations,
        .step_tolerance = step_tolerance,

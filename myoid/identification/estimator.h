@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "myoid/identification/noise_level.h"
@@ -59,6 +58,8 @@ class Estimator {
   [[nodiscard]] Eigen::VectorXd exponents(const Eigen::VectorXd& z) const;
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
+  /// Per unknown: 1 / sd² of its prior; 0 without a prior.
+  [[nodiscard]] const Eigen::VectorXd& prior_precision() const { return prior_precision_; }
 
   /// Deviations of a replicate from the plain cost.
   struct Variant {

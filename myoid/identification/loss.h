@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "myoid/identification/options.h"
 
 namespace myoid::identification {
@@ -12,6 +14,15 @@ struct LossValue {
 
 /// Returns the cost rho of a residual of u standard deviations: u^2, or less at large u by Huber's and Cauchy's loss.
 /// Their scales of 1.345 and 2.385 give 95 % of the square's efficiency for normal residuals.
-[[nodiscard]] LossValue loss(Loss kind, double u);
+[[nodiscard]] inline LossValue loss(Loss kind, double u) {
+  constexpr double kHuber = 1.345, kCauchy = 2.385;
+  const double size = std::abs(u);
+  if (kind == Loss::huber && !(size <= kHuber)) return {kHuber * (2.0 * size - kHuber), kHuber / size};
+  if (kind == Loss::cauchy) {
+    const double x = u / kCauchy;
+    return {kCauchy * kCauchy * std::log1p(x * x), 1.0 / (1.0 + x * x)};
+  }
+  return {u * u, 1.0};
+}
 
 }  // namespace myoid::identification

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 
-#include "myoid/core/units.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::identification {

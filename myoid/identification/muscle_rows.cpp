@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "myoid/core/index.h"
-
 namespace myoid::identification {
 
 void evaluate_muscle(const std::vector<Activation>& activation,

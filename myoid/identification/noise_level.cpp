@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -17,9 +16,7 @@ struct NoiseBins {
 
 NoiseBins bins_of(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& power) {
   constexpr Eigen::Index kBins = 48;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(squared.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return power[i] < power[j]; });
+  const std::vector<Eigen::Index> order = math::rising_order(power.matrix());
   NoiseBins bins;
   const Eigen::Index n = squared.size();
   const Eigen::Index count = std::min(n, kBins);

@@ -63,7 +63,7 @@ class Search {
 
   bool evaluate(const Eigen::VectorXd& x, NormalEquations& out) {
     ++r_.evaluations;
-    function_(x, true, out);
+    out = function_(x);
     return std::isfinite(out.cost) && out.gradient.allFinite() && out.curvature.allFinite();
   }
 

@@ -17,8 +17,7 @@ struct NormalEquations {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature;
 };
-/// Fills all three members at z, or the cost alone.
-using NormalFunction = std::function<void(const Eigen::VectorXd& z, bool derivatives, NormalEquations& out)>;
+using NormalFunction = std::function<NormalEquations(const Eigen::VectorXd& z)>;
 
 struct NormalSearchOptions {
   bool gauss_newton = false;  ///< Takes full steps without damping.

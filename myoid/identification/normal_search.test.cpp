@@ -7,11 +7,11 @@ namespace {
 
 TEST(NormalSearch, FindsTheMinimumThatAnalysisGives) {
   // r = (x - 3, 10 (y - x^2)): minimum 0 at (3, 9); with x <= 2: r = (-1, 0) at (2, 4).
-  const NormalFunction rosenbrock = [](const Eigen::VectorXd& z, bool, NormalEquations& out) {
+  const NormalFunction rosenbrock = [](const Eigen::VectorXd& z) -> NormalEquations {
     const Eigen::Vector2d r(z[0] - 3.0, 10.0 * (z[1] - z[0] * z[0]));
     Eigen::Matrix2d j;
     j << 1.0, 0.0, -20.0 * z[0], 10.0;
-    out = {0.5 * r.squaredNorm(), j.transpose() * r, j.transpose() * j};
+    return {0.5 * r.squaredNorm(), j.transpose() * r, j.transpose() * j};
   };
   const Eigen::Vector2d low(-10.0, -10.0), high(10.0, 100.0), start(-1.2, 1.0);
   const NormalSearchResult free = minimize_normal(rosenbrock, low, high, start);

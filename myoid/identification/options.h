@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,9 +13,33 @@
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
-#include "myoid/identification/emg_lag.h"
 
 namespace myoid::identification {
+
+/// The law by which a muscle's activation follows its EMG.
+enum class EmgLag {
+  /// A pure delay d: a(t) = env(t - d).
+  delay,
+  /// A delay d of which the two lags of equation (1) (excitation, activation) are the larger part, in the proportions
+  /// of `LagShares`. The lags weaken fast changes: for d = 80 ms by a twentieth at 1 Hz, by a third at 3 Hz.
+  shared,
+  /// A pure delay d, and in addition the two lags with their own time constants.
+  equation_1,
+};
+
+inline constexpr std::string_view kEmgLagNames[] = {"delay", "shared", "equation_1"};
+constexpr ChoiceNames choice_names(EmgLag) { return kEmgLagNames; }
+[[nodiscard]] constexpr std::string_view name(EmgLag lag) { return choice_name(lag); }
+
+/// The parts of a shared delay d: a pure delay of 10 ms and the time constants of excitation, 40
+/// ms, activation, 15 ms, and deactivation, 50 ms (Winters 1990; Thelen 2003), over their sum of
+/// 82.5 ms. The last two count as their mean, because activity rises as often as it falls; so the mean lag is d.
+struct LagShares {
+  double pure = 10.0 / 82.5;
+  double excitation = 40.0 / 82.5;
+  double activation = 15.0 / 82.5;
+  double deactivation = 50.0 / 82.5;
+};
 
 /// The unknown from which the search computes V_sh V_shl.
 enum class Eccentric {
@@ -132,6 +157,13 @@ struct EstimatorOptions {
   int posterior_draws = 0;              ///< Draws by Hamiltonian Monte Carlo; 0: draws from an approximation.
   bool marginals = true;                ///< The approximation includes the skewness of each unknown.
   std::shared_ptr<DriveMemory> drives;  ///< Drives that fits of one recording share.
+
+  /// Returns the held delay, else the expected one.
+  [[nodiscard]] double usual_delay_s() const { return delay_s.value_or(delay_prior_mean_s); }
+  /// Returns `emg_bandwidth_hz` of the channel; 0: not known, because another program made the envelope.
+  [[nodiscard]] double bandwidth_hz(const std::string& channel) const;
+  /// Returns `emg_rest` of the channel; 0 where not known, or where what was subtracted from the envelope is not known.
+  [[nodiscard]] double rest_level(const std::string& channel) const;
 };
 
 }  // namespace myoid::identification

@@ -64,6 +64,8 @@ struct ModelValues {
   std::vector<MuscleValues> muscles;
   std::vector<ChannelValues> channels;
   std::vector<JointValues> joints;
+
+  [[nodiscard]] double& number(Scope scope, int owner, int field);
 };
 
 }  // namespace myoid::identification

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,10 +39,6 @@ void make_room(ParameterSlot& slot, double stated) {
   if (!slot.bounds_are_given) slot.bounds = slot.usual;
 }
 
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// Returns the slope ratio at a muscle's start that determines its product; 0: the product is free.
 double starting_slope_ratio(const MuscleSetup& setup, const EstimatorOptions& options) {
   if (options.eccentric == Eccentric::smooth) return 1.0;
@@ -72,7 +67,7 @@ void decide_muscle(ParameterSlot& slot,
   const int field = slot.field->field;
   const std::string name(slot.field->name);
   slot.value = field == kSlopeRatio ? slope_ratio : values[static_cast<std::size_t>(field)];
-  const bool wanted = options.muscles.empty() || contains(options.muscles, setup.name);
+  const bool wanted = covers(options.muscles, setup.name);
   slot.free = wanted && !contains(setup.fixed, name) && usually_free(field, setup, options, slope_ratio);
   if (const auto b = setup.bounds.find(name); b != setup.bounds.end()) bound(slot, b->second);
   if (const auto p = setup.priors.find(name); p != setup.priors.end()) slot.prior = p->second;

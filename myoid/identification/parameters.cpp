@@ -66,14 +66,11 @@ Unknown unknown_of(const ParameterSlot& slot, const std::string& owner, bool pri
 /// Returns the muscles' slots, muscle by muscle, and then the others.
 std::vector<const ParameterSlot*> in_order(const std::vector<ParameterSlot>& slots, std::size_t muscles) {
   std::vector<const ParameterSlot*> order;
-  for (std::size_t k = 0; k < muscles; ++k) {
-    for (const ParameterSlot& slot : slots) {
-      if (slot.field->scope == muscle && slot.owner == static_cast<int>(k)) order.push_back(&slot);
-    }
-  }
-  for (const ParameterSlot& slot : slots) {
-    if (slot.field->scope != muscle) order.push_back(&slot);
-  }
+  for (const ParameterSlot& slot : slots) order.push_back(&slot);
+  const auto place = [&](const ParameterSlot* slot) {
+    return slot->field->scope == muscle ? slot->owner : static_cast<int>(muscles);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto* a, auto* b) { return place(a) < place(b); });
   return order;
 }
 
@@ -171,41 +168,41 @@ double Unknown::prior_precision() const { return prior.sd > 0.0 ? 1.0 / (prior.s
 ParameterMap::ParameterMap(const StudyData& data, const EstimatorOptions& options) : normalised_(options.normalised) {
   for (const MuscleSetup& setup : data.muscles) {
     held_.muscles.push_back(muscle_values(setup.start, setup.extras));
-    const auto it = std::find(channels_.begin(), channels_.end(), setup.emg_channel);
-    channel_of_muscle_.push_back(static_cast<int>(it - channels_.begin()));
-    if (it == channels_.end()) channels_.push_back(setup.emg_channel);
+    owners_.muscles.push_back(setup.name);
+    const auto it = std::find(owners_.channels.begin(), owners_.channels.end(), setup.emg_channel);
+    channel_of_muscle_.push_back(static_cast<int>(it - owners_.channels.begin()));
+    if (it == owners_.channels.end()) owners_.channels.push_back(setup.emg_channel);
   }
-  joints_ = joint_names(data);
-  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
-  held_.channels.assign(channels_.size(), {delay_s, 1.0, 0.0, 0.040, 0.015, 0.050, 1.0});
-  held_.joints.assign(joints_.size(), {0.0, 0.0, 0.0, 0.0});
-
-  OwnerNames owners{.muscles = {}, .channels = channels_, .joints = joints_};
-  for (const MuscleSetup& setup : data.muscles) owners.muscles.push_back(setup.name);
-  ParameterSlots decided = default_slots(data, options, held_, owners);
-  apply_rules(data.rules, owners, decided);
+  owners_.joints = joint_names(data);
+  held_.channels.assign(owners_.channels.size(), {options.usual_delay_s(), 1.0, 0.0, 0.040, 0.015, 0.050, 1.0});
+  held_.joints.assign(owners_.joints.size(), {0.0, 0.0, 0.0, 0.0});
+  ParameterSlots decided = default_slots(data, options, held_, owners_);
+  apply_rules(data.rules, owners_, decided);
   slope_ratio_ = std::move(decided.slope_ratio);
-  hold(decided.slots);
-  free_ = unknowns_of(decided.slots, owners, options.priors);
+  for (const ParameterSlot& slot : decided.slots) {
+    if (slot.field->scope != muscle || slot.field->field != kSlopeRatio) {
+      held_.number(slot.field->scope, slot.owner, slot.field->field) = slot.value;
+    } else if (double& ratio = slope_ratio_[static_cast<std::size_t>(slot.owner)]; ratio > 0.0) {
+      ratio = slot.value;
+    }
+  }
+  free_ = unknowns_of(decided.slots, owners_, options.priors);
 
-  for (std::size_t c = 0; c < channels_.size(); ++c)
-    longest_delay_s_ = std::max(longest_delay_s_, held_.channels[c][kDelay]);
+  for (const ChannelValues& channel : held_.channels) longest_delay_s_ = std::max(longest_delay_s_, channel[kDelay]);
   for (const Unknown& p : free_) {
     if (p.is(channel, kDelay)) longest_delay_s_ = std::max(longest_delay_s_, p.bounds.upper);
   }
   held_ = values(start());
 }
 
-void ParameterMap::hold(const std::vector<ParameterSlot>& slots) {
-  for (const ParameterSlot& slot : slots) {
-    const auto k = static_cast<std::size_t>(slot.owner);
-    const auto f = static_cast<std::size_t>(slot.field->field);
-    if (slot.field->scope == muscle && slot.field->field != kSlopeRatio) held_.muscles[k][f] = slot.value;
-    if (slot.field->scope == muscle && slot.field->field == kSlopeRatio && slope_ratio_[k] > 0.0)
-      slope_ratio_[k] = slot.value;
-    if (slot.field->scope == channel) held_.channels[k][f] = slot.value;
-    if (slot.field->scope == joint) held_.joints[k][f] = slot.value;
-  }
+std::string ParameterMap::owner_name(const Unknown& of, int owner) const {
+  return of.owner == "subject" ? of.owner : owners_.of(of.field->scope)[static_cast<std::size_t>(owner)];
+}
+
+Eigen::Index ParameterMap::find(Scope scope, int field, int owner) const {
+  const auto it = std::find_if(free_.begin(), free_.end(),
+                               [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
+  return it == free_.end() ? -1 : static_cast<Eigen::Index>(it - free_.begin());
 }
 
 Eigen::VectorXd ParameterMap::start() const {
@@ -224,16 +221,12 @@ ModelValues ParameterMap::values(const Eigen::VectorXd& z, std::vector<Chain>* c
     const auto variable = static_cast<Eigen::Index>(j);
     const double value = p.to_value(z[variable]);
     const double slope = p.field->logarithmic ? value : 1.0;
-    const auto f = static_cast<std::size_t>(p.field->field);
     for (const Unknown::Target& target : p.targets) {
-      const auto k = static_cast<std::size_t>(target.owner);
       if (p.is(muscle, kSlopeRatio)) {
-        ratio[k] = {.value = target.ratio * value, .variable = variable};
+        ratio[static_cast<std::size_t>(target.owner)] = {.value = target.ratio * value, .variable = variable};
         continue;
       }
-      if (p.field->scope == channel) result.channels[k][f] = target.ratio * value;
-      if (p.field->scope == joint) result.joints[k][f] = target.ratio * value;
-      if (p.field->scope == muscle) result.muscles[k][f] = target.ratio * value;
+      result.number(p.field->scope, target.owner, p.field->field) = target.ratio * value;
       if (chains != nullptr)
         chains->push_back({p.field->scope, target.owner, p.field->field, variable, target.ratio * slope});
     }
@@ -245,6 +238,22 @@ ModelValues ParameterMap::values(const Eigen::VectorXd& z, std::vector<Chain>* c
     if (ratio[k].value > 0.0) set_product(m, owner, ratio[k], chains);
   }
   return result;
+}
+
+ChainsByOwner::ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains)
+    : of_muscle(map.held().muscles.size()), of_channel(map.channels().size()), of_joint(map.joints().size()) {
+  for (const ParameterMap::Chain& chain : chains) {
+    const auto owner = static_cast<std::size_t>(chain.owner);
+    if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
+    if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
+    if (chain.scope == Scope::joint) of_joint[owner].push_back(chain);
+  }
+}
+
+Eigen::VectorXd by_joint_field(int field, Eigen::Index n, const Eigen::Ref<const Eigen::MatrixXd>& motion) {
+  if (field == kOffset) return Eigen::VectorXd::Ones(n);
+  if (motion.size() == 0) return Eigen::VectorXd::Zero(n);
+  return -motion.col(field == kViscosity ? 1 : field == kInertia ? 2 : 0);
 }
 
 }  // namespace myoid::identification

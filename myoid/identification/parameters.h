@@ -46,8 +46,12 @@ class ParameterMap {
   [[nodiscard]] const std::vector<Unknown>& free() const { return free_; }
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
   [[nodiscard]] Eigen::VectorXd start() const;
-  [[nodiscard]] const std::vector<std::string>& channels() const { return channels_; }
-  [[nodiscard]] const std::vector<std::string>& joints() const { return joints_; }
+  [[nodiscard]] const std::vector<std::string>& channels() const { return owners_.channels; }
+  [[nodiscard]] const std::vector<std::string>& joints() const { return owners_.joints; }
+  /// Returns the name of one owner of an unknown, or "subject" for a number of all.
+  [[nodiscard]] std::string owner_name(const Unknown& of, int owner) const;
+  /// Returns the index of the unknown that moves this number of this owner; -1: the number is held.
+  [[nodiscard]] Eigen::Index find(Scope scope, int field, int owner) const;
   [[nodiscard]] int channel_of_muscle(std::size_t muscle) const { return channel_of_muscle_[muscle]; }
   [[nodiscard]] double longest_delay_s() const { return longest_delay_s_; }
 
@@ -64,16 +68,25 @@ class ParameterMap {
   [[nodiscard]] const ModelValues& held() const { return held_; }
 
  private:
-  /// Takes held values and slope ratios from the slots.
-  void hold(const std::vector<ParameterSlot>& slots);
-
   std::vector<Unknown> free_;
   ModelValues held_;
-  std::vector<std::string> channels_, joints_;
+  OwnerNames owners_;
   std::vector<int> channel_of_muscle_;
   std::vector<double> slope_ratio_;  ///< Per muscle; 0: the product is the parameter.
   bool normalised_ = false;
   double longest_delay_s_ = 0.0;
 };
+
+/// Derivatives of the model's numbers by the unknowns, grouped by the numbers' owners.
+struct ChainsByOwner {
+  ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains);
+  std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
+};
+
+/// Returns the derivative of a joint's own torque by one of its numbers, n. `motion`: angle, rate and acceleration,
+/// n x 3; empty: not known.
+[[nodiscard]] Eigen::VectorXd by_joint_field(int field,
+                                             Eigen::Index n,
+                                             const Eigen::Ref<const Eigen::MatrixXd>& motion);
 
 }  // namespace myoid::identification

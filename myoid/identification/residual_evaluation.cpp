@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -14,25 +13,6 @@ constexpr Eigen::Index kWorthSharing = 8000;
 
 }  // namespace
 
-/// Derivatives d value / d z of the model's numbers, grouped by owner.
-struct ResidualModel::Chains {
-  std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
-};
-
-ResidualModel::Chains ResidualModel::chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const {
-  Chains by;
-  by.of_muscle.resize(map_.held().muscles.size());
-  by.of_channel.resize(map_.channels().size());
-  by.of_joint.resize(map_.joints().size());
-  for (const ParameterMap::Chain& chain : chains) {
-    const auto owner = static_cast<std::size_t>(chain.owner);
-    if (chain.scope == Scope::muscle) by.of_muscle[owner].push_back(chain);
-    if (chain.scope == Scope::channel) by.of_channel[owner].push_back(chain);
-    if (chain.scope == Scope::joint) by.of_joint[owner].push_back(chain);
-  }
-  return by;
-}
-
 void ResidualModel::for_each_block(const std::function<void(std::size_t)>& one) const {
   const auto muscles = static_cast<Eigen::Index>(map_.held().muscles.size());
   if (measured_.size() * muscles < kWorthSharing) {
@@ -44,7 +24,7 @@ void ResidualModel::for_each_block(const std::function<void(std::size_t)>& one) 
 
 const std::vector<MuscleRows>& ResidualModel::evaluate_muscles(const Block& block,
                                                                const ModelValues& values,
-                                                               const Chains& chains) const {
+                                                               const ChainsByOwner& chains) const {
   // Keeps the rows: a new allocation costs more than filling them.
   thread_local std::vector<MuscleRows> rows;
   rows.resize(values.muscles.size());
@@ -90,15 +70,9 @@ void ResidualModel::add_torques(const Block& block,
   }
 }
 
-Eigen::VectorXd ResidualJoint::by_field(int field, Eigen::Index n) const {
-  if (field == kOffset) return Eigen::VectorXd::Ones(n);
-  if (motion.size() == 0) return Eigen::VectorXd::Zero(n);
-  return -motion.col(field == kViscosity ? 1 : field == kInertia ? 2 : 0);
-}
-
 void ResidualModel::add_gradient(const Block& block,
                                  const std::vector<MuscleRows>& muscles,
-                                 const Chains& chains,
+                                 const ChainsByOwner& chains,
                                  Evaluation& out) const {
   const Eigen::Index n = block.time_s.size();
   for (const ResidualJoint& joint : block.joints) {
@@ -113,7 +87,7 @@ void ResidualModel::add_gradient(const Block& block,
     }
     for (const ParameterMap::Chain& chain : chains.of_joint[static_cast<std::size_t>(joint.joint)])
       out.gradient.row(chain.variable).segment(joint.first, n) +=
-          chain.slope * joint.by_field(chain.field, n).transpose();
+          chain.slope * by_joint_field(chain.field, n, joint.motion).transpose();
     out.unfiltered.middleCols(joint.first, n) = out.gradient.middleCols(joint.first, n);
   }
 }
@@ -137,7 +111,7 @@ void ResidualModel::evaluate(const Eigen::VectorXd& z, Depth depth, Evaluation& 
   std::vector<ParameterMap::Chain> all;
   const bool gradient = depth != Depth::value;
   const ModelValues values = map_.values(z, gradient ? &all : nullptr);
-  const Chains chains = chains_by_owner(all);
+  const ChainsByOwner chains(map_, all);
   out.predicted.setZero(measured_.size());
   if (gradient) {
     out.gradient.setZero(map_.size(), measured_.size());
@@ -168,7 +142,7 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
                               Eigen::VectorXd& by_channel) const {
   std::vector<ParameterMap::Chain> all;
   const ModelValues values = map_.values(z, &all);
-  const Chains chains = chains_by_owner(all);
+  const ChainsByOwner chains(map_, all);
   PullBack rows{
       .predicted = Eigen::VectorXd::Zero(measured_.size()),
       .channel_torque = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(map_.channels().size()), measured_.size()),
@@ -189,7 +163,7 @@ void ResidualModel::pull_back(const Eigen::VectorXd& z,
       weigh(joint.piece, rows);
       by_torque.push_back(transposed_filter(block.filter, rows.by_predicted.segment(joint.first, n)));
       for (const ParameterMap::Chain& chain : chains.of_joint[static_cast<std::size_t>(joint.joint)])
-        prediction[chain.variable] += chain.slope * joint.by_field(chain.field, n).dot(by_torque.back());
+        prediction[chain.variable] += chain.slope * by_joint_field(chain.field, n, joint.motion).dot(by_torque.back());
     }
     Eigen::MatrixXd by_force(n, 2);
     for (std::size_t k = 0; k < muscles.size(); ++k) {

@@ -18,16 +18,11 @@ Eigen::VectorXd noise_gains(const ResidualBlock& block,
                             const std::vector<std::string>& channels,
                             const EstimatorOptions& options) {
   Eigen::VectorXd gains(static_cast<Eigen::Index>(channels.size()));
-  const double delay_s = options.delay_s.value_or(options.delay_prior_mean_s);
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    const auto rest = options.emg_rest.find(channels[c]);
-    // The noise subtracted from an envelope that another program computed is unknown.
-    const auto bandwidth = options.emg_bandwidth_hz.find(channels[c]);
-    const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
+  const double delay_s = options.usual_delay_s();
+  for (std::size_t c = 0; c < channels.size(); ++c)
     gains[static_cast<Eigen::Index>(c)] = identification::noise_gain(
         block.envelopes[c], block.time_s[0] - delay_s, block.time_s[block.time_s.size() - 1] - delay_s,
-        raw && rest != options.emg_rest.end() ? rest->second : 0.0, envelope_spread(options, channels[c]));
-  }
+        options.rest_level(channels[c]), envelope_spread(options, channels[c]));
   return gains;
 }
 
@@ -46,10 +41,19 @@ void check_motion(const ResidualBlock& block, const ParameterMap& map, const std
 
 }  // namespace
 
+double EstimatorOptions::bandwidth_hz(const std::string& channel) const {
+  const auto known = emg_bandwidth_hz.find(channel);
+  return known != emg_bandwidth_hz.end() && known->second > 0.0 ? known->second : 0.0;
+}
+
+double EstimatorOptions::rest_level(const std::string& channel) const {
+  const auto rest = emg_rest.find(channel);
+  return rest != emg_rest.end() && bandwidth_hz(channel) > 0.0 ? rest->second : 0.0;
+}
+
 double envelope_spread(const EstimatorOptions& options, const std::string& channel) {
-  const auto known = options.emg_bandwidth_hz.find(channel);
-  const double bandwidth_hz =
-      known != options.emg_bandwidth_hz.end() && known->second > 0.0 ? known->second : beliefs::kEmgBandwidth.value;
+  const double known_hz = options.bandwidth_hz(channel);
+  const double bandwidth_hz = known_hz > 0.0 ? known_hz : beliefs::kEmgBandwidth.value;
   return kRectifiedSpread / std::sqrt(2.0 * bandwidth_hz * 0.4815 / options.envelope_cutoff_hz);
 }
 
@@ -80,66 +84,23 @@ ResidualModel::ResidualModel(const StudyData& data, const EstimatorOptions& opti
 
 void ResidualModel::add_trial(const StudyData& data, int index, const EstimatorOptions& options) {
   const TrialData& trial = data.trials[static_cast<std::size_t>(index)];
-  const Eigen::Index all = trial.time_s.size();
-  if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all) {
-    throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
-  }
-  const double span = trial.time_s[all - 1] - trial.time_s[0];
-  const double interval = span / static_cast<double>(all - 1);
-  const auto stride =
-      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(1.0 / (interval * options.max_rate_hz))));
-  // Leaves out the ends of a trial, where splines and filters are unreliable and the delay reaches
-  // beyond the recorded EMG.
-  const double edge_s = std::min(0.1, 0.02 * span);
-  const Eigen::VectorXd& clock = trial.activation.time_s();
-  const double reach_s = std::min(map_.longest_delay_s(), 0.1 * span);
-  std::vector<bool> included(static_cast<std::size_t>(all), false);
-  for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
   // One block for every gapless run of samples, so that no filter reaches across a gap.
-  std::vector<std::vector<Eigen::Index>> runs(1);
-  for (Eigen::Index i = 0; i < all; i += stride) {
-    const double t = trial.time_s[i];
-    const bool inside = included[static_cast<std::size_t>(i)] && t >= trial.time_s[0] + edge_s &&
-                        t <= trial.time_s[all - 1] - edge_s && t - reach_s >= clock[0] - 1e-9 &&
-                        t <= clock[clock.size() - 1] + 1e-9;
-    if (inside) {
-      runs.back().push_back(i);
-    } else {
-      ++dropped_;
-      if (!runs.back().empty()) runs.emplace_back();
-    }
-  }
-  for (const std::vector<Eigen::Index>& rows : runs) {
+  for (const auto& rows : fitted_stretches(trial, options.max_rate_hz, map_.longest_delay_s(), &dropped_)) {
     if (rows.size() >= 2) add_block(data, index, rows, options);
   }
 }
 
-/// One joint of a trial as recorded, with all samples.
-struct ResidualModel::JointRecording {
-  const std::string& name;
-  const Eigen::VectorXd& torque_nm;
-  const Eigen::MatrixXd& arm_m;
-  const Eigen::VectorXd &q, &qdot, &qddot;
-  const Eigen::VectorXd& resting_nm;
-};
-
-void ResidualModel::add_joint(Block& block, const JointRecording& of, const std::vector<Eigen::Index>& rows) {
-  const Eigen::Index all = of.torque_nm.size();
+void ResidualModel::add_joint(Block& block, const TrialData& view, const std::vector<Eigen::Index>& rows) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   ResidualJoint joint;
   joint.joint =
-      static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), of.name) - map_.joints().begin());
+      static_cast<int>(std::find(map_.joints().begin(), map_.joints().end(), view.joint) - map_.joints().begin());
   joint.piece = pieces_.size();
   joint.first = measured_.size();
-  joint.arm_m = of.arm_m(rows, Eigen::all);
-  if (of.q.size() == all && of.qdot.size() == all && of.qddot.size() == all) {
-    joint.motion.resize(n, 3);
-    joint.motion.col(0) = of.q(rows);
-    joint.motion.col(1) = of.qdot(rows);
-    joint.motion.col(2) = of.qddot(rows);
-  }
-  if (of.resting_nm.size() == all) joint.resting_nm = of.resting_nm(rows);
-  Eigen::MatrixXd target = of.torque_nm(rows).transpose();
+  joint.arm_m = view.moment_arm_m(rows, Eigen::all);
+  if (const Eigen::MatrixXd motion = motion_of(view); motion.size() > 0) joint.motion = motion(rows, Eigen::all);
+  if (view.resting_nm.size() == view.torque_nm.size()) joint.resting_nm = view.resting_nm(rows);
+  Eigen::MatrixXd target = view.torque_nm(rows).transpose();
   filter_rows(block.filter, target);
   measured_.conservativeResize(joint.first + n);
   measured_.tail(n) = target.row(0).transpose();
@@ -174,15 +135,7 @@ void ResidualModel::add_block(const StudyData& data,
     block.envelopes.emplace_back(clock, trial.activation.column(channel), apart);
   block.noise_gain = noise_gains(block, map_.channels(), options);
 
-  add_joint(block,
-            {trial.joint, trial.torque_nm, trial.moment_arm_m, trial.angle_rad, trial.velocity_radps,
-             trial.acceleration_radps2, trial.resting_nm},
-            rows);
-  for (const JointData& joint : trial.more_joints)
-    add_joint(block,
-              {joint.name, joint.torque_nm, joint.moment_arm_m, joint.angle_rad, joint.velocity_radps,
-               joint.acceleration_radps2, joint.resting_nm},
-              rows);
+  for (std::size_t j = 0; j < identification::joint_count(trial); ++j) add_joint(block, of_joint(trial, j), rows);
   check_motion(block, map_, trial.name);
   blocks_.push_back(std::move(block));
 }

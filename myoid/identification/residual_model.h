@@ -1,15 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "myoid/identification/error_shapes.h"
+#include "myoid/identification/envelope.h"
 #include "myoid/identification/muscle_rows.h"
 #include "myoid/identification/parameters.h"
-#include "myoid/identification/residual_block.h"
+#include "myoid/math/butterworth.h"
 
 namespace myoid::identification {
 
@@ -17,6 +18,41 @@ namespace myoid::identification {
 /// with the EMG's bandwidth, averaged over the filters' time (0.4815 / cut-off of two passes of
 /// second order). An unknown bandwidth counts as 150 Hz.
 [[nodiscard]] double envelope_spread(const EstimatorOptions& options, const std::string& channel);
+
+/// A joint of a block. Its n rows of the residual begin at `first`.
+struct ResidualJoint {
+  int joint = 0;
+  std::size_t piece = 0;  ///< Index in ResidualModel::pieces().
+  Eigen::Index first = 0;
+  Eigen::MatrixXd arm_m;       ///< n x m
+  Eigen::MatrixXd motion;      ///< n x 3: angle, rate, acceleration; empty if unknown.
+  Eigen::VectorXd resting_nm;  ///< n, or empty: none.
+};
+
+/// A gapless, thinned run of samples of one calibration trial: n samples, m muscles.
+struct ResidualBlock {
+  int trial = 0;
+  Eigen::VectorXd time_s;
+  Eigen::MatrixXd length_m, velocity_mps;  ///< n x m
+  std::vector<Envelope> envelopes;         ///< Per channel.
+  Eigen::VectorXd noise_gain;              ///< Per channel.
+  std::vector<ResidualJoint> joints;
+  std::vector<math::SecondOrderSection> filter;  ///< Empty: the rows are not low-passed.
+};
+
+/// Errors of a muscle model as torques: sum_b x_b shape_b(t) with x = contrast D y. The y are independent and have the
+/// standard deviation `size`, the relative size of the error; D is the diagonal matrix of `weight`.
+struct ErrorShapes {
+  Eigen::MatrixXd shapes_nm;   ///< k x n, low-passed as `measured()`.
+  Eigen::MatrixXd unfiltered;  ///< k x n, not low-passed.
+  Eigen::VectorXd weight;      ///< k
+  /// k x k, symmetric: the identity, except for the lags of muscles with one pure delay. For these
+  /// only the differences from their mean are errors, because the delay is the mean.
+  Eigen::MatrixXd contrast;
+  std::vector<int> channel;  ///< k: EMG channel that multiplies the shape; -1: none.
+  /// k x k: d shape_b / d ln(envelope) of its channel = sum_j by_emg(b, j) shape_j.
+  Eigen::MatrixXd by_emg;
+};
 
 /// Consecutive rows of the residual: one joint of one trial.
 struct Piece {
@@ -98,15 +134,12 @@ class ResidualModel {
                  int trial,
                  const std::vector<Eigen::Index>& rows,
                  const EstimatorOptions& options);
-  /// One joint of a trial as recorded: all samples.
-  struct JointRecording;
-  void add_joint(Block& block, const JointRecording& of, const std::vector<Eigen::Index>& rows);
-  struct Chains;
-  [[nodiscard]] Chains chains_by_owner(const std::vector<ParameterMap::Chain>& chains) const;
+  /// Adds the joint that the view of a trial shows (of_joint).
+  void add_joint(Block& block, const TrialData& view, const std::vector<Eigen::Index>& rows);
   /// Workspace of the calling thread: good until its next call.
   [[nodiscard]] const std::vector<MuscleRows>& evaluate_muscles(const Block& block,
                                                                 const ModelValues& values,
-                                                                const Chains& chains) const;
+                                                                const ChainsByOwner& chains) const;
   void add_torques(const Block& block,
                    const ModelValues& values,
                    const std::vector<MuscleRows>& muscles,
@@ -114,7 +147,7 @@ class ResidualModel {
                    Eigen::MatrixXd& channel_torque) const;
   void add_gradient(const Block& block,
                     const std::vector<MuscleRows>& muscles,
-                    const Chains& chains,
+                    const ChainsByOwner& chains,
                     Evaluation& out) const;
   void add_motion_variance(const Block& block, const std::vector<MuscleRows>& muscles, Evaluation& out) const;
   void for_each_block(const std::function<void(std::size_t)>& one) const;

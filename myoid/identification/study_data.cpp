@@ -8,10 +8,17 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
-#include "myoid/identification/trial_rows.h"
 #include "myoid/muscle/force_velocity.h"
 
 namespace myoid::identification {
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool covers(const std::vector<std::string>& names, std::string_view name) {
+  return names.empty() || contains(names, name);
+}
 
 std::map<std::string, Prior> literature_priors(const muscle::HillParameters<double>& start) {
   std::map<std::string, Prior> priors;
@@ -29,12 +36,8 @@ std::map<std::string, Prior> literature_priors(const muscle::HillParameters<doub
 
 std::vector<std::string> unstated_speeds(const StudyData& data, const std::vector<std::string>& wanted) {
   std::vector<std::string> names;
-  const auto is_in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
   for (const MuscleSetup& setup : data.muscles) {
-    if ((wanted.empty() || is_in(wanted, setup.name)) && !is_in(setup.fixed, "max_shortening_speed"))
-      names.push_back(setup.name);
+    if (covers(wanted, setup.name) && !contains(setup.fixed, "max_shortening_speed")) names.push_back(setup.name);
   }
   return names;
 }
@@ -43,7 +46,7 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles) {
   const muscle::Range usual = muscle::hill_field("max_shortening_speed").bounds;
   std::vector<ParameterRule> rules;
   for (MuscleSetup& setup : data.muscles) {
-    if (std::find(muscles.begin(), muscles.end(), setup.name) == muscles.end()) continue;
+    if (!contains(muscles, setup.name)) continue;
     ParameterRule rule{.parameter = "max_shortening_speed", .owners = {setup.name}, .free = true};
     // A model's own value may lie outside a person's range; the bounds then lie about this value.
     const double start = setup.start.max_shortening_speed_mps;
@@ -82,6 +85,24 @@ TrialData of_joint(const TrialData& trial, std::size_t joint) {
   return one;
 }
 
+TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows) {
+  TrialData t = trial;
+  t.time_s = trial.time_s(rows);
+  const auto pick = [&](auto& x) {
+    if (x.rows() == trial.time_s.size()) x = x(rows, Eigen::all).eval();
+  };
+  for (Eigen::MatrixXd* x : {&t.length_m, &t.velocity_mps, &t.moment_arm_m, &t.force_n}) pick(*x);
+  for (Eigen::VectorXd* x : {&t.torque_nm, &t.angle_rad, &t.velocity_radps, &t.acceleration_radps2, &t.resting_nm})
+    pick(*x);
+  for (JointData& joint : t.more_joints) {
+    pick(joint.moment_arm_m);
+    for (Eigen::VectorXd* x :
+         {&joint.torque_nm, &joint.angle_rad, &joint.velocity_radps, &joint.acceleration_radps2, &joint.resting_nm})
+      pick(*x);
+  }
+  return t;
+}
+
 TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(count));
   std::iota(rows.begin(), rows.end(), first);
@@ -96,7 +117,7 @@ Eigen::VectorXd resting_torque_nm(const TrialData& trial) {
 std::vector<std::string> joint_names(const StudyData& data) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
   };
   for (const TrialData& trial : data.trials) {
     add(trial.joint);
@@ -114,6 +135,44 @@ std::vector<Eigen::Index> included_rows(const TrialData& trial) {
     if (!excluded) rows.push_back(i);
   }
   return rows;
+}
+
+Eigen::MatrixXd motion_of(const TrialData& trial) {
+  const Eigen::Index n = trial.time_s.size();
+  Eigen::MatrixXd motion;
+  if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n && trial.acceleration_radps2.size() == n) {
+    motion.resize(n, 3);
+    motion << trial.angle_rad, trial.velocity_radps, trial.acceleration_radps2;
+  }
+  return motion;
+}
+
+std::vector<std::vector<Eigen::Index>> fitted_stretches(const TrialData& trial,
+                                                        double max_rate_hz,
+                                                        double longest_delay_s,
+                                                        int* dropped) {
+  const Eigen::Index all = trial.time_s.size();
+  if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
+    throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
+  const double begin = trial.time_s[0], end = trial.time_s[all - 1], span = end - begin;
+  const double interval = span / static_cast<double>(all - 1);
+  const auto stride = std::max<Eigen::Index>(1, std::lround(1.0 / (interval * max_rate_hz)));
+  const double edge_s = std::min(0.1, 0.02 * span), reach_s = std::min(longest_delay_s, 0.1 * span);
+  const Eigen::VectorXd& clock = trial.activation.time_s();
+  std::vector<bool> included(static_cast<std::size_t>(all), false);
+  for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
+  std::vector<std::vector<Eigen::Index>> found(1);
+  for (Eigen::Index i = 0; i < all; i += stride) {
+    const double t = trial.time_s[i];
+    if (included[static_cast<std::size_t>(i)] && t >= begin + edge_s && t <= end - edge_s &&
+        t - reach_s >= clock[0] - 1e-9 && t <= clock[clock.size() - 1] + 1e-9) {
+      found.back().push_back(i);
+      continue;
+    }
+    if (dropped != nullptr) ++*dropped;
+    if (!found.back().empty()) found.emplace_back();
+  }
+  return found;
 }
 
 void validate(const StudyData& data) {
@@ -144,10 +203,8 @@ void validate(const StudyData& data) {
       return x.size() == 0 || (x.size() == n && x.allFinite());
     };
     if (!resting_or_none(trial.resting_nm))
-      throw InvalidInput(
-          fmt::format("trial '{}': the resting torque must be {} samples or none, "
-                      "found {}",
-                      trial.name, n, trial.resting_nm.size()));
+      throw InvalidInput(fmt::format("trial '{}': the resting torque must be {} samples or none, found {}", trial.name,
+                                     n, trial.resting_nm.size()));
     for (const JointData& joint : trial.more_joints) {
       if (joint.torque_nm.size() != n || !sized(joint.moment_arm_m) || !joint.torque_nm.allFinite() ||
           !joint.moment_arm_m.allFinite() || !resting_or_none(joint.resting_nm)) {

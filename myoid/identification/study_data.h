@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,11 @@ struct MuscleSetup {
   std::vector<std::string> given_priors;  ///< Names of the `priors` that the study gives.
   MuscleExtras extras;                    ///< Terms beyond the source paper's law.
 };
+
+[[nodiscard]] bool contains(const std::vector<std::string>& names, std::string_view name);
+
+/// Returns true if the names hold this one, or are none: all are meant.
+[[nodiscard]] bool covers(const std::vector<std::string>& names, std::string_view name);
 
 /// A request of the study for a parameter; later rules win.
 struct ParameterRule {
@@ -103,6 +109,9 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// joint, then follow `more_joints` in order.
 [[nodiscard]] TrialData of_joint(const TrialData& trial, std::size_t joint);
 
+/// Returns these samples of a trial, in rising order, as a trial of their own with the whole EMG.
+[[nodiscard]] TrialData at_rows(const TrialData& trial, const std::vector<Eigen::Index>& rows);
+
 /// Returns samples [first, first + count) of a trial as a trial of their own, with the whole EMG.
 [[nodiscard]] TrialData part(const TrialData& trial, Eigen::Index first, Eigen::Index count);
 
@@ -112,8 +121,20 @@ void free_speeds(StudyData& data, const std::vector<std::string>& muscles);
 /// Returns the names of all joints of all trials, in order of appearance.
 [[nodiscard]] std::vector<std::string> joint_names(const StudyData& data);
 
+/// Returns angle, rate and acceleration of the trial's own joint, n x 3; empty: not all are known.
+[[nodiscard]] Eigen::MatrixXd motion_of(const TrialData& trial);
+
 /// Returns the samples of a trial outside all excluded stretches, in order.
 [[nodiscard]] std::vector<Eigen::Index> included_rows(const TrialData& trial);
+
+/// Returns every stride-th sample that may be fitted, at most `max_rate_hz`, in stretches without a gap. Leaves out
+/// what the study excludes and the ends of a trial, where splines and filters are unreliable and the delay reaches
+/// beyond the recorded EMG; `dropped`, if given, counts these. Throws InvalidInput if the trial has no torque or no
+/// moment arms.
+[[nodiscard]] std::vector<std::vector<Eigen::Index>> fitted_stretches(const TrialData& trial,
+                                                                      double max_rate_hz,
+                                                                      double longest_delay_s,
+                                                                      int* dropped = nullptr);
 
 /// Throws InvalidInput, with trial and muscle, unless sizes agree, values are finite and every EMG channel exists.
 void validate(const StudyData& data);

@@ -8,7 +8,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "myoid/math/explained_share.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {

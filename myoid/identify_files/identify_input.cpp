@@ -12,7 +12,6 @@
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
 #include "myoid/math/decompositions.h"
-#include "myoid/math/moving_mean.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/signals/emg_levels.h"

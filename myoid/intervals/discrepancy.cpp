@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
+#include "myoid/intervals/score_blocks.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
@@ -131,16 +131,6 @@ Eigen::VectorXd mean_by_emg_noise(const Estimator& estimator,
   return mean;
 }
 
-/// Returns A = J W J' + P without subtraction, invertible. `jacobian`: p x n, J W^1/2.
-Eigen::MatrixXd whole_information(const std::vector<Unknown>& free, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd a = jacobian * jacobian.transpose();
-  for (Eigen::Index j = 0; j < a.rows(); ++j) {
-    a(j, j) += free[static_cast<std::size_t>(j)].prior_precision();
-    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
-  }
-  return a;
-}
-
 /// Returns the rows of `errors` that are not 0: combinations of shapes that are model errors.
 std::vector<Eigen::Index> rows_of_errors(const Eigen::MatrixXd& errors) {
   std::vector<Eigen::Index> kept;
@@ -202,7 +192,9 @@ Discrepancy discrepancy(const Estimator& estimator,
   const Eigen::MatrixXd s = errors(kept, Eigen::all) * every;
   const Eigen::VectorXd h = errors(kept, Eigen::all) * along;
   const Eigen::MatrixXd sj = s * root.asDiagonal() * gradient.transpose();
-  const Eigen::MatrixXd a = whole_information(estimator.free(), gradient * root.asDiagonal());
+  // A = J W J' + P without subtraction.
+  const Eigen::MatrixXd rows = gradient * root.asDiagonal();
+  const Eigen::MatrixXd a = with_priors_invertible(rows * rows.transpose(), estimator);
   const Eigen::MatrixXd left = s * s.transpose() - sj * a.ldlt().solve(sj.transpose());
   std::vector<bool> of_muscle;
   for (const Eigen::Index b : kept) of_muscle.push_back(shapes.channel[static_cast<std::size_t>(b)] >= 0);

@@ -50,10 +50,7 @@ void read(const nlohmann::json& cell, Unit& value) {
 }
 
 void read(const nlohmann::json& cell, Verdict& value) {
-  const auto text = cell.get<std::string>();
-  for (int verdict = 0; verdict <= static_cast<int>(Verdict::non_physical); ++verdict) {
-    if (name(static_cast<Verdict>(verdict)) == text) value = static_cast<Verdict>(verdict);
-  }
+  if (const auto verdict = choice_named<Verdict>(cell.get<std::string>())) value = *verdict;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "myoid/identification/muscle_activation.h"
 #include "myoid/intervals/identifiability.h"
+#include "myoid/intervals/verdict_rules.h"
 
 namespace myoid::identification {
 namespace {
@@ -22,9 +23,9 @@ constexpr double kDeviations = 3.0;
 constexpr double kNegligible = 0.1;
 
 double tolerance(const ParameterEstimate& e) {
-  if (e.parameter == "emg_delay") return VerdictRules{}.delay_identified_s;
+  if (e.parameter == "emg_delay") return kVerdictRules.delay_identified_s;
   if (zero_by_nature(e.parameter)) return e.prior_sd.value_or(0.0);
-  return VerdictRules{}.identified_half_width * std::abs(e.estimate);
+  return kVerdictRules.identified_half_width * std::abs(e.estimate);
 }
 
 }  // namespace
@@ -64,9 +65,8 @@ void RouteRemarks::compare(ParameterEstimate& e) {
 void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count) const {
   if (disagree_ > 0) {
     warnings.push_back(fmt::format(
-        "the routes to the interval disagree by more than chance makes of them for {} of {} "
-        "numbers, "
-        "most for {}: {} (routes_disagree in parameters.csv)",
+        "the routes to the interval disagree by more than chance makes of them for {} of {} numbers, most for {}: {} "
+        "(routes_disagree in parameters.csv)",
         disagree_, count, worst_text_,
         beyond_ == 0 ? std::string("the wider one is what is reported")
                      : fmt::format("for {} of them a route is wider than what is reported: trust that one", beyond_)));
@@ -75,9 +75,8 @@ void RouteRemarks::add_to(std::vector<std::string>& warnings, std::size_t count)
   constexpr std::size_t kNamed = 4;
   const std::size_t named = std::min(kNamed, open_.size());
   warnings.push_back(fmt::format(
-      "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at "
-      "most",
-      open_.size(), count, fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+      "the profile is open for {} of {} numbers ({}{}): there the data bound them on one side at most", open_.size(),
+      count, fmt::join(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(named), ", "),
       open_.size() > named ? ", ..." : ""));
 }
 
@@ -102,7 +101,6 @@ double span_but_for(double time_s, LengthsInTime lengths) {
 }  // namespace
 
 std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
-  constexpr VerdictRules kRules;
   const std::size_t muscles = data.muscles.size();
   std::vector<double> shortening_s(muscles, 0.0), lengthening_s(muscles, 0.0);
   std::vector<LengthsInTime> lengths(muscles);
@@ -114,9 +112,9 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
     for (const Eigen::Index i : included_rows(trial)) {
       for (std::size_t k = 0; k < muscles; ++k) {
         const auto column = static_cast<Eigen::Index>(k);
-        const double least = kRules.moving_share * data.muscles[k].start.max_shortening_speed_mps;
+        const double least = kVerdictRules.moving_share * data.muscles[k].start.max_shortening_speed_mps;
         const double v = trial.velocity_mps(i, column);
-        if (!(activation(i, column) > kRules.active)) continue;
+        if (!(activation(i, column) > kVerdictRules.active)) continue;
         lengths[k].emplace_back(trial.length_m(i, column), step_s);
         if (v > least) lengthening_s[k] += step_s;
         if (v < -least) shortening_s[k] += step_s;
@@ -125,9 +123,9 @@ std::vector<ActiveMotion> active_motion(const StudyData& data, double delay_s) {
   }
   std::vector<ActiveMotion> result(muscles);
   for (std::size_t k = 0; k < muscles; ++k)
-    result[k] = {.shortened = shortening_s[k] >= kRules.least_s,
-                 .lengthened = lengthening_s[k] >= kRules.least_s,
-                 .length_span_m = span_but_for(kRules.least_s, std::move(lengths[k]))};
+    result[k] = {.shortened = shortening_s[k] >= kVerdictRules.least_s,
+                 .lengthened = lengthening_s[k] >= kVerdictRules.least_s,
+                 .length_span_m = span_but_for(kVerdictRules.least_s, std::move(lengths[k]))};
   return result;
 }
 
@@ -182,12 +180,11 @@ std::vector<PriorDistance> prior_distances(const std::vector<Unknown>& free,
 
 void add_distances_to(std::vector<std::string>& warnings, const std::vector<PriorDistance>& distances) {
   for (const PriorDistance& d : distances) {
-    if (std::max(d.distance, d.farthest_distance) <= VerdictRules{}.prior_conflict) continue;
-    warnings.push_back(
-        fmt::format("{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations "
-                    "of their priors away, {} {:.1f}: use none of them before the cause is known (electrode, "
-                    "sign, unit, mass, geometry)",
-                    d.muscle, d.distance, d.farthest, d.farthest_distance));
+    if (std::max(d.distance, d.farthest_distance) <= kVerdictRules.prior_conflict) continue;
+    warnings.push_back(fmt::format(
+        "{} has left what is known beforehand: its numbers together lie {:.1f} standard deviations of their priors "
+        "away, {} {:.1f}: use none of them before the cause is known (electrode, sign, unit, mass, geometry)",
+        d.muscle, d.distance, d.farthest, d.farthest_distance));
   }
 }
 
@@ -195,13 +192,13 @@ std::string lag_remark(const IdentificationResult& result) {
   if (!result.shared_lag_gain) return {};
   const double gain = std::abs(*result.shared_lag_gain);
   const bool clear = gain >= 4.0;  // two standard deviations
-  return fmt::format("The muscles follow their EMG {}; {}.",
-                     result.lag == EmgLag::shared
-                         ? "with the lags of excitation and activation, of which the delay is the mean"
-                         : "with a delay that leaves its shape as it is, not with the lags of excitation and "
-                           "activation",
-                     clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
-                           : std::string("the recording hardly tells which"));
+  return fmt::format(
+      "The muscles follow their EMG {}; {}.",
+      result.lag == EmgLag::shared
+          ? "with the lags of excitation and activation, of which the delay is the mean"
+          : "with a delay that leaves its shape as it is, not with the lags of excitation and activation",
+      clear ? fmt::format("the recording tells that (chi-square less by {:.0f})", gain)
+            : std::string("the recording hardly tells which"));
 }
 
 void agree_on_tied(std::vector<ParameterEstimate>& estimates, std::size_t count) {

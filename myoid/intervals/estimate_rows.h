@@ -8,6 +8,16 @@
 
 namespace myoid::identification {
 
+/// Returns the row of one owner of an unknown at `z`, in the solver's scale: names, values and prior, not yet its
+/// interval, shrinkage and verdict.
+[[nodiscard]] ParameterEstimate row_of(const Unknown& p,
+                                       const Unknown::Target& target,
+                                       const ParameterMap& map,
+                                       double z);
+
+/// Returns the row of V_sh V_shl of a muscle whose slope ratio is the unknown: names and start, no estimate.
+[[nodiscard]] ParameterEstimate product_row_of(const MuscleSetup& muscle);
+
 /// Returns the rows of parameters.csv of one solution with their intervals and verdicts: one row
 /// for each unknown and owner, and one for each product V_sh V_shl that follows from a slope ratio.
 /// `fit` holds the covariance, the values and the distances from the priors of the same solution.

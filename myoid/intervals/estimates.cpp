@@ -16,7 +16,7 @@
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/uncertainty.h"
 #include "myoid/intervals/verdict_rules.h"
-#include "myoid/math/explained_share.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -124,25 +124,20 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
   std::vector<std::string> warnings;
   if (options.weights && options.correct_attenuation && !corrected) {
     warnings.push_back(
-        "the noise of the EMG is too large against what the recording tells of the muscles' "
-        "torques "
-        "for its effect on the strengths to be taken out: they may come out too weak, above all "
-        "where muscles work against each other");
+        "the noise of the EMG is too large against what the recording tells of the muscles' torques for its effect on "
+        "the strengths to be taken out: they may come out too weak, above all where muscles work against each other");
   }
-  if (result.r2 < VerdictRules{}.least_r2) {
+  if (result.r2 < kVerdictRules.least_r2) {
     warnings.push_back(
-        fmt::format("the fit explains little of what it was fitted to (R2 {:.2f}): no number is called "
-                    "identified; look for a wrong sign, unit, order of files or column",
+        fmt::format("the fit explains little of what it was fitted to (R2 {:.2f}): no number is called identified; "
+                    "look for a wrong sign, unit, order of files or column",
                     result.r2));
   }
-  if (result.model_error > VerdictRules{}.model_error) {
-    warnings.push_back(
-        fmt::format("what the model leaves of the torque depends on posture, effort and speed as "
-                    "if it were wrong "
-                    "by {:.0f} %: the estimates describe the fit rather than the muscles, and the "
-                    "truth may lie "
-                    "outside the intervals",
-                    100.0 * result.model_error));
+  if (result.model_error > kVerdictRules.model_error) {
+    warnings.push_back(fmt::format(
+        "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %: the "
+        "estimates describe the fit rather than the muscles, and the truth may lie outside the intervals",
+        100.0 * result.model_error));
   }
   add_distances_to(warnings, result.prior_distances);
   if (result.bootstrap_failed > 0) {

@@ -1,12 +1,12 @@
 #include "myoid/intervals/held_tendon.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "myoid/identification/loss.h"
+#include "myoid/intervals/score_blocks.h"
 
 namespace myoid::identification {
 namespace {
@@ -14,13 +14,7 @@ namespace {
 constexpr const char* kSlackName = "tendon_slack_length";
 
 bool concerns(const ParameterRule& rule, const std::string& muscle) {
-  return rule.parameter == kSlackName &&
-         (rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(), muscle) != rule.owners.end());
-}
-
-bool is_slack_of(const Unknown& p, int muscle) {
-  return p.field->scope == Scope::muscle && p.field->field == kSlack &&
-         std::any_of(p.targets.begin(), p.targets.end(), [&](const Unknown::Target& t) { return t.owner == muscle; });
+  return rule.parameter == kSlackName && covers(rule.owners, muscle);
 }
 
 /// Returns the derivative of the fitted torques by a held slack length, n.
@@ -29,23 +23,15 @@ Eigen::RowVectorXd torque_by_slack(const Estimator& estimator,
                                    const StudyData& data,
                                    std::size_t muscle) {
   StudyData freed = data;
-  ParameterRule rule;
-  rule.parameter = kSlackName;
-  rule.owners = {data.muscles[muscle].name};
-  rule.free = true;
-  freed.rules.push_back(rule);
+  freed.rules.push_back({.parameter = kSlackName, .owners = {data.muscles[muscle].name}, .free = true});
   const ResidualModel model(freed, estimator.options());
   Eigen::VectorXd at = model.parameters().start();
-  Eigen::Index slack = -1;
+  const Eigen::Index slack = model.parameters().find(Scope::muscle, kSlack, static_cast<int>(muscle));
+  at[slack] = estimator.model().parameters().values(z).muscles[muscle][kSlack];
   for (std::size_t j = 0; j < model.parameters().free().size(); ++j) {
-    const Unknown& p = model.parameters().free()[j];
-    const auto here = static_cast<Eigen::Index>(j);
-    if (is_slack_of(p, static_cast<int>(muscle))) {
-      slack = here;
-      at[here] = estimator.model().parameters().values(z).muscles[muscle][kSlack];
-    }
     for (std::size_t i = 0; i < estimator.free().size(); ++i) {
-      if (estimator.free()[i].label == p.label) at[here] = z[static_cast<Eigen::Index>(i)];
+      if (estimator.free()[i].label == model.parameters().free()[j].label)
+        at[static_cast<Eigen::Index>(j)] = z[static_cast<Eigen::Index>(i)];
     }
   }
   Evaluation evaluation;
@@ -60,7 +46,7 @@ double held_slack_sd_m(const StudyData& data, std::size_t muscle) {
   double sd_m = 0.0;
   if (const auto known = setup.priors.find(kSlackName); known != setup.priors.end())
     sd_m = known->second.sd * (known->second.logarithmic ? setup.start.tendon_slack_length_m : 1.0);
-  if (std::find(setup.fixed.begin(), setup.fixed.end(), kSlackName) != setup.fixed.end()) sd_m = 0.0;
+  if (contains(setup.fixed, kSlackName)) sd_m = 0.0;
   for (const ParameterRule& rule : data.rules) {
     if (!concerns(rule, setup.name)) continue;
     if (rule.prior_sd) {
@@ -80,8 +66,7 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(z.size(), muscles);
   std::vector<std::size_t> unsure;
   for (std::size_t k = 0; k < data.muscles.size() && estimator.options().priors; ++k) {
-    const bool unknown = std::any_of(estimator.free().begin(), estimator.free().end(),
-                                     [&](const Unknown& p) { return is_slack_of(p, static_cast<int>(k)); });
+    const bool unknown = estimator.model().parameters().find(Scope::muscle, kSlack, static_cast<int>(k)) >= 0;
     if (!unknown && held_slack_sd_m(data, k) > 0.0) unsure.push_back(k);
   }
   if (unsure.empty()) return shift;
@@ -97,13 +82,7 @@ Eigen::MatrixXd held_tendon_shift(const Estimator& estimator,
     if (solution.search.at_bound[static_cast<std::size_t>(j)]) at.gradient.row(j).setZero();
   }
   const Eigen::MatrixXd weighted = at.gradient * weight.asDiagonal();
-  Eigen::MatrixXd a = weighted * at.gradient.transpose();
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double prior_sd = estimator.free()[static_cast<std::size_t>(j)].prior.sd;
-    if (prior_sd > 0.0) a(j, j) += 1.0 / (prior_sd * prior_sd);
-    a(j, j) = a(j, j) > 0.0 ? a(j, j) * (1.0 + 1e-12) : 1.0;
-  }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(a);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(with_priors_invertible(weighted * at.gradient.transpose(), estimator));
   for (const std::size_t k : unsure)
     shift.col(static_cast<Eigen::Index>(k)) =
         -held_slack_sd_m(data, k) * factor.solve(weighted * torque_by_slack(estimator, z, data, k).transpose());

@@ -5,36 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid::identification {
-namespace {
-
-/// Returns true if the sentence of this ground states a distance from the prior.
-bool tells_distance(Ground ground) {
-  return ground == Ground::unsure_and_far_from_prior || ground == Ground::contradicts_prior ||
-         ground == Ground::moved_from_prior || ground == Ground::far_from_prior ||
-         ground == Ground::muscle_far_from_prior;
-}
-
-}  // namespace
-
-std::string_view name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::identified:
-      return "identified";
-    case Verdict::weak:
-      return "weak";
-    case Verdict::prior_dominated:
-      return "prior_dominated";
-    case Verdict::not_identifiable:
-      return "not_identifiable";
-    case Verdict::non_physical:
-      return "non_physical";
-  }
-  return "?";
-}
-
 int severity(Verdict verdict) { return static_cast<int>(verdict); }
 
 double equivalent_deviations(double sum_of_squares, int count) {
@@ -45,31 +19,30 @@ double equivalent_deviations(double sum_of_squares, int count) {
   return beyond > 0.0 ? -math::normal_quantile(0.5 * beyond) : std::sqrt(sum_of_squares);
 }
 
-void judge(ParameterEstimate& e, const VerdictContext& context, const VerdictRules& rules) {
-  Judgment judgment = judgment_of(e, context, rules);
-  const Ground ground = judgment.ground;
+void judge(ParameterEstimate& e, const VerdictContext& context) {
+  Judgment judgment = judgment_of(e, context);
   e.verdict = judgment.verdict;
   e.reason = std::move(judgment.reason);
-  const bool no_muscle = !rules.possible(context.curve_width);
+  const bool no_muscle = !kVerdictRules.possible(context.curve_width);
   const bool told = e.verdict == Verdict::weak || e.verdict == Verdict::identified;
   const bool peak_of_none = no_muscle && told && e.parameter == "optimal_fiber_length";
   if (peak_of_none) {
     // No muscle has this curve, so the place of its peak says nothing even with a narrow interval.
     e.verdict = Verdict::not_identifiable;
     e.reason = fmt::format(
-        "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of "
-        "the optimal length)",
+        "the place of the peak of a force-length curve that no muscle has (its width is {:.2g} of the optimal length)",
         context.curve_width);
-  } else if (no_muscle && e.verdict == Verdict::weak && ground != Ground::impossible_curve) {
+  } else if (no_muscle && e.verdict == Verdict::weak && judgment.tells != Tells::curve) {
     e.reason += "; by a force-length curve that no muscle has";
   }
-  const bool said = tells_distance(ground) && !peak_of_none;
-  if (context.prior_distance > rules.prior_conflict && std::isfinite(e.estimate) && !said)
+  const bool said = judgment.tells == Tells::distance && !peak_of_none;
+  if (context.prior_distance > kVerdictRules.prior_conflict && std::isfinite(e.estimate) && !said)
     e.reason += fmt::format("; {} away from {}", deviations(context.prior_distance, context), context.beforehand);
-  if (context.tendon_share > rules.mostly_tendon && e.verdict != Verdict::identified && std::isfinite(e.estimate))
+  if (context.tendon_share > kVerdictRules.mostly_tendon && e.verdict != Verdict::identified &&
+      std::isfinite(e.estimate))
     e.reason +=
-        "; most of its uncertainty is that of the tendon slack length, which is no measurement: "
-        "with a rigid tendon the recording tells the sum of both";
+        "; most of its uncertainty is that of the tendon slack length, which is no measurement: with a rigid tendon "
+        "the recording tells the sum of both";
   if (e.parameter == "concentric_curvature" && context.speed_is_free && e.verdict != Verdict::identified &&
       e.verdict != Verdict::non_physical)
     e.reason += "; v_max is not known, and another v_max asks for another V_sh";

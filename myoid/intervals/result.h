@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,15 +8,25 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/choice.h"
 #include "myoid/core/units.h"
-#include "myoid/identification/emg_lag.h"
 #include "myoid/identification/parameters.h"
 #include "myoid/intervals/score.h"
-#include "myoid/intervals/variance_sources.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::identification {
+
+/// The origins of an uncertainty.
+enum class Source { noise, literature, geometry, electrodes, torque_scale, model };
+inline constexpr int kSourceCount = 6;
+
+/// Their names in the columns of files, in the order of `Source`.
+inline constexpr std::array<std::string_view, kSourceCount> kSourceColumns = {"noise",      "literature",   "geometry",
+                                                                              "electrodes", "torque_scale", "model"};
+
+/// Shares of a variance by source, which add to 1.
+using SourceShares = std::array<double, kSourceCount>;
 
 /// The degree to which a number can be trusted.
 enum class Verdict {
@@ -25,7 +36,10 @@ enum class Verdict {
   not_identifiable,  ///< The recording does not determine it.
   non_physical,      ///< No muscle can have the value: the fit describes something other than a muscle.
 };
-[[nodiscard]] std::string_view name(Verdict verdict);
+inline constexpr std::string_view kVerdictNames[] = {"identified", "weak", "prior_dominated", "not_identifiable",
+                                                     "non_physical"};
+constexpr ChoiceNames choice_names(Verdict) { return kVerdictNames; }
+[[nodiscard]] constexpr std::string_view name(Verdict verdict) { return choice_name(verdict); }
 
 /// The 95 % interval by one route.
 struct RouteInterval {

@@ -43,6 +43,12 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) {
   return scale.asDiagonal() * eigen.vectors * values.asDiagonal() * eigen.vectors.transpose() * scale.asDiagonal();
 }
 
+Eigen::MatrixXd with_priors_invertible(Eigen::MatrixXd a, const Estimator& estimator) {
+  a.diagonal() += estimator.prior_precision();
+  for (double& d : a.diagonal()) d = d > 0.0 ? d * (1.0 + 1e-12) : 1.0;
+  return a;
+}
+
 Eigen::VectorXd unfitted(const Eigen::LLT<Eigen::MatrixXd>& factor,
                          const Eigen::MatrixXd& of_trial,
                          const Eigen::VectorXd& sum) {

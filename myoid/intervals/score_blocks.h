@@ -23,6 +23,9 @@ struct Block {
 /// Returns the inverse of a symmetric matrix by unit diagonal; near-zero directions stay near-infinite.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 
+/// Returns the data's information `a` with the precision of the priors, invertible: 1 where nothing informs.
+[[nodiscard]] Eigen::MatrixXd with_priors_invertible(Eigen::MatrixXd a, const Estimator& estimator);
+
 /// Returns the sum of a part's scores with the spread of a part that is not fitted: L (I - L^-1
 /// A_part L^-T)^-1/2 L^-1 times the sum, with L L' = A (Bell & McCaffrey 2002). A fit follows its
 /// parts, the more closely the more information a part holds.

@@ -65,27 +65,26 @@ std::vector<std::string> signatures(const std::vector<ParameterEstimate>& estima
   for (const auto& [muscle, p] : patterns_of(estimates)) {
     if (without_velocity(p)) {
       found.push_back(
-          fmt::format("{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, "
-                      "or V_sh V_shl not positive with V_ml near 1), as when the force lags the EMG "
-                      "and no delay is allowed for",
+          fmt::format("{}: emg_delay_ignored: no effect of velocity is resolved (V_sh very large, or V_sh V_shl not "
+                      "positive with V_ml near 1), as when the force lags the EMG and no delay is allowed for",
                       muscle));
     }
     if (is_step(p)) {
       found.push_back(
-          fmt::format("{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between "
-                      "shortening and lengthening: EMG is there while (almost) no force is assigned "
-                      "(co-contraction, or F_max or the EMG gain too high)",
+          fmt::format("{}: gain_mismatch: V_ml far below 1 with V_sh V_shl near 0 is a step in gain between shortening "
+                      "and lengthening: EMG is there while (almost) no force is assigned (co-contraction, or F_max or "
+                      "the EMG gain too high)",
                       muscle));
     } else if (is_flank(p)) {
       found.push_back(
-          fmt::format("{}: gain_mismatch: an optimal length far below and a width far above their starting "
-                      "values act as a gain: F_max or the EMG gain is too high",
+          fmt::format("{}: gain_mismatch: an optimal length far below and a width far above their starting values act "
+                      "as a gain: F_max or the EMG gain is too high",
                       muscle));
     }
     if (narrow_and_bent(p)) {
       found.push_back(
-          fmt::format("{}: co_contraction_zeroed: a narrow force-length curve with a strongly bent "
-                      "force-velocity curve appears where an optimizer sets the antagonist to zero",
+          fmt::format("{}: co_contraction_zeroed: a narrow force-length curve with a strongly bent force-velocity "
+                      "curve appears where an optimizer sets the antagonist to zero",
                       muscle));
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -57,13 +56,6 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-/// Returns the precision of the prior of every unknown; 0: no prior.
-Eigen::VectorXd prior_precision(const std::vector<Unknown>& free) {
-  Eigen::VectorXd precision = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t j = 0; j < free.size(); ++j) precision[static_cast<Eigen::Index>(j)] = free[j].prior_precision();
-  return precision;
-}
-
 double largest_log_sd(const std::vector<NoiseLevel>& noise) {
   double largest = 0.0;
   for (const NoiseLevel& level : noise) largest = std::max(largest, level.log_variance_sd);
@@ -75,16 +67,8 @@ Eigen::MatrixXd with_priors(Eigen::MatrixXd of_data, const Eigen::VectorXd& prec
   return of_data;
 }
 
-/// The part of the parameters that the data alone determine, in the fields of Sandwich.
-struct Rank {
-  int rank = 0;
-  double condition = 0.0;
-  std::vector<bool> determined;
-  Eigen::MatrixXd undetermined;
-};
-
-/// Computes the rank by the eigenvectors of the information scaled to unit columns.
-Rank rank_of(const Eigen::MatrixXd& information) {
+/// Finds the parameters that the data alone determine, by the eigenvectors of the information scaled to unit columns.
+void find_determined(const Eigen::MatrixXd& information, Sandwich& result) {
   const Eigen::Index p = information.rows();
   const Eigen::VectorXd norm = information.diagonal().cwiseSqrt();
   const double largest_norm = norm.maxCoeff();
@@ -93,20 +77,17 @@ Rank rank_of(const Eigen::MatrixXd& information) {
   const math::SymmetricEigen eigen = math::symmetric_eigen(unit.asDiagonal() * information * unit.asDiagonal());
   const Eigen::VectorXd& values = eigen.values;  // rising
   const double top = values[values.size() - 1];
-  Rank result;
   result.condition = values[0] > 0.0 ? std::sqrt(top / values[0]) : kInfinity;
   std::vector<Eigen::Index> open;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     // The values are squares of singular values, with round-off of 1e-16 of the largest.
     if (values[k] <= 1e-13 * top || !(largest_norm > 0.0)) open.push_back(k);
   }
-  result.rank = static_cast<int>(values.size()) - static_cast<int>(open.size());
   result.undetermined = eigen.vectors(Eigen::all, open);
   result.determined.assign(static_cast<std::size_t>(p), true);
   for (Eigen::Index j = 0; j < p; ++j) {
     result.determined[static_cast<std::size_t>(j)] = norm[j] > 0.0 && result.undetermined.row(j).norm() < 1e-3;
   }
-  return result;
 }
 
 /// Returns the covariance of the scores' sum by the autocorrelation of all residuals together.
@@ -215,16 +196,12 @@ BootstrapResult bootstrap_result(const std::vector<Eigen::VectorXd>& found, std:
 Sandwich sandwich(const Estimator& estimator, const Estimator::Solution& solution) {
   const ResidualModel& model = estimator.model();
   const Estimator::Scores by_sample = estimator.scores(solution);
-  const Eigen::VectorXd precision = prior_precision(estimator.free());
+  const Eigen::VectorXd& precision = estimator.prior_precision();
   Sandwich result;
   result.information = by_sample.information;
   result.model_based = inverse_of(with_priors(result.information, precision));
   result.by_noise = largest_log_sd(solution.weighting.noise) * result.model_based * by_sample.attenuation;
-  Rank rank = rank_of(result.information);
-  result.rank = rank.rank;
-  result.condition = rank.condition;
-  result.determined = std::move(rank.determined);
-  result.undetermined = std::move(rank.undetermined);
+  find_determined(result.information, result);
 
   const Eigen::MatrixXd scores = by_sample.scores.transpose();
   const auto lag = static_cast<Eigen::Index>(std::lround(0.4 * model.rate_hz()));
@@ -299,7 +276,9 @@ BootstrapResult bootstrap(const Estimator& estimator, const Estimator::Solution&
   return bootstrap_result(found, blocks.size(), p);
 }
 
-std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, double limit, std::size_t count) {
+std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information) {
+  constexpr double kLimit = 10.0;
+  constexpr std::size_t kMost = 12;
   const Eigen::Index p = information.rows();
   std::vector<CollinearSet> found;
   std::vector<Eigen::Index> usable;
@@ -315,10 +294,10 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, dou
     });
   };
   const auto consider = [&](const std::vector<Eigen::Index>& set) {
-    if (above_in_all_directions(unit, set, 0.999 / (limit * limit)) || contains_smaller(set)) return;
+    if (above_in_all_directions(unit, set, 0.999 / (kLimit * kLimit)) || contains_smaller(set)) return;
     const double smallest = math::symmetric_eigenvalues(unit(set, set))[0];
     const double index = smallest > 1e-16 ? 1.0 / std::sqrt(smallest) : 1e8;
-    if (index > limit) found.push_back({set, index});
+    if (index > kLimit) found.push_back({set, index});
   };
   const std::size_t n = usable.size();
   for (std::size_t i = 0; i < n; ++i)
@@ -334,7 +313,7 @@ std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information, dou
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const CollinearSet& a, const CollinearSet& b) { return a.index > b.index; });
-  if (found.size() > count) found.resize(count);
+  if (found.size() > kMost) found.resize(kMost);
   return found;
 }
 

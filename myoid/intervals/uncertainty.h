@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +34,6 @@ struct Sandwich {
   /// Change of the estimates if the variance of the EMG's noise grows by its own spread (NoiseLevel::log_variance_sd).
   /// The change is large if the data hardly separate the muscles from quantities without noise.
   Eigen::VectorXd by_noise;
-  int rank = 0;                  ///< Rank of the data with unit columns, tolerance 1e-7.
   double condition = 0.0;        ///< Condition of J with unit columns.
   std::vector<bool> determined;  ///< True: the data alone determine the parameter.
   Eigen::MatrixXd undetermined;  ///< Unit columns: combinations that the data leave open.
@@ -64,10 +62,8 @@ struct CollinearSet {
   std::vector<Eigen::Index> parameters;
   double index = 0.0;
 };
-/// Returns at most `count` sets of two to four with an index above `limit`, the worst first; no set
-/// contains a smaller one. `information` is J'WJ.
-[[nodiscard]] std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information,
-                                                       double limit = 10.0,
-                                                       std::size_t count = 12);
+/// Returns at most twelve sets of two to four with an index above 10, the worst first; no set contains a smaller one.
+/// `information` is J'WJ.
+[[nodiscard]] std::vector<CollinearSet> collinear_sets(const Eigen::MatrixXd& information);
 
 }  // namespace myoid::identification

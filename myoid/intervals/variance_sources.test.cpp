@@ -1,8 +1,8 @@
-#include "myoid/intervals/variance_sources.h"
-
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "myoid/intervals/result.h"
 
 namespace myoid::identification {
 namespace {

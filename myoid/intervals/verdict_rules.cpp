@@ -6,13 +6,13 @@ namespace myoid::identification {
 
 std::string one_length_text(double span) {
   return fmt::format(
-      "while active the muscle's length changed by {:.1f} % of the optimal one: at one length "
-      "F_max "
-      "and the force-length curve are one number; record other joint angles",
+      "while active the muscle's length changed by {:.1f} % of the optimal one: at one length F_max and the "
+      "force-length curve are one number; record other joint angles",
       100.0 * span);
 }
 
-std::string verdict_rules_markdown(const VerdictRules& r) {
+std::string verdict_rules_markdown() {
+  constexpr const VerdictRules& r = kVerdictRules;
   std::string text = "| rule | threshold |\n| --- | --- |\n";
   const auto row = [&text](std::string_view rule, const std::string& threshold) {
     text += fmt::format("| {} | {} |\n", rule, threshold);

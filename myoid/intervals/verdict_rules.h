@@ -42,10 +42,12 @@ struct VerdictRules {
   double active = 0.02, moving_share = 0.01, least_s = 0.1;
 };
 
+inline constexpr VerdictRules kVerdictRules;
+
 /// Explains why active lengths that span `span` of l0 leave a muscle's l0 and l_sh open.
 [[nodiscard]] std::string one_length_text(double span);
 
 /// Returns the thresholds as a table in Markdown for docs/theory/identification.md.
-[[nodiscard]] std::string verdict_rules_markdown(const VerdictRules& rules = {});
+[[nodiscard]] std::string verdict_rules_markdown();
 
 }  // namespace myoid::identification

@@ -14,10 +14,9 @@ namespace {
 void check(int order, double cutoff_hz, double rate_hz) {
   if (order < 1) throw InvalidInput(fmt::format("Butterworth filter: found order {}, expected 1 or more", order));
   if (!(cutoff_hz > 0.0) || !(cutoff_hz < 0.5 * rate_hz)) {
-    throw InvalidInput(
-        fmt::format("Butterworth filter: a cut-off of {} Hz does not fit data sampled at {} Hz; it "
-                    "must lie between 0 and {} Hz",
-                    cutoff_hz, rate_hz, 0.5 * rate_hz));
+    throw InvalidInput(fmt::format(
+        "Butterworth filter: a cut-off of {} Hz does not fit data sampled at {} Hz; it must lie between 0 and {} Hz",
+        cutoff_hz, rate_hz, 0.5 * rate_hz));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "myoid/math/covariance.h"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/SVD>
 #include <fmt/format.h>
@@ -10,9 +9,7 @@
 
 namespace myoid::math {
 
-CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
-                            const Eigen::VectorXd& residual,
-                            const CovarianceOptions& options) {
+CovarianceResult covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual, double rank_tolerance) {
   if (jacobian.rows() != residual.size()) {
     throw InvalidInput(fmt::format("covariance: {} rows of J for {} residuals", jacobian.rows(), residual.size()));
   }
@@ -26,15 +23,12 @@ CovarianceResult covariance(const Eigen::MatrixXd& jacobian,
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
       jacobian * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
   CovarianceResult result;
-  result.singular_values = Eigen::VectorXd::Zero(p);
-  result.singular_values.head(svd.singularValues().size()) = svd.singularValues();
-  const double largest = p > 0 ? result.singular_values[0] : 0.0;
-  const double smallest = p > 0 ? result.singular_values[p - 1] : 0.0;
-  result.condition = smallest > 0.0 ? largest / smallest : std::numeric_limits<double>::infinity();
-  while (result.rank < p && result.singular_values[result.rank] > options.rank_tolerance * largest) ++result.rank;
+  Eigen::VectorXd singular = Eigen::VectorXd::Zero(p);
+  singular.head(svd.singularValues().size()) = svd.singularValues();
+  while (result.rank < p && singular[result.rank] > rank_tolerance * singular[0]) ++result.rank;
   result.unscaled = Eigen::MatrixXd::Zero(p, p);
   for (Eigen::Index k = 0; k < result.rank; ++k) {
-    const Eigen::VectorXd direction = scale.cwiseProduct(svd.matrixV().col(k)) / result.singular_values[k];
+    const Eigen::VectorXd direction = scale.cwiseProduct(svd.matrixV().col(k)) / singular[k];
     result.unscaled += direction * direction.transpose();
   }
   const Eigen::Index freedom = jacobian.rows() - result.rank;

@@ -35,7 +35,7 @@ TEST(LevenbergMarquardt, FindsNistsCertifiedParametersAndStandardDeviationsFromB
     ASSERT_EQ(nist.starts.size(), 2U);
     for (std::size_t s = 0; s < nist.starts.size(); ++s) {
       const LeastSquaresResult fit = minimize(least_squares(nist), nist.starts[s], {.max_iterations = 1000});
-      const CovarianceResult covariance_of_fit = covariance(fit.jacobian, fit.residual, {.rank_tolerance = 1e-14});
+      const CovarianceResult covariance_of_fit = covariance(fit.jacobian, fit.residual, 1e-14);
       EXPECT_EQ(fit.termination, Termination::converged) << name << " start " << s + 1 << ": " << fit.message;
       for (Eigen::Index j = 0; j < fit.x.size(); ++j) {
         EXPECT_GE(test::correct_digits(fit.x[j], nist.certified[j]), 6.0)

@@ -12,6 +12,9 @@
 namespace myoid::math {
 namespace {
 
+constexpr double kStepTolerance = 1e-9, kCostTolerance = 1e-15, kRestartTolerance = 1e-10;
+constexpr int kMostRestarts = 10;
+
 struct Vertex {
   Eigen::VectorXd x;
   double cost;
@@ -21,8 +24,8 @@ struct Coefficients {
   double reflect = 1.0, expand = 2.0, contract = 0.5, shrink = 0.5;
 };
 
-Coefficients coefficients(Eigen::Index parameters, bool adaptive) {
-  if (!adaptive || parameters < 3) return {};  // below 3 the adaptive simplex shrinks to a point
+Coefficients coefficients(Eigen::Index parameters) {
+  if (parameters < 3) return {};  // below 3 the adaptive simplex shrinks to a point
   const auto n = static_cast<double>(parameters);
   return {1.0, 1.0 + 2.0 / n, 0.75 - 0.5 / n, 1.0 - 1.0 / n};
 }
@@ -55,11 +58,11 @@ class Simplex {
 
   [[nodiscard]] const Vertex& best() const { return vertices_.front(); }
 
-  [[nodiscard]] bool shrunk(const Eigen::VectorXd& edges, const NelderMeadOptions& options) const {
+  [[nodiscard]] bool shrunk(const Eigen::VectorXd& edges) const {
     const double spread = vertices_.back().cost - best().cost;
-    if (spread <= options.cost_tolerance * std::abs(best().cost)) return true;
+    if (spread <= kCostTolerance * std::abs(best().cost)) return true;
     for (const Vertex& vertex : vertices_) {
-      const Eigen::ArrayXd reach = options.step_tolerance * best().x.array().abs().max(edges.array());
+      const Eigen::ArrayXd reach = kStepTolerance * best().x.array().abs().max(edges.array());
       if (((vertex.x - best().x).array().abs() > reach).any()) return false;
     }
     return true;
@@ -115,7 +118,7 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
   if (!(options.first_edge > 0.0)) {
     throw InvalidInput(fmt::format("nelder_mead: first_edge is {}; it must be positive", options.first_edge));
   }
-  const Coefficients by = coefficients(start.size(), options.adaptive);
+  const Coefficients by = coefficients(start.size());
   Vertex best{cost.clipped(start), 0.0};
   best.cost = cost(best.x);
   if (!std::isfinite(best.cost)) throw InvalidInput("nelder_mead: no finite cost at the start");
@@ -126,25 +129,25 @@ DirectSearchResult nelder_mead(const DirectSearchProblem& problem,
   for (;; ++result.restarts) {
     const double before = best.cost;
     Simplex simplex(cost, best, edges, sign);
-    while (!simplex.shrunk(edges, options) && cost.evaluations() < options.max_evaluations) {
+    while (!simplex.shrunk(edges) && cost.evaluations() < options.max_evaluations) {
       options.progress.check();
       simplex.move(by);
       ++result.iterations;
     }
-    const bool shrunk = simplex.shrunk(edges, options);
+    const bool shrunk = simplex.shrunk(edges);
     best = simplex.best();
     if (!shrunk) {
       result.termination = Termination::iteration_limit;
       result.message = fmt::format("not converged after {} evaluations", cost.evaluations());
       break;
     }
-    const bool confirmed = result.restarts > 0 && before - best.cost <= options.restart_tolerance * std::abs(before);
-    if (confirmed || options.max_restarts == 0) {
+    const bool confirmed = result.restarts > 0 && before - best.cost <= kRestartTolerance * std::abs(before);
+    if (confirmed) {
       result.termination = Termination::converged;
-      result.message = confirmed ? "a fresh simplex found nothing lower" : "the simplex shrank";
+      result.message = "a fresh simplex found nothing lower";
       break;
     }
-    if (result.restarts >= options.max_restarts) {
+    if (result.restarts >= kMostRestarts) {
       result.termination = Termination::iteration_limit;
       result.message = fmt::format("still improving after {} restarts of the simplex", result.restarts);
       break;

@@ -13,11 +13,11 @@ std::string_view explain(OdeStatus status) {
     case OdeStatus::done:
       return "integrated to the end";
     case OdeStatus::too_many_steps:
-      return "the largest number of steps was not enough: the problem is stiff for this method, or "
-             "the tolerance too small";
+      return "the largest number of steps was not enough: the problem is stiff for this method, or the tolerance too "
+             "small";
     case OdeStatus::step_too_small:
-      return "no step was short enough for the tolerance: the right-hand side jumps, or the "
-             "tolerance is below round-off";
+      return "no step was short enough for the tolerance: the right-hand side jumps, or the tolerance is below "
+             "round-off";
     case OdeStatus::not_finite:
       return "the right-hand side is not finite";
     case OdeStatus::rate_failed:

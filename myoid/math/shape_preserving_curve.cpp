@@ -28,9 +28,7 @@ ShapePreservingCurve::ShapePreservingCurve(const Eigen::Ref<const Eigen::VectorX
   const Eigen::Index n = time_.size();
   if (n < 2 || value_.size() != n) {
     throw InvalidInput(
-        fmt::format("{}: {} times and {} values; expected as many of each, and two at "
-                    "least",
-                    what, n, value_.size()));
+        fmt::format("{}: {} times and {} values; expected as many of each, and two at least", what, n, value_.size()));
   }
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!std::isfinite(time_(k)) || !std::isfinite(value_(k))) {

@@ -13,6 +13,9 @@
 namespace myoid::math {
 namespace {
 
+constexpr double kStepGrowth = 2.0;           // Corana's c: the largest change of a step is 1 + c
+constexpr std::size_t kLastTemperatures = 4;  // whose ends must agree with the best
+
 void validate(const CountedCost& cost, const AnnealingOptions& options) {
   const Eigen::VectorXd& reach = options.reach;
   if (reach.size() > 0 && (reach.size() != cost.lower().size() || !reach.allFinite() || (reach.array() < 0.0).any()))
@@ -22,11 +25,11 @@ void validate(const CountedCost& cost, const AnnealingOptions& options) {
   if (!(options.cooling > 0.0 && options.cooling < 1.0)) {
     throw InvalidInput(fmt::format("simulated annealing: cooling is {}; between 0 and 1", options.cooling));
   }
-  if (options.cycles < 1 || options.adjustments < 1 || options.stop_temperatures < 1 ||
-      !(options.first_temperature >= 0.0) || !(options.spread_cooling >= 0.0)) {
+  if (options.cycles < 1 || options.adjustments < 1 || !(options.first_temperature >= 0.0) ||
+      !(options.spread_cooling >= 0.0)) {
     throw InvalidInput(
-        "simulated annealing: cycles, adjustments and stop_temperatures must be at least 1, the "
-        "first temperature and the cooling by spread not negative");
+        "simulated annealing: cycles and adjustments must be at least 1, the first temperature and the cooling by "
+        "spread not negative");
   }
 }
 
@@ -117,8 +120,8 @@ struct Walk {
       }
       for (Eigen::Index j = 0; j < p; ++j) {
         const double share = static_cast<double>(accepted[static_cast<std::size_t>(j)]) / options.cycles;
-        if (share > 0.6) step[j] *= 1.0 + options.step_growth * (share - 0.6) / 0.4;
-        if (share < 0.4) step[j] /= 1.0 + options.step_growth * (0.4 - share) / 0.4;
+        if (share > 0.6) step[j] *= 1.0 + kStepGrowth * (share - 0.6) / 0.4;
+        if (share < 0.4) step[j] /= 1.0 + kStepGrowth * (0.4 - share) / 0.4;
         step[j] = std::min(step[j], reach[j]);
       }
     }
@@ -167,13 +170,13 @@ DirectSearchResult simulated_annealing(const DirectSearchProblem& problem,
     const double scale = options.spread_cooling > 0.0 ? 0.0 : first_temperature;
     const double tolerance = options.cost_tolerance * (std::abs(walk.lowest) + scale);
     ends.push_back(walk.current);
-    if (static_cast<int>(ends.size()) > options.stop_temperatures) ends.pop_front();
-    const bool frozen =
-        static_cast<int>(ends.size()) == options.stop_temperatures &&
-        std::all_of(ends.begin(), ends.end(), [&](double end) { return end - walk.lowest <= tolerance; });
+    if (ends.size() > kLastTemperatures) ends.pop_front();
+    const bool frozen = ends.size() == kLastTemperatures && std::all_of(ends.begin(), ends.end(), [&](double end) {
+                          return end - walk.lowest <= tolerance;
+                        });
     if (frozen) {
       result.termination = Termination::converged;
-      result.message = fmt::format("{} temperatures in a row ended at the best cost", options.stop_temperatures);
+      result.message = fmt::format("{} temperatures in a row ended at the best cost", kLastTemperatures);
       break;
     }
     walk.x = walk.best;

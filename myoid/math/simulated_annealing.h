@@ -25,9 +25,8 @@ struct AnnealingOptions {
   /// Largest step of each parameter, and the box about the start whose costs give the first
   /// temperature; bounds may then be infinite. Empty: the widths of the bounds.
   Eigen::VectorXd reach;
-  double step_growth = 2.0;   ///< Corana's c: largest change of a step is 1 + c.
-  int stop_temperatures = 4;  ///< Successive ends that must agree with the best.
-  /// They must agree to this share of |best cost| + first temperature.
+  /// The search ends when the ends of four successive temperatures agree with the best, to this share of |best cost| +
+  /// first temperature.
   double cost_tolerance = 1e-8;
   Progress progress;
 };

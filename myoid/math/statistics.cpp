@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -17,11 +19,11 @@ double normal_quantile(double p) {
   return boost::math::quantile(boost::math::normal(), p);
 }
 
+double normal_below(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
 double student_quantile(double p, double freedom) {
   if (!(p > 0.0 && p < 1.0 && freedom > 0.0))
-    throw InvalidInput(
-        "Student's quantile: the probability must lie between 0 and 1, the degrees of freedom "
-        "above 0");
+    throw InvalidInput("Student's quantile: the probability must lie between 0 and 1, the degrees of freedom above 0");
   return boost::math::quantile(boost::math::students_t(freedom), p);
 }
 
@@ -115,6 +117,34 @@ Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores, const std::vector<Eige
   }
   sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
   return sum;
+}
+
+Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width) {
+  Eigen::VectorXd sum(x.size() + 1);
+  sum[0] = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+  const Eigen::Index count = x.size() - width + 1;
+  return (sum.segment(width, count) - sum.head(count)) / static_cast<double>(width);
+}
+
+double greatest_mean(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, double window_s) {
+  const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * rate_hz));
+  return moving_mean(x, std::clamp<Eigen::Index>(wanted, 1, x.size())).maxCoeff();
+}
+
+double explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
+                       const Eigen::Ref<const Eigen::VectorXd>& measured) {
+  const double square = measured.squaredNorm();
+  const double varied = (measured.array() - measured.mean()).square().sum();
+  const double total = varied > 1e-6 * square ? varied : square;
+  return total > 0.0 ? 1.0 - (predicted - measured).squaredNorm() / total : 1.0;
+}
+
+std::vector<Eigen::Index> rising_order(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  return order;
 }
 
 }  // namespace myoid::math

@@ -16,6 +16,9 @@ namespace myoid::math {
 /// Throws InvalidInput outside.
 [[nodiscard]] double chi_squared_tail(double x, double freedom);
 
+/// Returns the probability that a standard normal number lies below x.
+[[nodiscard]] double normal_below(double x);
+
 /// Returns the middle value, or the mean of the two middle ones; NaN for no values.
 [[nodiscard]] double median(std::vector<double> values);
 
@@ -46,5 +49,21 @@ namespace myoid::math {
 [[nodiscard]] Eigen::MatrixXd newey_west(const Eigen::MatrixXd& scores,
                                          const std::vector<Eigen::Index>& pieces,
                                          Eigen::Index lag);
+
+/// Averages over a window that slides sample by sample: entry i covers samples i .. i + width - 1,
+/// so that the result has x.size() - width + 1 entries. `width` is 1 to x.size().
+[[nodiscard]] Eigen::VectorXd moving_mean(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index width);
+
+/// Finds the greatest of these means over `window_s` of samples at `rate_hz`; the mean of all
+/// samples if they last less.
+[[nodiscard]] double greatest_mean(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, double window_s);
+
+/// Returns R² = 1 - sum (predicted - measured)² / sum (measured - mean)². About the mean of constant values R² is
+/// undefined: the sum of the values' squares stands in its place. 1 for nothing but zeros.
+[[nodiscard]] double explained_share(const Eigen::Ref<const Eigen::VectorXd>& predicted,
+                                     const Eigen::Ref<const Eigen::VectorXd>& measured);
+
+/// Returns the indices of the values from the least to the greatest; equal values keep their order.
+[[nodiscard]] std::vector<Eigen::Index> rising_order(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 }  // namespace myoid::math

@@ -180,5 +180,35 @@ TEST(NeweyWest, DoesNotJoinTheEndOfOneTrialToTheNext) {
   EXPECT_GT(newey_west(x, {4}, 3)(0, 0), 2.0);
 }
 
+TEST(MovingMean, AveragesEveryWindowByHand) {
+  Eigen::VectorXd x(5);
+  x << 1.0, 2.0, 6.0, 4.0, -1.0;
+  const Eigen::VectorXd three = moving_mean(x, 3);
+  ASSERT_EQ(three.size(), 3);
+  EXPECT_NEAR(three[0], 3.0, 1e-15);
+  EXPECT_NEAR(three[1], 4.0, 1e-15);
+  EXPECT_NEAR(three[2], 3.0, 1e-15);
+  EXPECT_TRUE(moving_mean(x, 1).isApprox(x));
+}
+
+TEST(MovingMean, TheGreatestIsOverTheWindowOrOverAllThereIs) {
+  Eigen::VectorXd x(5);
+  x << 1.0, 2.0, 6.0, 4.0, -1.0;
+  EXPECT_NEAR(greatest_mean(x, 10.0, 0.2), 5.0, 1e-15);  // two samples: 6 and 4
+  EXPECT_NEAR(greatest_mean(x, 10.0, 9.0), 2.4, 1e-15);
+  EXPECT_NEAR(greatest_mean(x, 10.0, 0.0), 6.0, 1e-15);
+}
+
+TEST(ExplainedShare, IsOneMinusTheErrorsShareOfTheVariance) {
+  // Residuals 1, 0, -1; deviations from the mean -3, 0, 3.
+  EXPECT_DOUBLE_EQ(explained_share(Eigen::Vector3d(2, 4, 6), Eigen::Vector3d(1, 4, 7)), 1.0 - 2.0 / 18.0);
+  EXPECT_LT(explained_share(Eigen::Vector3d(7, 4, 1), Eigen::Vector3d(1, 4, 7)), 0.0);
+}
+
+TEST(ExplainedShare, OfAConstantIsAboutZero) {
+  EXPECT_DOUBLE_EQ(explained_share(Eigen::Vector2d(9, 11), Eigen::Vector2d(10, 10)), 0.99);
+  EXPECT_EQ(explained_share(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()), 1.0);
+}
+
 }  // namespace
 }  // namespace myoid::math

@@ -49,26 +49,20 @@ bool finite(const double* x, std::size_t n) {
 }  // namespace
 
 struct StiffIntegrator::Parts {
-  struct ContextDeleter {
-    void operator()(SUNContext context) const { SUNContext_Free(&context); }
+  template <auto free>
+  struct Free {
+    void operator()(auto* it) const { free(it); }
   };
-  struct VectorDeleter {
-    void operator()(N_Vector v) const { N_VDestroy(v); }
+  /// For functions that take the address of the pointer.
+  template <auto free>
+  struct FreeAt {
+    void operator()(auto* it) const { free(&it); }
   };
-  struct MatrixDeleter {
-    void operator()(SUNMatrix m) const { SUNMatDestroy(m); }
-  };
-  struct SolverDeleter {
-    void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
-  };
-  struct CvodeDeleter {
-    void operator()(void* memory) const { CVodeFree(&memory); }
-  };
-  using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, ContextDeleter>;
-  using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
-  using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, MatrixDeleter>;
-  using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SolverDeleter>;
-  using Memory = std::unique_ptr<void, CvodeDeleter>;
+  using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeAt<SUNContext_Free>>;
+  using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Free<N_VDestroy>>;
+  using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Free<SUNMatDestroy>>;
+  using Solver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Free<SUNLinSolFree>>;
+  using Memory = std::unique_ptr<void, FreeAt<CVodeFree>>;
 
   /// Vectors of one group, with the array of pointers that the solver needs.
   struct Vectors {
@@ -147,11 +141,7 @@ struct StiffIntegrator::Parts {
   OdeStatistics counted() const {
     OdeStatistics s = before;
     if (begun) {
-      long steps = 0;
-      long rates = 0;
-      long error_fails = 0;
-      long jacobians = 0;
-      long more = 0;
+      long steps = 0, rates = 0, error_fails = 0, jacobians = 0, more = 0;
       CVodeGetNumSteps(memory.get(), &steps);
       CVodeGetNumRhsEvals(memory.get(), &rates);
       CVodeGetNumErrTestFails(memory.get(), &error_fails);

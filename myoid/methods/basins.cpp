@@ -10,6 +10,11 @@
 #include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
+namespace {
+
+constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
+
+}  // namespace
 
 BasinTable find_basins(const math::LocalSearch& search,
                        const StartBox& box,
@@ -18,16 +23,14 @@ BasinTable find_basins(const math::LocalSearch& search,
                        const Progress& progress) {
   BasinTable table;
   math::MultistartOptions options;
-  options.starts = 0;
-  options.given = starts_in(box, starts);
+  options.starts = starts_in(box, starts);
   options.lower = box.lower;
   options.upper = box.upper;
   options.x_tolerance = 1e-2;  // of the box, which is four spreads wide
   options.progress = progress;
   const math::MultistartResult found = math::multistart(search, options);
-  table.starts = static_cast<int>(found.starts.size());
+  table.starts = static_cast<int>(found.minima.size());
   table.failed = static_cast<int>(found.failed.size());
-  constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   for (const math::Basin& basin : found.basins) {
     if (basin.converged == 0 && &basin != found.basins.data()) {
       table.failed += static_cast<int>(basin.members.size());
@@ -48,7 +51,7 @@ BasinTable find_basins(const math::LocalSearch& search,
 
 BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, int starts) {
   BasinTable table = find_basins(
-      [&](const Eigen::VectorXd& start, Eigen::Index) {
+      [&](const Eigen::VectorXd& start) {
         const NormalSearchResult end = estimator.search(start, weighting, 1e-9, 1e-12);
         return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
       },
@@ -76,7 +79,6 @@ void report_other_minima(const BasinTable& table,
                          const std::vector<Unknown>& free,
                          double cost,
                          IdentificationResult& result) {
-  constexpr double kRival = 2.0;  // a chi-square of 4, of which the cost is half
   constexpr double kLower = 0.05;
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> outside;
@@ -104,9 +106,9 @@ void report_other_minima(const BasinTable& table,
   if (outside.empty()) return;
   const std::size_t named = std::min(kNamed, outside.size());
   result.warnings.push_back(
-      fmt::format("{} of {} other starts of the search end at a minimum that is {}, with numbers outside of "
-                  "their intervals ({}{}): an interval describes one minimum only, and which of them is "
-                  "the person's this recording does not tell; more kinds of movement tell them apart",
+      fmt::format("{} of {} other starts of the search end at a minimum that is {}, with numbers outside of their "
+                  "intervals ({}{}): an interval describes one minimum only, and which of them is the person's this "
+                  "recording does not tell; more kinds of movement tell them apart",
                   starts, table.starts,
                   least < cost - kLower ? fmt::format("lower (chi-square less by {:.1f})", 2.0 * (cost - least))
                                         : std::string("as good"),
@@ -114,7 +116,8 @@ void report_other_minima(const BasinTable& table,
                   outside.size() > named ? fmt::format("; and {} more", outside.size() - named) : ""));
 }
 
-void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result, int starts) {
+void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result) {
+  constexpr int kUsualStarts = 24;
   if (!options.weights || options.estimator == EstimatorKind::posterior || result.exact ||
       result.termination != math::Termination::converged)
     return;
@@ -123,8 +126,9 @@ void look_around(const StudyData& data, EstimatorOptions options, Identification
   const Estimator estimator(data, options);
   if (result.solution.size() != estimator.model().parameters().size()) return;
   const Estimator::Solution here = estimator.solve(result.solution);
-  report_other_minima(result.basins.empty() ? find_basins(estimator, here.weighting, starts) : result.basins.front(),
-                      estimator.free(), here.search.cost, result);
+  report_other_minima(
+      result.basins.empty() ? find_basins(estimator, here.weighting, kUsualStarts) : result.basins.front(),
+      estimator.free(), here.search.cost, result);
 }
 
 BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool shortening, int starts) {
@@ -132,7 +136,7 @@ BasinTable find_paper_basins(const StudyData& data, std::size_t muscle, bool sho
   const StartBox box = start_box(samples, data.muscles[muscle]);
   BasinTable table;
   if (box.given.size() > 0 && samples.obstacle().empty()) {
-    const auto search = [&](const Eigen::VectorXd& start, Eigen::Index) {
+    const auto search = [&](const Eigen::VectorXd& start) {
       const math::LeastSquaresResult end = search_as_published(samples, start);
       return math::LocalMinimum{end.termination, end.x, end.cost, end.evaluations};
     };

@@ -20,16 +20,10 @@ namespace myoid::identification {
 /// Returns the minima of the estimator's own search, with these weights.
 [[nodiscard]] BasinTable find_basins(const Estimator& estimator, const Weighting& weighting, int starts);
 
-/// Number of starts from which a reported fit looks for other minima.
-inline constexpr int kUsualLook = 24;
-
 /// Calls `report_other_minima` for a least-squares fit of method torque with these options: with
-/// the fit's table if several starts were asked for, otherwise with searches from `starts` points
+/// the fit's table if several starts were asked for, otherwise with searches from 24 points
 /// at the weights of its minimum. The posterior's intervals are over all of its modes already.
-void look_around(const StudyData& data,
-                 EstimatorOptions options,
-                 IdentificationResult& result,
-                 int starts = kUsualLook);
+void look_around(const StudyData& data, EstimatorOptions options, IdentificationResult& result);
 
 /// Warns of numbers that other minima of the table put outside their reported intervals. Such minima are lower than
 /// `cost` or at most a chi-square of 4 above it. Identified numbers among them become weak.

@@ -30,8 +30,7 @@ math::LocalMinimum descend(const Eigen::VectorXd& start, double higher) {
 }
 
 TEST(Basins, TellHowManyStartsEndedWhereAndHowFarFromTheBest) {
-  const BasinTable table =
-      find_basins([](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, 13.0); }, kBox, 65);
+  const BasinTable table = find_basins([](const Eigen::VectorXd& x) { return descend(x, 13.0); }, kBox, 65);
   EXPECT_EQ(table.starts, 65);
   ASSERT_EQ(table.basins.size(), 2U);
   const BasinRow& best = table.basins[0];
@@ -86,8 +85,7 @@ TEST(Basins, AMinimumAsGoodOutsideOfAnIntervalIsSaid) {
 
 TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
   const auto rival = [](double higher, Eigen::Index plain_samples) {
-    return find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return descend(x, higher); }, kBox, 9,
-                       plain_samples)
+    return find_basins([&](const Eigen::VectorXd& x) { return descend(x, higher); }, kBox, 9, plain_samples)
         .basins.at(1)
         .rival;
   };
@@ -99,7 +97,7 @@ TEST(Basins, ARivalIsWithinAChiSquareOfFourOfTheBest) {
 }
 
 TEST(Basins, AnEndWithoutConvergenceWhereNoOtherConvergedIsNoBasin) {
-  const auto search = [](const Eigen::VectorXd& x, Eigen::Index) {
+  const auto search = [](const Eigen::VectorXd& x) {
     math::LocalMinimum end = descend(x, 13.0);
     if (x[0] > 0.0) end.termination = math::Termination::iteration_limit;
     return end;

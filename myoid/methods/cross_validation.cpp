@@ -20,8 +20,10 @@ namespace {
 
 double duration_s(const TrialData& trial) { return trial.time_s[trial.time_s.size() - 1] - trial.time_s[0]; }
 
-/// Returns the duration from which a trial is cut into blocks: half of it remains beside a block and its gaps.
-double least_for_blocks_s(const CrossValidationOptions& how) { return 2.0 * how.gap_s / (0.5 - 1.0 / how.blocks); }
+constexpr int kBlocks = 5;
+constexpr double kGap_s = 0.5;  // on either side of a block
+/// Duration from which a trial is cut into blocks: half of it remains beside a block and its gaps.
+constexpr double kLeastForBlocks_s = 2.0 * kGap_s / (0.5 - 1.0 / kBlocks);
 
 TrialData used(TrialData trial, bool calibration) {
   trial.calibration = calibration;
@@ -29,11 +31,11 @@ TrialData used(TrialData trial, bool calibration) {
 }
 
 /// Adds block `b` of a trial to be predicted, and the fitted parts on either side of the block.
-void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split& split) {
+void cut(const TrialData& trial, int b, Split& split) {
   const Eigen::Index n = trial.time_s.size();
-  const Eigen::Index begin = n * b / how.blocks;
-  const Eigen::Index end = n * (b + 1) / how.blocks;
-  const auto gap = static_cast<Eigen::Index>(std::ceil(how.gap_s * static_cast<double>(n - 1) / duration_s(trial)));
+  const Eigen::Index begin = n * b / kBlocks;
+  const Eigen::Index end = n * (b + 1) / kBlocks;
+  const auto gap = static_cast<Eigen::Index>(std::ceil(kGap_s * static_cast<double>(n - 1) / duration_s(trial)));
   std::vector<TrialData>& to = split.data.trials;
   to.push_back(used(part(trial, begin, end - begin), false));
   if (begin > 2 * gap) to.push_back(used(part(trial, 0, begin - gap), true));
@@ -42,28 +44,25 @@ void cut(const TrialData& trial, int b, const CrossValidationOptions& how, Split
 
 std::vector<Split> block_splits(const StudyData& data,
                                 const std::vector<const TrialData*>& trials,
-                                const CrossValidationOptions& how,
                                 std::string& why_not) {
-  const double least_s = least_for_blocks_s(how);
   double longest_s = 0.0;
   for (const TrialData* trial : trials) longest_s = std::max(longest_s, duration_s(*trial));
-  if (longest_s < least_s) {
+  if (longest_s < kLeastForBlocks_s) {
     why_not = fmt::format(
-        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither "
-        "side, and half of a trial must be left to fit); the longest has {:.2g} s; leave out "
-        "whole trials",
-        least_s, how.gap_s, longest_s);
+        "blocks need trials of {:.2g} s or more ({:g} s on either side of a block serve neither side, and half of a "
+        "trial must be left to fit); the longest has {:.2g} s; leave out whole trials",
+        kLeastForBlocks_s, kGap_s, longest_s);
     return {};
   }
   std::vector<Split> result;
-  for (int b = 0; b < how.blocks; ++b) {
-    Split split{fmt::format("block {} of {}", b + 1, how.blocks),
+  for (int b = 0; b < kBlocks; ++b) {
+    Split split{fmt::format("block {} of {}", b + 1, kBlocks),
                 {.muscles = data.muscles, .trials = {}, .rules = data.rules}};
     for (const TrialData* trial : trials) {
-      if (duration_s(*trial) < least_s) {
+      if (duration_s(*trial) < kLeastForBlocks_s) {
         split.data.trials.push_back(*trial);
       } else {
-        cut(*trial, b, how, split);
+        cut(*trial, b, split);
       }
     }
     result.push_back(std::move(split));
@@ -180,6 +179,32 @@ struct Curves {
   [[nodiscard]] Score scored() const { return score(joined(measured), joined(predicted)); }
 };
 
+/// Returns the shift [s] of the prediction, within +-0.2 s, at which it correlates best with the measurement: positive
+/// if the prediction comes late.
+double best_lag_s(const Eigen::VectorXd& time_s, const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
+  constexpr double kLimit_s = 0.2;
+  const Eigen::Index n = time_s.size();
+  if (n < 3) return 0.0;
+  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  const auto most = std::min<Eigen::Index>(static_cast<Eigen::Index>(kLimit_s / step), n / 3);
+  double best = -std::numeric_limits<double>::infinity();
+  Eigen::Index at = 0;
+  for (Eigen::Index k = -most; k <= most; ++k) {
+    const Eigen::Index m = n - std::abs(k);
+    const Eigen::VectorXd x = measured.segment(k < 0 ? -k : 0, m);
+    const Eigen::VectorXd y = predicted.segment(k > 0 ? k : 0, m);
+    const Eigen::ArrayXd xc = x.array() - x.mean();
+    const Eigen::ArrayXd yc = y.array() - y.mean();
+    const double size = std::sqrt(xc.square().sum() * yc.square().sum());
+    const double correlation = size > 0.0 ? (xc * yc).sum() / size : 0.0;
+    if (correlation > best) {
+      best = correlation;
+      at = k;
+    }
+  }
+  return static_cast<double>(at) * step;
+}
+
 Fold score_joint(const std::string& name,
                  const std::vector<TrialData>& training,
                  const std::vector<TrialData>& held,
@@ -258,7 +283,7 @@ std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const Estimat
                 .literature = literature,
                 .shortening = literature,
                 .lengthening = literature,
-                .literature_delay_s = options.delay_s.value_or(options.delay_prior_mean_s),
+                .literature_delay_s = options.usual_delay_s(),
                 .cutoff_hz = options.residual_cutoff_hz.value_or(0.0)};
   std::vector<TrialData> training, held;
   for (const TrialData& t : split.data.trials) (t.calibration ? training : held).push_back(t);
@@ -283,32 +308,6 @@ std::vector<Fold> score_split(Split split, const SplitFit& fit_to, const Estimat
 
 }  // namespace
 
-double best_lag_s(const Eigen::VectorXd& time_s,
-                  const Eigen::VectorXd& measured,
-                  const Eigen::VectorXd& predicted,
-                  double limit_s) {
-  const Eigen::Index n = time_s.size();
-  if (n < 3) return 0.0;
-  const double step = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
-  const auto most = std::min<Eigen::Index>(static_cast<Eigen::Index>(limit_s / step), n / 3);
-  double best = -std::numeric_limits<double>::infinity();
-  Eigen::Index at = 0;
-  for (Eigen::Index k = -most; k <= most; ++k) {
-    const Eigen::Index m = n - std::abs(k);
-    const Eigen::VectorXd x = measured.segment(k < 0 ? -k : 0, m);
-    const Eigen::VectorXd y = predicted.segment(k > 0 ? k : 0, m);
-    const Eigen::ArrayXd xc = x.array() - x.mean();
-    const Eigen::ArrayXd yc = y.array() - y.mean();
-    const double size = std::sqrt(xc.square().sum() * yc.square().sum());
-    const double correlation = size > 0.0 ? (xc * yc).sum() / size : 0.0;
-    if (correlation > best) {
-      best = correlation;
-      at = k;
-    }
-  }
-  return static_cast<double>(at) * step;
-}
-
 std::vector<Split> splits(const StudyData& data, const CrossValidationOptions& how, std::string* why_not) {
   std::vector<const TrialData*> trials;
   for (const TrialData& trial : data.trials) {
@@ -316,7 +315,7 @@ std::vector<Split> splits(const StudyData& data, const CrossValidationOptions& h
   }
   std::string reason;
   std::vector<Split> result =
-      how.kind == FoldKind::block ? block_splits(data, trials, how, reason) : named_splits(data, trials, how, reason);
+      how.kind == FoldKind::block ? block_splits(data, trials, reason) : named_splits(data, trials, how, reason);
   if (why_not != nullptr) *why_not = std::move(reason);
   return result;
 }
@@ -340,12 +339,10 @@ std::string generalises_badly(const std::vector<Fold>& folds) {
   const bool bad = count > 0.0 && unseen > kWorse * kWorse * seen && unseen > (1.0 - kExplains) * spread;
   if (!bad) return "";
   return fmt::format(
-      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of "
-      "{:.3g}; most in '{}'). The samples of one movement share the model's error, and many of "
-      "them "
-      "pull the numbers along with this error, away from the priors. Record other movements "
-      "(angles, speeds, loads) rather than more of the same, "
-      "and trust neither numbers nor predictions beyond the movements that were fitted",
+      "left-out data are predicted {:.1f} times worse than fitted data ({:.3g} N m rms instead of {:.3g}; most in "
+      "'{}'). The samples of one movement share the model's error, and many of them pull the numbers along with this "
+      "error, away from the priors. Record other movements (angles, speeds, loads) rather than more of the same, and "
+      "trust neither numbers nor predictions beyond the movements that were fitted",
       std::sqrt(unseen / seen), std::sqrt(unseen / count), std::sqrt(seen / count), where);
 }
 

@@ -10,17 +10,8 @@
 
 namespace myoid::identification {
 
-/// Returns the shift [s] of the prediction, within +-limit_s, at which it correlates best with the
-/// measurement: positive if the prediction comes late.
-[[nodiscard]] double best_lag_s(const Eigen::VectorXd& time_s,
-                                const Eigen::VectorXd& measured,
-                                const Eigen::VectorXd& predicted,
-                                double limit_s = 0.2);
-
 struct CrossValidationOptions {
   FoldKind kind = FoldKind::trial;
-  int blocks = 5;
-  double gap_s = 0.5;
   bool paper = true;  ///< Also fits method `paper` to the others, if there are forces.
 };
 

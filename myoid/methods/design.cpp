@@ -68,20 +68,13 @@ class Designer {
   }
 
   [[nodiscard]] double criterion_of(const Eigen::MatrixXd& s) const {
-    const auto t = static_cast<Eigen::Index>(problem_.targets.size());
     if (options_.criterion == DesignCriterion::a_optimal) {
       double sum = 0.0;
       for (const Eigen::Index j : problem_.targets) sum += s(j, j) / prior_(j, j);
       return sum;
     }
-    Eigen::MatrixXd block(t, t);
-    for (Eigen::Index a = 0; a < t; ++a) {
-      for (Eigen::Index b = 0; b < t; ++b)
-        block(a, b) = s(problem_.targets[static_cast<std::size_t>(a)], problem_.targets[static_cast<std::size_t>(b)]);
-    }
-    const Eigen::LLT<Eigen::MatrixXd> factor(block);
-    const Eigen::MatrixXd triangle = factor.matrixL();
-    return 2.0 * triangle.diagonal().array().log().sum();
+    const Eigen::LLT<Eigen::MatrixXd> factor(s(problem_.targets, problem_.targets));
+    return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
   }
 
   [[nodiscard]] Gathered gathered(const std::vector<std::size_t>& chosen) const {

@@ -12,10 +12,6 @@
 namespace myoid::identification {
 namespace {
 
-using identification::MuscleSetup;
-using identification::StudyData;
-using identification::TrialData;
-
 constexpr double kCutoff_hz = 1.5;
 
 struct Sides {
@@ -26,10 +22,8 @@ struct Sides {
 
 std::string ExchangedElectrodes::sentence() const {
   return fmt::format(
-      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 "
-      "{:.2f}), as they are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in "
-      "or "
-      "labelled the wrong way round?",
+      "with '{}' and '{}' exchanged the literature's muscles make the torque to {:.2f} N m rms (R2 {:.2f}), as they "
+      "are named only to {:.2f} (R2 {:.2f}): were the two electrodes plugged in or labelled the wrong way round?",
       first, second, exchanged.rms_nm, exchanged.r2, as_named.rms_nm, as_named.r2);
 }
 
@@ -50,16 +44,15 @@ LabelFit fit_of_labels(const StudyData& data, double delay_s, const std::string&
   for (const TrialData& whole : data.trials) {
     if (!whole.calibration) continue;
     trials.emplace_back();
-    for (std::size_t j = 0; j < identification::joint_count(whole); ++j) {
-      const TrialData trial = identification::of_joint(whole, j);
-      const std::vector<Eigen::Index> rows = identification::included_rows(trial);
+    for (std::size_t j = 0; j < joint_count(whole); ++j) {
+      const TrialData trial = of_joint(whole, j);
+      const std::vector<Eigen::Index> rows = included_rows(trial);
       if (rows.empty()) continue;
       // No electrode shows the resting torque of the joint.
-      const Eigen::VectorXd resting = identification::resting_torque_nm(trial);
+      const Eigen::VectorXd resting = resting_torque_nm(trial);
       const Eigen::VectorXd active = trial.torque_nm - resting;
-      const Eigen::VectorXd torque = identification::predict(named, trial, literature, delay_s).torque_nm - resting;
-      Sides sides{identification::below(trial.time_s, active, kCutoff_hz)(rows),
-                  identification::below(trial.time_s, torque, kCutoff_hz)(rows)};
+      const Eigen::VectorXd torque = predict(named, trial, literature, delay_s).torque_nm - resting;
+      Sides sides{below(trial.time_s, active, kCutoff_hz)(rows), below(trial.time_s, torque, kCutoff_hz)(rows)};
       product += sides.predicted.dot(sides.measured);
       square += sides.predicted.squaredNorm();
       sum += sides.measured.sum();
@@ -90,8 +83,7 @@ std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, d
   constexpr double kDescribes = 0.5;
   std::vector<std::string> channels;
   for (const MuscleSetup& setup : data.muscles) {
-    if (std::find(channels.begin(), channels.end(), setup.emg_channel) == channels.end())
-      channels.push_back(setup.emg_channel);
+    if (!contains(channels, setup.emg_channel)) channels.push_back(setup.emg_channel);
   }
   const LabelFit now = fit_of_labels(data, delay_s);
   std::optional<ExchangedElectrodes> best;

@@ -24,7 +24,7 @@ struct ExchangedElectrodes {
 };
 
 /// Returns the fit with the channels of `data` as named, or with these two exchanged.
-[[nodiscard]] LabelFit fit_of_labels(const identification::StudyData& data,
+[[nodiscard]] LabelFit fit_of_labels(const StudyData& data,
                                      double delay_s,
                                      const std::string& first = "",
                                      const std::string& second = "");
@@ -32,7 +32,6 @@ struct ExchangedElectrodes {
 /// Finds the pair of channels whose exchange lowers the error of the literature's muscles most. The gain must exceed
 /// the uncertainty of their strengths (beliefs::kStrengthRatio) in at least three of four trials, and the exchanged fit
 /// must describe the torque (R2 above 0.5). Empty if there is no such pair.
-[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const identification::StudyData& data,
-                                                                      double delay_s);
+[[nodiscard]] std::optional<ExchangedElectrodes> exchanged_electrodes(const StudyData& data, double delay_s);
 
 }  // namespace myoid::identification

@@ -10,7 +10,6 @@
 #include "myoid/core/error.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/torque.h"
-#include "myoid/methods/trial_fit.h"
 
 namespace myoid::identification {
 
@@ -20,10 +19,9 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
   one.muscles.push_back(data.muscles[muscle]);
   for (const TrialData& trial : data.trials) {
     if (trial.force_n.rows() != trial.time_s.size()) {
-      throw InvalidInput(
-          fmt::format("method force: trial '{}' has no muscle forces; measure them, or share the torque first "
-                      "(myoid so)",
-                      trial.name));
+      throw InvalidInput(fmt::format(
+          "method force: trial '{}' has no muscle forces; measure them, or share the torque first (myoid so)",
+          trial.name));
     }
     TrialData t;
     t.name = trial.name;
@@ -47,8 +45,7 @@ StudyData force_study(const StudyData& data, std::size_t muscle) {
     kept.owners.clear();
     kept.tie = false;
     const std::string& name = scope == Scope::muscle ? one.muscles[0].name : one.muscles[0].emg_channel;
-    const bool named = std::find(rule.owners.begin(), rule.owners.end(), name) != rule.owners.end();
-    if (rule.owners.empty() || named) one.rules.push_back(std::move(kept));
+    if (covers(rule.owners, name)) one.rules.push_back(std::move(kept));
   }
   return one;
 }
@@ -60,10 +57,9 @@ IdentificationResult identify_muscle_force(const StudyData& one, const ForceOpti
   once.estimator = EstimatorKind::least_squares;
   once.choose_lag = false;  // muscles of one person follow their EMG by the same law
   once.progress.report = nullptr;
+  const std::string& name = one.muscles.front().name;
   std::vector<std::string> speed;
-  for (const std::string& name : options.speed_may_be_free) {
-    if (name == one.muscles.front().name) speed.push_back(name);
-  }
+  if (contains(options.speed_may_be_free, name)) speed.push_back(name);
   return options.detect_exact ? identify_torque_or_exact(one, once, speed) : identify_torque(one, once);
 }
 
@@ -87,8 +83,8 @@ void take_over(
     if (shared_forces && e.verdict == Verdict::identified) {
       e.verdict = Verdict::weak;
       e.reason +=
-          ", but about the forces that an optimizer assigned, which carry its assumptions and "
-          "no co-contraction; method torque does not need them";
+          ", but about the forces that an optimizer assigned, which carry its assumptions and no co-contraction; "
+          "method torque does not need them";
     }
   }
   for (BasinTable& table : fit.basins) table.fit = name;
@@ -120,8 +116,7 @@ void take_over(
 void predict_unfitted(const StudyData& one, std::size_t k, const EstimatorOptions& options, IdentificationResult& all) {
   const auto column = static_cast<Eigen::Index>(k);
   for (std::size_t t = 0; t < one.trials.size(); ++t) {
-    const Prediction p =
-        predict(one, one.trials[t], {one.muscles.front().start}, options.delay_s.value_or(options.delay_prior_mean_s));
+    const Prediction p = predict(one, one.trials[t], {one.muscles.front().start}, options.usual_delay_s());
     all.trials[t].literature_force_n.col(column) = p.force_n.col(0);
     all.trials[t].force_fit_n.col(column) = p.force_n.col(0);
   }
@@ -132,7 +127,6 @@ void predict_unfitted(const StudyData& one, std::size_t k, const EstimatorOption
 IdentificationResult identify_force(const StudyData& data, const ForceOptions& options) {
   validate(data);
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<std::string>& wanted = options.estimator.muscles;
   IdentificationResult all;
   all.method = "force";
   all.termination = math::Termination::converged;
@@ -147,8 +141,7 @@ IdentificationResult identify_force(const StudyData& data, const ForceOptions& o
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     const StudyData one = force_study(data, k);
     all.muscles.push_back(data.muscles[k].start);
-    const bool named = wanted.empty() || std::find(wanted.begin(), wanted.end(), data.muscles[k].name) != wanted.end();
-    if (named) {
+    if (covers(options.estimator.muscles, data.muscles[k].name)) {
       take_over(identify_muscle_force(one, options), data, k, options.shared_forces, all);
     } else {
       predict_unfitted(one, k, options.estimator, all);

@@ -45,6 +45,10 @@ struct Shared {
   double reserve_nm = 0.0;
 };
 
+ForceLoopRound round_of(const Change& change, const Shared& shared) {
+  return {change.size, change.where, shared.force_change, shared.reserve_nm};
+}
+
 Shared share_all(StudyData& data,
                  const std::vector<MuscleValues>& muscles,
                  double delay_s,
@@ -67,6 +71,12 @@ Shared share_all(StudyData& data,
   shared.force_change = forces > 0.0 ? std::sqrt(changed / forces) : 0.0;
   shared.reserve_nm = std::sqrt(reserve / std::max(1.0, samples));
   return shared;
+}
+
+std::vector<MuscleValues> starting_values(const StudyData& data) {
+  std::vector<MuscleValues> values;
+  for (const MuscleSetup& setup : data.muscles) values.push_back(muscle_values(setup.start, setup.extras));
+  return values;
 }
 
 std::vector<MuscleValues> values_of(const StudyData& data, const IdentificationResult& fit) {
@@ -136,18 +146,6 @@ Eigen::MatrixXd torques_of_muscles(const TrialData& trial) {
 
 }  // namespace
 
-std::string_view name(LoopEnd end) {
-  switch (end) {
-    case LoopEnd::converged:
-      return "converged";
-    case LoopEnd::diverged:
-      return "diverged";
-    case LoopEnd::not_settled:
-      return "not_settled";
-  }
-  return "?";
-}
-
 InformedForces informed_forces(const TrialData& trial,
                                const Eigen::MatrixXd& measured,
                                const std::vector<MuscleValues>& muscles,
@@ -194,8 +192,7 @@ InformedForces informed_forces(const TrialData& trial,
     }
     result.activation.row(i) = solution.activation.transpose();
     for (Eigen::Index k = 0; k < m; ++k) {
-      const double share = muscles[static_cast<std::size_t>(k)][kShare];
-      result.force_n(i, k) = force_n(i, k, solution.activation[k] / share);
+      result.force_n(i, k) = force_n(i, k, solution.activation[k] / muscles[static_cast<std::size_t>(k)][kShare]);
     }
     result.reserve_nm.row(i) = (torques - arms * result.force_n.row(i).transpose()).transpose();
   }
@@ -221,22 +218,16 @@ ForceLoop forces_of_posterior(StudyData data, const ForceLoopOptions& options) {
   EstimatorOptions estimator = options.force.estimator;
   estimator.predictions = false;
   loop.fit = identify_torque(data, estimator);
-  std::vector<MuscleValues> before;
-  for (const MuscleSetup& setup : data.muscles) before.push_back(muscle_values(setup.start, setup.extras));
   const std::vector<MuscleValues>& found = loop.fit.values.muscles;
-  const Change change = change_of(data.muscles, before, found);
+  const Change change = change_of(data.muscles, starting_values(data), found);
   Shared shared = share_all(data, found, loop.fit.delay_s, options.sharing);
   loop.forces = std::move(shared.trials);
-  loop.rounds.push_back({.parameter_change = change.size,
-                         .parameter = change.where,
-                         .force_change = shared.force_change,
-                         .reserve_nm = shared.reserve_nm});
+  loop.rounds.push_back(round_of(change, shared));
   const bool ended = loop.fit.termination == math::Termination::converged;
   loop.end = ended ? LoopEnd::converged : LoopEnd::diverged;
   loop.message = ended ? fmt::format(
-                             "the posterior of the torque finds the muscles without shared "
-                             "forces; the forces that these muscles share leave {:.2g} N m "
-                             "of the torque, whose root mean square is {:.3g} N m",
+                             "the posterior of the torque finds the muscles without shared forces; the forces that "
+                             "these muscles share leave {:.2g} N m of the torque, whose root mean square is {:.3g} N m",
                              shared.reserve_nm, torque_size_nm(data))
                        : "the search for the posterior's mode did not end: " + loop.fit.message;
   return loop;
@@ -250,8 +241,7 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
     return forces_of_posterior(std::move(data), options);
   ForceLoop loop;
   double delay_s = options.delay_s;
-  std::vector<MuscleValues> muscles;
-  for (const MuscleSetup& setup : data.muscles) muscles.push_back(muscle_values(setup.start, setup.extras));
+  std::vector<MuscleValues> muscles = starting_values(data);
   Shared shared = share_all(data, muscles, delay_s, options.sharing);
   for (int round = 0; round < options.max_rounds; ++round) {
     options.force.estimator.progress.check();
@@ -261,10 +251,7 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
     muscles = found;
     delay_s = found_delay(loop.fit, delay_s);
     shared = share_all(data, muscles, delay_s, options.sharing);
-    loop.rounds.push_back({.parameter_change = change.size,
-                           .parameter = change.where,
-                           .force_change = shared.force_change,
-                           .reserve_nm = shared.reserve_nm});
+    loop.rounds.push_back(round_of(change, shared));
     options.force.estimator.progress.tell(
         static_cast<double>(round + 1) / options.max_rounds,
         fmt::format("round {}: {} changes by {:.2g}", round + 1, change.where, change.size));
@@ -287,16 +274,14 @@ ForceLoop iterate_forces(StudyData data, const ForceLoopOptions& options) {
       break;
     case LoopEnd::diverged:
       loop.message = fmt::format(
-          "forces and parameters drive each other away: {} changed by {:.2g} in round {}, more "
-          "than "
-          "in each of the rounds before; do not use these numbers",
+          "forces and parameters drive each other away: {} changed by {:.2g} in round {}, more than in each of the "
+          "rounds before; do not use these numbers",
           last.parameter, last.parameter_change, count);
       break;
     case LoopEnd::not_settled:
-      loop.message = fmt::format(
-          "forces and parameters had not settled after {} rounds: {} still changes by {:.2g} a "
-          "round",
-          count, last.parameter, last.parameter_change);
+      loop.message =
+          fmt::format("forces and parameters had not settled after {} rounds: {} still changes by {:.2g} a round",
+                      count, last.parameter, last.parameter_change);
       break;
   }
   if (!bounds.empty()) loop.message += "; at a bound: " + bounds;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/choice.h"
 #include "myoid/identification/muscle_law.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
@@ -57,7 +58,9 @@ enum class LoopEnd {
   diverged,     ///< The changes grow, or a fit failed.
   not_settled,  ///< Neither within the allowed rounds: the parameters creep or oscillate.
 };
-[[nodiscard]] std::string_view name(LoopEnd end);
+inline constexpr std::string_view kLoopEndNames[] = {"converged", "diverged", "not_settled"};
+constexpr ChoiceNames choice_names(LoopEnd) { return kLoopEndNames; }
+[[nodiscard]] constexpr std::string_view name(LoopEnd end) { return choice_name(end); }
 
 struct ForceLoopRound {
   double parameter_change = 0.0;  ///< Largest |ln(new / old)| over muscles and parameters.

@@ -4,10 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
-
-#include "myoid/identification/trial_rows.h"
 
 namespace myoid::identification {
 namespace {
@@ -29,7 +26,7 @@ Eigen::VectorXd start_number(const Estimator& estimator, int s) {
   Eigen::VectorXd x = s == 0 ? start : estimator.moved_start(start, s);
   for (std::size_t j = 0; j < estimator.free().size(); ++j) {
     const Unknown& f = estimator.free()[j];
-    if (f.field->scope == Scope::channel && f.field->field == kDelay)
+    if (f.is(Scope::channel, kDelay))
       x[static_cast<Eigen::Index>(j)] = f.bounds.lower + (f.bounds.upper - f.bounds.lower) * 0.2 * (s % 4);
   }
   return x;

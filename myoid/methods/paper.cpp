@@ -21,7 +21,7 @@
 #include "myoid/math/statistics.h"
 #include "myoid/methods/basins.h"
 #include "myoid/methods/paper_case.h"
-#include "myoid/methods/trial_fit.h"
+#include "myoid/methods/prediction.h"
 #include "myoid/muscle/hill_muscle.h"
 
 namespace myoid::identification {
@@ -247,11 +247,10 @@ void compare_branches(const std::string& muscle,
   result.branch_tests.push_back({muscle, difference[0], difference[1], wald, p});
   if (!(p < kReject)) return;
   const std::string how = p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p);
-  result.warnings.push_back(
-      fmt::format("{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): "
-                  "one muscle has one of each, so the model or the data are wrong for it, and none of its "
-                  "numbers is called identified",
-                  muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
+  result.warnings.push_back(fmt::format(
+      "{}: shortening and lengthening give different l0 or l_sh (by {:+.1f} and {:+.1f} mm, {}): one muscle has one of "
+      "each, so the model or the data are wrong for it, and none of its numbers is called identified",
+      muscle, 1000.0 * difference[0], 1000.0 * difference[1], how));
   for (ParameterEstimate& e : result.estimates) {
     if (e.muscle != muscle || e.verdict != Verdict::identified) continue;
     const bool shared = std::find(kShared.begin(), kShared.end(), e.parameter) != kShared.end();
@@ -273,8 +272,8 @@ void add_basins(const StudyData& data,
   const BasinRow& best = table.basins.front();
   if (!best.given && best.converged > 0)
     result.warnings.push_back(
-        fmt::format("{}: {} of {} starts end at a lower sum of squares than the given one; its numbers "
-                    "come from the given start, as published",
+        fmt::format("{}: {} of {} starts end at a lower sum of squares than the given one; its numbers come from the "
+                    "given start, as published",
                     table.fit, best.starts, table.starts));
   result.basins.push_back(std::move(table));
 }
@@ -324,9 +323,7 @@ IdentificationResult identify_paper(const StudyData& data, const PaperOptions& o
   result.termination = math::Termination::converged;
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     result.muscles.push_back(data.muscles[k].start);
-    if (!options.muscles.empty() &&
-        std::find(options.muscles.begin(), options.muscles.end(), data.muscles[k].name) == options.muscles.end())
-      continue;
+    if (!covers(options.muscles, data.muscles[k].name)) continue;
     const auto shortening = fit_case(data, k, true, options, fit);
     const auto lengthening = fit_case(data, k, false, options, fit);
     if (options.multistart > 1) {

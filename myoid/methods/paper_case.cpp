@@ -53,9 +53,7 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
   result.start = setup.start;
   std::vector<std::string> held = setup.fixed;
   for (const ParameterRule& rule : data.rules) {
-    const bool about_it =
-        rule.owners.empty() || std::find(rule.owners.begin(), rule.owners.end(), setup.name) != rule.owners.end();
-    if (!about_it) continue;
+    if (!covers(rule.owners, setup.name)) continue;
     for (const muscle::HillField& field : muscle::kHillFields) {
       if (field.name == rule.parameter && rule.value) result.start.*field.member = *rule.value;
     }
@@ -63,7 +61,7 @@ PaperCase paper_case(const StudyData& data, std::size_t muscle, bool shortening)
     if (rule.free == std::optional(false)) held.push_back(rule.parameter);
   }
   const auto add = [&](std::string_view name) {
-    if (std::find(held.begin(), held.end(), name) == held.end()) result.unknowns.push_back(&muscle::hill_field(name));
+    if (!contains(held, name)) result.unknowns.push_back(&muscle::hill_field(name));
   };
   add("optimal_fiber_length");
   add("force_length_width");

@@ -5,12 +5,20 @@
 
 #include <Eigen/Core>
 
-#include "myoid/identification/muscle_sample.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/math/least_squares.h"
 #include "myoid/muscle/hill_parameters.h"
 
 namespace myoid::identification {
+
+/// One muscle at one instant of a recording.
+struct MuscleSample {
+  double time_s = 0.0;
+  double activation = 0.0;  ///< 0..1
+  double fiber_length_m = 0.0;
+  double fiber_velocity_mps = 0.0;  ///< Lengthening positive.
+  double force_n = 0.0;             ///< From force sharing.
+};
 
 /// One fit of the source paper's method: one muscle in shortening (v <= 0) or lengthening.
 struct PaperCase {

@@ -1,7 +1,6 @@
 #include "myoid/methods/prediction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -11,7 +10,6 @@
 #include "myoid/identification/muscle_rows.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/smooth_prediction.h"
-#include "myoid/methods/trial_fit.h"
 #include "myoid/muscle/hill_muscle.h"
 #include "myoid/posterior/likelihood.h"
 
@@ -86,10 +84,9 @@ Prediction predict(const StudyData& data, const TrialData& trial, const ModelVal
     if (at < values.joints.size()) {
       const JointValues& joint = values.joints[at];
       p.torque_nm.array() += joint[kOffset];
-      if (trial.angle_rad.size() == n && trial.velocity_radps.size() == n && trial.acceleration_radps2.size() == n) {
-        p.torque_nm -= joint[kViscosity] * trial.velocity_radps + joint[kInertia] * trial.acceleration_radps2 +
-                       joint[kStiffness] * trial.angle_rad;
-      }
+      if (const Eigen::MatrixXd motion = motion_of(trial); motion.size() > 0)
+        p.torque_nm -=
+            joint[kViscosity] * motion.col(1) + joint[kInertia] * motion.col(2) + joint[kStiffness] * motion.col(0);
     }
   }
   return p;
@@ -126,16 +123,6 @@ EstimatorOptions with_lag(EstimatorOptions options, EmgLag lag) {
 /// Returns diag(J C J'), J n x p.
 Eigen::VectorXd variance_by(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
   return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
-}
-
-/// Returns the derivative of a joint's own torque by one of its numbers; empty without motion.
-Eigen::VectorXd by_joint_field(const TrialData& trial, int field) {
-  const Eigen::Index n = trial.time_s.size();
-  if (field == kOffset) return Eigen::VectorXd::Ones(n);
-  const Eigen::VectorXd& motion = field == kViscosity ? trial.velocity_radps
-                                  : field == kInertia ? trial.acceleration_radps2
-                                                      : trial.angle_rad;
-  return motion.size() == n ? Eigen::VectorXd(-motion) : Eigen::VectorXd::Zero(n);
 }
 
 }  // namespace
@@ -181,7 +168,7 @@ struct TrialPredictions::ByLaw {
                                                 map->joints().begin());
     if (joint < by_owner.of_joint.size()) {
       for (const ParameterMap::Chain& chain : by_owner.of_joint[joint])
-        jacobian.col(chain.variable) += chain.slope * by_joint_field(trial, chain.field);
+        jacobian.col(chain.variable) += chain.slope * by_joint_field(chain.field, n, motion_of(trial));
     }
     Eigen::VectorXd variance = variance_by(jacobian, fit.covariance);
     variance.array() += fit.torque_sd_nm * fit.torque_sd_nm;
@@ -260,6 +247,23 @@ double covered_share(const Eigen::VectorXd& measured_nm,
   const Eigen::ArrayXd off = (measured_nm - predicted_nm).array().abs();
   return static_cast<double>((off <= math::normal_quantile(0.975) * sd_nm.array()).count()) /
          static_cast<double>(sd_nm.size());
+}
+
+TrialFit unfitted_trial(const TrialData& trial) {
+  TrialFit fit;
+  fit.trial = trial.name;
+  fit.joint = trial.joint;
+  fit.calibration = trial.calibration;
+  fit.time_s = trial.time_s;
+  fit.torque_nm = trial.torque_nm;
+  return fit;
+}
+
+void add_torques_of_forces(const TrialData& trial, TrialFit& fit) {
+  if (trial.moment_arm_m.rows() != trial.time_s.size()) return;
+  const Eigen::VectorXd resting = resting_torque_nm(trial);
+  fit.literature_torque_nm = trial.moment_arm_m.cwiseProduct(fit.literature_force_n).rowwise().sum() + resting;
+  fit.torque_fit_nm = trial.moment_arm_m.cwiseProduct(fit.force_fit_n).rowwise().sum() + resting;
 }
 
 }  // namespace myoid::identification

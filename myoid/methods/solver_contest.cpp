@@ -9,6 +9,7 @@
 #include "myoid/math/direct_search.h"
 #include "myoid/math/nelder_mead.h"
 #include "myoid/math/simulated_annealing.h"
+#include "myoid/methods/force.h"
 #include "myoid/methods/paper_case.h"
 
 namespace myoid::identification {
@@ -89,9 +90,8 @@ SolverContest contest(const Contestants& who, const StartBox& box, const Contest
     }
   }
   options.progress.tell(static_cast<double>(ends.size()) / total, "searching from many starts");
-  result.basins =
-      find_basins([&](const Eigen::VectorXd& x, Eigen::Index) { return searched(who.levenberg_marquardt, x); }, box,
-                  options.basin_starts, who.plain_samples, stop);
+  result.basins = find_basins([&](const Eigen::VectorXd& x) { return searched(who.levenberg_marquardt, x); }, box,
+                              options.basin_starts, who.plain_samples, stop);
 
   Eigen::VectorXd best = box.given;
   result.best_cost = std::numeric_limits<double>::infinity();
@@ -151,6 +151,38 @@ SolverContest compare_paper_solvers(const StudyData& data,
        .cost = math::direct_search_problem(problem),
        .plain_samples = problem.residual_count},
       box, options);
+}
+
+std::vector<NamedContest> solver_contests(const StudyData& data,
+                                          const std::string& method,
+                                          const EstimatorOptions& estimator,
+                                          const ContestOptions& options) {
+  using Fit = std::function<SolverContest(const ContestOptions&)>;
+  std::vector<std::pair<std::string, Fit>> fits;
+  if (method == "torque")
+    fits.emplace_back("all muscles", [&](const auto& how) { return compare_solvers(data, estimator, how); });
+  for (std::size_t k = 0; method != "torque" && k < data.muscles.size(); ++k) {
+    const std::string& muscle = data.muscles[k].name;
+    if (method == "force") {
+      fits.emplace_back(muscle,
+                        [&, k](const auto& how) { return compare_solvers(force_study(data, k), estimator, how); });
+      continue;
+    }
+    for (const bool shortening : {true, false})
+      fits.emplace_back(muscle + (shortening ? " shortening" : " lengthening"), [&, k, shortening](const auto& how) {
+        return compare_paper_solvers(data, k, shortening, how);
+      });
+  }
+  std::vector<NamedContest> contests;
+  for (const auto& [name, fit] : fits) {
+    ContestOptions how = options;
+    if (options.progress.report)
+      how.progress.report = [&, done = static_cast<double>(contests.size())](double share, std::string_view what) {
+        options.progress.report((done + share) / static_cast<double>(fits.size()), what);
+      };
+    contests.push_back({name, fit(how)});
+  }
+  return contests;
 }
 
 }  // namespace myoid::identification

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "myoid/identification/estimator.h"
+#include "myoid/identification/told_by_motion.h"
 #include "myoid/intervals/estimates.h"
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/methods/basins.h"
-#include "myoid/methods/motion_alone.h"
 #include "myoid/methods/noise_free.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/methods/smooth_prediction.h"
@@ -23,7 +26,7 @@ void add_predictions(const StudyData& data, const TorqueOptions& options, Identi
   for (std::size_t k = 0; k < data.muscles.size(); ++k)
     literature.muscles[k] = muscle_values(data.muscles[k].start, data.muscles[k].extras);
   for (ChannelValues& channel : literature.channels) {
-    channel[kDelay] = options.delay_s.value_or(options.delay_prior_mean_s);
+    channel[kDelay] = options.usual_delay_s();
     channel[kGain] = 1.0;
     channel[kShape] = 0.0;
     channel[kExponent] = 1.0;
@@ -140,6 +143,21 @@ IdentificationResult by_least_squares(const StudyData& data, const TorqueOptions
 }
 
 }  // namespace
+
+void judge_motion_alone(const StudyData& data, IdentificationResult& result) {
+  const std::optional<double> share = told_by_motion_alone(data);
+  if (!share || *share < kVerdictRules.motion_alone) return;
+  result.warnings.push_back(
+      fmt::format("angle, rate and acceleration alone tell {:.1f} % of the torque's variance: no fit can tell the "
+                  "muscles from a spring and an inertia, and intervals may miss the truth. Record efforts against "
+                  "several loads, or at held angles",
+                  100.0 * *share));
+  for (ParameterEstimate& e : result.estimates) {
+    if (e.verdict != Verdict::identified) continue;
+    e.verdict = Verdict::weak;
+    e.reason = fmt::format("motion alone tells {:.1f} % of the torque", 100.0 * *share);
+  }
+}
 
 IdentificationResult identify_torque(const StudyData& data, const TorqueOptions& options) {
   IdentificationResult result;

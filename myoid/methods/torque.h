@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "myoid/identification/options.h"
 #include "myoid/identification/study_data.h"
 #include "myoid/intervals/result.h"
@@ -39,5 +37,9 @@ using TorqueOptions = EstimatorOptions;
 [[nodiscard]] IdentificationResult identify_torque_or_exact(const StudyData& data,
                                                             const TorqueOptions& options = {},
                                                             const std::vector<std::string>& speed_may_be_free = {});
+
+/// Adds a warning to the result of these data, and makes every `identified` number `weak`, where
+/// told_by_motion_alone reaches VerdictRules::motion_alone.
+void judge_motion_alone(const StudyData& data, IdentificationResult& result);
 
 }  // namespace myoid::identification

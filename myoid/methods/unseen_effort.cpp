@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "myoid/math/moving_mean.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 

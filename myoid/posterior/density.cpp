@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/erf.hpp>
 
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -27,7 +28,7 @@ struct HalfNormal {
 };
 HalfNormal half_normal(double score) {
   const double x = std::clamp(score, -kFarthestScore, kFarthestScore);
-  const double tail = 0.5 * std::erfc(std::abs(x) / std::numbers::sqrt2);  // Phi(-|x|)
+  const double tail = math::normal_below(-std::abs(x));
   const double y = std::numbers::sqrt2 * (x < 0.0 ? boost::math::erf_inv(tail) : boost::math::erfc_inv(tail));
   return {y, 0.5 * std::exp(0.5 * (y * y - x * x)) / y};
 }
@@ -54,11 +55,8 @@ Density::Density(const StudyData& data, const EstimatorOptions& options)
     range_[j] = of.bounds.upper - of.bounds.lower;
     if (of.prior.sd > 0.0) prior_mean_[j] = of.prior.mean;
   }
-  const bool known =
-      std::all_of(parameters().channels().begin(), parameters().channels().end(), [&](const std::string& name) {
-        const auto at = options.emg_bandwidth_hz.find(name);
-        return at != options.emg_bandwidth_hz.end() && at->second > 0.0;
-      });
+  const bool known = std::all_of(parameters().channels().begin(), parameters().channels().end(),
+                                 [&](const std::string& name) { return options.bandwidth_hz(name) > 0.0; });
   noise_mean_.setZero(kNoiseFieldCount + likelihood_.trial_count());
   noise_sd_.setConstant(noise_mean_.size(), beliefs::kTrialTorqueNoise.sd);
   noise_mean_[kTorqueSd] = std::log(beliefs::kTorqueNoise.value * std::max(likelihood_.torque_size_nm(), 1e-9));

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "myoid/posterior/likelihood.h"

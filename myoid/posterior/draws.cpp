@@ -1,25 +1,14 @@
 #include "myoid/posterior/draws.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "myoid/math/random.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
-namespace {
-
-std::vector<Eigen::Index> order_of(const Eigen::VectorXd& values) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
-  return order;
-}
-
-}  // namespace
-
 Draws draw_normal(const Eigen::VectorXd& mean,
                   const Eigen::MatrixXd& covariance,
                   Eigen::Index count,
@@ -29,16 +18,14 @@ Draws draw_normal(const Eigen::VectorXd& mean,
   draws.x.resize(mean.size(), count);
   for (Eigen::Index i = 0; i < count; ++i) {
     math::Random random(seed, static_cast<std::uint64_t>(i));
-    Eigen::VectorXd normal(mean.size());
-    for (double& v : normal) v = random.normal();
-    draws.x.col(i) = mean + root * normal;
+    draws.x.col(i) = mean + root * random.normals(mean.size());
   }
   draws.weight = Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count));
   return draws;
 }
 
 double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weight, double share) {
-  const std::vector<Eigen::Index> order = order_of(values);
+  const std::vector<Eigen::Index> order = math::rising_order(values);
   double before = 0.0, last = values[order.front()], place = 0.0;
   for (const Eigen::Index i : order) {
     const double middle = before + 0.5 * weight[i];

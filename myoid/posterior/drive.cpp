@@ -5,7 +5,6 @@
 #include <complex>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Cholesky>
 
@@ -143,16 +142,6 @@ Eigen::VectorXd covariances(const Eigen::VectorXd& power,
   for (Eigen::Index j = 0; j <= last; ++j, phase *= turn)
     c[j] = phase.real().sum() * std::exp(-0.5 * std::pow(static_cast<double>(j) * interval_s / fade_s, 2));
   return c;
-}
-
-Eigen::MatrixXd toeplitz(const Eigen::VectorXd& first_column) {
-  const Eigen::Index n = first_column.size();
-  Eigen::MatrixXd m(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    m.col(j).tail(n - j) = first_column.head(n - j);
-    m.col(j).head(j) = first_column.segment(1, j).reverse();
-  }
-  return m;
 }
 
 /// Returns T e, e_j = exp(i w j), of the symmetric Toeplitz matrix T with first column c: with the sums

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "myoid/core/error.h"
 #include "myoid/posterior/marginals.h"
 #include "myoid/posterior/sampler.h"
 

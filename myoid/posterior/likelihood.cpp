@@ -5,8 +5,6 @@
 #include <limits>
 #include <memory>
 
-#include <Eigen/Cholesky>
-
 #include "myoid/core/parallel.h"
 #include "myoid/identification/told_by_motion.h"
 #include "myoid/intervals/verdict_rules.h"
@@ -17,15 +15,6 @@ namespace {
 
 double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
   return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-}
-
-/// Adds the symmetric Toeplitz matrix with this first column.
-void add_toeplitz(const Eigen::VectorXd& first_column, Eigen::Ref<Eigen::MatrixXd> q) {
-  const Eigen::Index n = q.rows();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    q.col(j).tail(n - j) += first_column.head(n - j);
-    q.col(j).head(j) += first_column.segment(1, j).reverse();
-  }
 }
 
 /// Returns the gradient by the first column of a symmetric Toeplitz matrix, given b, the gradient by the matrix.
@@ -94,7 +83,7 @@ void Likelihood::weigh_rows() {
   const auto of_trial = [&](std::size_t r) -> double& { return rows[static_cast<std::size_t>(trial_of_run_[r])]; };
   for (std::size_t r = 0; r < runs_.size(); ++r) of_trial(r) += static_cast<double>(runs_[r].reduction.outputs());
   double most = options_.unseen.independent_rows;
-  if (recorded_.told_by_motion >= VerdictRules{}.motion_alone)
+  if (recorded_.told_by_motion >= kVerdictRules.motion_alone)
     most = std::min(most, static_cast<double>(kMotionCoefficients));
   for (std::size_t r = 0; r < runs_.size(); ++r)
     row_weight_.push_back(most > 0.0 ? std::min(1.0, most / of_trial(r)) : 1.0);
@@ -160,7 +149,7 @@ void Likelihood::add_torque_error(const TrialRun& run, double variance, double l
   const Eigen::Index m = run.reduction.outputs();
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const Eigen::Index row = static_cast<Eigen::Index>(j) * m;
-    add_toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation, a.block(row, row, m, m));
+    a.block(row, row, m, m) += toeplitz(variance * std::pow(recorded_.size_share(run.joints[j]), 2) * correlation);
   }
 }
 
@@ -321,17 +310,14 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   const ModelValues values = map_.values(z, gradient != nullptr ? &chains : nullptr);
   const ChainsByOwner by_owner(map_, chains);
   AllRuns all = all_runs(z, noise);
-  const auto each_run = [&](const auto& one) {
-    parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
-      for (std::size_t r = range.begin(); r < range.end(); ++r) one(r);
-    });
-  };
   std::vector<Block> blocks(runs_.size());
-  each_run([&](std::size_t r) {
-    Block& block = blocks[r];
-    block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
-                                                       gradient != nullptr ? &by_owner : nullptr);
-    block.positive = fill(r, all, noise, block);
+  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      Block& block = blocks[r];
+      block.evaluation = std::make_unique<RunEvaluation>(runs_[r], map_, options_.lag, values,
+                                                         gradient != nullptr ? &by_owner : nullptr);
+      block.positive = fill(r, all, noise, block);
+    }
   });
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const Eigen::Index quantities = all.weights.size();
@@ -355,7 +341,11 @@ double Likelihood::value(const Eigen::VectorXd& z, const NoiseValues& noise, Gra
   if (gradient == nullptr || !std::isfinite(result)) return result;
   all.variance = factor.solve(identity);
   std::vector<Gradient> parts(runs_.size());
-  each_run([&](std::size_t r) { pull_back(r, noise, all, blocks[r], parts[r]); });
+  parallel_ranges(runs_.size(), std::size_t{1}, [&](const auto& range) {
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      pull_back(r, noise, all, blocks[r], parts[r]);
+    }
+  });
   gradient->by_z = unseen_.growth.transpose() * expected.cwiseAbs2();
   gradient->by_noise.setZero(noise.size());
   for (Eigen::Index i = 0; i < quantities; ++i) {

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "myoid/identification/parameters.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "myoid/core/parallel.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -29,8 +30,6 @@ double tail_curvature(const Marginal::Side& side, double outward_slope) {
       (4.0 * Marginal::kSide * outward_slope - 6.0 * side.log_density) / (Marginal::kSide * Marginal::kSide);
   return std::clamp(-at_side, kLeastBend, kMostBend);
 }
-
-double standard_normal_below(double t) { return 0.5 * std::erfc(-t / std::sqrt(2.0)); }
 
 Marginal::Side side_of(const LogDensity& density, const Mode& mode, Eigen::Index j, double sign) {
   const Marginal::Side normal{-2.0, -2.0 * sign};
@@ -99,7 +98,7 @@ double Marginal::log_density(double t) const {
 }
 
 double Marginal::at(double normal) const {
-  const double wanted = standard_normal_below(normal);
+  const double wanted = math::normal_below(normal);
   const auto above = std::upper_bound(share_.begin(), share_.end(), wanted);
   if (above == share_.begin()) return -kGridEnd;
   if (above == share_.end()) return kGridEnd;

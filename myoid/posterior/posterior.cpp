@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/intervals/estimate_remarks.h"
-#include "myoid/intervals/judgment.h"
+#include "myoid/intervals/estimate_rows.h"
+#include "myoid/intervals/identifiability.h"
 #include "myoid/intervals/signatures.h"
 #include "myoid/intervals/verdict_rules.h"
-#include "myoid/math/explained_share.h"
 #include "myoid/math/statistics.h"
 #include "myoid/muscle/hill_parameters.h"
 #include "myoid/posterior/draws.h"
@@ -105,14 +104,6 @@ struct Reporting {
   double strength_sd = 0.0;  ///< UnseenSpreads::strength.
 };
 
-std::string owner_name(const Reporting& of, const Unknown& p, int owner) {
-  if (p.owner == "subject") return p.owner;
-  const auto k = static_cast<std::size_t>(owner);
-  return p.field->scope == Scope::muscle    ? of.data.muscles[k].name
-         : p.field->scope == Scope::channel ? of.map.channels()[k]
-                                            : of.map.joints()[k];
-}
-
 /// Returns what F_max means without a maximal contraction, from draws of a muscle's F_max: the
 /// force at the largest EMG where the share of the maximum is an unknown, the channel's gain.
 std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, int muscle) {
@@ -128,8 +119,8 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
     return weighted_quantile(values, of.sample.weight, p);
   };
   return fmt::format(
-      "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest "
-      "EMG, between {:.0f} and {:.0f} % of its maximum",
+      "; no maximal contraction was recorded: the muscle pulls {:.4g} to {:.4g} N at the largest EMG, between {:.0f} "
+      "and {:.0f} % of its maximum",
       reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025), 100.0 * reach(share, 0.975));
 }
 
@@ -154,20 +145,20 @@ void judge_row(const Reporting& of,
   facts.high = *e.ci_high;
   facts.contraction = e.shrinkage;
   if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
-  facts.nuisance_gain = p.field->scope == Scope::channel && p.field->field == kGain;
-  facts.is_delay = p.field->scope == Scope::channel && p.field->field == kDelay;
+  facts.nuisance_gain = p.is(Scope::channel, kGain);
+  facts.is_delay = p.is(Scope::channel, kDelay);
   facts.shares = of.shares[unknown];
   facts.r2 = of.result.r2;
   facts.model_error = of.result.model_error;
   e.variance_shares = facts.shares;
-  const bool of_width = p.field->scope == Scope::muscle && p.field->field == kWidth;
-  if (of_width || (p.field->scope == Scope::muscle && p.field->field == kFiberLength)) {
+  const bool of_width = p.is(Scope::muscle, kWidth);
+  if (of_width || p.is(Scope::muscle, kFiberLength)) {
     const auto k = static_cast<std::size_t>(owner);
     facts.length_span = of.motion[k].length_span_m / of.data.muscles[k].start.optimal_fiber_length_m;
   }
   if (of_width) {
     const MuscleValues& muscle = of.result.values.muscles[static_cast<std::size_t>(owner)];
-    facts.possible = VerdictRules{}.possible(muscle[kWidth] / muscle[kFiberLength]);
+    facts.possible = kVerdictRules.possible(muscle[kWidth] / muscle[kFiberLength]);
   }
   const Finding found = finding(facts);
   e.verdict = verdict_of(found);
@@ -182,27 +173,14 @@ double contraction(const Reporting& of, std::size_t unknown) {
   return 1.0 - (z.array() - mean).square().matrix().dot(of.sample.weight) / (sd * sd);
 }
 
-ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t target_at) {
+ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::size_t target_at) {
   Unknown p = of.map.free()[unknown];
   p.prior.sd = prior_spread(p, of.strength_sd);
   const Unknown::Target& target = p.targets[target_at];
   const auto at = static_cast<Eigen::Index>(unknown);
   const auto value = [&](double z) { return target.ratio * p.to_value(z); };
-  ParameterEstimate e;
-  e.method = "torque";
-  e.fit_case = "both";
-  e.muscle = owner_name(of, p, target.owner);
-  if (target_at > 0) e.tied_to = owner_name(of, p, p.targets.front().owner);
-  e.parameter = std::string(p.field->name);
-  e.unit = p.field->unit;
-  e.initial = value(p.start);
-  e.estimate = value(of.result.solution[at]);
-  if (p.prior.sd > 0.0) {
-    e.prior_mean = value(p.prior.mean);
-    e.prior_sd = p.field->logarithmic ? *e.prior_mean * p.prior.sd : std::abs(target.ratio) * p.prior.sd;
-    e.shrinkage = contraction(of, unknown);
-    e.prior_distance = distance_from_prior(p, of.result.solution[at]);
-  }
+  ParameterEstimate e = row_of(p, target, of.map, of.result.solution[at]);
+  if (p.prior.sd > 0.0) e.shrinkage = contraction(of, unknown);
   PosteriorFacts facts;
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
   facts.low_given = value(of.given.low[at]);
@@ -215,12 +193,7 @@ ParameterEstimate row_of(const Reporting& of, std::size_t unknown, std::size_t t
 /// Returns the row of V_sh V_shl of a muscle whose slope ratio is the unknown.
 ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owner) {
   const auto k = static_cast<std::size_t>(owner);
-  ParameterEstimate e;
-  e.method = "torque";
-  e.fit_case = "both";
-  e.muscle = of.data.muscles[k].name;
-  e.parameter = "eccentric_curvature_product";
-  e.initial = of.data.muscles[k].start.eccentric_curvature_product;
+  ParameterEstimate e = product_row_of(of.data.muscles[k]);
   const muscle::Range physical = muscle::hill_field(e.parameter).bounds;
   Eigen::VectorXd draws(of.sample.z.cols());
   for (Eigen::Index i = 0; i < draws.size(); ++i)
@@ -241,10 +214,10 @@ void add_estimates(const Reporting& of, IdentificationResult& result) {
     result.free_parameters.push_back(p.label);
     for (std::size_t t = 0; t < p.targets.size(); ++t) {
       if (p.owner == "subject" && t > 0) break;
-      result.estimates.push_back(row_of(of, j, t));
+      result.estimates.push_back(reported_row(of, j, t));
     }
     agree_on_tied(result.estimates, p.targets.size());
-    if (p.field->scope != Scope::muscle || p.field->field != kSlopeRatio) continue;
+    if (!p.is(Scope::muscle, kSlopeRatio)) continue;
     for (const Unknown::Target& target : p.targets) result.estimates.push_back(product_row(of, j, target.owner));
   }
 }
@@ -308,26 +281,23 @@ void add_warnings(const std::vector<Candidate>& candidates,
                   IdentificationResult& result) {
   if (candidates.size() > 1)
     result.warnings.push_back(
-        fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of "
-                    "it: the intervals are over all of them",
+        fmt::format("the posterior has {} modes that are nearly as good, the best with {:.0f} % of it: the intervals "
+                    "are over all of them",
                     candidates.size(), 100.0 * candidates.front().weight));
   if (sample.approximate)
-    result.warnings.push_back(
-        fmt::format("the draws of the posterior are not to be relied on: the chains of the sampler differ "
-                    "(R-hat {:.2f}; 1.10 is the limit) or took {:.0f} % of their proposals (40 % is the "
-                    "limit). "
-                    "Ask for more draws",
-                    sample.rhat, 100.0 * sample.accepted));
+    result.warnings.push_back(fmt::format(
+        "the draws of the posterior are not to be relied on: the chains of the sampler differ (R-hat {:.2f}; 1.10 is "
+        "the limit) or took {:.0f} % of their proposals (40 % is the limit). Ask for more draws",
+        sample.rhat, 100.0 * sample.accepted));
   if (unlikeness > kUnlike)
     result.warnings.push_back(
-        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the "
-                    "priors are that much wider here. Was the model scaled to this person?",
+        fmt::format("the muscles lie {:.1f} times as far from the model's numbers as people usually do: the priors are "
+                    "that much wider here. Was the model scaled to this person?",
                     unlikeness));
-  if (result.model_error > VerdictRules{}.model_error)
-    result.warnings.push_back(
-        fmt::format("what the model leaves of the torque depends on posture, effort and speed as if it were "
-                    "wrong by {:.0f} %",
-                    100.0 * result.model_error));
+  if (result.model_error > kVerdictRules.model_error)
+    result.warnings.push_back(fmt::format(
+        "what the model leaves of the torque depends on posture, effort and speed as if it were wrong by {:.0f} %",
+        100.0 * result.model_error));
   add_distances_to(result.warnings, result.prior_distances);
 }
 
@@ -337,8 +307,8 @@ IdentificationResult identify_by_posterior(const StudyData& data, const Estimato
   validate(data);
   if (!options.priors)
     throw InvalidInput(
-        "the estimator posterior rests on what is known of people, and the study does without "
-        "(priors = false): take the estimator least_squares");
+        "the estimator posterior rests on what is known of people, and the study does without (priors = false): take "
+        "the estimator least_squares");
   const auto begin = std::chrono::steady_clock::now();
   const Exploration explored = explore(data, options);
   const std::vector<Candidate>& candidates = explored.modes;

@@ -49,7 +49,7 @@ class Chain {
   Chain(const LogDensity& density, const Mode& mode, math::Random random)
       : density_(density), random_(random), x_(mode.x) {
     // Begins at a draw from the approximation, or nearer to the mode where the density is near 0.
-    const Eigen::VectorXd off = mode.covariance.llt().matrixL() * normal();
+    const Eigen::VectorXd off = mode.covariance.llt().matrixL() * random_.normals(x_.size());
     Eigen::VectorXd gradient;
     for (double share = 1.0; share > 0.05; share *= 0.5) {
       const double there = density_(mode.x + share * off, gradient);
@@ -68,7 +68,7 @@ class Chain {
 
   /// Makes one proposal, moves the chain to its end, and returns the share of acceptance.
   double move(double step) {
-    Eigen::VectorXd momentum = normal();
+    Eigen::VectorXd momentum = random_.normals(x_.size());
     const double size = step * (0.9 + 0.2 * random_.uniform());
     const double turn = 0.5 * std::numbers::pi * (0.8 + 0.4 * random_.uniform());
     const int steps = std::clamp(static_cast<int>(std::lround(turn / size)), 1, kMostSteps);
@@ -91,11 +91,6 @@ class Chain {
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
 
  private:
-  Eigen::VectorXd normal() {
-    Eigen::VectorXd n(x_.size());
-    for (double& v : n) v = random_.normal();
-    return n;
-  }
   [[nodiscard]] Place place(const Eigen::VectorXd& u) const {
     Place found{u, {}, 0.0};
     Eigen::VectorXd by_x;
@@ -143,7 +138,9 @@ Sampled sample_density(
     chains.emplace_back(density, mode, math::Random(seed, static_cast<std::uint64_t>(c)));
   const auto each_chain = [&](const auto& run) {
     parallel_ranges(kChains, Eigen::Index{1}, [&](const auto& range) {
-      for (Eigen::Index c = range.begin(); c < range.end(); ++c) run(chains[static_cast<std::size_t>(c)], c);
+      for (Eigen::Index c = range.begin(); c < range.end(); ++c) {
+        run(chains[static_cast<std::size_t>(c)], c);
+      }
     });
   };
   // First Laplace's covariance, then the density's own, with which the draws are taken.

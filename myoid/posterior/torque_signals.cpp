@@ -22,14 +22,6 @@ std::vector<Activation> more_active(std::vector<Activation> activation, double e
   return activation;
 }
 
-/// Returns the derivative of the j-th joint's own torque by one of the joint's numbers, n.
-Eigen::VectorXd by_joint_field(const TrialRun& run, std::size_t j, int field) {
-  const Eigen::Index n = run.time_s.size();
-  if (field == kOffset) return Eigen::VectorXd::Ones(n);
-  const Eigen::Index column = field == kViscosity ? 1 : field == kInertia ? 2 : 0;
-  return -run.motion.col(column).segment(run.first_row(j), n);
-}
-
 /// Returns true where force is proportional to activation, also for other values of the unknowns.
 bool is_proportional(const MuscleValues& values, const std::vector<ParameterMap::Chain>& chains) {
   return is_plain(values) && values[kLengthActivation] == 0.0 &&
@@ -45,16 +37,6 @@ void add_gradient(const MuscleRows& rows, const Eigen::VectorXd& by_force, Eigen
 
 }  // namespace
 
-ChainsByOwner::ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains)
-    : of_muscle(map.held().muscles.size()), of_channel(map.channels().size()), of_joint(map.joints().size()) {
-  for (const ParameterMap::Chain& chain : chains) {
-    const auto owner = static_cast<std::size_t>(chain.owner);
-    if (chain.scope == Scope::muscle) of_muscle[owner].push_back(chain);
-    if (chain.scope == Scope::channel) of_channel[owner].push_back(chain);
-    if (chain.scope == Scope::joint) of_joint[owner].push_back(chain);
-  }
-}
-
 RunEvaluation::RunEvaluation(
     const TrialRun& run, const ParameterMap& map, EmgLag lag, const ModelValues& values, const ChainsByOwner* chains)
     : run_(run), chains_(chains), muscles_(values.muscles.size()) {
@@ -64,9 +46,10 @@ RunEvaluation::RunEvaluation(
   signals_.by_noise.setZero(run.row_count(), channels);
   for (std::size_t j = 0; j < run.joints.size(); ++j) {
     const JointValues& joint = values.joints[static_cast<std::size_t>(run.joints[j])];
+    const auto motion = run.motion.middleRows(run.first_row(j), n);
     for (int field = 0; field < kJointFieldCount; ++field) {
       const double value = joint[static_cast<std::size_t>(field)];
-      if (value != 0.0) signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(run, j, field);
+      if (value != 0.0) signals_.torque_nm.segment(run.first_row(j), n) += value * by_joint_field(field, n, motion);
     }
   }
   exponent_.resize(channels);
@@ -120,8 +103,9 @@ void RunEvaluation::pull_back(const TorqueSignals& by, Eigen::VectorXd& by_z) co
   const Eigen::Index n = run_.time_s.size();
   for (std::size_t j = 0; j < run_.joints.size(); ++j) {
     const Eigen::Index first = run_.first_row(j);
+    const auto motion = run_.motion.middleRows(first, n);
     for (const ParameterMap::Chain& chain : own_chains(j))
-      by_z[chain.variable] += chain.slope * by.torque_nm.segment(first, n).dot(by_joint_field(run_, j, chain.field));
+      by_z[chain.variable] += chain.slope * by.torque_nm.segment(first, n).dot(by_joint_field(chain.field, n, motion));
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
       const Muscle& m = muscles_[static_cast<std::size_t>(k)];
       const auto arm = run_.arm_m.col(k).segment(first, n).array();
@@ -159,9 +143,10 @@ Eigen::MatrixXd RunEvaluation::jacobian(Eigen::Index unknowns) const {
   const Eigen::Index n = run_.time_s.size();
   Eigen::MatrixXd by_z = Eigen::MatrixXd::Zero(run_.row_count(), unknowns);
   for (std::size_t j = 0; j < run_.joints.size(); ++j) {
+    const auto motion = run_.motion.middleRows(run_.first_row(j), n);
     auto of_joint = by_z.middleRows(run_.first_row(j), n);
     for (const ParameterMap::Chain& chain : own_chains(j))
-      of_joint.col(chain.variable) += chain.slope * by_joint_field(run_, j, chain.field);
+      of_joint.col(chain.variable) += chain.slope * by_joint_field(chain.field, n, motion);
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(muscles_.size()); ++k) {
       const MuscleRows& rows = muscles_[static_cast<std::size_t>(k)].at;
       for (std::size_t v = 0; v < rows.variables.size(); ++v)

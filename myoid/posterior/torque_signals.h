@@ -19,12 +19,6 @@ struct TorqueSignals {
   Eigen::MatrixXd by_noise;
 };
 
-/// Derivatives of the model's numbers by the unknowns, grouped by the numbers' owners.
-struct ChainsByOwner {
-  ChainsByOwner(const ParameterMap& map, const std::vector<ParameterMap::Chain>& chains);
-  std::vector<std::vector<ParameterMap::Chain>> of_muscle, of_channel, of_joint;
-};
-
 /// The torque signals of one run at one point, and all quantities that carry a gradient from the
 /// signals back to the unknowns.
 ///

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "myoid/core/error.h"
 #include "myoid/core/parallel.h"
 #include "myoid/identification/residual_model.h"
@@ -16,29 +14,6 @@ namespace {
 
 constexpr double kLongest_s = 8.0;
 constexpr Eigen::Index kFewest = 8;  // samples of a run
-
-/// Returns every stride-th sample that may be fitted, in stretches without a gap.
-std::vector<std::vector<Eigen::Index>> stretches(const TrialData& trial, double max_rate_hz, double longest_delay_s) {
-  const Eigen::Index all = trial.time_s.size();
-  const double begin = trial.time_s[0], end = trial.time_s[all - 1], span = end - begin;
-  const double interval = span / static_cast<double>(all - 1);
-  const auto stride = std::max<Eigen::Index>(1, std::lround(1.0 / (interval * max_rate_hz)));
-  const double edge_s = std::min(0.1, 0.02 * span), reach_s = std::min(longest_delay_s, 0.1 * span);
-  const Eigen::VectorXd& clock = trial.activation.time_s();
-  std::vector<bool> included(static_cast<std::size_t>(all), false);
-  for (const Eigen::Index i : included_rows(trial)) included[static_cast<std::size_t>(i)] = true;
-  std::vector<std::vector<Eigen::Index>> found(1);
-  for (Eigen::Index i = 0; i < all; i += stride) {
-    const double t = trial.time_s[i];
-    if (included[static_cast<std::size_t>(i)] && t >= begin + edge_s && t <= end - edge_s &&
-        t - reach_s >= clock[0] - 1e-9 && t <= clock[clock.size() - 1] + 1e-9) {
-      found.back().push_back(i);
-    } else if (!found.back().empty()) {
-      found.emplace_back();
-    }
-  }
-  return found;
-}
 
 /// Cuts the stretch into pieces of equal length, none longer than kLongest_s apart from the samples
 /// that neighbors share.
@@ -58,14 +33,6 @@ std::vector<std::vector<Eigen::Index>> pieces(const std::vector<Eigen::Index>& r
   return found;
 }
 
-/// Returns an EMG channel's resting level over its full level if raw EMG is known, else 0.
-double floor_of(const std::string& channel, const EstimatorOptions& options) {
-  const auto rest = options.emg_rest.find(channel);
-  const auto bandwidth = options.emg_bandwidth_hz.find(channel);
-  const bool raw = bandwidth != options.emg_bandwidth_hz.end() && bandwidth->second > 0.0;
-  return raw && rest != options.emg_rest.end() ? rest->second : 0.0;
-}
-
 using Drives = std::vector<std::shared_ptr<const Drive>>;  // by channel
 
 /// Returns the drive behind the envelope of each channel.
@@ -74,7 +41,7 @@ Drives drives_of(const TrialData& trial, const EstimatorOptions& options, const 
   const auto memory = options.drives ? options.drives : std::make_shared<DriveMemory>();
   Drives drives;
   for (const std::string& name : map.channels())
-    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name), floor_of(name, options),
+    drives.push_back(memory->behind(trial.activation, name, envelope_spread(options, name), options.rest_level(name),
                                     plain, options.envelope_cutoff_hz));
   return drives;
 }
@@ -86,7 +53,7 @@ void add_envelopes(const Drives& drives, const EstimatorOptions& options, const 
     const std::string& name = map.channels()[c];
     const auto column = static_cast<Eigen::Index>(c);
     run.envelope_sd[column] = envelope_spread(options, name);
-    run.rest[column] = floor_of(name, options);
+    run.rest[column] = options.rest_level(name);
     run.envelopes.push_back(drives[c]->envelope);
     run.errors.push_back(EnvelopeError(options.envelope_cutoff_hz, lag_times_s(map.held().channels[c], options.lag))
                              .behind(drives[c]->left));
@@ -106,13 +73,8 @@ void add_joint(const TrialData& view,
   run.resting_nm.segment(first, n) = resting_torque_nm(view)(rows);
   run.measured_nm.segment(static_cast<Eigen::Index>(j) * m, m) =
       run.reduction.apply(Eigen::VectorXd(view.torque_nm(rows)));
-  const Eigen::Index all = view.time_s.size();
-  if (view.angle_rad.size() != all || view.velocity_radps.size() != all || view.acceleration_radps2.size() != all)
-    return;
-  auto motion = run.motion.middleRows(first, n);
-  motion.col(0) = view.angle_rad(rows);
-  motion.col(1) = view.velocity_radps(rows);
-  motion.col(2) = view.acceleration_radps2(rows);
+  if (const Eigen::MatrixXd motion = motion_of(view); motion.size() > 0)
+    run.motion.middleRows(first, n) = motion(rows, Eigen::all);
 }
 
 TrialRun make_run(const TrialData& trial,
@@ -128,16 +90,8 @@ TrialRun make_run(const TrialData& trial,
                .time_s = trial.time_s(rows),
                .length_m = trial.length_m(rows, Eigen::all),
                .velocity_mps = trial.velocity_mps(rows, Eigen::all),
-               .arm_m = {},
-               .motion = {},
-               .resting_nm = {},
-               .envelopes = {},
-               .errors = {},
-               .envelope_sd = {},
-               .rest = {},
                .interval_s = 1.0 / rate_hz,
-               .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz),
-               .measured_nm = {}};
+               .reduction = Reduction(n, rate_hz, options.residual_cutoff_hz)};
   run.arm_m.resize(run.row_count(), trial.moment_arm_m.cols());
   run.motion.setZero(run.row_count(), 3);
   run.resting_nm.resize(run.row_count());
@@ -154,19 +108,17 @@ std::vector<TrialRun> trial_runs(const StudyData& data, const EstimatorOptions& 
       std::count_if(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; });
   std::vector<Drives> drives(data.trials.size());
   parallel_ranges(data.trials.size(), std::size_t{1}, [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (data.trials[i].calibration) drives[i] = drives_of(data.trials[i], options, map);
+    }
   });
   std::vector<TrialRun> runs;
   double before = 0.0;
   for (std::size_t i = 0; i < data.trials.size(); ++i) {
     const TrialData& trial = data.trials[i];
     if (!trial.calibration) continue;
-    const Eigen::Index all = trial.time_s.size();
-    if (trial.torque_nm.size() != all || trial.moment_arm_m.rows() != all)
-      throw InvalidInput(fmt::format("trial '{}' has no torque or no moment arms", trial.name));
-    const double begin = trial.time_s[0], span = trial.time_s[all - 1] - begin;
-    for (const auto& stretch : stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
+    const double begin = trial.time_s[0], span = trial.time_s[trial.time_s.size() - 1] - begin;
+    for (const auto& stretch : fitted_stretches(trial, options.max_rate_hz, map.longest_delay_s())) {
       if (static_cast<Eigen::Index>(stretch.size()) < kFewest) continue;
       for (const auto& rows : pieces(stretch, trial.time_s, options.residual_cutoff_hz)) {
         if (static_cast<Eigen::Index>(rows.size()) < kFewest) continue;

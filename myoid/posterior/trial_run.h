@@ -17,22 +17,22 @@ namespace myoid::identification {
 /// length. The errors of different runs count as independent except for the person's own (unseen.h): 8 s are many times
 /// the errors' memory, and the work grows with the square of a run's length.
 struct TrialRun {
-  int trial = 0;                      ///< Index in StudyData::trials.
-  double session = 0.0;               ///< Place of the run's middle in the session, 0 to 1.
-  std::vector<int> joints;            ///< J indices in ParameterMap::joints().
-  Eigen::VectorXd time_s;             ///< n
-  Eigen::MatrixXd length_m;           ///< n x muscles, musculotendon length.
-  Eigen::MatrixXd velocity_mps;       ///< n x muscles
-  Eigen::MatrixXd arm_m;              ///< n J x muscles
-  Eigen::MatrixXd motion;             ///< n J x 3: angle, rate, acceleration; 0 where not known.
-  Eigen::VectorXd resting_nm;         ///< n J: measured passive torque of the joint, or 0.
-  std::vector<Envelope> envelopes;    ///< Per EMG channel: the drive (drive.h).
-  std::vector<EnvelopeError> errors;  ///< Per EMG channel: the envelope's error.
-  Eigen::VectorXd envelope_sd;        ///< Per EMG channel: relative sd of rectified EMG behind its filter.
-  Eigen::VectorXd rest;               ///< Per EMG channel: resting over full level, 0 where not known.
+  int trial = 0;                        ///< Index in StudyData::trials.
+  double session = 0.0;                 ///< Place of the run's middle in the session, 0 to 1.
+  std::vector<int> joints;              ///< J indices in ParameterMap::joints().
+  Eigen::VectorXd time_s;               ///< n
+  Eigen::MatrixXd length_m;             ///< n x muscles, musculotendon length.
+  Eigen::MatrixXd velocity_mps;         ///< n x muscles
+  Eigen::MatrixXd arm_m{};              ///< n J x muscles
+  Eigen::MatrixXd motion{};             ///< n J x 3: angle, rate, acceleration; 0 where not known.
+  Eigen::VectorXd resting_nm{};         ///< n J: measured passive torque of the joint, or 0.
+  std::vector<Envelope> envelopes{};    ///< Per EMG channel: the drive (drive.h).
+  std::vector<EnvelopeError> errors{};  ///< Per EMG channel: the envelope's error.
+  Eigen::VectorXd envelope_sd{};        ///< Per EMG channel: relative sd of rectified EMG behind its filter.
+  Eigen::VectorXd rest{};               ///< Per EMG channel: resting over full level, 0 where not known.
   double interval_s = 0.0;
   Reduction reduction;
-  Eigen::VectorXd measured_nm;  ///< m J: L y.
+  Eigen::VectorXd measured_nm{};  ///< m J: L y.
 
   /// Returns the first row of the run's j-th joint among the n J rows.
   [[nodiscard]] Eigen::Index first_row(std::size_t j) const { return static_cast<Eigen::Index>(j) * time_s.size(); }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
 #include "myoid/beliefs/beliefs.h"
+#include "myoid/math/statistics.h"
 
 namespace myoid::identification {
 namespace {
@@ -19,12 +19,10 @@ bool is_literature(const Unknown& of) {
   return of.field->scope == Scope::muscle && of.prior.sd > 0.0 && !of.prior_is_given;
 }
 
-/// Returns the share of a normal distribution below the score.
-double below(double score) { return 0.5 * std::erfc(-score / std::numbers::sqrt2); }
-
 /// Returns ln of the share of a normal distribution within the bounds of a number.
 double log_share_within(const muscle::Range& bounds, double mean, double sd) {
-  return std::log(std::max(below((bounds.upper - mean) / sd) - below((bounds.lower - mean) / sd), 1e-12));
+  return std::log(
+      std::max(math::normal_below((bounds.upper - mean) / sd) - math::normal_below((bounds.lower - mean) / sd), 1e-12));
 }
 
 }  // namespace

@@ -20,32 +20,21 @@ constexpr double kNoneActs = 1e-4;         // least activation that force is div
 constexpr double kSlopeReach = 0.1;        // of the range of an unknown without a prior
 constexpr double kStep = 1e-5;             // of an unknown's range: a difference for a derivative
 
-bool is_free(const ParameterMap& map, Scope scope, int field, int owner) {
-  return std::any_of(map.free().begin(), map.free().end(),
-                     [&](const Unknown& p) { return p.is(scope, field) && p.acts_on(owner); });
-}
-
 /// Collects quantities one after the other.
-class Collector {
- public:
-  Collector(const StudyData& data,
-            const UnseenSpreads& spreads,
-            const ParameterMap& map,
-            const Recorded& recorded,
-            const std::vector<TrialRun>& runs,
-            const ModelValues& values,
-            const std::vector<RunEvaluation>& at,
-            const std::vector<Stepped>& steps)
-      : data_(data),
-        spreads_(spreads),
-        map_(map),
-        recorded_(recorded),
-        runs_(runs),
-        values_(values),
-        at_(at),
-        steps_(steps),
-        columns_(runs.size()),
-        by_slope_(runs.size()) {}
+struct Collector {
+  const StudyData& data_;
+  const UnseenSpreads& spreads_;
+  const ParameterMap& map_;
+  const Recorded& recorded_;
+  const std::vector<TrialRun>& runs_;
+  const ModelValues& values_;
+  const std::vector<RunEvaluation>& at_;
+  const std::vector<Stepped>& steps_;
+  std::vector<UnseenQuantity> quantities_ = {};
+  std::vector<std::size_t> lags_ = {};                              ///< Per muscle: index of its lag's quantity.
+  std::vector<std::vector<Eigen::ArrayXd>> columns_{runs_.size()};  ///< Per run, one for each quantity.
+  std::vector<Unseen::Slope> slopes_ = {};
+  std::vector<std::vector<Eigen::ArrayXd>> by_slope_{runs_.size()};  ///< Per run, one for each slope.
 
   void add_geometry(std::size_t k, bool priors) {
     for (int joint = 0; joint < recorded_.parts.joint_count(); ++joint) {
@@ -102,7 +91,7 @@ class Collector {
     const auto inside = [&](const OfMuscle& of) { return place(of).max(-1.0).min(1.0).eval(); };
     shape("length_2", 1.0, [&](const OfMuscle& of) { return (1.5 * inside(of).square() - 0.5).eval(); });
     shape("length_3", 0.5, [&](const OfMuscle& of) { return (2.5 * inside(of).cube() - 1.5 * inside(of)).eval(); });
-    if (!is_free(map_, Scope::channel, kExponent, channel) && !is_free(map_, Scope::channel, kShape, channel))
+    if (!is_free(Scope::channel, kExponent, channel) && !is_free(Scope::channel, kShape, channel))
       shape("effort", 1.0, [&](const OfMuscle& of) {
         return (1.0 + activation_of(of.at, c).max(kLeastActivation).log() / kLogRange).eval();
       });
@@ -140,11 +129,11 @@ class Collector {
       const auto j = static_cast<std::size_t>(joint);
       const std::string name = joints == 1 ? "joint" : map_.joints()[j];
       const double size_nm = recorded_.joint_torque_nm[j];
-      if (!is_free(map_, Scope::joint, kOffset, joint)) {
+      if (!is_free(Scope::joint, kOffset, joint)) {
         add(name + ".error_constant", Source::model, 1.0, true);
         for_joint(joint, [&](const TrialRun&, auto column) { column.setConstant(size_nm); });
       }
-      if (is_free(map_, Scope::joint, kStiffness, joint)) continue;
+      if (is_free(Scope::joint, kStiffness, joint)) continue;
       std::size_t k = 0;
       while (k + 1 < data_.muscles.size() && !recorded_.parts.crosses(k, joint)) ++k;
       add(name + ".error_slope", Source::model, 1.0, true);
@@ -174,7 +163,6 @@ class Collector {
     return unseen;
   }
 
- private:
   /// A muscle at one joint of one run: its torque r F, the derivatives of this torque by length and
   /// rate, and length and rate themselves.
   struct OfMuscle {
@@ -236,13 +224,13 @@ class Collector {
   void add_tendon(std::size_t k, bool priors) {
     const int muscle = static_cast<int>(k);
     const MuscleSetup& setup = data_.muscles[k];
-    const double slack_sd_m = priors && !is_free(map_, Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
+    const double slack_sd_m = priors && !is_free(Scope::muscle, kSlack, muscle) ? held_slack_sd_m(data_, k) : 0.0;
     if (slack_sd_m > 0.0) {
       add(setup.name + ".tendon_slack_length", Source::geometry, slack_sd_m);
       for_runs(k, [](const OfMuscle& of, auto column) { column -= of.by_length; });
     }
     const MuscleValues& now = values_.muscles[k];
-    if (is_free(map_, Scope::muscle, kTendonStrain, muscle) || !(now[kSlack] > 0.0)) return;
+    if (is_free(Scope::muscle, kTendonStrain, muscle) || !(now[kSlack] > 0.0)) return;
     const double elastic = now[kTendonStrain];
     add(setup.name + ".tendon_strain", Source::geometry,
         elastic > 0.0 ? elastic * beliefs::kTendonStrain.sd : spreads_.tendon_strain);
@@ -284,13 +272,7 @@ class Collector {
     return part;
   }
 
-  /// Returns the index of the unknown of a muscle's field; -1: the field is held.
-  [[nodiscard]] Eigen::Index unknown_of(std::size_t k, int field) const {
-    for (std::size_t j = 0; j < map_.free().size(); ++j)
-      if (map_.free()[j].is(Scope::muscle, field) && map_.free()[j].acts_on(static_cast<int>(k)))
-        return static_cast<Eigen::Index>(j);
-    return -1;
-  }
+  [[nodiscard]] bool is_free(Scope scope, int field, int owner) const { return map_.find(scope, field, owner) >= 0; }
 
   /// Returns the place of the present quantity's slope by the unknown, made where it is missing.
   std::size_t slope_of(Eigen::Index unknown) {
@@ -314,7 +296,7 @@ class Collector {
       columns_[r].back() += parts[r];
     }
     for (const Stepped& step : steps_) {
-      const Eigen::Index unknown = unknown_of(k, step.field);
+      const Eigen::Index unknown = map_.find(Scope::muscle, step.field, static_cast<int>(k));
       if (unknown < 0) continue;
       std::vector<Eigen::ArrayXd> by_unknown;
       double along = 0.0, size = 0.0;
@@ -346,20 +328,6 @@ class Collector {
       if (map_.channel_of_muscle(k) == static_cast<int>(c)) for_runs(k, fill);
     }
   }
-
-  const StudyData& data_;
-  const UnseenSpreads& spreads_;
-  const ParameterMap& map_;
-  const Recorded& recorded_;
-  const std::vector<TrialRun>& runs_;
-  const ModelValues& values_;
-  const std::vector<RunEvaluation>& at_;
-  const std::vector<Stepped>& steps_;
-  std::vector<UnseenQuantity> quantities_;
-  std::vector<std::size_t> lags_;                     ///< Per muscle: index of its lag's quantity.
-  std::vector<std::vector<Eigen::ArrayXd>> columns_;  ///< Per run, one for each quantity.
-  std::vector<Unseen::Slope> slopes_;
-  std::vector<std::vector<Eigen::ArrayXd>> by_slope_;  ///< Per run, one for each slope.
 };
 
 }  // namespace
@@ -393,7 +361,7 @@ Unseen unseen_quantities(const StudyData& data,
                          const ModelValues& values,
                          const std::vector<RunEvaluation>& at,
                          const std::vector<Stepped>& steps) {
-  Collector collector(data, options.unseen, map, recorded, runs, values, at, steps);
+  Collector collector{data, options.unseen, map, recorded, runs, values, at, steps};
   for (std::size_t k = 0; k < data.muscles.size(); ++k) {
     collector.add_geometry(k, options.priors);
     collector.add_model_errors(k);

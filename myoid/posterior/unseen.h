@@ -7,7 +7,7 @@
 
 #include "myoid/identification/parameters.h"
 #include "myoid/identification/study_data.h"
-#include "myoid/intervals/variance_sources.h"
+#include "myoid/intervals/result.h"
 #include "myoid/posterior/recorded.h"
 #include "myoid/posterior/torque_signals.h"
 #include "myoid/posterior/trial_run.h"

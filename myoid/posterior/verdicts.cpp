@@ -21,7 +21,7 @@ double half_width(double value, double low, double high, bool absolute) {
 }
 
 bool is_far(const PosteriorFacts& facts) {
-  return facts.prior_distance && *facts.prior_distance > VerdictRules{}.prior_conflict;
+  return facts.prior_distance && *facts.prior_distance > kVerdictRules.prior_conflict;
 }
 
 std::string size_text(double half, bool is_delay) {
@@ -43,7 +43,7 @@ std::string sources_text(const SourceShares& shares) {
 }  // namespace
 
 Finding finding(const PosteriorFacts& facts) {
-  const VerdictRules rules;
+  constexpr const VerdictRules& rules = kVerdictRules;
   if (!facts.converged) return Finding::not_converged;
   if (facts.length_span && *facts.length_span < rules.least_length_span) return Finding::one_length;
   if (!facts.possible) return Finding::impossible;
@@ -107,8 +107,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
                        100.0 * facts.model_error, text);
   if (finding == Finding::unexplained)
     text = fmt::format(
-        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or "
-        "a column is wrong, or the EMG is not that of these muscles; {}",
+        "the fit explains little of the torque (R2 {:.2f}): a sign, a unit, the order of files or a column is wrong, "
+        "or the EMG is not that of these muscles; {}",
         facts.r2, text);
   if (facts.approximate) text += "; approximate: the normal approximation could not be checked";
   return text;

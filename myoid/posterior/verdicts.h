@@ -4,7 +4,6 @@
 #include <string>
 
 #include "myoid/intervals/result.h"
-#include "myoid/intervals/variance_sources.h"
 
 namespace myoid::identification {
 

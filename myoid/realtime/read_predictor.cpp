@@ -11,7 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
-#include "myoid/identification/emg_lag.h"
+#include "myoid/identification/options.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/model/body_model.h"
 #include "myoid/muscle/force_velocity.h"

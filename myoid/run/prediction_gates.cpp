@@ -12,6 +12,7 @@
 #include "myoid/intake/limits.h"
 #include "myoid/intervals/estimate_remarks.h"
 #include "myoid/intervals/identifiability.h"
+#include "myoid/intervals/verdict_rules.h"
 #include "myoid/math/statistics.h"
 
 namespace myoid {
@@ -65,7 +66,7 @@ std::string when_wrong() {
 }
 
 Gate distance_gate(const IdentificationResult& fit) {
-  constexpr double kFar = identification::VerdictRules{}.prior_conflict;
+  constexpr double kFar = identification::kVerdictRules.prior_conflict;
   std::vector<std::string> far;
   double most = 0.0;
   for (const identification::PriorDistance& d : fit.prior_distances) {

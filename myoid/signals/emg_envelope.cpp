@@ -8,7 +8,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/normal.h"
-#include "myoid/math/moving_mean.h"
+#include "myoid/math/statistics.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
 #include "myoid/signals/quality_limits.h"
