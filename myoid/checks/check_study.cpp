@@ -54,10 +54,10 @@ class StudyCheck {
     if (!study_.emg.has_mvc && study_.emg.kind != EmgKind::activation) {
       add(RemarkCode::no_maximal_contraction, Severity::warning, "study",
           study_.identify.estimator == identification::EstimatorKind::posterior
-              ? "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the "
-                "literature, because the share of the maximum at the largest EMG is unknown"
-              : "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at "
-                "the study's largest EMG");
+              ? "no trial is a maximal contraction (use = \"mvc\"): F_max will rest on the literature, because the "
+                "share of the maximum at the largest EMG is unknown"
+              : "no trial is a maximal contraction (use = \"mvc\"): F_max will mean the force at the study's largest "
+                "EMG");
     }
     if (!study_.model.file && !study_.subject.mass_kg)
       add(RemarkCode::no_body_mass, Severity::warning, "study",
@@ -65,8 +65,7 @@ class StudyCheck {
     if (study_.identify.estimator == identification::EstimatorKind::least_squares &&
         study_.beliefs != identification::UnseenSpreads{})
       add(RemarkCode::general, Severity::note, "study",
-          "[beliefs] are those of the estimator posterior; least_squares, which the study asks "
-          "for, uses none of them");
+          "[beliefs] are those of the estimator posterior; least_squares, which the study asks for, uses none of them");
     check_todos();
     if (study_.truth) {
       attempt("truth", [&] { (void)recording::read_csv_table(*study_.truth); });
@@ -95,7 +94,7 @@ class StudyCheck {
       remarks_.push_back(std::move(remark));
     }
   }
-  void add(std::vector<Remark> remarks) { std::move(remarks.begin(), remarks.end(), std::back_inserter(remarks_)); }
+  void add(std::vector<Remark> remarks) { std::ranges::move(remarks, std::back_inserter(remarks_)); }
 
   void refuse(const std::string& where, std::string says, std::string complaint) {
     remarks_.push_back({.code = RemarkCode::refused,
@@ -147,8 +146,8 @@ class StudyCheck {
           const double value = setup.start.*field.member;
           if (value >= field.bounds.lower && value <= field.bounds.upper) continue;
           add(RemarkCode::start_outside_bounds, Severity::warning, "model",
-              fmt::format("{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins "
-                          "at the nearest of these; [[muscle]] start sets another value",
+              fmt::format("{}: the model's {} of {:.4g} {} lies outside {} to {}: the search begins at the nearest of "
+                          "these; [[muscle]] start sets another value",
                           setup.name, field.name, value, symbol(field.unit), field.bounds.lower, field.bounds.upper));
         }
       }
@@ -184,11 +183,9 @@ class StudyCheck {
   void check_markers(const recording::MarkerSeries& markers) {
     if (study_.ik.calibrate) (void)calibration_window(*study_.ik.calibrate, markers);
     // Names and weights are compared as inverse kinematics does, on one frame and without a step.
-    recording::MarkerSeries first = markers;
-    first.time_s = markers.time_s.head(1);
-    first.positions_m = markers.positions_m.topRows(1);
-    (void)kinematics::inverse_kinematics(*model_, first,
-                                         {.marker_weights = study_.markers.weight, .max_iterations = 0});
+    (void)kinematics::inverse_kinematics(
+        *model_, recording::MarkerSeries{markers.time_s.head(1), markers.names, markers.positions_m.topRows(1)},
+        {.marker_weights = study_.markers.weight, .max_iterations = 0});
   }
 
   /// Processes the EMG as `run` does and reports the findings of `run` on recordings, and its
@@ -296,8 +293,7 @@ std::vector<Remark> check_recording(const std::filesystem::path& path, const std
                       fmt::format("only {} sample{} of EMG; at least {} are needed", emg->sample_count(),
                                   emg->sample_count() == 1 ? "" : "s", kFewest));
     std::vector<Remark> faults = signals::check_emg(*emg);
-    const bool raw =
-        std::none_of(faults.begin(), faults.end(), [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
+    const bool raw = std::ranges::none_of(faults, [](const Remark& f) { return f.code == RemarkCode::emg_envelope; });
     add(std::move(faults));
     add(levels_alone(*emg, raw, where));
     if (auto uneven = signals::check_clock_evenness(emg->time_s(), "EMG")) add({*uneven});

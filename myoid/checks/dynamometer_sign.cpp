@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/trial_plausibility.h"
-#include "myoid/core/units.h"
 #include "myoid/intake/limits.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/path_survey.h"
@@ -99,8 +98,7 @@ std::vector<Remark> dynamometer_signs(const Study& study,
                                       const model::BodyModel& model,
                                       const std::vector<EffortTrial>& trials) {
   std::vector<Remark> found;
-  const bool any =
-      std::any_of(trials.begin(), trials.end(), [](const EffortTrial& t) { return t.external_torque != nullptr; });
+  const bool any = std::ranges::any_of(trials, [](const EffortTrial& t) { return t.external_torque != nullptr; });
   if (!any) return found;
   std::map<std::string, double> largest;
   for (const EffortTrial& trial : trials) {
@@ -135,12 +133,11 @@ std::vector<Remark> dynamometer_signs(const Study& study,
            .severity = certain ? Severity::error : Severity::warning,
            .where = trial->spec->name,
            .about = name,
-           .says = fmt::format("{}: the torque on {} acts in the direction of the active muscles (cosine with "
-                               "their "
-                               "necessary torque {:.2f}, expected above 0): is its sign reversed? "
-                               "external_torque is the torque of the surroundings on the body, positive in the "
-                               "coordinate's direction; negate the column if it is the person's torque",
-                               trial->spec->external_torque->filename().string(), name, cosine)});
+           .says = fmt::format(
+               "{}: the torque on {} acts in the direction of the active muscles (cosine with their necessary torque "
+               "{:.2f}, expected above 0): is its sign reversed? external_torque is the torque of the surroundings on "
+               "the body, positive in the coordinate's direction; negate the column if it is the person's torque",
+               trial->spec->external_torque->filename().string(), name, cosine)});
     }
   }
   return found;

@@ -66,7 +66,7 @@ bool is_on_the_ground(const dynamics::ExternalForce& force) {
 }
 
 bool are_neighbors(const model::BodyModel& model, model::BodyIndex a, model::BodyIndex b) {
-  return std::any_of(model.joints.begin(), model.joints.end(), [&](const model::Joint& joint) {
+  return std::ranges::any_of(model.joints, [&](const model::Joint& joint) {
     return (joint.parent == a && joint.child == b) || (joint.parent == b && joint.child == a);
   });
 }
@@ -294,7 +294,7 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
       usual.push_back(usual_distance(c.frames));
       loaded += c.frames.size();
     }
-    const bool near = std::any_of(usual.begin(), usual.end(), [](double d) { return d < kLimits.off_body_m; });
+    const bool near = std::ranges::any_of(usual, [](double d) { return d < kLimits.off_body_m; });
     std::vector<std::string> said;
     std::size_t foreign = 0;
     std::size_t touched = 0;
@@ -312,13 +312,12 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
         {.code = RemarkCode::foreign_contact,
          .severity = Severity::warning,
          .where = trial,
-         .says =
-             fmt::format("'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts "
-                         "and {:.0f} % of the loaded time: {}; leave these times out (start_s, end_s), or "
-                         "give them to the body that bears them",
-                         force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
-                         model.bodies[static_cast<std::size_t>(force.body)].name, touched, contacts.of(k).size(),
-                         100.0 * static_cast<double>(foreign) / static_cast<double>(loaded), fmt::join(said, "; "))});
+         .says = fmt::format(
+             "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts and {:.0f} % of the "
+             "loaded time: {}; leave these times out (start_s, end_s), or give them to the body that bears them",
+             force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
+             model.bodies[static_cast<std::size_t>(force.body)].name, touched, contacts.of(k).size(),
+             100.0 * static_cast<double>(foreign) / static_cast<double>(loaded), fmt::join(said, "; "))});
   }
   return findings;
 }

@@ -84,13 +84,13 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
     const model::BodyIndex own = loads[i].force->body;
     if (off(loads[i], own) > kLimits.elsewhere_m && off(loads[i], own) < kNone) {
       said[i] = true;
-      found.push_back({.code = RemarkCode::load_misplaced,
-                       .severity = Severity::error,
-                       .where = trial.name,
-                       .says = fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median "
-                                           "while loaded), expected under it: is it in mm, or in other axes or another "
-                                           "origin than the motion?",
-                                           file, loads[i].force->name, off(loads[i], own), name(own))});
+      found.push_back(
+          {.code = RemarkCode::load_misplaced,
+           .severity = Severity::error,
+           .where = trial.name,
+           .says = fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median while loaded), "
+                               "expected under it: is it in mm, or in other axes or another origin than the motion?",
+                               file, loads[i].force->name, off(loads[i], own), name(own))});
     }
     for (std::size_t j = i + 1; j < loads.size() && !said[i]; ++j) {
       const model::BodyIndex other = loads[j].force->body;
@@ -103,11 +103,11 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
       found.push_back({.code = RemarkCode::load_misplaced,
                        .severity = Severity::error,
                        .where = trial.name,
-                       .says = fmt::format("{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: "
-                                           "{:.2g} m from its own body and {:.2g} m from the other (median while "
-                                           "loaded); exchange their applied_to_body",
-                                           file, loads[i].force->name, name(own), loads[j].force->name, name(other),
-                                           off(loads[i], own), off(loads[i], other))});
+                       .says = fmt::format(
+                           "{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: {:.2g} m from its "
+                           "own body and {:.2g} m from the other (median while loaded); exchange their applied_to_body",
+                           file, loads[i].force->name, name(own), loads[j].force->name, name(other), off(loads[i], own),
+                           off(loads[i], other))});
     }
   }
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -120,8 +120,8 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
         {.code = RemarkCode::load_misplaced,
          .severity = Severity::warning,
          .where = trial.name,
-         .says = fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median "
-                             "while loaded) and {:.2g} m from {}; is applied_to_body right?",
+         .says = fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median while loaded) and {:.2g} m "
+                             "from {}; is applied_to_body right?",
                              file, loads[i].force->name, name(own), off(loads[i], own),
                              alone[static_cast<std::size_t>(nearest)], name(static_cast<model::BodyIndex>(nearest)))});
   }

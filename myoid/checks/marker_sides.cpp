@@ -41,10 +41,7 @@ recording::MarkerSeries one_frame(const recording::MarkerSeries& markers) {
     most = seen;
     best = f;
   }
-  recording::MarkerSeries frame = markers;
-  frame.time_s = markers.time_s.segment(best, 1);
-  frame.positions_m = markers.positions_m.middleRows(best, 1);
-  return frame;
+  return {markers.time_s.segment(best, 1), markers.names, markers.positions_m.middleRows(best, 1)};
 }
 
 double rms_m(const model::BodyModel& model,
@@ -79,7 +76,7 @@ std::optional<Remark> exchanged_sides(const model::BodyModel& model,
   for (std::string& name : exchanged.names) {
     const auto other = other_side(name);
     if (!other || !model.find_marker(name) || !model.find_marker(*other) ||
-        std::find(markers.names.begin(), markers.names.end(), *other) == markers.names.end())
+        std::ranges::find(markers.names, *other) == markers.names.end())
       continue;
     name = *other;
     ++renamed;
@@ -95,9 +92,8 @@ std::optional<Remark> exchanged_sides(const model::BodyModel& model,
         .severity = Severity::error,
         .where = trial.name,
         .about = "left, right",
-        .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
-                            "with the labels of left and right exchanged: exchange them in the "
-                            "file, or by [markers] rename",
+        .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm with the labels of left "
+                            "and right exchanged: exchange them in the file, or by [markers] rename",
                             trial.markers ? trial.markers->filename().string() : "the markers", 1e3 * now, 1e3 * then)};
   } catch (const InvalidInput&) {
     return std::nullopt;  // the comparison of markers with the model reports this

@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "myoid/core/remark.h"
 #include "myoid/files/marker_series.h"

@@ -58,7 +58,7 @@ Stretches stretches_of(const TimeSeries& series) {
     const std::uint64_t hash = mixed(rolling);
     if (hash % kOneIn == 0) found.push_back(hash);
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
@@ -101,20 +101,21 @@ std::vector<Remark> same_recordings(const std::vector<TrialPrint>& trials) {
       };
       if (emg > kEdges && movement > kEdges) {
         if (both_count)
-          add(Severity::error, fmt::format("{:.0f} % of its EMG{} and of its motion are those of trial '{}': one "
-                                           "effort would count twice; name each recording once, or give the two "
-                                           "trials windows (start_s, end_s) that do not overlap",
-                                           100.0 * emg, of(b.emg_file), a.trial));
+          add(Severity::error,
+              fmt::format(
+                  "{:.0f} % of its EMG{} and of its motion are those of trial '{}': one effort would count twice; name "
+                  "each recording once, or give the two trials windows (start_s, end_s) that do not overlap",
+                  100.0 * emg, of(b.emg_file), a.trial));
       } else if (emg > kEdges) {
         if (both_count) {
           add(Severity::error, fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}'{}, but its motion is "
                                            "another: one of the two names the wrong file; correct its emg",
                                            100.0 * emg, of(b.emg_file), a.trial, of(a.emg_file)));
         } else if (counts(a.use) != counts(b.use)) {
-          add(Severity::warning, fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}': is one of the two file "
-                                             "names a slip? A trial that is its own maximal contraction sets 1 to "
-                                             "its own largest effort",
-                                             100.0 * emg, of(b.emg_file), a.trial));
+          add(Severity::warning,
+              fmt::format("{:.0f} % of its EMG{} is the EMG of trial '{}': is one of the two file names a slip? A "
+                          "trial that is its own maximal contraction sets 1 to its own largest effort",
+                          100.0 * emg, of(b.emg_file), a.trial));
         }
       } else if (movement > kEdges && both_count && !a.emg.empty() && !b.emg.empty()) {
         add(Severity::warning, fmt::format("{:.0f} % of its motion{} is the motion of trial '{}', but its EMG is "

@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "myoid/checks/foreign_contacts.h"
-#include "myoid/checks/idle_muscles.h"
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
-#include "myoid/checks/shared_muscles.h"
+#include "myoid/checks/study_muscles.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/ground_support.h"
 
@@ -60,7 +59,7 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
     }
   }
   std::vector<Remark> found = implausible(*study_, *model_, capacities_, trial, input);
-  std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
+  std::ranges::move(found, std::back_inserter(of_trials_));
   auto sides = input.markers ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight) : std::nullopt;
   // Exchanged labels would put every force under the other foot.
   found = sides ? std::vector<Remark>{*sides} : misplaced_loads(*model_, trial, input);
@@ -68,7 +67,7 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
     found =
         foreign_contacts(*model_, trial.name, *input.loads,
                          {*model_, input.markers ? &*input.markers : nullptr, input.motion ? &*input.motion : nullptr});
-  std::move(found.begin(), found.end(), std::back_inserter(of_trials_));
+  std::ranges::move(found, std::back_inserter(of_trials_));
   if (auto support = check_support(*study_, *model_, trial, input)) of_trials_.push_back(std::move(*support));
 }
 
@@ -79,18 +78,18 @@ std::vector<Remark> StudyPlausibility::findings() const {
   if (study_->emg.kind == EmgKind::activation) {
     for (Remark& f : same) f.severity = Severity::warning;
     if (largest_emg_ > 0.0 && largest_emg_ < kFlatActivation) {
-      found.push_back({.code = RemarkCode::flat_activations,
-                       .severity = Severity::warning,
-                       .where = "study",
-                       .says = fmt::format("[emg] kind = \"activation\", but no activation of any trial is above "
-                                           "{:.2g}, expected up to 1 in the greatest effort: is this EMG in volts? Set "
-                                           "[emg] kind = \"envelope\"",
-                                           largest_emg_)});
+      found.push_back(
+          {.code = RemarkCode::flat_activations,
+           .severity = Severity::warning,
+           .where = "study",
+           .says = fmt::format("[emg] kind = \"activation\", but no activation of any trial is above {:.2g}, expected "
+                               "up to 1 in the greatest effort: is this EMG in volts? Set [emg] kind = \"envelope\"",
+                               largest_emg_)});
     }
   }
   for (std::vector<Remark> more :
        {shared_muscles(*study_), idle_muscles(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
-    std::move(more.begin(), more.end(), std::back_inserter(found));
+    std::ranges::move(more, std::back_inserter(found));
   return found;
 }
 

@@ -44,9 +44,8 @@ void check_angles(const Study& study,
          .where = where,
          .about = name,
          .says =
-             fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % "
-                         "of the samples lie outside, by up to {} deg, where its muscle paths mean "
-                         "nothing; {}",
+             fmt::format("{} goes from {} to {} deg, but the model's range is {} to {} deg{}: {:.0f} % of the samples "
+                         "lie outside, by up to {} deg, where its muscle paths mean nothing; {}",
                          name, whole_degrees(q.minCoeff()), whole_degrees(q.maxCoeff()), whole_degrees(c.lower),
                          whole_degrees(c.upper), c.clamped ? "" : " (not clamped)", 100.0 * share, whole_degrees(far),
                          negated ? "is its sign the opposite of the model's? Negate the column"
@@ -65,8 +64,8 @@ void check_held_mass(const Study& study,
                         .severity = Severity::error,
                         .where = trial.name,
                         .about = "held mass",
-                        .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it "
-                                            "in grams or pounds, or is a decimal point missing?",
+                        .says = fmt::format("held_mass_kg = {} is more than the person weighs ({} kg); is it in grams "
+                                            "or pounds, or is a decimal point missing?",
                                             trial.held_mass_kg, *study.subject.mass_kg)});
     return;
   }
@@ -93,11 +92,10 @@ void check_held_mass(const Study& study,
          .severity = Severity::warning,
          .where = trial.name,
          .about = name,
-         .says = fmt::format("held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with "
-                             "literature's strength all muscles of the model can {} {:.0f} N m there: is "
-                             "it in other units, or is a decimal point missing?",
-                             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again",
-                             most_nm)});
+         .says = fmt::format(
+             "held_mass_kg = {} at {:.2f} m weighs up to {:.0f} N m on {}, and with literature's strength all muscles "
+             "of the model can {} {:.0f} N m there: is it in other units, or is a decimal point missing?",
+             trial.held_mass_kg, lever_m, moment_nm, name, still ? "hold" : "lift again and again", most_nm)});
   }
 }
 
@@ -145,12 +143,12 @@ void check_vertical(const Study& study,
          .severity = Severity::warning,
          .where = where,
          .about = "trunk",
-         .says = fmt::format("{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, "
-                             "and {:.0f} with [markers] up = \"{}\": unless the person lies, gravity pulls "
-                             "across the body; correct [markers] up",
-                             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
-                             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree,
-                             std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up)});
+         .says = fmt::format(
+             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, and {:.0f} with [markers] "
+             "up = \"{}\": unless the person lies, gravity pulls across the body; correct [markers] up",
+             told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
+             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree, std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree,
+             up)});
     return;
   }
 }
@@ -185,8 +183,8 @@ std::string too_much_torque(const std::string& coordinate,
                             const std::string& what_it_is) {
   if (!(peak_nm > greatest_nm)) return {};
   return fmt::format(
-      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
-      "in this model, {:.3g} N m{}",
+      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there in this model, "
+      "{:.3g} N m{}",
       what_it_is, peak_nm, coordinate, greatest_nm,
       peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
                                      : "; correct its unit (N m)");
@@ -225,8 +223,8 @@ std::vector<Remark> implausible(const Study& study,
                         .severity = Severity::warning,
                         .where = trial.name,
                         .about = "passive",
-                        .says = "use = \"passive\" tells the joint's resting torque, and this "
-                                "trial has no measured torque to tell it from: it gives nothing",
+                        .says = "use = \"passive\" tells the joint's resting torque, and this trial has no measured "
+                                "torque to tell it from: it gives nothing",
                         .remedy = "give external_torque (or load_cell), or another use"});
   check_held_mass(study, model, capacities, trial, findings);
   check_vertical(study, model, input, trial.name, findings);

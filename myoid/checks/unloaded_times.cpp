@@ -80,10 +80,10 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model, const TrialSpe
            .severity = Severity::warning,
            .where = trial.name,
            .about = "ground",
-           .says = fmt::format("no measured force carries the body in {:.0f} % of the trial ({}), and it "
-                               "does not fall: was a foot beside the plates? `run` does not fit those "
-                               "times; start_s and end_s leave them out altogether",
-                               100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", "))}};
+           .says = fmt::format(
+               "no measured force carries the body in {:.0f} % of the trial ({}), and it does not fall: was a foot "
+               "beside the plates? `run` does not fit those times; start_s and end_s leave them out altogether",
+               100.0 * sum_s / (t[t.size() - 1] - t[0]), fmt::join(times, ", "))}};
 }
 
 }  // namespace myoid

@@ -45,19 +45,18 @@ void print_findings(const commands::CheckResult& result, const std::string& inpu
 }  // namespace
 
 void add_check(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("check",
-                                          "Reads every input of a study, or a single recording, "
-                                          "and lists its faults, worst first; computes "
-                                          "nothing.\n"
-                                          "Example: myoid check study.toml");
+  CLI::App& command = *app.add_subcommand(
+      "check",
+      "Reads every input of a study, or a single recording, and lists its faults, worst first; computes nothing.\n"
+      "Example: myoid check study.toml");
   const auto o = std::make_shared<commands::CheckOptions>();
   const std::string recordings = recording::endings_text(
       [](const recording::FormatEntry& entry) { return recording::is_recording(entry.format); });
   command.add_option("study", o->input, "study.toml, or a single recording: " + recordings)->required();
   command
       .add_option("--up", o->up,
-                  "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y "
-                  "or -z (default: as the file says)")
+                  "Vertical of a single recording's laboratory, for its force plates: x, y, z, -x, -y or -z (default: "
+                  "as the file says)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   add_common_options(command, context, {.threads = false, .seed = false, .overwrite = false});
   command.callback([&context, o] {

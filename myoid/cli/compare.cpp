@@ -51,11 +51,10 @@ void print(const RunComparison& comparison) {
 }  // namespace
 
 void add_compare(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("compare",
-                          "Two finished runs, number by number: which parameters differ by more than chance, which do "
-                          "not, and which the recordings cannot tell.\n"
-                          "Example: myoid compare results/before results/after --out compared");
+  CLI::App& command = *app.add_subcommand("compare",
+                                          "Two finished runs, number by number: which parameters differ by more than "
+                                          "chance, which do not, and which the recordings cannot tell.\n"
+                                          "Example: myoid compare results/before results/after --out compared");
   const auto out = std::make_shared<std::string>();
   const auto options = std::make_shared<commands::CompareOptions>();
   command.add_option("first", options->first, "Folder of a run (with parameters.json)")->required();

@@ -8,14 +8,15 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <oneapi/tbb/info.h>
+#include <pthread.h>
 #include <unistd.h>
 
-#include "myoid/cli/granted_threads.h"
-#include "myoid/cli/held_folders.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/core/error.h"
-#include "myoid/files/result_folder.h"
+#include "myoid/core/json_text.h"
+#include "myoid/files/folder_lock.h"
 #include "myoid/files/text_file.h"
 
 namespace myoid::cli {
@@ -48,6 +49,32 @@ struct ProgressBar {
 
 namespace {
 
+/// Counts the threads, at most `wanted`, that the system grants this process at the same time
+/// beside the calling one: the function makes all, lets them wait for each other, and ends them.
+/// Limits on processes (`ulimit -u`, a container's pids) and on memory (`ulimit -v`) bind here.
+int granted_threads(int wanted) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  // As large as the scheduler's own.
+  pthread_attr_setstacksize(&attributes,
+                            oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::thread_stack_size));
+  std::mutex gate;
+  const auto pass = [](void* held) -> void* {
+    const std::scoped_lock lock(*static_cast<std::mutex*>(held));
+    return nullptr;
+  };
+  std::vector<pthread_t> threads;
+  {
+    const std::scoped_lock all_at_once(gate);
+    pthread_t thread{};
+    while (static_cast<int>(threads.size()) < wanted && pthread_create(&thread, &attributes, pass, &gate) == 0)
+      threads.push_back(thread);
+  }
+  for (const pthread_t thread : threads) pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  return static_cast<int>(threads.size());
+}
+
 /// Limits the threads to --threads or the number of cores, and to the number that the system
 /// grants: the scheduler ends the program where the system refuses a thread.
 void limit_threads(Context& context) {
@@ -55,8 +82,8 @@ void limit_threads(Context& context) {
   const int granted = wanted > 1 ? std::max(1, granted_threads(wanted)) : wanted;
   if (granted < wanted) {
     context.warn(
-        fmt::format("the system grants fewer threads than the {} that are wanted; going on with {}: "
-                    "more needs higher limits on processes and memory (ulimit -u, ulimit -v)",
+        fmt::format("the system grants fewer threads than the {} that are wanted; going on with {}: more needs higher "
+                    "limits on processes and memory (ulimit -u, ulimit -v)",
                     wanted, granted));
   }
   if (context.threads == 0 && granted == wanted) return;
@@ -105,6 +132,10 @@ void Context::tell(const Remark& remark) const {
   remark.severity == Severity::warning ? warn(sentence(remark)) : log(sentence(remark));
 }
 
+void Context::print(const nlohmann::ordered_json& object, const std::string& text) const {
+  fmt::print("{}\n", json ? json_text(object) : text);
+}
+
 commands::Call Context::call() const {
   return {.seed = seed,
           .start_s = start_s,
@@ -135,7 +166,7 @@ void Context::prepare_file(const std::filesystem::path& path, const std::vector<
 void Context::remember_new_folder(const std::filesystem::path& folder) const {
   std::error_code ignored;
   if (!folder.empty() && !std::filesystem::exists(folder, ignored) &&
-      std::find(new_folders.begin(), new_folders.end(), folder) == new_folders.end())
+      std::ranges::find(new_folders, folder) == new_folders.end())
     new_folders.push_back(folder);
 }
 
@@ -148,9 +179,23 @@ void Context::tell_new_folders() const {
 }
 
 void Context::prepare_folder(const std::filesystem::path& folder, std::string_view unless_only) const {
-  auto held = std::make_unique<recording::ResultFolder>(folder, command_line, overwrite, unless_only);
-  if (!held->note().empty()) log(held->note());
-  hold_folder(std::move(held));
+  held_folders.push_back(std::make_unique<recording::ResultFolder>(folder, command_line, overwrite, unless_only));
+  if (const std::string& note = held_folders.back()->note(); !note.empty()) log(note);
+}
+
+void Context::finish_folders() const {
+  for (const auto& held : held_folders) held->finish();
+}
+
+std::string Context::contents_of_folders() const {
+  std::vector<std::string> clauses;
+  for (const auto& held : held_folders) {
+    const std::string folder = held->path().string();
+    clauses.push_back(recording::holds_content(held->path())
+                          ? fmt::format("every file in {} is whole, and the same command takes it over", folder)
+                          : fmt::format("nothing was written into {}", folder));
+  }
+  return fmt::format("{}", fmt::join(clauses, "; "));
 }
 
 void add_compat_option(CLI::App& command, Context& context) {

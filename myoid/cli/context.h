@@ -6,17 +6,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json_fwd.hpp>
 #include <oneapi/tbb/global_control.h>
 
 #include "myoid/commands/call.h"
 #include "myoid/core/choice.h"
 #include "myoid/core/progress.h"
+#include "myoid/files/result_folder.h"
 
 namespace myoid::cli {
 
@@ -65,7 +66,9 @@ struct Context {
   std::string command_line;
   std::stop_source stop;
   int exit_code = kDone;
-  mutable std::vector<std::filesystem::path> new_folders;     ///< Folders that prepare_file will make.
+  mutable std::vector<std::filesystem::path> new_folders;  ///< Folders that prepare_file will make.
+  /// Folders of results that this process holds; bad input leaves none of them that is empty and was made here.
+  mutable std::vector<std::unique_ptr<recording::ResultFolder>> held_folders;
   std::shared_ptr<oneapi::tbb::global_control> thread_limit;  ///< While it lives, --threads holds.
 
   /// Writes one line on stderr, unless --quiet.
@@ -76,6 +79,9 @@ struct Context {
   void tell(const Remark& remark) const;
   /// Returns the common options for the functions of `commands`, with a listener that writes remarks.
   [[nodiscard]] commands::Call call() const;
+  /// Prints a result: the object with --json, else the text.
+  void print(const nlohmann::ordered_json& object, const std::string& text) const;
+
   /// Progress bar with time left on a terminal, nothing elsewhere.
   [[nodiscard]] Progress progress() const;
   /// Ends the line of the progress bar.
@@ -88,6 +94,14 @@ struct Context {
   void tell_new_folders() const;
   /// Takes the folder for results until the program ends (`recording::ResultFolder`).
   void prepare_folder(const std::filesystem::path& folder, std::string_view unless_only = "") const;
+
+  /// Marks the results in all held folders as whole. Without this call a folder that was empty
+  /// belongs to the unfinished command, which takes the folder over when the user repeats it.
+  void finish_folders() const;
+
+  /// Returns a clause on the held folders: "every file in out is whole, and ..." for a folder with
+  /// results, else "nothing was written into out"; empty if no folder is held.
+  [[nodiscard]] std::string contents_of_folders() const;
 };
 
 /// Group of the options that are accepted and do nothing: no help shows it. (An empty group, which
@@ -106,7 +120,7 @@ void add_compat_option(CLI::App& command, Context& context);
 /// Adds --threads, --seed, --json, --quiet, --verbose, --start, --end, --overwrite to a command.
 void add_common_options(CLI::App& command, Context& context, const CommonOptions& used = {});
 
-// One per command, each in a file of its own.
+// One per command.
 void add_bids(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_cohort(CLI::App& app, Context& context);

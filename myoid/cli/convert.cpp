@@ -16,8 +16,8 @@ namespace {
 void add_laboratory_options(CLI::App& command, commands::ConvertOptions& o) {
   command
       .add_option("--up", o.up,
-                  "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with "
-                  "force plates as the file says, else nothing is turned)")
+                  "Vertical axis of the laboratory, turned to y: x, y, z, -x, -y or -z (default: with force plates as "
+                  "the file says, else nothing is turned)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--rotate", o.turns, "AXIS:DEGREES, repeated: further turns, one after another");
   command.add_option("--body", o.bodies, "Body of the model that stands on plate 1, 2, ...: writes ExternalLoads too");
@@ -41,8 +41,8 @@ void add_convert(CLI::App& app, Context& context) {
   command.add_option("out", o->out, ".c3d, .trc, .sto, .mot, .csv, or a folder for everything in it")->required();
   command
       .add_option("--what", o->what,
-                  "markers, channels, emg (voltages only) or plates; by default markers for .trc, "
-                  "plates for .mot from .c3d, else channels")
+                  "markers, channels, emg (voltages only) or plates; by default markers for .trc, plates for .mot from "
+                  ".c3d, else channels")
       ->check(CLI::IsMember({"markers", "channels", "emg", "plates"}));
   add_laboratory_options(command, *o);
   command.add_option("--unit", o->unit, "Unit of EMG where the file does not say: V, mV, uV");
@@ -50,12 +50,11 @@ void add_convert(CLI::App& app, Context& context) {
   command.add_option("--analog", o->analog, "Channels to go with the markers of a .trc into a .c3d");
   command
       .add_option("--rate", o->rate_hz,
-                  "Put everything on an even clock of this rate [Hz]; low-passed first where that "
-                  "is slower (0 dB to 0.4 of it, -100 dB from half of it on)")
+                  "Put everything on an even clock of this rate [Hz]; low-passed first where that is slower (0 dB to "
+                  "0.4 of it, -100 dB from half of it on)")
       ->check(above_zero());
   command.add_option("--subject", o->subject,
-                     "Label of the person where IN is a folder of results, written as a BIDS "
-                     "derivative (default 01)");
+                     "Label of the person where IN is a folder of results, written as a BIDS derivative (default 01)");
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o] {
     if (commands::makes_derivative(*o)) {

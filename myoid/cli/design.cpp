@@ -5,7 +5,6 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/core/json_text.h"
-#include "myoid/report/report.h"
 
 namespace myoid::cli {
 namespace {

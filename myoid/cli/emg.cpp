@@ -92,9 +92,9 @@ void add_emg(CLI::App& app, Context& context) {
       .add_option("--out", asked->out,
                   "Activation 0..1 (.sto, .mot or .csv); of several inputs a folder, one .sto each")
       ->required();
-  command.add_option("--mvc", o->mvc,
-                     "Maximal contractions to normalize by, repeated (default: the largest effort "
-                     "in the files themselves)");
+  command.add_option(
+      "--mvc", o->mvc,
+      "Maximal contractions to normalize by, repeated (default: the largest effort in the files themselves)");
   command.add_option("--channel", o->channels, "Only this channel, repeated (default: all of the file's first clock)");
   command.add_option("--unit", o->unit, "Unit of the numbers where the file does not say: V, mV, uV");
   command.add_option("--highpass", o->chain.highpass_hz, "High-pass [Hz] (default 20)")->check(above_zero());
@@ -103,10 +103,9 @@ void add_emg(CLI::App& app, Context& context) {
                   "Low-pass of the rectified EMG, -3 dB of both passes [Hz] (default 6)")
       ->check(above_zero());
   command.add_flag("--no-notch", asked->no_notch, "Leave mains hum in, where it is found");
-  CLI::Option* on =
-      command.add_flag("--whitening", asked->whitening,
-                       "Even out the spectrum of all channels before they are rectified (default: if the files "
-                       "allow it for every channel)");
+  CLI::Option* on = command.add_flag("--whitening", asked->whitening,
+                                     "Even out the spectrum of all channels before they are rectified (default: if the "
+                                     "files allow it for every channel)");
   command.add_flag("--no-whitening", asked->no_whitening, "Even it out in no channel")->excludes(on);
   command.add_flag("--as-published", o->chain.as_published,
                    "As the source paper: no high-pass, low-pass designed for one pass");

@@ -1,6 +1,5 @@
 #include "myoid/cli/help_files.h"
 
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,8 +76,7 @@ HelpOption help_of(const CLI::Option& option) {
   for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
   help.words = words_of(type);
   if (help.names.empty()) {
-    help.value = option.get_name(true);
-    for (char& c : help.value) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    help.value = in_capitals(option.get_name(true));
   } else if (option.get_items_expected_max() > 0) {
     help.value = value_of(type, help.words);
   }
@@ -123,9 +121,7 @@ std::string roff_word(const std::string& text) {
 }
 
 std::string roff_head(const std::string& name) {
-  std::string capitals = name;
-  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return fmt::format(".TH {} 1 \"\" \"myoid {}\" \"User Commands\"\n", roff_word(capitals), version());
+  return fmt::format(".TH {} 1 \"\" \"myoid {}\" \"User Commands\"\n", roff_word(in_capitals(name)), version());
 }
 
 constexpr const char* kExitCodes = R"(.SH EXIT STATUS
@@ -178,8 +174,8 @@ std::string command_page(const HelpCommand& command) {
 
 std::string program_page(const CLI::App& app, const std::vector<HelpCommand>& commands) {
   std::string text = roff_head("myoid") +
-                     ".SH NAME\nmyoid \\- muscle parameters of a person from motion capture and "
-                     "EMG\n.SH SYNOPSIS\n.B myoid\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
+                     ".SH NAME\nmyoid \\- muscle parameters of a person from motion capture and EMG\n.SH SYNOPSIS\n.B "
+                     "myoid\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
                      ".SH DESCRIPTION\n" +
                      roff(app.get_description()) + ".SH COMMANDS\n";
   std::string also;
@@ -254,12 +250,9 @@ std::string zsh_completion(const std::vector<HelpCommand>& commands) {
     cases += fmt::format("    {})\n      _arguments", command.name);
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
-        std::string value;
-        if (!option.words.empty()) {
-          value = fmt::format(":word:({})", fmt::join(option.words, " "));
-        } else if (!option.value.empty()) {
-          value = ":value:_files";
-        }
+        const std::string value = !option.words.empty()  ? fmt::format(":word:({})", fmt::join(option.words, " "))
+                                  : option.value.empty() ? ""
+                                                         : ":value:_files";
         cases += fmt::format(" \\\n        '*{}[{}]{}'", name, quoted(brief(option.says), true), value);
       }
     }
@@ -281,12 +274,9 @@ std::string fish_completion(const std::vector<HelpCommand>& commands) {
     for (const HelpOption& option : command.options) {
       for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");
-        std::string value;
-        if (!option.words.empty()) {
-          value = fmt::format(" -x -a '{}'", fmt::join(option.words, " "));
-        } else if (!option.value.empty()) {
-          value = " -r";
-        }
+        const std::string value = !option.words.empty()  ? fmt::format(" -x -a '{}'", fmt::join(option.words, " "))
+                                  : option.value.empty() ? ""
+                                                         : " -r";
         text +=
             fmt::format("complete -c myoid -n '__fish_seen_subcommand_from {}' {} {}{} -d '{}'\n", command.name,
                         is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1), value, quoted(brief(option.says), false));
@@ -297,6 +287,11 @@ std::string fish_completion(const std::vector<HelpCommand>& commands) {
 }
 
 }  // namespace
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  return text;
+}
 
 void write_help_files(const CLI::App& app, const std::filesystem::path& folder) {
   std::vector<HelpCommand> commands;

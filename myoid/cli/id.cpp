@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 namespace {
@@ -37,8 +36,7 @@ void add_id(CLI::App& app, Context& context) {
       .add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(above_zero());
   command.add_option("--speeds", o->speeds,
-                     "Speeds of the coordinates at the times of --motion (.sto), instead of its "
-                     "derivatives");
+                     "Speeds of the coordinates at the times of --motion (.sto), instead of its derivatives");
   command.add_option("--accelerations", o->accelerations, "Accelerations, likewise");
   command.add_option("--loads", o->loads, "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command.add_option("--held-mass", o->held_mass_kg, "Mass held in the hand [kg] (default 0)")->check(zero_or_more());
@@ -54,11 +52,7 @@ void add_id(CLI::App& app, Context& context) {
     const commands::IdResult result = commands::id(*o);
     context.end_progress();
     commands::write_id(result, *out);
-    if (context.json) {
-      fmt::print("{}\n", json_text(id_json(result.forces, *out)));
-    } else {
-      fmt::print("{}\n", *out);
-    }
+    context.print(id_json(result.forces, *out), *out);
   });
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
-#include "myoid/cli/mat_option.h"
 #include "myoid/cli/options.h"
 #include "myoid/commands/output_file.h"
 #include "myoid/intervals/estimate_remarks.h"
@@ -33,24 +32,19 @@ void print_result(const identification::IdentificationResult& result, bool freed
                identification::name(e.verdict), e.reason);
   }
   if (result.method == "paper")
-    fmt::print(
-        "Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other "
-        "number.\n");
+    fmt::print("Method paper holds F_max and v_max at muscles.csv: an error in them goes into every other number.\n");
   if (freed_speeds)
     fmt::print(
-        "max_shortening_speed is not stated as known: it is free, and its uncertainty widens the "
-        "interval of concentric_curvature. Where it is known: max_shortening_speed_fixed = "
-        "true.\n");
+        "max_shortening_speed is not stated as known: it is free, and its uncertainty widens the interval of "
+        "concentric_curvature. Where it is known: max_shortening_speed_fixed = true.\n");
   const std::string lag = identification::lag_remark(result);
   if (!lag.empty()) fmt::print("{}\n", lag);
   if (result.exact) fmt::print("The data are free of noise: fitted as they are, without priors.\n");
   for (const std::string& text : result.diagnoses) fmt::print("signature: {}\n", text);
   for (const std::string& text : result.undetermined) fmt::print("left open by the data: {}\n", text);
   for (const identification::BranchTest& test : result.branch_tests) {
-    fmt::print(
-        "{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = "
-        "{:.3f})\n",
-        test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
+    fmt::print("{}: l0 and l_sh of the two branches differ by {:+.4f} and {:+.4f} m (Wald {:.1f}, p = {:.3f})\n",
+               test.muscle, test.length_difference_m, test.width_difference_m, test.wald, test.p_value);
   }
 }
 
@@ -64,9 +58,8 @@ void print_samples(const identification::IdentificationResult& result,
   all *= static_cast<Eigen::Index>(o.method == "force" ? data.muscles.size() : joint_count(data.trials.front()));
   if (o.method == "torque" && o.estimator == "posterior") {
     fmt::print(
-        "{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as "
-        "{:.0f} "
-        "independent ones.\n",
+        "{} rows of the low-passed torque, one per 0.22 s, stand for {} samples and count as {:.0f} independent "
+        "ones.\n",
         result.samples_used, all, result.effective_samples);
     return;
   }
@@ -86,8 +79,7 @@ void print_fit(const identification::IdentificationResult& result, const StudyDa
       row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.score.rmse_nm(), t.score.r2());
       continue;
     }
-    const auto trial =
-        std::find_if(data.trials.begin(), data.trials.end(), [&](const TrialData& d) { return d.name == t.trial; });
+    const auto trial = std::ranges::find_if(data.trials, [&](const TrialData& d) { return d.name == t.trial; });
     for (std::size_t k = 0; trial != data.trials.end() && k < data.muscles.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const std::vector<Eigen::Index> rows = identification::included_rows(*trial);
@@ -167,20 +159,22 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
 /// Returns true if the fit did not converge or, with --strict, a parameter is not identifiable.
 bool failed(const identification::IdentificationResult& fit, const std::string& method, bool strict) {
   if (method != "paper" && fit.termination != math::Termination::converged) return true;
-  return strict && std::any_of(fit.estimates.begin(), fit.estimates.end(),
-                               [](const auto& e) { return e.verdict == identification::Verdict::not_identifiable; });
+  return strict && std::ranges::any_of(fit.estimates, [](const auto& e) {
+           return e.verdict == identification::Verdict::not_identifiable;
+         });
 }
 
 }  // namespace
 
 void add_identify(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("identify",
-                          "Muscle parameters straight from files, where the earlier stages are done elsewhere.\n"
-                          "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto "
-                          "--velocities v.sto\n"
-                          "                        --moment-arms r.sto --torques id.sto --method torque --out results");
-  add_options<commands::IdentifyOptions>(command);
+  CLI::App& command = *app.add_subcommand(
+      "identify",
+      "Muscle parameters straight from files, where the earlier stages are done elsewhere.\n"
+      "Example: myoid identify --muscles muscles.csv --activations a.sto --lengths l.sto --velocities v.sto\n"
+      "                        --moment-arms r.sto --torques id.sto --method torque --out results");
+  commands::IdentifyOptions defaults;
+  OptionDeclarer declarer(command);
+  visit(defaults, declarer);
   command.get_option("--free")->delimiter(',');
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out, "Folder for parameters.csv, parameters.json")->required();
@@ -188,7 +182,9 @@ void add_identify(CLI::App& app, Context& context) {
   command.add_flag("--strict", context.strict, "Exit with 4 if a parameter is not identifiable");
   add_common_options(command, context);
   command.callback([&context, &command, out, mat] {
-    auto o = read_options<commands::IdentifyOptions>(command);
+    commands::IdentifyOptions o;
+    OptionReader reader(command);
+    visit(o, reader);
     mat.prepare(context, {o.muscles.string()});
     context.prepare_folder(*out);
     commands::protect_inputs(*out, commands::kIdentifyFiles, {o.muscles.string()});

@@ -4,32 +4,26 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 namespace {
 
-void print_ik(const commands::IkResult& result, const std::string& out, bool as_json) {
+void print_ik(const commands::IkResult& result, const std::string& out, const Context& context) {
   const kinematics::IkResult& ik = result.solved;
   const std::string errors = commands::marker_errors_path(out).string();
   const double worst_mm = 1000.0 * result.misfit.rms_m;
-  if (as_json) {
-    const nlohmann::ordered_json json{{"out", out},
-                                      {"marker_errors", errors},
-                                      {"frames", ik.status.size()},
-                                      {"frames_not_converged", ik.frames_not_converged},
-                                      {"not_converged", result.not_converged},
-                                      {"frames_without_markers", ik.frames_without_markers},
-                                      {"marker_error_rms_m", worst_mm / 1000.0},
-                                      {"wrong_unit", result.misfit.wrong_unit},
-                                      {"undetermined", ik.undetermined}};
-    fmt::print("{}\n", json_text(json));
-    return;
-  }
-  fmt::print("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n", ik.status.size(),
-             ik.frames_not_converged, ik.frames_without_markers, worst_mm,
-             result.misfit.wrong_unit ? " (the unit of the markers is wrong)" : "");
-  fmt::print("{}\n{}\n", out, errors);
+  context.print({{"out", out},
+                 {"marker_errors", errors},
+                 {"frames", ik.status.size()},
+                 {"frames_not_converged", ik.frames_not_converged},
+                 {"not_converged", result.not_converged},
+                 {"frames_without_markers", ik.frames_without_markers},
+                 {"marker_error_rms_m", worst_mm / 1000.0},
+                 {"wrong_unit", result.misfit.wrong_unit},
+                 {"undetermined", ik.undetermined}},
+                fmt::format("{} frames, {} not converged, {} without markers; marker error {:.2f} mm rms{}\n{}\n{}",
+                            ik.status.size(), ik.frames_not_converged, ik.frames_without_markers, worst_mm,
+                            result.misfit.wrong_unit ? " (the unit of the markers is wrong)" : "", out, errors));
 }
 
 }  // namespace
@@ -44,9 +38,9 @@ void add_ik(CLI::App& app, Context& context) {
   command.add_option("--markers", o->markers, "Markers (.trc, .c3d)")->required();
   command.add_option("--out", *out, "Joint angles (.mot); the marker errors go beside it")->required();
   command
-      .add_option("--up", o->up,
-                  "Vertical axis of the laboratory: x, y, z, -x, -y or -z "
-                  "(default: as a .c3d file says, else as the model)")
+      .add_option(
+          "--up", o->up,
+          "Vertical axis of the laboratory: x, y, z, -x, -y or -z (default: as a .c3d file says, else as the model)")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   command.add_option("--weight", o->weights, "MARKER=WEIGHT, repeated; 1 where not given");
   command.add_option("--lock", o->lock, "Coordinate held at its default value, repeated");
@@ -61,7 +55,7 @@ void add_ik(CLI::App& app, Context& context) {
     const commands::IkResult result = commands::ik(*o);
     context.end_progress();
     commands::write_ik(result, *out);
-    print_ik(result, *out, context.json);
+    print_ik(result, *out, context);
     if (result.misfit.wrong_unit || result.solved.frames_not_converged > 0) context.exit_code = kQualityGateFailed;
   });
 }

@@ -27,8 +27,8 @@ void add_model_page_options(CLI::App& command, commands::ModelPageOptions& optio
   add("--markers", options.markers, "Measured markers to show beside the model's (.trc, .c3d)");
   command
       .add_option("--meshes", options.mesh_folders,
-                  "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder "
-                  "and its subfolder Geometry are looked through without it")
+                  "Folder with the model's meshes (.vtp, .stl, .obj), repeated; the model's folder and its subfolder "
+                  "Geometry are looked through without it")
       ->needs(html);
   command.add_option("--up", options.up, "Vertical axis of --markers: x, y or z (default y)")
       ->check(CLI::IsMember({"x", "y", "z"}))
@@ -50,34 +50,30 @@ void write_page(const std::vector<std::string>& files,
   const report::Scene& scene = result.page.scenes.front();
   for (const std::string& note : scene.notes) context.log(fmt::format("{}: {}", html, note));
   commands::write_model_page(result, html);
-  if (context.json) {
-    fmt::print("{}\n", json_text({{"html", html}}));
-    return;
-  }
-  fmt::print("{}: {} bodies, {} muscles, {} frames, {:.2f} MB\n", html, scene.bodies.size(), scene.muscles.size(),
-             scene.time_s.size(), 1e-6 * static_cast<double>(result.html.size()));
+  context.print({{"html", html}},
+                fmt::format("{}: {} bodies, {} muscles, {} frames, {:.2f} MB", html, scene.bodies.size(),
+                            scene.muscles.size(), scene.time_s.size(), 1e-6 * static_cast<double>(result.html.size())));
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
   CLI::App& command = *app.add_subcommand("info",
-                                          "Says what a file holds: channels, units, rates, duration, gaps, "
-                                          "repairs; of a model also its unsupported elements.\n"
+                                          "Says what a file holds: channels, units, rates, duration, gaps, repairs; of "
+                                          "a model also its unsupported elements.\n"
                                           "Example: myoid info arm.osim flex.trc");
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto o = std::make_shared<commands::InfoOptions>();
   const auto page = std::make_shared<commands::ModelPageOptions>();
   const auto html = std::make_shared<std::string>();
-  command.add_flag("--compare-compat", o->ask.compare_compat,
-                   "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by "
-                   "how much, over random postures");
+  command.add_flag(
+      "--compare-compat", o->ask.compare_compat,
+      "Of a model: for which muscles exact paths differ from OpenSim 4.5.2's, and by how much, over random postures");
   command.add_option("--postures", o->ask.postures, "Random postures for --compare-compat")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command.add_flag("--jumps", o->ask.jumps,
-                   "Of a model: where a muscle's length or moment arm jumps over the range of a "
-                   "coordinate");
+                   "Of a model: where a muscle's length or moment arm jumps over the range of a coordinate");
   add_model_page_options(command, *page, *html);
   add_compat_option(command, context);
   command.add_option("files", *files, commands::known_endings() + "; or arm4")->required();

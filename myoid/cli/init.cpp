@@ -9,17 +9,15 @@
 namespace myoid::cli {
 
 void add_init(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("init",
-                          "Writes a commented study.toml to start from: finds recordings, pairs EMG channels with "
-                          "muscles, and leaves TODO lines where it cannot know.\n"
-                          "Example: myoid init study --from recordings --model arm.osim");
+  CLI::App& command = *app.add_subcommand("init",
+                                          "Writes a commented study.toml to start from: finds recordings, pairs EMG "
+                                          "channels with muscles, and leaves TODO lines where it cannot know.\n"
+                                          "Example: myoid init study --from recordings --model arm.osim");
   const auto o = std::make_shared<commands::InitOptions>();
   command.add_option("dir", o->folder, "Folder for study.toml")->required();
   command.add_option("--from", o->from, "A recording or a folder of them, repeated (default: the folder itself)");
   command.add_option("--model", o->model,
-                     "OpenSim model (.osim); default: the only one in the folders, else the "
-                     "built-in arm4");
+                     "OpenSim model (.osim); default: the only one in the folders, else the built-in arm4");
   command.add_option("--coordinate", o->coordinate, "The joint, by the model's coordinate (default: guessed)");
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, o] {

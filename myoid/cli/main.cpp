@@ -18,7 +18,6 @@
 #include <unistd.h>
 
 #include "myoid/cli/context.h"
-#include "myoid/cli/held_folders.h"
 #include "myoid/cli/help_files.h"
 #include "myoid/core/error.h"
 #include "myoid/core/provenance.h"
@@ -60,8 +59,8 @@ void stop_on_signals(std::stop_source stop) {
     }
   }
   fmt::print(stderr,
-             "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, "
-             "or raise the limits on processes and memory (ulimit -u, ulimit -v).\n",
+             "error: the program cannot go on: {}\nIf a thread could not be made, give --threads 1, or raise the "
+             "limits on processes and memory (ulimit -u, ulimit -v).\n",
              what);
   _exit(myoid::cli::kInternalError);
 }
@@ -113,14 +112,10 @@ const Command* find_command(std::string_view name) {
 
 int unknown_command(std::string_view word) {
   std::vector<std::string> names;
-  std::string list;
-  for (const Command& command : kCommands) {
-    names.emplace_back(command.name);
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", command.name);
-  }
+  for (const Command& command : kCommands) names.emplace_back(command.name);
   const auto near = myoid::recording::nearest_word(word, names);
   fmt::print(stderr, "error: there is no command '{}'{}; there are {}\n", word,
-             near ? fmt::format(" (did you mean '{}'?)", *near) : "", list);
+             near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", "));
   return myoid::cli::kWrongCommandLine;
 }
 
@@ -128,7 +123,7 @@ int unknown_command(std::string_view word) {
 class CapitalPositionals : public CLI::Formatter {
  public:
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-    return is_positional ? capitals(CLI::Formatter::make_option_name(option, true))
+    return is_positional ? myoid::cli::in_capitals(CLI::Formatter::make_option_name(option, true))
                          : CLI::Formatter::make_option_name(option, false);
   }
   std::string make_group(std::string group,
@@ -138,13 +133,7 @@ class CapitalPositionals : public CLI::Formatter {
     return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
   }
   std::string make_option_usage(const CLI::Option* option) const override {
-    return capitals(CLI::Formatter::make_option_usage(option));
-  }
-
- private:
-  static std::string capitals(std::string text) {
-    for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-    return text;
+    return myoid::cli::in_capitals(CLI::Formatter::make_option_usage(option));
   }
 };
 
@@ -213,27 +202,25 @@ int main(int argc, char** argv) {
   stop_on_signals(context.stop);
   try {
     const int code = run(argc, argv, context);
-    cli::finish_folders();
+    context.finish_folders();
     if (std::fflush(stdout) != 0) return stdout_lost(std::strerror(errno));
     return code;
   } catch (const Interrupted&) {
     context.end_progress();
-    const std::string contents = cli::contents_of_folders();
-    cli::release_folders();
+    const std::string contents = context.contents_of_folders();
+    context.held_folders.clear();
     fmt::print(stderr, "interrupted; {}\n", contents.empty() ? "no file is half-written" : contents);
     return cli::kInterrupted;
   } catch (const InvalidInput& error) {
     context.end_progress();
-    cli::release_folders();
+    context.held_folders.clear();
     fmt::print(stderr, "error: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::exception& error) {
     context.end_progress();
-    cli::release_folders();
+    context.held_folders.clear();
     if (std::ferror(stdout) != 0) return stdout_lost(error.what());
-    fmt::print(stderr,
-               "internal error: {}\nPlease report this with the command line and, if you can, the "
-               "files.\n",
+    fmt::print(stderr, "internal error: {}\nPlease report this with the command line and, if you can, the files.\n",
                error.what());
     return cli::kInternalError;
   }

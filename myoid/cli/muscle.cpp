@@ -75,10 +75,10 @@ void print_simulation(const MuscleResult& result) {
 }  // namespace
 
 void add_muscle(CLI::App& app, Context& context) {
-  CLI::App& command = *app.add_subcommand("muscle",
-                                          "One muscle alone: which force does it make under an imposed length?\n"
-                                          "Example: myoid muscle --muscle soleus.toml --length length.sto "
-                                          "--excitation 1 --out force.sto");
+  CLI::App& command = *app.add_subcommand(
+      "muscle",
+      "One muscle alone: which force does it make under an imposed length?\n"
+      "Example: myoid muscle --muscle soleus.toml --length length.sto --excitation 1 --out force.sto");
   const auto o = std::make_shared<commands::MuscleOptions>();
   command.add_option("--muscle", o->muscle, "The muscle (.toml)")->required();
   command.add_option("--length", o->lengths, "Length of fiber and tendon together over time [m] (.sto, .mot, .csv)")
@@ -89,14 +89,13 @@ void add_muscle(CLI::App& app, Context& context) {
   command.add_option("--activation", o->activation, "Activation, a number in 0..1 or a file");
   command.add_option("--excitation", o->excitation, "Excitation, a number in 0..1 or a file");
   command.add_option("--initial-activation", o->initial_activation,
-                     "Activation at the start, with --excitation: a number, or `settled` on the "
-                     "first excitation (default 0.01: at rest)");
+                     "Activation at the start, with --excitation: a number, or `settled` on the first excitation "
+                     "(default 0.01: at rest)");
   command.add_option("--measured", o->measured, "Measured force over time [N], to compare");
   command
       .add_option("--fit", o->fit,
                   "Parameters to identify from one or several --length and --measured, by comma: "
-                  "max_isometric_force,tendon_strain,...; each recording is also predicted from "
-                  "the others")
+                  "max_isometric_force,tendon_strain,...; each recording is also predicted from the others")
       ->delimiter(',');
   command.add_option("--isometric-force", o->isometric_n,
                      "Force that the error is related to [N] (default: F_max of the muscle)");
@@ -104,8 +103,7 @@ void add_muscle(CLI::App& app, Context& context) {
       ->check(CLI::Range(1e-13, 1e-3));
   const auto out = std::make_shared<std::string>();
   command.add_option("--out", *out,
-                     "Forces, lengths, velocities, activation over time (.sto); with --fit the "
-                     "parameters (.csv)");
+                     "Forces, lengths, velocities, activation over time (.sto); with --fit the parameters (.csv)");
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o, out] {
     if (!out->empty()) {

@@ -8,6 +8,7 @@
 
 #include "myoid/commands/twin.h"
 #include "myoid/files/text_file.h"
+#include "myoid/mat/results_mat.h"
 #include "myoid/study/setting_rows.h"
 
 namespace myoid::cli {
@@ -83,6 +84,27 @@ bool OptionReader::met(const Setting& setting, const SettingValue& /*now*/, cons
   if (option->count() == 0) return false;
   set(setting.kind == SettingKind::flag ? SettingValue(true) : value_of(setting, option->results()));
   return true;
+}
+
+void add_video_options(CLI::App& command, VideoChoice& video) {
+  command
+      .add_option("--video", video.files, "Film that the report shows beside the model, [TRIAL=]FILE; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--video-offset", video.offset_s, "When these films begin, in seconds of the motion (default 0)");
+}
+
+MatOption::MatOption(CLI::App& command) {
+  command.add_option("--mat", *file_, "Also write parameters, series, remarks and draws as one MATLAB file (.mat)");
+}
+
+void MatOption::prepare(const Context& context, const std::vector<std::string>& inputs) const {
+  if (file_->empty()) return;
+  check_mat_file(*file_);
+  context.prepare_file(*file_, inputs);
+}
+
+void MatOption::write(const std::filesystem::path& folder) const {
+  if (!file_->empty()) write_results_mat(folder, *file_);
 }
 
 }  // namespace myoid::cli

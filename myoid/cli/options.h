@@ -1,11 +1,15 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "myoid/cli/context.h"
 #include "myoid/study/setting.h"
+#include "myoid/study/study.h"
 
 namespace myoid::cli {
 
@@ -33,24 +37,23 @@ class OptionReader : public FlatSettingVisitor {
   const CLI::App* command_;
 };
 
-/// Declares the options of a command whose struct of options has a `visit`.
-template <typename Options>
-void add_options(CLI::App& command) {
-  Options defaults;
-  OptionDeclarer declarer(command);
-  visit(defaults, declarer);
-}
-
-/// Returns the options that the user gave; the others have their defaults.
-template <typename Options>
-[[nodiscard]] Options read_options(const CLI::App& command) {
-  Options options;
-  OptionReader reader(command);
-  visit(options, reader);
-  return options;
-}
-
 /// Declares `--truth KEY=VALUE`, and the keys below the help.
 void add_truth_option(CLI::App& command, std::vector<std::string>& settings);
+
+/// Adds --video and --video-offset: films that the report shows beside the model.
+void add_video_options(CLI::App& command, VideoChoice& video);
+
+/// The option --mat of commands that fill a folder with results: writes them as one MATLAB file, too.
+class MatOption {
+ public:
+  explicit MatOption(CLI::App& command);
+  /// Refuses a file that cannot be written, before anything is computed.
+  void prepare(const Context& context, const std::vector<std::string>& inputs) const;
+  /// Writes the file if the option is given.
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  std::shared_ptr<std::string> file_ = std::make_shared<std::string>();
+};
 
 }  // namespace myoid::cli

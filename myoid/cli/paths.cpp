@@ -5,7 +5,6 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/commands/output_file.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 namespace {
@@ -38,8 +37,8 @@ void add_paths(CLI::App& app, Context& context) {
       .add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(above_zero());
   command.add_option("--surrogate", o->surrogates,
-                     "File of fitted polynomials (.json) to use in the place of paths where they "
-                     "are within tolerance; made if it is not there or belongs to another model");
+                     "File of fitted polynomials (.json) to use in the place of paths where they are within tolerance; "
+                     "made if it is not there or belongs to another model");
   command
       .add_option("--surrogate-tolerance", o->tolerance_mm,
                   "Greatest error of a length [mm]; five times that for moment arms [mm/rad]")
@@ -58,11 +57,7 @@ void add_paths(CLI::App& app, Context& context) {
     const commands::PathsResult result = commands::paths(*o);
     context.end_progress();
     commands::write_paths(result, *out);
-    if (context.json) {
-      fmt::print("{}\n", json_text(paths_json(result, *out)));
-    } else {
-      fmt::print("{}\n", *out);
-    }
+    context.print(paths_json(result, *out), *out);
   });
 }
 

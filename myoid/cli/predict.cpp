@@ -29,8 +29,7 @@ void add_predict(CLI::App& app, Context& context) {
   const auto o = std::make_shared<commands::PredictOptions>();
   command.add_option("folder", o->folder, "Folder of a run (with run.json)")->required();
   command.add_option("--study", o->study,
-                     "Another study of the same person and muscles, with the trials (default: the "
-                     "study of the run)");
+                     "Another study of the same person and muscles, with the trials (default: the study of the run)");
   command.add_option("--trials", o->trials, "Names of the trials (default: all that took no part in the fit)");
   command.add_option("--out", *out, "Folder of the predictions")->required();
   add_common_options(command, context, {.seed = false});

@@ -4,11 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/cli/held_folders.h"
-#include "myoid/cli/mat_option.h"
-#include "myoid/cli/video_options.h"
+#include "myoid/cli/options.h"
 #include "myoid/cohort/group_report.h"
-#include "myoid/core/json_text.h"
 #include "myoid/report/write_report.h"
 
 namespace myoid::cli {
@@ -22,11 +19,7 @@ struct Wishes {
 
 void print_page(const std::filesystem::path& folder, const Context& context) {
   const std::string page = (folder / "report.html").string();
-  if (context.json) {
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"report", page}}));
-  } else {
-    fmt::print("{}\n", page);
-  }
+  context.print({{"report", page}}, page);
 }
 
 void report_run(Context& context, commands::ReportOptions& run, const MatOption& mat) {
@@ -34,7 +27,7 @@ void report_run(Context& context, commands::ReportOptions& run, const MatOption&
   mat.prepare(context, {});
   run.call = context.call();
   const commands::ReportResult result = commands::report(run);
-  hold_folder(std::make_unique<recording::ResultFolder>(run.folder, context.command_line));
+  context.held_folders.push_back(std::make_unique<recording::ResultFolder>(run.folder, context.command_line));
   commands::write_report(result, run.folder);
   mat.write(run.folder);
   context.end_progress();

@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "myoid/cli/context.h"
-#include "myoid/cli/mat_option.h"
-#include "myoid/cli/video_options.h"
+#include "myoid/cli/options.h"
 #include "myoid/report/report.h"
 #include "myoid/results/parameter_files.h"
 #include "myoid/results/parameter_tables.h"
@@ -56,8 +55,7 @@ void print_predictions(const StudyResult& result) {
   if (!result.folds.empty()) {
     const std::string_view left_out = choice_name(result.source.study.identify.folds);
     fmt::print(
-        "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about "
-        "that {0}'s own mean)\n",
+        "\nleave one {0} out: torque predicted for a {0} that took no part in the fit (R2 about that {0}'s own mean)\n",
         left_out);
     fmt::print("{:<20} {:>10} {:>8} {:>26} {:>8}\n", left_out, "RMSE [N m]", "R2", "literature x gain: RMSE", "R2");
     for (const identification::Fold& f : result.folds) {
@@ -79,11 +77,9 @@ void print_predictions(const StudyResult& result) {
 
 void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
-  fmt::print(
-      "\nnext recording: {} of {} parameters identified now, median 95 % interval "
-      "+-{:.0f} %\n",
-      identified_count(result.next->beforehand), result.next->beforehand.size(),
-      median_half_width(result.next->beforehand));
+  fmt::print("\nnext recording: {} of {} parameters identified now, median 95 % interval +-{:.0f} %\n",
+             identified_count(result.next->beforehand), result.next->beforehand.size(),
+             median_half_width(result.next->beforehand));
   for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
     const PlannedMovement& m = result.next->plan[i];
     fmt::print("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),

@@ -14,15 +14,15 @@ void add_run_tool(CLI::App& app, Context& context) {
   const auto o = std::make_shared<commands::RunToolOptions>();
   command.add_option("setup", o->setup, "Set-up file (.xml)")->required();
   command.add_option("--model", o->files.model, "Model (.osim), instead of the set-up's");
-  command.add_option("--motion", o->files.motion,
-                     "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers "
-                     "(.trc), instead of the set-up's");
+  command.add_option(
+      "--motion", o->files.motion,
+      "Coordinates or states (.mot, .sto), for inverse kinematics and scaling markers (.trc), instead of the set-up's");
   command.add_option("--external-loads", o->files.external_loads, "External loads (.xml), instead of the set-up's");
   command.add_option("--out", o->files.out, "Folder of the results, instead of the set-up's");
   command
-      .add_option("--compat", o->compat,
-                  "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their "
-                  "geometry is (default opensim)")
+      .add_option(
+          "--compat", o->compat,
+          "opensim: paths of muscles as OpenSim 4.5.2 computes them; exact: as their geometry is (default opensim)")
       ->check(CLI::IsMember({"opensim", "exact"}));
   add_common_options(command, context, {.seed = false, .range = false, .overwrite = false});
   command.callback([&context, o] {

@@ -22,8 +22,8 @@ void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--excitations", o.excitations,
                      "Excitation per muscle over time (.sto), 0 to 1, linear between its samples");
   command.add_option("--excite", o.excite,
-                     "Instead: MUSCLE=LEVEL, or LEVEL@START (a step), or LEVEL@START+DURATION (a "
-                     "burst); may be repeated; 'all' is every muscle");
+                     "Instead: MUSCLE=LEVEL, or LEVEL@START (a step), or LEVEL@START+DURATION (a burst); may be "
+                     "repeated; 'all' is every muscle");
   command.add_option("--rest", o.rest, "Excitation where --excite says nothing (default 0.01)");
   command.add_option("--tendon", o.tendon, "rigid, equilibrium (default) or mass (the source paper's muscle mass)")
       ->check(CLI::IsMember(commands::tendon_names()));
@@ -33,16 +33,14 @@ void add_muscle_options(CLI::App& command, commands::SimulateOptions& o) {
       ->check(CLI::IsMember(commands::curve_names()));
   command
       .add_option("--activation", o.activation,
-                  "two_lags (default for arm4), thelen (default for .osim), de_groote, recursive, "
-                  "envelope")
+                  "two_lags (default for arm4), thelen (default for .osim), de_groote, recursive, envelope")
       ->check(CLI::IsMember(commands::activation_names()));
 }
 
 /// Adds the start of the movement, its constraints and loads.
 void add_movement_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--initial", o.initial,
-                     "COORDINATE=VALUE at the start [deg, m]; may be repeated (default: the "
-                     "model's default posture)");
+                     "COORDINATE=VALUE at the start [deg, m]; may be repeated (default: the model's default posture)");
   command.add_option("--initial-speed", o.initial_speed, "COORDINATE=SPEED at the start [deg/s, m/s]");
   command.add_option("--lock", o.lock, "Coordinate that does not move; may be repeated");
   command.add_flag("--horizontal", o.horizontal, "arm4 without gravity");
@@ -57,8 +55,8 @@ void add_output_options(CLI::App& command, commands::SimulateOptions& o) {
   command.add_option("--tolerance", o.tolerance, "Relative local error of the integration (default 1e-8)");
   command.add_flag("--energy", o.energy, "Also the work of every element, and whether it adds up");
   command.add_option("--sensitivity", o.sensitivity,
-                     "Also the derivatives by this parameter of arm4, such as "
-                     "BIC.max_isometric_force, 'BIC.*' or '*'; may be repeated");
+                     "Also the derivatives by this parameter of arm4, such as BIC.max_isometric_force, 'BIC.*' or '*'; "
+                     "may be repeated");
   command.add_flag("--figures", o.figures, "Also a figure of the movement (.svg, .csv)");
 }
 

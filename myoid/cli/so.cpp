@@ -5,24 +5,19 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/commands/output_file.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 namespace {
 
-void print_so(const forces::MuscleForces& shared, const std::string& out, bool as_json) {
-  if (as_json) {
-    const nlohmann::ordered_json json{{"out", out},
-                                      {"frames", shared.status.size()},
-                                      {"frames_not_solved", shared.frames_not_solved},
-                                      {"frames_with_reserve", shared.frames_with_reserve},
-                                      {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}};
-    fmt::print("{}\n", json_text(json));
-    return;
-  }
-  fmt::print("{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}\n",
-             shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve, shared.kkt_residual.maxCoeff(),
-             out);
+void print_so(const forces::MuscleForces& shared, const std::string& out, const Context& context) {
+  context.print({{"out", out},
+                 {"frames", shared.status.size()},
+                 {"frames_not_solved", shared.frames_not_solved},
+                 {"frames_with_reserve", shared.frames_with_reserve},
+                 {"largest_kkt_residual", shared.kkt_residual.maxCoeff()}},
+                fmt::format("{} frames: {} not solved, {} where a reserve helps; largest KKT residual {:.1e}\n{}",
+                            shared.status.size(), shared.frames_not_solved, shared.frames_with_reserve,
+                            shared.kkt_residual.maxCoeff(), out));
 }
 
 }  // namespace
@@ -42,21 +37,20 @@ void add_so(CLI::App& app, Context& context) {
   command.add_option("--emg", o->emg, "Measured activations by muscle name (.sto), to stay near");
   command.add_option("--emg-weight", o->emg_weight, "Weight of that term (default 1)");
   command.add_option("--reserve", o->reserve_nm, "Optimal torque of the reserve on every coordinate [N m] (default 1)");
-  command.add_option("--coordinate", o->coordinates,
-                     "Coordinate whose torque the muscles balance, repeated (default: all that take a value of "
-                     "their own)");
+  command.add_option(
+      "--coordinate", o->coordinates,
+      "Coordinate whose torque the muscles balance, repeated (default: all that take a value of their own)");
   command
       .add_option("--lowpass", o->cutoff_hz, "Smooth the angles, -3 dB at this frequency [Hz] (default: not smoothed)")
       ->check(above_zero());
   command.add_option("--loads", o->loads, "Forces measured on bodies: an <ExternalLoads> file (.xml) of OpenSim");
   command
       .add_option("--tendon", o->tendon,
-                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in "
-                  "every frame for itself: the tendon's own rate is left out (default rigid)")
+                  "rigid, or elastic: fiber and tendon in balance by the muscle's own curves, in every frame for "
+                  "itself: the tendon's own rate is left out (default rigid)")
       ->check(CLI::IsMember({"rigid", "elastic"}));
   command.add_flag("--passive", o->passive,
-                   "The fibers' passive springs and dampers pull too, and the muscles share the "
-                   "rest");
+                   "The fibers' passive springs and dampers pull too, and the muscles share the rest");
   add_compat_option(command, context);
   add_common_options(command, context, {.seed = false});
   command.callback([&context, o, out] {
@@ -68,7 +62,7 @@ void add_so(CLI::App& app, Context& context) {
     const commands::SoResult result = commands::so(*o);
     context.end_progress();
     commands::write_so(result, *out);
-    print_so(result.shared, *out, context.json);
+    print_so(result.shared, *out, context);
     if (result.shared.frames_not_solved > 0) context.exit_code = kQualityGateFailed;
   });
 }

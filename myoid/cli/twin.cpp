@@ -8,7 +8,6 @@
 #include "myoid/cli/context.h"
 #include "myoid/cli/options.h"
 #include "myoid/core/error.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 namespace {
@@ -22,16 +21,10 @@ void make_many(commands::TwinPersonsOptions options, const std::string& out, Con
   context.end_progress();
   context.log(
       fmt::format("{} persons, seeds {} to {}", options.persons, context.seed, context.seed + options.persons - 1));
-  if (!context.json) {
-    fmt::print("{}\n", result.table.string());
-    return;
-  }
-  nlohmann::ordered_json json;
-  json["persons"] = options.persons;
-  json["table"] = result.table.string();
-  json["studies"] = nlohmann::ordered_json::array();
-  for (const fs::path& study : result.studies) json["studies"].push_back(study.string());
-  fmt::print("{}\n", json_text(json));
+  nlohmann::ordered_json studies = nlohmann::ordered_json::array();
+  for (const fs::path& study : result.studies) studies.push_back(study.string());
+  const std::string table = result.table.string();
+  context.print({{"persons", options.persons}, {"table", table}, {"studies", studies}}, table);
 }
 
 void make_one(commands::TwinOptions options, const std::string& out, Context& context) {
@@ -43,16 +36,9 @@ void make_one(commands::TwinOptions options, const std::string& out, Context& co
   context.log(fmt::format("{} trials, level {}, seed {}", recording.trials.size(),
                           choice_name(recording.protocol.level), context.seed));
   const std::string study = (fs::path(out) / "study.toml").string();
-  if (!context.json) {
-    fmt::print("{}\n", study);
-    return;
-  }
-  nlohmann::ordered_json json;
-  json["study"] = study;
-  json["level"] = choice_name(recording.protocol.level);
-  json["trials"] = nlohmann::ordered_json::array();
-  for (const twin::VirtualTrial& trial : recording.trials) json["trials"].push_back(trial.protocol.name);
-  fmt::print("{}\n", json_text(json));
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+  for (const twin::VirtualTrial& trial : recording.trials) trials.push_back(trial.protocol.name);
+  context.print({{"study", study}, {"level", choice_name(recording.protocol.level)}, {"trials", trials}}, study);
 }
 
 }  // namespace
@@ -66,14 +52,12 @@ void add_twin(CLI::App& app, Context& context) {
   const auto options = std::make_shared<commands::TwinPersonsOptions>();
   command
       .add_option("--model", options->twin.model,
-                  "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven "
-                  "heads, level L2)")
+                  "Model that goes with the recording: arm4 (four muscles, default) or arm7 (seven heads, level L2)")
       ->check(CLI::IsMember({"arm4", "arm7"}));
   command.add_option("--protocol", options->twin.protocol, "Protocol of the recording (.toml)")->required();
   command
       .add_option("--level", options->twin.level,
-                  "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol "
-                  "says")
+                  "L0 exact, L1 noise, L2 another truth than the model; default: as the protocol says")
       ->check(CLI::IsMember({"L0", "L1", "L2"}));
   add_truth_option(command, options->twin.truth);
   command

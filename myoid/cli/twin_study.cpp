@@ -17,10 +17,8 @@ std::string percent(double share) { return std::isfinite(share) ? fmt::format("{
 
 void print_summary(const std::vector<twin::TwinSummary>& summaries, bool each_muscle) {
   const auto print = [](auto... cells) {
-    fmt::print(
-        "{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} "
-        "{:>7} {:>9} {:>9}\n",
-        cells...);
+    fmt::print("{:<8} {:<12} {:<8} {:<28} {:>5} {:>7} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>9} {:>9}\n",
+               cells...);
   };
   print("method", "case", "muscle", "parameter", "n", "bias", "error", "rmse", "<5 %", "<10 %", "<20 %", "prior",
         "cover", "half w.", "identif.", "of these");
@@ -43,7 +41,7 @@ void print_predictions(const twin::TwinStudyResult& result) {
              "smoothed: NRMSE", "R2", "below 1.5 Hz: NRMSE", "R2");
   std::vector<std::string> trials{"all"};
   for (const twin::TwinPrediction& p : result.predictions) {
-    if (std::find(trials.begin(), trials.end(), p.trial) == trials.end()) trials.push_back(p.trial);
+    if (std::ranges::find(trials, p.trial) == trials.end()) trials.push_back(p.trial);
   }
   for (const std::string& trial : trials) {
     std::size_t count = 0;
@@ -92,11 +90,10 @@ void print_verdicts(const twin::TwinStudyResult& result, const std::vector<twin:
 }  // namespace
 
 void add_twin_study(CLI::App& app, Context& context) {
-  CLI::App& command =
-      *app.add_subcommand("twin-study",
-                          "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
-                          "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out "
-                          "study");
+  CLI::App& command = *app.add_subcommand(
+      "twin-study",
+      "How good is the method? Many virtual persons, the whole chain, compared with the truth.\n"
+      "Example: myoid twin-study --protocol examples/protocols/rich.toml --subjects 200 --out study");
   const auto out = std::make_shared<std::string>();
   const auto each_muscle = std::make_shared<bool>(false);
   const auto options = std::make_shared<commands::TwinStudyOptions>();

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/cli/context.h"
-#include "myoid/core/json_text.h"
 
 namespace myoid::cli {
 
@@ -18,8 +17,8 @@ void add_update_file(CLI::App& app, Context& context) {
   command.add_option("new", *new_file, "File to write")->required();
   command
       .add_option("--compat", o->compat,
-                  "exact: offsets of joints and inertias keep their digits; opensim: they are "
-                  "rounded to six, as OpenSim converts them (default exact)")
+                  "exact: offsets of joints and inertias keep their digits; opensim: they are rounded to six, as "
+                  "OpenSim converts them (default exact)")
       ->check(CLI::IsMember({"exact", "opensim"}));
   add_common_options(command, context, {.threads = false, .seed = false, .range = false});
   command.callback([&context, o, new_file] {
@@ -27,16 +26,11 @@ void add_update_file(CLI::App& app, Context& context) {
     o->call = context.call();
     const commands::UpdateFileResult result = commands::update_file(*o);
     commands::write_update_file(result, *new_file);
-    if (context.json) {
-      nlohmann::ordered_json json{{"file", *new_file},
-                                  {"old_version", result.old_version},
-                                  {"version", result.version},
-                                  {"notes", nlohmann::ordered_json::array()}};
-      for (const Remark& remark : result.remarks) json["notes"].push_back(sentence(remark));
-      fmt::print("{}\n", json_text(json));
-    } else {
-      fmt::print("version {} -> {}\n{}\n", result.old_version, result.version, *new_file);
-    }
+    nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+    for (const Remark& remark : result.remarks) notes.push_back(sentence(remark));
+    context.print(
+        {{"file", *new_file}, {"old_version", result.old_version}, {"version", result.version}, {"notes", notes}},
+        fmt::format("version {} -> {}\n{}", result.old_version, result.version, *new_file));
   });
 }
 

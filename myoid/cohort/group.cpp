@@ -9,7 +9,6 @@
 #include "myoid/cohort/group_person.h"
 #include "myoid/core/counted.h"
 #include "myoid/files/atomic_file.h"
-#include "myoid/files/text_file.h"
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/write_report.h"

@@ -111,8 +111,7 @@ StripGrid empty_grid(const std::vector<GroupPerson>& persons, std::string id, st
 
 /// Returns the column of this name; adds a new one if there is none.
 std::size_t column_of(StripGrid& grid, const std::string& name, const std::string& unit) {
-  const auto found =
-      std::find_if(grid.columns.begin(), grid.columns.end(), [&](const StripColumn& c) { return c.name == name; });
+  const auto found = std::ranges::find_if(grid.columns, [&](const StripColumn& c) { return c.name == name; });
   if (found != grid.columns.end()) return static_cast<std::size_t>(found - grid.columns.begin());
   grid.columns.push_back({.name = name, .unit = unit, .middle = {}, .spread_low = {}, .spread_high = {}});
   for (report::StripRow& row : grid.rows) row.cells.emplace_back();
@@ -122,10 +121,9 @@ std::size_t column_of(StripGrid& grid, const std::string& name, const std::strin
 StripGrid quality_grid(const std::vector<GroupPerson>& persons, std::vector<Outlier>& outliers) {
   StripGrid grid = empty_grid(persons, "group_quality", "Quality of recordings and fits");
   grid.caption =
-      "Questions not passed: green disc none, orange diamond a caution, red triangle a failure; "
-      "the "
-      "person's report names them. R2 and torque error of trials left out are medians over the "
-      "trials, predicted by fits that did not see them.";
+      "Questions not passed: green disc none, orange diamond a caution, red triangle a failure; the person's report "
+      "names them. R2 and torque error of trials left out are medians over the trials, predicted by fits that did not "
+      "see them.";
   for (std::size_t i = 0; i < persons.size(); ++i) {
     for (const Quality& quality : persons[i].quality) {
       const std::size_t column = column_of(grid, quality.name, quality.unit);
@@ -144,14 +142,12 @@ std::vector<StripGrid> number_grids(const std::vector<GroupPerson>& persons, std
   for (std::size_t i = 0; i < persons.size(); ++i) {
     for (const GroupNumber& number : persons[i].numbers) {
       const std::string id = id_of(number.parameter);
-      auto grid = std::find_if(grids.begin(), grids.end(), [&](const StripGrid& g) { return g.id == id; });
+      auto grid = std::ranges::find_if(grids, [&](const StripGrid& g) { return g.id == id; });
       if (grid == grids.end())
         grid = grids.insert(grids.end(), empty_grid(persons, id, report::spelled(number.parameter)));
       grid->caption =
-          "A row is a person: mark and 95 % interval. Behind them median and robust standard "
-          "deviation of the numbers that the recordings tell; pale: a number that the recording "
-          "does "
-          "not tell.";
+          "A row is a person: mark and 95 % interval. Behind them median and robust standard deviation of the numbers "
+          "that the recordings tell; pale: a number that the recording does not tell.";
       const std::size_t column = column_of(*grid, number.muscle, number.unit);
       grid->rows[i].cells[column] = cell_of(number);
     }
@@ -199,16 +195,15 @@ report::Table summary_table(const std::vector<StripGrid>& grids) {
 }
 
 report::Table outlier_table(const std::vector<Outlier>& outliers) {
-  report::Table table{
-      .id = "outliers",
-      .title = "Persons far from the others",
-      .caption = fmt::format("A number farther than {} robust standard deviations (1.4826 times the median absolute "
-                             "deviation) from the median of the persons, where {} or more have it. Look at the "
-                             "person's "
-                             "report first: a label, unit or electrode is more often the cause than the person.",
-                             kOutlierDistance, kFewestForOutliers),
-      .columns = {"person", "number", "value", "median of the persons", "robust SD from it"},
-      .rows = {}};
+  report::Table table{.id = "outliers",
+                      .title = "Persons far from the others",
+                      .caption = fmt::format(
+                          "A number farther than {} robust standard deviations (1.4826 times the median absolute "
+                          "deviation) from the median of the persons, where {} or more have it. Look at the person's "
+                          "report first: a label, unit or electrode is more often the cause than the person.",
+                          kOutlierDistance, kFewestForOutliers),
+                      .columns = {"person", "number", "value", "median of the persons", "robust SD from it"},
+                      .rows = {}};
   for (const Outlier& o : outliers) {
     const std::string unit = o.unit.empty() ? "" : " " + o.unit;
     table.rows.push_back(report::text_row({o.person, o.number, report::format_value(o.value) + unit,
@@ -224,8 +219,7 @@ std::vector<double> robust_distances(const std::vector<double>& values) {
   if (values.size() < kFewestForOutliers) return distances;
   const Spread spread = spread_of(values);
   if (!(spread.sd > 0.0)) return distances;
-  std::transform(values.begin(), values.end(), distances.begin(),
-                 [&](double x) { return (x - spread.median) / spread.sd; });
+  std::ranges::transform(values, distances.begin(), [&](double x) { return (x - spread.median) / spread.sd; });
   return distances;
 }
 
@@ -234,8 +228,8 @@ GroupPage group_page(const std::vector<GroupPerson>& persons) {
   page.persons.id = "numbers";
   page.persons.heading = "The persons beside each other";
   page.persons.paragraphs.push_back(
-      "A row is a person; the name leads to the person's report. The spread of the marks holds the "
-      "differences between people and the errors of the estimates.");
+      "A row is a person; the name leads to the person's report. The spread of the marks holds the differences between "
+      "people and the errors of the estimates.");
   StripGrid quality = quality_grid(persons, page.outliers);
   std::vector<StripGrid> grids = number_grids(persons, page.outliers);
   report::Table summary = summary_table(grids);
@@ -250,7 +244,7 @@ std::string outlier_sentence(const std::vector<Outlier>& outliers) {
   if (outliers.empty()) return "";
   std::vector<std::string> persons;
   for (const Outlier& o : outliers) {
-    if (std::find(persons.begin(), persons.end(), o.person) == persons.end()) persons.push_back(o.person);
+    if (std::ranges::find(persons, o.person) == persons.end()) persons.push_back(o.person);
   }
   std::string text = fmt::format("{} of {} far from the others: ", counted(outliers.size(), "number"),
                                  counted(persons.size(), "person"));

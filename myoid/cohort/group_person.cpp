@@ -22,7 +22,7 @@ using recording::CsvTable;
 constexpr int kDeepest = 3;  // below the folder that is named
 
 std::string cell(const CsvTable& table, const std::vector<std::string>& row, const char* name) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
+  const auto found = std::ranges::find(table.names, name);
   return found == table.names.end() ? "" : row[static_cast<std::size_t>(found - table.names.begin())];
 }
 
@@ -111,7 +111,7 @@ void find_runs(const fs::path& folder, int depth, std::vector<fs::path>& runs) {
   std::vector<fs::path> inside;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.is_directory()) inside.push_back(entry.path());
-  std::sort(inside.begin(), inside.end());
+  std::ranges::sort(inside);
   for (const fs::path& each : inside) find_runs(each, depth + 1, runs);
 }
 
@@ -120,7 +120,7 @@ bool add_virtual_persons(const fs::path& folder, std::vector<GroupPerson>& perso
   const fs::path file = folder / "persons.csv";
   if (!fs::exists(file)) return false;
   const CsvTable all = recording::read_csv_table(file);
-  if (std::find(all.names.begin(), all.names.end(), "seed") == all.names.end()) return false;
+  if (std::ranges::find(all.names, "seed") == all.names.end()) return false;
   std::map<long, CsvTable> by_seed;
   for (const auto& row : all.rows) {
     const auto seed = recording::parse_number(cell(all, row, "seed"));
@@ -144,7 +144,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& runs) {
       if (!part.empty() && part != "/") of.push_back(part.string());
   }
   const auto alike = [&](std::size_t i, bool from_end) {
-    return std::all_of(parts.begin(), parts.end(), [&](const auto& of) {
+    return std::ranges::all_of(parts, [&](const auto& of) {
       return i + 1 < of.size() &&
              (from_end ? of[of.size() - 1 - i] == parts[0][parts[0].size() - 1 - i] : of[i] == parts[0][i]);
     });
@@ -199,8 +199,8 @@ std::vector<GroupRun> group_runs(const std::vector<fs::path>& folders) {
     find_runs(folder, 0, runs);
     if (runs.size() == before)
       throw ReadError(folder, 0,
-                      "holds no run: no parameters.csv in it or in folders inside; run the "
-                      "studies first (myoid run, myoid cohort)");
+                      "holds no run: no parameters.csv in it or in folders inside; run the studies first (myoid run, "
+                      "myoid cohort)");
   }
   const std::vector<std::string> names = names_of(runs);
   std::vector<GroupRun> found;

@@ -27,8 +27,7 @@ std::vector<PersonChange> changes_of(const GroupReportOptions& options) {
   const std::vector<GroupRun> first = group_runs(options.persons), second = group_runs(options.after);
   if (first.size() != second.size())
     throw InvalidInput(
-        fmt::format("--group names {} and --after {}: give both sessions of the same persons, in "
-                    "the same order",
+        fmt::format("--group names {} and --after {}: give both sessions of the same persons, in the same order",
                     counted(first.size(), "run"), counted(second.size(), "run")));
   std::vector<PersonChange> changes;
   for (std::size_t i = 0; i < first.size(); ++i)
@@ -49,7 +48,7 @@ std::string change_sentence(const std::vector<PersonChange>& changes) {
   std::vector<std::string> found;
   for (const PersonChange& person : changes) {
     const auto& all = person.comparison.parameters;
-    const bool torque = std::any_of(all.begin(), all.end(), is_by_torque);
+    const bool torque = std::ranges::any_of(all, is_by_torque);
     for (const ComparedParameter& p : all) {
       if (p.change != Change::differs || is_by_torque(p) != torque) continue;
       found.push_back(fmt::format("{}: {} {} by {:.3g}{}{} ({:.0f} %)", person.person, p.muscle,

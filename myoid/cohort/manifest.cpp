@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,17 +24,17 @@ bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>
 std::string label_of(std::string_view name) {
   if (name.starts_with(kSub)) name.remove_prefix(kSub.size());
   std::string label;
-  std::copy_if(name.begin(), name.end(), std::back_inserter(label), is_letter_or_digit);
+  std::ranges::copy_if(name, std::back_inserter(label), is_letter_or_digit);
   return label;
 }
 
 void check_name(const fs::path& file, std::size_t line, const std::string& name) {
-  const bool known = std::all_of(name.begin(), name.end(),
-                                 [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_' || c == '.'; });
+  const bool known =
+      std::ranges::all_of(name, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '_' || c == '.'; });
   if (known && !name.starts_with('.') && !name.starts_with('-') && !label_of(name).empty()) return;
   throw ReadError(file, line,
-                  fmt::format("found the name '{}', expected letters, digits, '-', '_' and '.', "
-                              "the first a letter or digit; it names a folder of results",
+                  fmt::format("found the name '{}', expected letters, digits, '-', '_' and '.', the first a letter or "
+                              "digit; it names a folder of results",
                               name));
 }
 
@@ -50,8 +49,8 @@ class Roll {
     const auto [other, is_new] = by_label_.emplace(person.label, person.name);
     if (!is_new)
       throw ReadError(manifest_->file, line,
-                      fmt::format("the persons '{}' and '{}' have one BIDS label, '{}' (the "
-                                  "letters and digits of the name); rename one of them",
+                      fmt::format("the persons '{}' and '{}' have one BIDS label, '{}' (the letters and digits of the "
+                                  "name); rename one of them",
                                   other->second, person.name, person.label));
     manifest_->persons.push_back(std::move(person));
   }
@@ -62,7 +61,7 @@ class Roll {
 };
 
 std::size_t column(const CsvTable& table, const fs::path& file, std::string_view name) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
+  const auto found = std::ranges::find(table.names, name);
   if (found == table.names.end())
     throw ReadError(file, table.header_line,
                     fmt::format("no column '{}'; found the columns {}", name, fmt::join(table.names, ", ")));
@@ -75,7 +74,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const CsvTable& table,
                                                           const std::vector<std::size_t>& without) {
   std::vector<std::pair<std::string, std::string>> facts;
   for (std::size_t c = 0; c < row.size(); ++c) {
-    if (std::find(without.begin(), without.end(), c) != without.end()) continue;
+    if (std::ranges::find(without, c) != without.end()) continue;
     facts.emplace_back(table.names[c], row[c] == "n/a" ? "" : row[c]);
   }
   return facts;
@@ -131,14 +130,14 @@ Manifest read_bids(const fs::path& folder, const fs::path& study) {
   const fs::path file = study.empty() ? folder / "code" / "study.toml" : study;
   if (!fs::exists(file))
     throw ReadError(file, 0,
-                    "there is no such file; it has to be the study of every person, with {name} "
-                    "for the folder sub-… and {label} for its label");
+                    "there is no such file; it has to be the study of every person, with {name} for the folder sub-… "
+                    "and {label} for its label");
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (entry.is_directory() && name.starts_with(kSub)) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   Manifest manifest{.file = folder, .persons = {}};
   Roll roll(manifest);
   for (const std::string& name : names)
@@ -158,10 +157,9 @@ std::vector<std::string> Manifest::fact_names() const {
 Manifest read_manifest(const fs::path& file, const fs::path& study) {
   if (fs::is_directory(file)) return read_bids(file, study);
   if (!study.empty())
-    throw InvalidInput(
-        fmt::format("--study goes with a BIDS data set; {} is a table, whose column 'study' names "
-                    "the study of each person",
-                    file.string()));
+    throw InvalidInput(fmt::format(
+        "--study goes with a BIDS data set; {} is a table, whose column 'study' names the study of each person",
+        file.string()));
   return read_table(file);
 }
 
@@ -170,9 +168,7 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::v
     return name == person.name || name == person.label || name == "sub-" + person.label;
   };
   for (const std::string& name : names) {
-    if (std::any_of(manifest.persons.begin(), manifest.persons.end(),
-                    [&](const Person& person) { return answers(person, name); }))
-      continue;
+    if (std::ranges::any_of(manifest.persons, [&](const Person& person) { return answers(person, name); })) continue;
     std::vector<std::string> known;
     for (const Person& person : manifest.persons) known.push_back(person.name);
     const auto near = recording::nearest_word(name, known);
@@ -181,8 +177,7 @@ std::vector<const Person*> chosen_persons(const Manifest& manifest, const std::v
   }
   std::vector<const Person*> chosen;
   for (const Person& person : manifest.persons) {
-    if (names.empty() ||
-        std::any_of(names.begin(), names.end(), [&](const std::string& name) { return answers(person, name); }))
+    if (names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return answers(person, name); }))
       chosen.push_back(&person);
   }
   return chosen;

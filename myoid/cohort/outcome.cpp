@@ -69,9 +69,8 @@ void remove_outcome(const fs::path& folder) {
 bool is_current(const Outcome& outcome, const fs::path& study, std::string_view settings) {
   const auto& inputs = outcome.inputs;
   return outcome.kind != OutcomeKind::failed && outcome.settings == settings && outcome.build == build_identity() &&
-         std::any_of(inputs.begin(), inputs.end(),
-                     [&](const InputFile& input) { return input.path == study.string(); }) &&
-         std::all_of(inputs.begin(), inputs.end(), is_unchanged);
+         std::ranges::any_of(inputs, [&](const InputFile& input) { return input.path == study.string(); }) &&
+         std::ranges::all_of(inputs, is_unchanged);
 }
 
 std::vector<std::string> failures(const std::vector<PersonOutcome>& outcomes) {

@@ -1,8 +1,6 @@
 #include "myoid/cohort/person_study.h"
 
-#include <algorithm>
 #include <cctype>
-#include <optional>
 #include <vector>
 
 #include <fmt/format.h>

@@ -21,8 +21,8 @@ CheckResult check(const CheckOptions& o) {
   } else {
     result.findings = check_recording(o.input, recording::axis_vector(o.up));
   }
-  result.errors = static_cast<std::size_t>(std::count_if(
-      result.findings.begin(), result.findings.end(), [](const Remark& f) { return f.severity == Severity::error; }));
+  result.errors = static_cast<std::size_t>(
+      std::ranges::count_if(result.findings, [](const Remark& f) { return f.severity == Severity::error; }));
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -42,32 +43,19 @@ void remove_earlier(const fs::path& folder) {
   }
 }
 
-std::size_t failed_gates(const RunResult& result) {
-  return static_cast<std::size_t>(std::count_if(result.gates.begin(), result.gates.end(), [](const report::Gate& gate) {
-    return gate.status == report::GateStatus::fail;
-  }));
-}
-
-std::string failed_gate_names(const RunResult& result) {
-  std::string names;
-  for (const report::Gate& gate : result.gates) {
-    if (gate.status == report::GateStatus::fail) names += fmt::format("{}{}", names.empty() ? "" : ", ", gate.name);
-  }
-  return names;
-}
-
 void judge(const RunResult& result, Outcome& outcome) {
-  std::string trials;
-  for (const TrialResult& trial : result.study.trials) {
-    if (!trial.failure().empty()) trials += fmt::format("{}{}", trials.empty() ? "" : ", ", trial.spec.name);
-  }
+  std::vector<std::string> gates, trials;
+  for (const report::Gate& gate : result.gates)
+    if (gate.status == report::GateStatus::fail) gates.push_back(gate.name);
+  for (const TrialResult& trial : result.study.trials)
+    if (!trial.failure().empty()) trials.push_back(trial.spec.name);
   if (!trials.empty()) {
     outcome.kind = OutcomeKind::trials_failed;
-    outcome.message = "trials that failed: " + trials;
+    outcome.message = fmt::format("trials that failed: {}", fmt::join(trials, ", "));
   } else if (result.failed(false)) {
     outcome.kind = OutcomeKind::gate_failed;
-    outcome.message = failed_gates(result) > 0 ? "quality gates that failed: " + failed_gate_names(result)
-                                               : "the method torque did not converge";
+    outcome.message = gates.empty() ? "the method torque did not converge"
+                                    : fmt::format("quality gates that failed: {}", fmt::join(gates, ", "));
   }
 }
 
@@ -86,8 +74,8 @@ Outcome computed(const CohortOptions& o, const fs::path& study, const fs::path& 
   RunResult result = run(options);
   result.study.times.clear();  // the same bytes however long the job takes
   write_run(result, folder);
-  Outcome outcome{.kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = {}};
-  outcome.inputs = result.provenance.inputs;
+  Outcome outcome{
+      .kind = OutcomeKind::done, .message = {}, .settings = {}, .build = {}, .inputs = result.provenance.inputs};
   judge(result, outcome);
   return outcome;
 }
@@ -212,10 +200,8 @@ void prepare_cohort_folder(const CohortOptions& o, const fs::path& folder, bool 
     throw InvalidInput(fmt::format("{} is a file; name a folder", folder.string()));
   const fs::path persons = folder / cohort::kPersonsFolder;
   if (!fs::exists(persons, error) && recording::holds_content(folder) && !overwrite)
-    throw InvalidInput(
-        fmt::format("the folder {} holds other files than a cohort's; give an empty folder, or add "
-                    "--overwrite",
-                    folder.string()));
+    throw InvalidInput(fmt::format(
+        "the folder {} holds other files than a cohort's; give an empty folder, or add --overwrite", folder.string()));
   fs::create_directories(persons, error);
   if (error) throw InvalidInput(fmt::format("cannot create the folder {}: {}", persons.string(), error.message()));
 }

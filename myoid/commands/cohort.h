@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "myoid/cohort/group.h"
-#include "myoid/cohort/manifest.h"
 #include "myoid/cohort/outcome.h"
 #include "myoid/cohort/workflow.h"
 #include "myoid/commands/call.h"

@@ -209,8 +209,8 @@ class Converter {
     const std::string up = recording::axis_name(up_L);
     if (up != "y")
       remarks_.note(
-          fmt::format("note: {}: up is {} in this file; the markers are written as recorded; --up {} turns "
-                      "them to y up, as models stand",
+          fmt::format("note: {}: up is {} in this file; the markers are written as recorded; --up {} turns them to y "
+                      "up, as models stand",
                       o_.in, up, up));
   }
 
@@ -226,9 +226,7 @@ class Converter {
     recording::write_storage(out, at_rate(cut(loads, o_.call)), {.title = out.stem().string(), .comments = {}});
     wrote(out);
     if (o_.bodies.empty()) {
-      remarks_.note(
-          "give --body BODY for each plate to write the ExternalLoads file too (\"\" leaves one "
-          "out)");
+      remarks_.note("give --body BODY for each plate to write the ExternalLoads file too (\"\" leaves one out)");
       return;
     }
     const fs::path xml = fs::path(out).replace_extension(".xml");
@@ -337,8 +335,8 @@ bool makes_derivative(const ConvertOptions& o) {
   if (!fs::is_directory(o.in, ignored)) return false;
   if (const auto to = recording::format_of(o.out); to && recording::is_recording(*to))
     throw InvalidInput(
-        fmt::format("{} is a folder; the results in it are written as a BIDS derivative, which is "
-                    "a folder too: give one as OUT instead of {}",
+        fmt::format("{} is a folder; the results in it are written as a BIDS derivative, which is a folder too: give "
+                    "one as OUT instead of {}",
                     o.in, o.out));
   return true;
 }

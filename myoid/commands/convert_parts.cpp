@@ -34,8 +34,8 @@ void without_blanks(recording::MarkerSeries& markers, std::vector<recording::Rep
   std::size_t changed = 0;
   for (std::string& name : markers.names) {
     if (name.find_first_of(" \t") == std::string::npos) continue;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    std::replace(name.begin(), name.end(), '\t', '_');
+    std::ranges::replace(name, ' ', '_');
+    std::ranges::replace(name, '\t', '_');
     ++changed;
   }
   if (changed > 0) repairs.push_back({0, fmt::format("blanks in {} marker names became '_'", changed)});
@@ -57,9 +57,8 @@ std::vector<int> plate_numbers(const ConvertOptions& o, const recording::Recordi
   const std::size_t given = o.bodies.size();
   if (given == 0 || given == numbers.size()) return numbers;
   throw InvalidInput(
-      fmt::format("--body: {} {} for {} force {} of {} ({}); give one for each, in this order, "
-                  "and \"\" for a "
-                  "plate on which nobody stands",
+      fmt::format("--body: {} {} for {} force {} of {} ({}); give one for each, in this order, and \"\" for a plate on "
+                  "which nobody stands",
                   given, given == 1 ? "body" : "bodies", numbers.size(), numbers.size() == 1 ? "plate" : "plates", o.in,
                   fmt::join(numbers, ", ")));
 }

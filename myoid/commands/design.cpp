@@ -40,9 +40,8 @@ EarlierRun read_earlier(const DesignOptions& o, const Study& study, Remarks& rem
   const IdentityDifferences unlike = differences(identity_of(study), read_run_identity(o.after));
   if (!unlike.grave.empty())
     throw InvalidInput(
-        fmt::format("--after {}: {}; its numbers mean something else; give the result of a run of this "
-                    "study",
-                    o.after, fmt::join(unlike.grave, "; ")));
+        fmt::format("--after {}: {}; its numbers mean something else; give the result of a run of this study", o.after,
+                    fmt::join(unlike.grave, "; ")));
   for (const std::string& text : unlike.other) remarks.warn(fmt::format("--after {}: {}", o.after, text));
   return earlier;
 }
@@ -66,10 +65,9 @@ DesignResult design(const DesignOptions& o) {
   const DesignStudyResult& found = result.design;
   if (found.too_hard == found.catalogue_size)
     throw InvalidInput("design: no movement of the catalogue is within the muscles' strength");
-  remarks.note(
-      fmt::format("{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} "
-                  "persons; {} exchanges",
-                  found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));
+  remarks.note(fmt::format(
+      "{} movements in the catalogue, {} beyond the strength of too many, {} too tiring; {} persons; {} exchanges",
+      found.catalogue_size, found.too_hard, found.too_tiring, choice.persons, found.exchanges));
   result.remarks = remarks.list();
   return result;
 }

@@ -60,18 +60,15 @@ std::vector<std::string> emg_files(const std::vector<std::string>& inputs, const
   for (const std::string& path : inputs) {
     const std::string name = std::filesystem::path(path).stem().string() + ".sto";
     files.push_back((std::filesystem::path(to) / name).string());
-    if (std::count(files.begin(), files.end(), files.back()) > 1)
-      throw InvalidInput(
-          fmt::format("two inputs would be written to {}: rename one of them, or "
-                      "give them to two commands with every --mvc",
-                      files.back()));
+    if (std::ranges::count(files, files.back()) > 1)
+      throw InvalidInput(fmt::format(
+          "two inputs would be written to {}: rename one of them, or give them to two commands with every --mvc",
+          files.back()));
   }
   const std::string ending = std::filesystem::path(to).extension().string();
   if (!ending.empty() && !std::filesystem::is_directory(to))
-    throw InvalidInput(
-        fmt::format("{} {}: of {} inputs this is a folder, found a name that ends "
-                    "in '{}'",
-                    option, to, inputs.size(), ending));
+    throw InvalidInput(fmt::format("{} {}: of {} inputs this is a folder, found a name that ends in '{}'", option, to,
+                                   inputs.size(), ending));
   return files;
 }
 
@@ -111,7 +108,7 @@ void check_emg_files(const EmgOptions& options,
   for (const std::string& file : activations) check_output(file, inputs, overwrite);
   for (const std::string& file : envelopes) {
     check_output(file, inputs, overwrite);
-    if (std::find(activations.begin(), activations.end(), file) != activations.end())
+    if (std::ranges::find(activations, file) != activations.end())
       throw InvalidInput(fmt::format("--out and --envelope both name {}", file));
   }
 }

@@ -65,16 +65,16 @@ void keep_common_channels(const std::vector<std::string>& paths,
                           GroupedWarnings& warnings) {
   std::vector<std::string> common;
   for (const Channel& channel : files.front().channels()) {
-    const auto lacks =
-        std::find_if(files.begin(), files.end(), [&](const TimeSeries& file) { return !file.find(channel.name); });
+    const auto lacks = std::ranges::find_if(files, [&](const TimeSeries& file) { return !file.find(channel.name); });
     if (lacks == files.end()) {
       common.push_back(channel.name);
     } else {
       const std::string& other = paths[static_cast<std::size_t>(lacks - files.begin())];
-      warnings.add(RemarkCode::channel_missing, channel_in(paths.front(), channel.name), other,
-                   fmt::format("{}: channel '{}' is left out, since {} does not have it (there are "
-                               "{}) or it cannot be used there",
-                               paths.front(), channel.name, other, channel_names(*lacks)));
+      warnings.add(
+          RemarkCode::channel_missing, channel_in(paths.front(), channel.name), other,
+          fmt::format(
+              "{}: channel '{}' is left out, since {} does not have it (there are {}) or it cannot be used there",
+              paths.front(), channel.name, other, channel_names(*lacks)));
     }
   }
   if (common.empty()) throw InvalidInput(fmt::format("no channel is in all files: {}", fmt::join(paths, ", ")));
@@ -89,19 +89,18 @@ void warn_of_faults(const std::string& path, const TimeSeries& emg, bool highpas
     if (fault.code == RemarkCode::emg_envelope) envelopes.push_back(fault.about);
   }
   const std::string what = fmt::format(
-      "{} never negative and slow: rectified and smoothed already. This command would "
-      "turn such an envelope into noise",
+      "{} never negative and slow: rectified and smoothed already. This command would turn such an envelope into noise",
       envelopes.size() == 1 ? fmt::format("channel '{}' is", envelopes[0])
                             : fmt::format("channels {} are", fmt::join(envelopes, ", ")));
   if (static_cast<Eigen::Index>(envelopes.size()) == emg.channel_count())
     throw ReadError(path, 0,
                     what +
-                        "; give the raw EMG, or divide by the largest effort yourself (a study "
-                        "does it with [emg] kind = \"envelope\")");
+                        "; give the raw EMG, or divide by the largest effort yourself (a study does it with [emg] kind "
+                        "= \"envelope\")");
   if (!envelopes.empty())
     warnings.add(RemarkCode::emg_envelope, path, "envelopes", fmt::format("{}: {}; leave them out", path, what));
   for (const Remark& fault : faults) {
-    const bool envelope = std::find(envelopes.begin(), envelopes.end(), fault.about) != envelopes.end();
+    const bool envelope = std::ranges::find(envelopes, fault.about) != envelopes.end();
     if (fault.severity == Severity::warning && !envelope)
       warnings.add(fault.code, channel_in(path, fault.about), "channels", fmt::format("{}: {}", path, sentence(fault)));
   }

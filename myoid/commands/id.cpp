@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/arm/arm4.h"
 #include "myoid/commands/stage_input.h"
@@ -12,6 +11,7 @@
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/dynamics/inverse_dynamics.h"
+#include "myoid/study/study_model.h"
 #include "myoid/tables/series_file.h"
 
 namespace myoid::commands {
@@ -25,12 +25,9 @@ model::BodyModel holding(model::BodyModel model, const IdOptions& o) {
     body = "forearm_hand";
     if (p_BP_m.isZero()) p_BP_m = model::arm4_held_at_m();
   }
-  if (body.empty()) {
-    std::vector<std::string> names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i) names.push_back(model.bodies[i].name);
+  if (body.empty())
     throw InvalidInput(fmt::format("--held-mass {} needs --held-body, the body that carries it, one of {}",
-                                   o.held_mass_kg, fmt::join(names, ", ")));
-  }
+                                   o.held_mass_kg, body_names(model)));
   return dynamics::with_held_mass(std::move(model), body, p_BP_m, o.held_mass_kg);
 }
 
@@ -39,8 +36,7 @@ model::BodyModel holding(model::BodyModel model, const IdOptions& o) {
 IdResult id(const IdOptions& o) {
   if (o.cutoff_hz > 0.0 && !(o.speeds.empty() && o.accelerations.empty()))
     throw InvalidInput(
-        "--lowpass smooths angles that are differentiated: leave it out with "
-        "--speeds or --accelerations");
+        "--lowpass smooths angles that are differentiated: leave it out with --speeds or --accelerations");
   Remarks remarks(o.call);
   const model::BodyModel model = holding(load_model(o.model, o.compat, remarks), o);
   const kinematics::JointMotion motion = with_derivatives(load_motion(model, o.motion, o.cutoff_hz, o.call, remarks),

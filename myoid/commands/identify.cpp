@@ -1,7 +1,6 @@
 #include "myoid/commands/identify.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
@@ -40,8 +39,7 @@ StudyData read_data(const IdentifyOptions& o, const MuscleTable& table, Remarks&
 
 /// Returns the fit, and frees in its data the v_max that it freed.
 IdentificationResult with_freed(IdentificationResult fit, const MuscleTable& t, StudyData& data) {
-  if (std::any_of(fit.estimates.begin(), fit.estimates.end(),
-                  [](const auto& e) { return e.parameter == "max_shortening_speed"; }))
+  if (std::ranges::any_of(fit.estimates, [](const auto& e) { return e.parameter == "max_shortening_speed"; }))
     identification::free_speeds(data, t.speed_may_be_free);
   return fit;
 }

@@ -17,8 +17,8 @@ using identification::ParameterRule;
 using identification::StudyData;
 
 bool is_free(const StudyData& data, bool (*about)(const ParameterRule&)) {
-  return std::any_of(data.rules.begin(), data.rules.end(),
-                     [&](const ParameterRule& rule) { return rule.free.value_or(false) && about(rule); });
+  return std::ranges::any_of(data.rules,
+                             [&](const ParameterRule& rule) { return rule.free.value_or(false) && about(rule); });
 }
 
 /// Returns true for a parameter of the joint that acts by its motion.
@@ -52,10 +52,8 @@ void refuse_free_without_motion(const IdentifyOptions& o) {
     if (o.method != "torque")
       throw InvalidInput(fmt::format("--free {}: it is the joint's; use --method torque", name));
     if (field.field != identification::kOffset && o.files.motions.empty())
-      throw InvalidInput(
-          fmt::format("--free {}: it acts by the joint's motion; give its angles with --motion, one "
-                      "file per trial",
-                      name));
+      throw InvalidInput(fmt::format(
+          "--free {}: it acts by the joint's motion; give its angles with --motion, one file per trial", name));
   }
 }
 
@@ -93,12 +91,12 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
   v.path("muscles", o.muscles,
          {.says = "[muscles.csv](#musclescsv): the muscles and their starting values, SI.", .required = "muscles.csv"});
   v.texts("activations", o.files.activations,
-          {.says = "Activations, 0 to 1, in columns named by muscle, or by the column `emg` of "
-                   "muscles.csv; one file per trial. They may have a clock of their own.",
+          {.says = "Activations, 0 to 1, in columns named by muscle, or by the column `emg` of muscles.csv; one file "
+                   "per trial. They may have a clock of their own.",
            .required = "a file per trial"});
   v.texts("lengths", o.files.lengths,
-          {.says = "Musculotendon lengths [m], or fiber lengths where `tendon_slack_length` is 0 "
-                   "or absent; one file per trial.",
+          {.says = "Musculotendon lengths [m], or fiber lengths where `tendon_slack_length` is 0 or absent; one file "
+                   "per trial.",
            .required = "a file per trial"});
   v.texts("velocities", o.files.velocities,
           {.says = "Rates of these lengths [m/s], lengthening positive.",
@@ -107,21 +105,18 @@ void visit_files(IdentifyOptions& o, SettingVisitor& v) {
       "forces", o.files.forces,
       {.says = "Muscle forces [N], in columns named by muscle.", .otherwise = "none; `paper` and `force` need them"});
   v.texts("moment-arms", o.files.moment_arms,
-          {.says = "Moment arms r = −dl/dq [m], in columns named by muscle; a file for each "
-                   "coordinate of each trial.",
+          {.says = "Moment arms r = −dl/dq [m], in columns named by muscle; a file for each coordinate of each trial.",
            .otherwise = "none; `torque` needs them"});
   v.texts(
       "torques", o.files.torques,
       {.says = "The joint torque that the muscles provide together [N m].", .otherwise = "none; `torque` needs them"});
   v.texts("coordinate", o.files.coordinates,
-          {.says = "Columns of the torque file, with or without `_moment`. Several joints are "
-                   "fitted at once: `--moment-arms` then has the first trial's files in this "
-                   "order, then the next trial's.",
+          {.says = "Columns of the torque file, with or without `_moment`. Several joints are fitted at once: "
+                   "`--moment-arms` then has the first trial's files in this order, then the next trial's.",
            .otherwise = "the only column"});
   v.texts("motion", o.files.motions,
-          {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), "
-                   "differentiated by the quintic spline through them: for `--free "
-                   "joint_viscosity`, `joint_inertia`, `joint_stiffness`.",
+          {.says = "Joint angles (`.mot`, `.sto`; columns as `--coordinate`, or the only one), differentiated by the "
+                   "quintic spline through them: for `--free joint_viscosity`, `joint_inertia`, `joint_stiffness`.",
            .otherwise = "none"});
   v.number("lowpass", o.files.motion_cutoff_hz,
            {.says = "The angles of `--motion` are smoothed, −3 dB at this frequency.",
@@ -134,72 +129,70 @@ void visit_law(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kMethods[] = {"torque", "force", "paper"};
   static constexpr std::string_view kLags[] = {"automatic", "delay", "shared"};
   v.text("method", o.method,
-         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle, both "
-                  "branches at once, against its own force; `paper`: each branch alone, as "
-                  "published.",
+         {.says = "`torque`: all muscles against the joint's torque; `force`: each muscle, both branches at once, "
+                  "against its own force; `paper`: each branch alone, as published.",
           .words = kMethods});
   v.number("delay", o.delay_s,
            {.says = "The EMG delay is held at this (`force`, `torque`).",
             .limits = within(0.0, 0.3, "s"),
             .otherwise = "estimated"});
-  v.text("lag", o.lag,
-         {.says = "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is "
-                  "the envelope of `emg_delay` ago; `shared`: the mean delay is split into a pure "
-                  "delay and the lags of excitation and activation, which damp fast changes; "
-                  "`automatic`: the one that the data prefer "
-                  "([how](../theory/identification.md)).",
-          .otherwise = "`automatic` for `torque`, else `delay`",
-          .words = kLags});
+  v.text(
+      "lag", o.lag,
+      {.says =
+           "How muscles follow their EMG (`force`, `torque`). `delay`: the activation is the envelope of `emg_delay` "
+           "ago; `shared`: the mean delay is split into a pure delay and the lags of excitation and activation, which "
+           "damp fast changes; `automatic`: the one that the data prefer ([how](../theory/identification.md)).",
+       .otherwise = "`automatic` for `torque`, else `delay`",
+       .words = kLags});
   v.flag("no-priors", o.no_priors, {.says = "The data alone, plain least squares (`force`, `torque`)."});
   v.texts("free", o.free_more,
-          {.says = "Further parameters to identify, of all muscles, channels or the joint, by "
-                   "comma: `emg_shape,length_activation`.",
+          {.says = "Further parameters to identify, of all muscles, channels or the joint, by comma: "
+                   "`emg_shape,length_activation`.",
            .otherwise = "none"});
 }
 
 /// Visits the fit and the certainty of its result.
 void visit_fit(IdentifyOptions& o, SettingVisitor& v) {
   static constexpr std::string_view kFolds[] = {"trial", "block", "none"};
-  v.number("residual-cutoff", o.residual_hz,
-           {.says = "Both sides of the residual are low-passed here (`force`, `torque`): the noise "
-                    "of an EMG envelope reaches to higher frequencies than the differences "
-                    "between muscles. 0: not at all, for activations that are known.",
-            .limits = within(0.0, 1000.0, "Hz")});
+  v.number(
+      "residual-cutoff", o.residual_hz,
+      {.says =
+           "Both sides of the residual are low-passed here (`force`, `torque`): the noise of an EMG envelope reaches "
+           "to higher frequencies than the differences between muscles. 0: not at all, for activations that are known.",
+       .limits = within(0.0, 1000.0, "Hz")});
   v.number("max-rate", o.max_rate_hz,
-           {.says = "Samples are thinned to at most this (`force`, `torque`), as by "
-                    "[`max_rate_hz`](study.md) of a study; data without noise to 200 Hz.",
+           {.says = "Samples are thinned to at most this (`force`, `torque`), as by [`max_rate_hz`](study.md) of a "
+                    "study; data without noise to 200 Hz.",
             .limits = within(5.0, 2000.0, "Hz")});
-  v.text("estimator", o.estimator,
-         {.says = "Of method `torque`: `least_squares`, or `posterior`, whose intervals also hold "
-                  "moment arms, tendons, the scale of the torque, cross-talk and drift, which "
-                  "residuals do not show ([how](../theory/posterior.md)).",
-          .words = choice_names(identification::EstimatorKind{})});
+  v.text(
+      "estimator", o.estimator,
+      {.says =
+           "Of method `torque`: `least_squares`, or `posterior`, whose intervals also hold moment arms, tendons, the "
+           "scale of the torque, cross-talk and drift, which residuals do not show ([how](../theory/posterior.md)).",
+       .words = choice_names(identification::EstimatorKind{})});
   v.count("posterior-draws", o.posterior_draws,
-          {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the "
-                   "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
-                   "none.",
+          {.says = "Of estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of "
+                   "an approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
   v.text("loss", o.loss, {.says = "How much a large residual counts.", .words = choice_names(identification::Loss{})});
   v.count("bootstrap", o.bootstrap,
           {.says = "Bootstrap replicates, a second route to the intervals; 0: none.", .limits = within(0, 100000)});
   v.flag("profile", o.profile, {.says = "Profile likelihood of every parameter, a third route to the intervals."});
   v.flag("compare-solvers", o.compare_solvers,
-         {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the "
-                  "same starts: [which solver](#which-solver). Also writes `solvers.csv`."});
+         {.says = "Gauss–Newton, Levenberg–Marquardt, simplex and simulated annealing from the same starts: [which "
+                  "solver](#which-solver). Also writes `solvers.csv`."});
   v.count("starts", o.starts,
-          {.says = "Starts of the search: the given one and [Sobol points about "
-                   "it](#starts-of-the-search), with a table of the minima they reach.",
+          {.says = "Starts of the search: the given one and [Sobol points about it](#starts-of-the-search), with a "
+                   "table of the minima they reach.",
            .limits = within(1, 1000),
            .otherwise = "1; of `--compare-solvers` 3"});
   v.text("folds", o.folds,
-         {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a "
-                  "`trial`; a `block`, a fifth of every trial of 3.3 s or more with half a second "
-                  "on either side; or `none`.",
+         {.says = "The part that is left out of the fit and predicted (`force`, `torque`): a `trial`; a `block`, a "
+                  "fifth of every trial of 3.3 s or more with half a second on either side; or `none`.",
           .words = kFolds});
   v.texts("validate", o.files.held_back,
-          {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its "
-                   "file of lengths, or that file's name without ending. Written as "
-                   "[`predict`](predict.md) writes them.",
+          {.says = "Trials that are not fitted but predicted (`torque`), each by its number, its file of lengths, or "
+                   "that file's name without ending. Written as [`predict`](predict.md) writes them.",
            .otherwise = "none"});
 }
 
@@ -219,21 +212,20 @@ void check_values(const IdentifyOptions& options) {
 
 void refuse_impossible(const IdentifyOptions& o, const MuscleTable& table) {
   if (const auto asked = beyond_the_paper(o, table); o.method == "paper" && !asked.empty()) {
-    throw InvalidInput(
-        fmt::format("{}: the published method has none of it; leave it out, or use --method force, "
-                    "which fits the same forces",
-                    fmt::join(asked, ", ")));
+    throw InvalidInput(fmt::format(
+        "{}: the published method has none of it; leave it out, or use --method force, which fits the same forces",
+        fmt::join(asked, ", ")));
   }
   if (o.method == "force" && o.lag == "automatic") {
     throw InvalidInput(
-        "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; "
-        "give --lag delay or shared, or use --method torque");
+        "--lag automatic: method force fits each muscle alone, and all follow their EMG alike; give --lag delay or "
+        "shared, or use --method torque");
   }
   // Samples hold frequencies well below half of their rate.
   if (o.method != "paper" && o.residual_hz >= 0.45 * o.max_rate_hz)
     throw InvalidInput(
-        fmt::format("--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; "
-                    "give --max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
+        fmt::format("--residual-cutoff {0}: samples are thinned to {1} Hz, which holds less than {2:.3g} Hz; give "
+                    "--max-rate {3:.0f}, or --residual-cutoff 0 for no low-pass",
                     o.residual_hz, o.max_rate_hz, 0.45 * o.max_rate_hz, std::ceil(o.residual_hz / 0.4)));
   if (o.files.motion_cutoff_hz && o.files.motions.empty())
     throw InvalidInput("--lowpass smooths the angles of --motion, which is not given");
@@ -267,19 +259,18 @@ identification::EstimatorOptions estimator_options(const IdentifyOptions& o, con
   identification::EstimatorSettings settings = settings_of(o);
   if (!o.files.motions.empty() && !is_free(data, is_about_motion))
     remarks.warn(
-        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be "
-        "identified (--free)");
+        "--motion has no effect: no joint_viscosity, joint_inertia or joint_stiffness is to be identified (--free)");
   if (is_free(data, is_about_lags)) {
     if (!o.lag.empty()) {
       throw InvalidInput(
-          fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third "
-                      "way to follow the EMG; leave one of both out",
+          fmt::format("--lag {}: the lags of equation (1) are to be identified, which is a third way to follow the "
+                      "EMG; leave one of both out",
                       o.lag));
     }
     settings.lag = identification::LagChoice::equation_1;
     remarks.warn(
-        "the lags of equation (1) are to be identified: the activations given are taken for "
-        "excitations that pass them, and the delay is the time that is left beside them");
+        "the lags of equation (1) are to be identified: the activations given are taken for excitations that pass "
+        "them, and the delay is the time that is left beside them");
   }
   return identification::estimator_options(settings, {}, o.call.progress);
 }

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "myoid/commands/muscle_input.h"
-#include "myoid/commands/muscle_options.h"
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 

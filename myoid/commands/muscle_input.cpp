@@ -1,8 +1,10 @@
 #include "myoid/commands/muscle_input.h"
 
 #include <charconv>
+#include <ranges>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
@@ -25,16 +27,15 @@ void check_length(const Eigen::VectorXd& length_m, const muscle::MuscleFile& fil
   if (length_m.size() == 0) return;
   if (!(length_m.minCoeff() > 0.0)) {
     throw InvalidInput(
-        fmt::format("{}: the muscle would be {:g} m long; expected a positive length "
-                    "in m (see --scale and --offset)",
+        fmt::format("{}: the muscle would be {:g} m long; expected a positive length in m (see --scale and --offset)",
                     path, length_m.minCoeff()));
   }
   const double usual_m = file.parameters.hill.optimal_fiber_length_m + file.parameters.hill.tendon_slack_length_m;
   // No muscle shortens to a third or lengthens to the triple of fiber and tendon at rest.
   if (length_m.maxCoeff() > 3.0 * usual_m || length_m.minCoeff() < 0.3 * usual_m) {
     throw InvalidInput(
-        fmt::format("{}: the length goes from {:g} to {:g} m, fiber and tendon together are about {:g} m; "
-                    "expected meters (see --scale and --offset), and not the file of forces",
+        fmt::format("{}: the length goes from {:g} to {:g} m, fiber and tendon together are about {:g} m; expected "
+                    "meters (see --scale and --offset), and not the file of forces",
                     path, length_m.minCoeff(), length_m.maxCoeff(), usual_m));
   }
 }
@@ -63,8 +64,8 @@ Column read_column(const std::string& path, const std::string& wanted, Remarks& 
   const recording::SeriesFile file = recording::read_series(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries& series = file.data;
-  std::string names;
-  for (const Channel& channel : series.channels()) names += (names.empty() ? "" : ", ") + channel.name;
+  const std::string names =
+      fmt::format("{}", fmt::join(std::views::transform(series.channels(), &Channel::name), ", "));
   if (wanted.empty() && series.channel_count() != 1) {
     throw ReadError(path, 0, fmt::format("has the columns {}: choose one with --column", names));
   }

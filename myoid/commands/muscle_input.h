@@ -3,8 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "myoid/commands/muscle_options.h"
-#include "myoid/muscle/isolated_muscle.h"
+#include "myoid/commands/muscle.h"
 #include "myoid/muscle/muscle_file.h"
 
 namespace myoid::commands {

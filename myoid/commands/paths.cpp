@@ -30,10 +30,9 @@ void tell_errors(const std::vector<PathSurrogate>& surrogates, const std::string
     length_mm = std::max(length_mm, 1e3 * s.length_error_m);
     arm_mm = std::max(arm_mm, 1e3 * s.arm_error_m);
   }
-  remarks.note(
-      fmt::format("{}: polynomials for {} of {} muscles, errors at most {:.2g} mm in length and {:.2g} mm in "
-                  "moment arm",
-                  path, surrogates.size() - outside.size(), surrogates.size(), length_mm, arm_mm));
+  remarks.note(fmt::format(
+      "{}: polynomials for {} of {} muscles, errors at most {:.2g} mm in length and {:.2g} mm in moment arm", path,
+      surrogates.size() - outside.size(), surrogates.size(), length_mm, arm_mm));
   if (!outside.empty()) {
     remarks.warn(
         fmt::format("no polynomial is within tolerance for {}; their paths are computed", fmt::join(outside, ", ")));

@@ -19,8 +19,8 @@ namespace {
 
 /// Reports the faults of recordings and trials and the repairs of files; returns the count of repairs.
 std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
-  const auto reused = std::count_if(study.trials.begin(), study.trials.end(),
-                                    [](const TrialResult& trial) { return trial.motion.ik_reused; });
+  const auto reused =
+      std::ranges::count_if(study.trials, [](const TrialResult& trial) { return trial.motion.ik_reused; });
   if (reused > 0) remarks.note(fmt::format("inverse kinematics of {} trials reused: same input as before", reused));
   for (const std::string& line : fault_summary(all_faults(study))) remarks.warn(line);
   std::size_t details = 0;
@@ -38,8 +38,8 @@ std::size_t tell_trials(const StudyResult& study, Remarks& remarks) {
 }  // namespace
 
 bool RunResult::failed(bool strict) const {
-  bool failed = std::any_of(gates.begin(), gates.end(),
-                            [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; });
+  bool failed =
+      std::ranges::any_of(gates, [](const report::Gate& gate) { return gate.status == report::GateStatus::fail; });
   for (const identification::IdentificationResult& method : study.fit.methods) {
     if (method.method != "torque") continue;
     failed = failed || method.termination != math::Termination::converged;

@@ -165,8 +165,8 @@ void tell_trouble(const SimulateResult& result, Remarks& remarks) {
   const simulation::Simulation& s = result.simulation;
   if (s.jumps_passed > 0) {
     remarks.warn(
-        fmt::format("{} times the equations jumped, as where the path of a muscle does; each was passed by a "
-                    "step of 1 ns, and energy is not kept there",
+        fmt::format("{} times the equations jumped, as where the path of a muscle does; each was passed by a step of 1 "
+                    "ns, and energy is not kept there",
                     s.jumps_passed));
   }
   if (s.status != math::OdeStatus::done) remarks.warn(fmt::format("not simulated to the end: {}", s.message));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -58,12 +59,10 @@ std::pair<std::string, double> assignment(const std::string& text, std::string_v
 std::size_t index_of(const std::string& name,
                      const std::vector<NamedCoordinate>& coordinates,
                      std::string_view option) {
-  std::string names;
-  for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    if (coordinates[k].name == name) return k;
-    names += (names.empty() ? "" : ", ") + coordinates[k].name;
-  }
-  throw InvalidInput(fmt::format("{} {}: the model has no such coordinate; there are {}", option, name, names));
+  const auto found = std::ranges::find(coordinates, name, &NamedCoordinate::name);
+  if (found != coordinates.end()) return static_cast<std::size_t>(found - coordinates.begin());
+  throw InvalidInput(fmt::format("{} {}: the model has no such coordinate; there are {}", option, name,
+                                 fmt::join(std::views::transform(coordinates, &NamedCoordinate::name), ", ")));
 }
 
 }  // namespace
@@ -138,7 +137,7 @@ std::vector<std::string> wanted_parameters(const SimulateOptions& o, const simul
     for (const std::string& name : all) {
       if (text.ends_with('*') ? !name.starts_with(head) : name != text) continue;
       found = true;
-      if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
+      if (std::ranges::find(result, name) == result.end()) result.push_back(name);
     }
     if (!found) {
       throw InvalidInput(fmt::format("--sensitivity {}: no such parameter; there are {}", text, fmt::join(all, ", ")));

@@ -16,9 +16,19 @@
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::commands {
+namespace {
+
+TimeSeries in_si(const recording::Storage& file, const model::BodyModel& model) {
+  return recording::to_si(file, [&](const std::string& name) {
+    const auto c = model.find_coordinate(name);
+    return c && model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
+  });
+}
+
+}  // namespace
 
 void check_word(std::string_view option, const std::string& word, const std::vector<std::string>& words) {
-  if (std::find(words.begin(), words.end(), word) != words.end()) return;
+  if (std::ranges::find(words, word) != words.end()) return;
   throw InvalidInput(fmt::format("{} '{}': expected one of {}", option, word, fmt::join(words, ", ")));
 }
 
@@ -39,8 +49,8 @@ void warn_of_path_differences(const model::BodyModel& model, const std::string& 
   }
   if (count == 0) return;
   remarks.warn(
-      fmt::format("{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim "
-                  "4.5.2; `myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
+      fmt::format("{}: {} of {} muscles ({}{}) are somewhere more than 1 mm longer or shorter than in OpenSim 4.5.2; "
+                  "`myoid info {} --compare-compat` lists them, --compat opensim reproduces OpenSim",
                   name, count, model.muscles.size(), worst, count > 3 ? ", ..." : "", name));
 }
 
@@ -90,21 +100,14 @@ kinematics::JointMotion with_derivatives(kinematics::JointMotion motion,
     if (path.empty()) return;
     const recording::Storage file = recording::read_storage(path);
     warn_of_repairs(path, file.repairs, remarks);
-    const TimeSeries given =
-        cut(recording::to_si(file,
-                             [&](const std::string& name) {
-                               const auto c = model.find_coordinate(name);
-                               return c && model.coordinates[static_cast<std::size_t>(*c)].motion ==
-                                               model::MotionType::rotational;
-                             }),
-            call);
+    const TimeSeries given = cut(in_si(file, model), call);
     const Eigen::VectorXd& time_s = derivative.time_s();
     if (given.sample_count() != time_s.size() || (given.time_s() - time_s).cwiseAbs().maxCoeff() > 1e-9) {
-      throw ReadError(path, 0,
-                      fmt::format("has {} samples from {} to {} s; expected the times of the motion, "
-                                  "{} samples from {} to {} s",
-                                  given.sample_count(), given.time_s()[0], given.time_s()[given.sample_count() - 1],
-                                  time_s.size(), time_s[0], time_s[time_s.size() - 1]));
+      throw ReadError(
+          path, 0,
+          fmt::format("has {} samples from {} to {} s; expected the times of the motion, {} samples from {} to {} s",
+                      given.sample_count(), given.time_s()[0], given.time_s()[given.sample_count() - 1], time_s.size(),
+                      time_s[0], time_s[time_s.size() - 1]));
     }
     Eigen::MatrixXd values = derivative.values();
     bool any = false;
@@ -129,18 +132,14 @@ kinematics::JointMotion load_motion(const model::BodyModel& model,
                                     Remarks& remarks) {
   const recording::Storage file = recording::read_storage(path);
   warn_of_repairs(path, file.repairs, remarks);
-  const TimeSeries q = recording::to_si(file, [&](const std::string& name) {
-    const auto c = model.find_coordinate(name);
-    return c && model.coordinates[static_cast<std::size_t>(*c)].motion == model::MotionType::rotational;
-  });
+  const TimeSeries q = in_si(file, model);
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, q); !doubt.empty()) remarks.warn(doubt);
   const Stretch asked{call.start_s.value_or(-1e300), call.end_s.value_or(1e300)};
   for (const signals::MotionJump& jump : signals::find_motion_jumps(q, asked))
     remarks.warn(fmt::format("{}: {}", path.string(), jump.sentence()));
   if (const signals::ClockGaps gaps = signals::find_clock_gaps(q.time_s()); gaps.count > 0)
     remarks.warn(
-        fmt::format("{}: {}; a spline bridges the gaps, and its derivatives "
-                    "beside a gap are not to be relied on",
+        fmt::format("{}: {}; a spline bridges the gaps, and its derivatives beside a gap are not to be relied on",
                     path.string(), gaps.text()));
   kinematics::MotionOptions options;
   if (cutoff_hz > 0.0) {
@@ -165,8 +164,8 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
   const Eigen::VectorXd& time_s = motion.q.time_s();
   if (time_s[0] < loads.start_s - 1e-3 || time_s[time_s.size() - 1] > loads.end_s + 1e-3) {
     remarks.warn(
-        fmt::format("{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they "
-                    "are guessed by straight lines",
+        fmt::format("{}: the loads are known from {} to {} s, the motion goes from {} to {} s; beyond, they are "
+                    "guessed by straight lines",
                     path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
   return loads;

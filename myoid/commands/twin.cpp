@@ -23,10 +23,9 @@ twin::Protocol protocol_of(const TwinOptions& o) {
   twin::set_truth(protocol, o.truth);
   protocol.seven_heads = o.model == "arm7";
   if (protocol.seven_heads && protocol.level != twin::Level::different) {
-    throw InvalidInput(
-        fmt::format("--model arm7 with level {}: only a person at level L2 has seven heads; add "
-                    "--level L2 or choose arm4",
-                    choice_name(protocol.level)));
+    throw InvalidInput(fmt::format(
+        "--model arm7 with level {}: only a person at level L2 has seven heads; add --level L2 or choose arm4",
+        choice_name(protocol.level)));
   }
   return protocol;
 }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
 #include "myoid/intervals/identifiability.h"
@@ -17,6 +21,16 @@ namespace myoid {
 
 using identification::ParameterEstimate;
 using identification::Unknown;
+
+namespace {
+
+/// Returns the owner and the parameter of "BIC.optimal_fiber_length".
+std::pair<std::string, std::string> split_label(const std::string& label) {
+  const std::size_t dot = label.find('.');
+  return {label.substr(0, dot), label.substr(dot + 1)};
+}
+
+}  // namespace
 
 Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<EarlierRun>& earlier) {
   const auto p = static_cast<Eigen::Index>(free.size());
@@ -31,8 +45,7 @@ Knowledge knowledge_of(const std::vector<Unknown>& free, const std::optional<Ear
   if (earlier) {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
     for (Eigen::Index j = 0; j < p; ++j) {
-      const auto it =
-          std::find(earlier->parameters.begin(), earlier->parameters.end(), free[static_cast<std::size_t>(j)].label);
+      const auto it = std::ranges::find(earlier->parameters, free[static_cast<std::size_t>(j)].label);
       if (it == earlier->parameters.end()) continue;
       const Eigen::Index from = it - earlier->parameters.begin();
       if (std::isfinite(earlier->estimate[from])) pairs.emplace_back(j, from);
@@ -78,40 +91,29 @@ std::vector<Eigen::VectorXd> draw_persons(const std::vector<Unknown>& free,
 
 std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free, const std::vector<std::string>& wanted) {
   std::vector<Eigen::Index> targets;
+  std::set<std::string> known{"all"};
   for (std::size_t j = 0; j < free.size(); ++j) {
-    const std::string& label = free[j].label;
-    const std::size_t dot = label.find('.');
-    const std::string owner = label.substr(0, dot);
-    const std::string parameter = label.substr(dot + 1);
+    const auto [owner, parameter] = split_label(free[j].label);
+    known.insert({free[j].label, owner, parameter});
     // A nuisance is free so that the others include its uncertainty; if named, it is a target, too.
     const bool nuisance = free[j].field->name == "emg_gain" || free[j].field->name == "max_shortening_speed";
-    for (const std::string& w : wanted) {
-      if (w == label || w == owner || w == parameter || (w == "all" && !nuisance)) {
-        targets.push_back(static_cast<Eigen::Index>(j));
-        break;
-      }
-    }
+    const auto names_it = [&, &owner = owner, &parameter = parameter](const std::string& w) {
+      return w == free[j].label || w == owner || w == parameter || (w == "all" && !nuisance);
+    };
+    if (std::ranges::any_of(wanted, names_it)) targets.push_back(static_cast<Eigen::Index>(j));
   }
   for (const std::string& w : wanted) {
-    const bool known = w == "all" || std::any_of(free.begin(), free.end(), [&](const auto& f) {
-                         const std::size_t dot = f.label.find('.');
-                         return f.label == w || f.label.substr(0, dot) == w || f.label.substr(dot + 1) == w;
-                       });
-    if (known) continue;
-    std::string names;
-    for (const Unknown& f : free) names += (names.empty() ? "" : ", ") + f.label;
+    if (known.contains(w)) continue;
     throw InvalidInput(
-        fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are "
-                    "{}",
-                    w, names));
+        fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are {}", w,
+                    fmt::join(std::views::transform(free, &Unknown::label), ", ")));
   }
   return targets;
 }
 
 const ParameterEstimate* found_by(const std::optional<EarlierRun>& earlier, const Unknown& f) {
   if (!earlier) return nullptr;
-  const std::size_t dot = f.label.find('.');
-  const std::string owners = f.label.substr(0, dot);
+  const std::string owners = split_label(f.label).first;
   const std::string owner = owners.substr(0, owners.find('+'));
   for (const ParameterEstimate& e : earlier->estimates) {
     if ((e.muscle == owner || e.muscle == owners) && e.parameter == f.field->name && e.ci_low && e.ci_high &&
@@ -126,9 +128,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
                                     const std::vector<identification::MuscleSetup>& muscles) {
   const auto& [mean, sd, prior_sd, model_error, found, ratio] = expectation;
   ParameterEstimate e;
-  const std::size_t dot = f.label.find('.');
-  e.muscle = f.label.substr(0, dot);
-  e.parameter = f.label.substr(dot + 1);
+  std::tie(e.muscle, e.parameter) = split_label(f.label);
   e.unit = f.field->unit;
   e.method = "torque";
   e.fit_case = "both";
@@ -148,7 +148,7 @@ ParameterEstimate expected_estimate(const Unknown& f,
   e.prior_sd = f.field->logarithmic ? e.estimate * prior_sd : prior_sd;
   e.shrinkage = 1.0 - sd * sd / (prior_sd * prior_sd);
   identification::VerdictContext context{.model_error = model_error};
-  const auto own = std::find_if(muscles.begin(), muscles.end(), [&](const auto& m) { return m.name == e.muscle; });
+  const auto own = std::ranges::find_if(muscles, [&](const auto& m) { return m.name == e.muscle; });
   for (const identification::MuscleSetup& other : muscles) {
     if (own != muscles.end() && other.name != own->name && other.emg_channel == own->emg_channel)
       context.shares_electrode_with = other.name;

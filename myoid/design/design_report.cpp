@@ -1,7 +1,5 @@
 #include "myoid/design/design_report.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 namespace myoid {
@@ -48,12 +46,12 @@ report::Table plan_table(const DesignStudyResult& design) {
 }
 
 report::Table targets_table(const DesignStudyResult& design) {
-  report::Table table{"next_recording_targets",
-                      "What they would tell",
-                      "Half 95 % interval now and after all of the movements above, and the verdict "
-                      "that may then be expected.",
-                      {"muscle", "parameter", "now", "then", "verdict then"},
-                      {}};
+  report::Table table{
+      "next_recording_targets",
+      "What they would tell",
+      "Half 95 % interval now and after all of the movements above, and the verdict that may then be expected.",
+      {"muscle", "parameter", "now", "then", "verdict then"},
+      {}};
   const std::vector<ParameterEstimate>& then = design.plan.back().expected;
   for (std::size_t t = 0; t < then.size(); ++t) {
     table.rows.push_back({{then[t].muscle},
@@ -71,16 +69,14 @@ report::Section next_recording_section(const DesignStudyResult& design) {
   report::Section section{"next", "What to record next", {}, {}, {}, {}};
   if (design.plan.empty()) {
     section.paragraphs.push_back(
-        "No movement of the catalogue is within the strength that this recording makes certain, or "
-        "none tells anything new: record the greatest efforts (MVC) first.");
+        "No movement of the catalogue is within the strength that this recording makes certain, or none tells anything "
+        "new: record the greatest efforts (MVC) first.");
     return section;
   }
   section.paragraphs.push_back(
-      "Expected with the noise and the results of this recording. Errors of the model "
-      "itself "
-      "are not in these expectations. Isometric efforts need a measured torque (a dynamometer, or "
-      "a "
-      "load cell at a known distance). `myoid design` asks for other targets, masses and devices.");
+      "Expected with the noise and the results of this recording. Errors of the model itself are not in these "
+      "expectations. Isometric efforts need a measured torque (a dynamometer, or a load cell at a known distance). "
+      "`myoid design` asks for other targets, masses and devices.");
   section.tables.push_back(plan_table(design));
   section.tables.push_back(targets_table(design));
   return section;

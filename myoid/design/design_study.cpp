@@ -135,8 +135,8 @@ using Information = std::function<Eigen::MatrixXd(const TrialData& trial, const 
 
 /// Returns true if the earlier run is by the posterior.
 bool has_shares(const std::optional<EarlierRun>& earlier) {
-  return earlier && std::any_of(earlier->estimates.begin(), earlier->estimates.end(),
-                                [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
+  return earlier && std::ranges::any_of(earlier->estimates,
+                                        [](const ParameterEstimate& e) { return e.variance_shares.has_value(); });
 }
 
 /// Returns the errors for a plan by the posterior: the earlier run's; else the options' noise, and
@@ -307,9 +307,8 @@ double relative_half_width(const ParameterEstimate& estimate) {
 }
 
 int identified_count(const std::vector<ParameterEstimate>& estimates) {
-  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(), [](const auto& e) {
-    return e.verdict == identification::Verdict::identified;
-  }));
+  return static_cast<int>(
+      std::ranges::count_if(estimates, [](const auto& e) { return e.verdict == identification::Verdict::identified; }));
 }
 
 double median_half_width(const std::vector<ParameterEstimate>& estimates) {

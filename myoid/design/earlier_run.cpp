@@ -21,9 +21,8 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "parameters.json";
   std::ifstream stream(file);
   if (!stream)
-    throw ReadError(file, 0,
-                    "there is no such file; --after must name the folder of a finished "
-                    "`myoid run` or `myoid identify`");
+    throw ReadError(
+        file, 0, "there is no such file; --after must name the folder of a finished `myoid run` or `myoid identify`");
   try {
     const nlohmann::json all = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}));
     for (const nlohmann::json& method : all.at("methods")) {
@@ -41,7 +40,7 @@ EarlierRun read_earlier_run(const std::filesystem::path& folder) {
       for (const nlohmann::json& e : method.at("estimates")) {
         const std::string label = e.at("muscle").get<std::string>() + "." + e.at("parameter").get<std::string>();
         if (auto row = identification::estimate_of_json(e)) run.estimates.push_back(std::move(*row));
-        const auto it = std::find(run.parameters.begin(), run.parameters.end(), label);
+        const auto it = std::ranges::find(run.parameters, label);
         if (it == run.parameters.end()) continue;
         run.estimate[it - run.parameters.begin()] = e.at("estimate").get<double>();
       }
@@ -67,7 +66,7 @@ EarlierRun earlier_run(const identification::IdentificationResult& fit) {
       .model_error = fit.model_error,
       .estimates = fit.estimates};
   for (const ParameterEstimate& e : fit.estimates) {
-    const auto it = std::find(run.parameters.begin(), run.parameters.end(), e.muscle + "." + e.parameter);
+    const auto it = std::ranges::find(run.parameters, e.muscle + "." + e.parameter);
     if (it != run.parameters.end()) run.estimate[it - run.parameters.begin()] = e.estimate;
   }
   return run;

@@ -85,7 +85,7 @@ double positive_part(double x, double e) { return 0.5 * (x + std::sqrt(x * x + e
 std::vector<std::string> channels_of(const std::vector<identification::MuscleSetup>& muscles) {
   std::vector<std::string> channels;
   for (const identification::MuscleSetup& m : muscles) {
-    if (std::find(channels.begin(), channels.end(), m.emg_channel) == channels.end()) channels.push_back(m.emg_channel);
+    if (std::ranges::find(channels, m.emg_channel) == channels.end()) channels.push_back(m.emg_channel);
   }
   return channels;
 }
@@ -226,8 +226,8 @@ MovementModels movement_models(const Study& study, const model::BodyModel& given
     const bool as_given = !built_in || horizontal == study.model.horizontal;
     model::BodyModel model = as_given ? given : load_model(posed);
     std::erase_if(model.muscles, [&](const model::Muscle& muscle) {
-      return std::none_of(study.muscles.begin(), study.muscles.end(), [&](const MuscleSpec& spec) {
-        return std::find(spec.osim.begin(), spec.osim.end(), muscle.name) != spec.osim.end();
+      return std::ranges::none_of(study.muscles, [&](const MuscleSpec& spec) {
+        return std::ranges::find(spec.osim, muscle.name) != spec.osim.end();
       });
     });
     return model;
@@ -367,8 +367,7 @@ std::optional<identification::TrialData> perform(const MovementCourse& course,
   const std::vector<std::string> channels = channels_of(muscles);
   std::vector<std::size_t> channel_of;
   for (const identification::MuscleSetup& setup : muscles) {
-    channel_of.push_back(
-        static_cast<std::size_t>(std::find(channels.begin(), channels.end(), setup.emg_channel) - channels.begin()));
+    channel_of.push_back(static_cast<std::size_t>(std::ranges::find(channels, setup.emg_channel) - channels.begin()));
   }
   std::vector<Share> shares;
   const std::string description = course.movement.description();

@@ -1,7 +1,6 @@
 #include "myoid/draft/channel_muscles.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -96,8 +95,7 @@ Name name_of(std::string_view text) {
       name.side = 'r';
     } else if (word == "l" || word == "lt" || word == "left") {
       name.side = 'l';
-    } else if (!std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }) ||
-               !name.letters.empty()) {
+    } else if (!std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; }) || !name.letters.empty()) {
       name.letters += word;
     }
   }
@@ -105,7 +103,7 @@ Name name_of(std::string_view text) {
 }
 
 bool begins_with_any(const std::string& text, const std::vector<std::string_view>& words, bool whole_if_short) {
-  return std::any_of(words.begin(), words.end(), [&](std::string_view w) {
+  return std::ranges::any_of(words, [&](std::string_view w) {
     if (whole_if_short && w.size() <= 2) return text == w;
     return text.starts_with(w);
   });

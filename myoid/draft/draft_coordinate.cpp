@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 4> kUsual{"elbowflex", "elbow", "kneeangl
 
 std::size_t rank(const std::string& coordinate) {
   const std::string plain = recording::plain_label(coordinate);
-  const auto found = std::find_if(kUsual.begin(), kUsual.end(),
-                                  [&](std::string_view word) { return plain.find(word) != std::string::npos; });
+  const auto found =
+      std::ranges::find_if(kUsual, [&](std::string_view word) { return plain.find(word) != std::string::npos; });
   return static_cast<std::size_t>(found - kUsual.begin());
 }
 
@@ -52,8 +52,7 @@ std::vector<std::string> movers(const model::BodyModel& model, const std::string
 bool is_usual(const std::string& coordinate) { return rank(coordinate) < kUsual.size(); }
 
 std::vector<std::string> usual_first(std::vector<std::string> coordinates) {
-  std::stable_sort(coordinates.begin(), coordinates.end(),
-                   [](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(coordinates, [](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
   return coordinates;
 }
 

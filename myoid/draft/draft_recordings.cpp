@@ -109,7 +109,7 @@ fs::path loads_data_file(const fs::path& external_loads) {
   if (!document.load_file(external_loads.c_str())) return {};
   const pugi::xml_node loads = document.document_element().child("ExternalLoads");
   std::string name(recording::trim(loads.child("datafile").text().get()));
-  std::replace(name.begin(), name.end(), '\\', '/');
+  std::ranges::replace(name, '\\', '/');
   return name.empty() ? fs::path() : external_loads.parent_path() / name;
 }
 
@@ -134,9 +134,9 @@ std::vector<fs::path> recordings_in(const std::vector<fs::path>& from, FoundBesi
       if (recording::is_recording(*format) && !is_bids_description(it->path())) files.push_back(it->path());
     }
   }
-  std::sort(files.begin(), files.end());
-  std::sort(beside.models.begin(), beside.models.end());
-  std::sort(beside.external_loads.begin(), beside.external_loads.end());
+  std::ranges::sort(files);
+  std::ranges::sort(beside.models);
+  std::ranges::sort(beside.external_loads);
   return files;
 }
 

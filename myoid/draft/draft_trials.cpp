@@ -35,7 +35,7 @@ void held_mass(const std::string& stem, bool own_model, DraftText& out) {
                        stem[begin - 1] == 'p'))
     --begin;
   std::string number = stem.substr(begin, at - begin);
-  std::replace(number.begin(), number.end(), 'p', '.');
+  std::ranges::replace(number, 'p', '.');
   const auto mass = recording::parse_number(number);
   if (!mass || !(*mass > 0.0 && *mass <= 100.0)) return;
   out.todo(fmt::format("the name says {} kg: held in the hand?{}", *mass,
@@ -97,10 +97,8 @@ class TrialWriter {
       if (trial_stem(loads) == f.stem) out_.line("external_loads = " + in_quotes(around_.relative(loads)));
     }
     if (f.plates > 0) {
-      out_.line(
-          fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the "
-                      "person stood on them",
-                      f.plates));
+      out_.line(fmt::format("# force_plates = {{ bodies = \"auto\" }}   # {} in this file, if the person stood on them",
+                            f.plates));
     }
     held_mass(f.stem, around_.own_model, out_);
     out_.line("");
@@ -110,10 +108,9 @@ class TrialWriter {
   void emg_trial(const FoundRecording& f) {
     const bool mvc = guessed_use(f.stem) == "mvc";
     if (!mvc)
-      out_.todo(
-          fmt::format("'{}' has EMG and no motion: give it markers or motion; or take the # away if "
-                      "it is a maximal contraction",
-                      f.path.filename().string()));
+      out_.todo(fmt::format(
+          "'{}' has EMG and no motion: give it markers or motion; or take the # away if it is a maximal contraction",
+          f.path.filename().string()));
     const std::string remark = mvc ? "" : "# ";
     out_.line(remark + "[[trial]]");
     out_.line(remark + "name = " + in_quotes(unique(f.stem)));
@@ -124,9 +121,7 @@ class TrialWriter {
 
   void clocks() {
     out_.line("");
-    out_.line(
-        "# EMG and motion are in different files. If they did not start together, or their "
-        "clocks run");
+    out_.line("# EMG and motion are in different files. If they did not start together, or their clocks run");
     out_.line("# apart, say so (docs/guide/study.md, [sync]):");
     out_.line("# [sync]");
     out_.line("# offset_s = 0.0");
@@ -143,8 +138,7 @@ class TrialWriter {
 }  // namespace
 
 bool starts_from_markers(const FoundRecording& recording, const std::vector<FoundRecording>& found) {
-  return recording.markers.frame_count() > 0 &&
-         std::none_of(found.begin(), found.end(), [&](const FoundRecording& other) {
+  return recording.markers.frame_count() > 0 && std::ranges::none_of(found, [&](const FoundRecording& other) {
            return !other.angles.empty() && other.stem == recording.stem;
          });
 }

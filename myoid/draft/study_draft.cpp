@@ -19,7 +19,6 @@
 #include "myoid/draft/draft_trials.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/label_match.h"
-#include "myoid/files/text_file.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"
@@ -41,7 +40,7 @@ class Draft {
     choose_model(beside.models);
     for (const fs::path& file : files) read(file);
     if (coordinate_.empty()) choose_coordinate();
-    if (std::none_of(found_.begin(), found_.end(), [](const FoundRecording& f) {
+    if (std::ranges::none_of(found_, [](const FoundRecording& f) {
           return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
         })) {
       std::vector<std::string> sources;
@@ -141,8 +140,7 @@ class Draft {
         if (model_.find_marker(name) || match.same.contains(name)) ++known;
       }
       for (const auto& [name, like] : match.similar) {
-        const bool taken =
-            std::any_of(similar_.begin(), similar_.end(), [&](const auto& pair) { return pair.second == like; });
+        const bool taken = std::ranges::any_of(similar_, [&](const auto& pair) { return pair.second == like; });
         if (!taken) similar_.emplace(name, like);
       }
       for (std::string& name : f.markers.names) {
@@ -209,9 +207,7 @@ class Draft {
   }
 
   void markers_table() {
-    if (std::none_of(found_.begin(), found_.end(),
-                     [&](const FoundRecording& f) { return starts_from_markers(f, found_); }))
-      return;
+    if (std::ranges::none_of(found_, [&](const FoundRecording& f) { return starts_from_markers(f, found_); })) return;
     line("[markers]");
     vertical();
     marker_names();
@@ -228,10 +224,9 @@ class Draft {
       line("up = \"y\"");
       return;
     }
-    line(
-        fmt::format("up = \"{}\"   # the model's markers stand upright in the laboratory like this "
-                    "({:.0f} degrees off)",
-                    up_, std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
+    line(fmt::format(
+        "up = \"{}\"   # the model's markers stand upright in the laboratory like this ({:.0f} degrees off)", up_,
+        std::acos(std::clamp(up_cosine_, -1.0, 1.0)) / kDegree));
     if (up_cosine_ < 0.7) todo("that is not upright; is it the right axis?");
     if (!file_up_.empty() && file_up_ != std::string(1, up_))
       todo(fmt::format("by its own words a file has {} up ({}); which is right?", file_up_, file_up_because_));
@@ -244,8 +239,8 @@ class Draft {
         if (names.size() < 40) names.push_back(m.name);
       }
       todo(
-          fmt::format("only {} of the recorded markers are known to the model; its own are {}: "
-                      "rename = {{ FILE = \"MODEL\", ... }}",
+          fmt::format("only {} of the recorded markers are known to the model; its own are {}: rename = {{ FILE = "
+                      "\"MODEL\", ... }}",
                       most_known_, fmt::join(names, ", ")));
     }
     if (similar_.empty()) return;
@@ -259,7 +254,7 @@ class Draft {
     std::vector<std::string> channels;
     for (const FoundRecording& f : found_) {
       for (const std::string& c : f.channels) {
-        if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
+        if (std::ranges::find(channels, c) == channels.end()) channels.push_back(c);
       }
     }
     return channels;
@@ -276,9 +271,7 @@ class Draft {
     line(fmt::format("kind = \"{}\"   # {}", raw ? "raw" : "envelope",
                      raw ? "by how often it goes through its median" : "it changes slowly"));
     if (any_raw && any_envelope)
-      todo(
-          "some files hold raw EMG, others envelopes: a study takes one kind; leave the others "
-          "out");
+      todo("some files hold raw EMG, others envelopes: a study takes one kind; leave the others out");
     if (raw && !unit) {
       todo("the unit of the EMG, where the file does not say: V, mV or uV");
       line("# unit = \"uV\"");
@@ -290,8 +283,8 @@ class Draft {
     const std::vector<std::string> channels = all_channels();
     if (channels.empty())
       todo(
-          "no EMG was found, and a study identifies muscles from EMG; for motion and joint torque "
-          "alone see `myoid ik` and `myoid id`");
+          "no EMG was found, and a study identifies muscles from EMG; for motion and joint torque alone see `myoid ik` "
+          "and `myoid id`");
     const std::vector<std::string> able =
         coordinate_ == "TODO" ? std::vector<std::string>{} : movers(model_, coordinate_);
     std::set<std::string> covered, names;
@@ -320,8 +313,8 @@ class Draft {
       return;
     }
     std::vector<std::string> left;
-    std::copy_if(able.begin(), able.end(), std::back_inserter(left),
-                 [&](const std::string& muscle) { return !covered.contains(muscle); });
+    std::ranges::copy_if(able, std::back_inserter(left),
+                         [&](const std::string& muscle) { return !covered.contains(muscle); });
     if (!left.empty()) without_electrode(left, first);
     if (!unused.empty()) {
       line(fmt::format("# Channels that no muscle about {} takes: {}", coordinate_, fmt::join(unused, ", ")));
@@ -342,8 +335,8 @@ class Draft {
   /// Offers the channel of the muscle `like` to the first of the muscles that have none.
   void without_electrode(const std::vector<std::string>& left, const std::string& like) {
     todo(
-        fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a "
-                    "group, or let them act as another muscle does:",
+        fmt::format("these move {} too, and have no electrode: {}. Leave them out, add them to a group, or let them "
+                    "act as another muscle does:",
                     coordinate_, fmt::join(left, ", ")));
     line("# [[muscle]]");
     line("# name = " + in_quotes(left[0]));
@@ -370,7 +363,7 @@ class Draft {
       line("");
       for (const std::string& note : draft_.notes) {
         std::string flat = note;
-        std::replace(flat.begin(), flat.end(), '\n', ' ');
+        std::ranges::replace(flat, '\n', ' ');
         line("# " + flat);
       }
     }

@@ -20,9 +20,7 @@ using identification::StudyData;
 using identification::TrialData;
 
 /// Remarks on a recording that is in two trials. Computed data may be equal for good reason.
-void compare_trials(const StudyData& data,
-                    const IdentifySources& sources,
-                    const std::function<void(const std::string&)>& remark) {
+void compare_trials(const StudyData& data, const IdentifySources& sources, const TellRemark& remark) {
   constexpr double kAlike = 0.1;
   std::vector<Stretches> activations, lengths;
   for (const TrialData& trial : data.trials) {
@@ -35,13 +33,9 @@ void compare_trials(const StudyData& data,
       const double shared = common_share(activations[a], activations[b]);
       if (shared <= kAlike) continue;
       const bool moved = common_share(lengths[a], lengths[b]) <= kAlike;
-      remark(
-          fmt::format("{}: {:.0f} % of its activations are those of {}{}; was a file named twice "
-                      "by mistake?",
-                      sources.activations[b], 100.0 * shared, sources.activations[a],
-                      moved ? ", but the lengths are others"
-                            : ", and the lengths, too: one "
-                              "effort counts twice"));
+      remark(fmt::format("{}: {:.0f} % of its activations are those of {}{}; was a file named twice by mistake?",
+                         sources.activations[b], 100.0 * shared, sources.activations[a],
+                         moved ? ", but the lengths are others" : ", and the lengths, too: one effort counts twice"));
     }
   }
 }
@@ -51,14 +45,13 @@ void require_something_to_fit(const StudyData& data, const IdentifySources& sour
   const auto nothing = [](const auto& values) { return !(values.cwiseAbs().maxCoeff() > 0.0); };
   const std::string_view remedy = "there is nothing to fit; is it the right file and column, or was the channel off?";
   if (!sources.torque) {
-    if (std::all_of(data.trials.begin(), data.trials.end(),
-                    [&](const TrialData& trial) { return nothing(trial.force_n); }))
+    if (std::ranges::all_of(data.trials, [&](const TrialData& trial) { return nothing(trial.force_n); }))
       throw InvalidInput(fmt::format("{}: every force is 0 in all trials: {}", sources.forces.front(), remedy));
     return;
   }
   for (std::size_t j = 0; j < identification::joint_count(data.trials.front()); ++j) {
-    if (std::all_of(data.trials.begin(), data.trials.end(),
-                    [&](const TrialData& trial) { return nothing(identification::of_joint(trial, j).torque_nm); }))
+    if (std::ranges::all_of(
+            data.trials, [&](const TrialData& trial) { return nothing(identification::of_joint(trial, j).torque_nm); }))
       throw InvalidInput(fmt::format("{}: the torque{} is 0 in all trials: {}", sources.torques.front(),
                                      sources.coordinates.empty() ? "" : fmt::format(" '{}'", sources.coordinates[j]),
                                      remedy));
@@ -66,15 +59,12 @@ void require_something_to_fit(const StudyData& data, const IdentifySources& sour
 }
 
 /// Remarks on activations that never change or are equal: the fit would give the work of one muscle to the others.
-void compare_activations(const StudyData& data,
-                         const IdentifySources& sources,
-                         const std::function<void(const std::string&)>& remark) {
+void compare_activations(const StudyData& data, const IdentifySources& sources, const TellRemark& remark) {
   std::vector<std::string> channels;
   for (const MuscleSetup& muscle : data.muscles) {
-    if (std::find(channels.begin(), channels.end(), muscle.emg_channel) == channels.end())
-      channels.push_back(muscle.emg_channel);
+    if (std::ranges::find(channels, muscle.emg_channel) == channels.end()) channels.push_back(muscle.emg_channel);
   }
-  const auto in_all = [&](const auto& holds) { return std::all_of(data.trials.begin(), data.trials.end(), holds); };
+  const auto in_all = [&](const auto& holds) { return std::ranges::all_of(data.trials, holds); };
   const std::string& file = sources.activations.front();
   for (std::size_t c = 0; c < channels.size(); ++c) {
     if (in_all([&](const TrialData& trial) {
@@ -82,10 +72,8 @@ void compare_activations(const StudyData& data,
           return !(a.maxCoeff() > a.minCoeff());
         })) {
       remark(
-          fmt::format("{}: activation '{}' never changes in any trial: was the electrode connected? The "
-                      "work of its muscles is given to the others; leave them out of muscles.csv only if they "
-                      "were "
-                      "at rest",
+          fmt::format("{}: activation '{}' never changes in any trial: was the electrode connected? The work of its "
+                      "muscles is given to the others; leave them out of muscles.csv only if they were at rest",
                       file, channels[c]));
       continue;
     }
@@ -103,15 +91,13 @@ void compare_activations(const StudyData& data,
 
 void hold_back(const IdentifySources& sources, StudyData& data) {
   for (const std::string& name : sources.held_back) data.trials[trial_named(name, sources.lengths)].calibration = false;
-  if (std::none_of(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return trial.calibration; }))
+  if (std::ranges::none_of(data.trials, [](const TrialData& trial) { return trial.calibration; }))
     throw InvalidInput("--validate names every trial; leave out one at least for the fit");
 }
 
 }  // namespace
 
-StudyData read_identify_data(const IdentifySources& sources,
-                             const MuscleTable& table,
-                             const std::function<void(const std::string&)>& remark) {
+StudyData read_identify_data(const IdentifySources& sources, const MuscleTable& table, const TellRemark& remark) {
   require_counts(sources);
   for (const std::string& note : table.notes) remark(note);
   StudyData data;

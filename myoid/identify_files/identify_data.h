@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "myoid/identification/study_data.h"
 #include "myoid/identify_files/identify_sources.h"
 #include "myoid/identify_files/muscles_csv.h"
@@ -15,6 +12,6 @@ namespace myoid {
 /// number of trials, ReadError for missing columns and files that do not overlap, and as `check_identify_trial`.
 [[nodiscard]] identification::StudyData read_identify_data(const IdentifySources& sources,
                                                            const MuscleTable& table,
-                                                           const std::function<void(const std::string&)>& remark);
+                                                           const TellRemark& remark);
 
 }  // namespace myoid

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -92,8 +91,8 @@ class TrialCheck {
         const double tendon = data_.muscles[static_cast<std::size_t>(k)].start.tendon_slack_length_m;
         if (length <= 0.0 || length >= arm || arm > kCertainlyLargeArm_m) continue;
         const std::string found = fmt::format(
-            "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m; are the "
-            "files of --lengths and --moment-arms exchanged?",
+            "moment arm of {} up to {:.4g} m, and its lengths in {} only up to {:.4g} m; are the files of --lengths "
+            "and --moment-arms exchanged?",
             muscle(k), arm, files_.lengths, length);
         if (arm > tendon && tendon > 0.0)
           fail(files_.moment_arms[j], found + " A moment arm is shorter than the muscle");
@@ -109,8 +108,8 @@ class TrialCheck {
           fmt::format("length of {} from {:.4g} to {:.4g} m", muscle(k), l.minCoeff(), l.maxCoeff());
       if (l.minCoeff() <= 0.0)
         fail(files_.lengths, found +
-                                 ", expected positive lengths of 0.01 to 1 m; are the files of "
-                                 "--lengths and --velocities in the wrong order?");
+                                 ", expected positive lengths of 0.01 to 1 m; are the files of --lengths and "
+                                 "--velocities in the wrong order?");
       const double typical = median_of(l);
       const auto& start = data_.muscles[static_cast<std::size_t>(k)].start;
       const double usual = start.tendon_slack_length_m + start.optimal_fiber_length_m;
@@ -126,14 +125,13 @@ class TrialCheck {
       }
       const double fiber = typical - start.tendon_slack_length_m;
       if (fiber <= 0.0)
-        fail(files_.lengths, fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber "
-                                         "lengths? Then leave tendon_slack_length empty in muscles.csv",
+        fail(files_.lengths, fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber lengths? "
+                                         "Then leave tendon_slack_length empty in muscles.csv",
                                          found, start.tendon_slack_length_m));
       const double relative = fiber / start.optimal_fiber_length_m;
       if (relative < kShortestFiber || relative > kLongestFiber)
-        remark(files_.lengths, fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, "
-                                           "expected about 1; check tendon_slack_length and optimal_fiber_length "
-                                           "in muscles.csv",
+        remark(files_.lengths, fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, expected "
+                                           "about 1; check tendon_slack_length and optimal_fiber_length in muscles.csv",
                                            muscle(k), relative, start.optimal_fiber_length_m));
     }
   }
@@ -143,17 +141,17 @@ class TrialCheck {
     const double optimal_m = data_.muscles[static_cast<std::size_t>(k)].start.optimal_fiber_length_m;
     const double relative = typical_m / optimal_m;
     const std::string against = fmt::format(
-        "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and muscles.csv has no "
-        "tendon_slack_length for it",
+        "{}, {:.2g} times its optimal_fiber_length of {:.4g} m, and muscles.csv has no tendon_slack_length for it",
         found, relative, optimal_m);
     if (relative > kLongestActive)
-      fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these "
-                                       "lengths of whole muscles with their tendons? Then give tendon_slack_length "
-                                       "in muscles.csv. Else mend optimal_fiber_length",
-                                       against));
+      fail(files_.lengths,
+           fmt::format(
+               "{}; expected fiber lengths, 0.4 to 1.8 times the optimal one. Are these lengths of whole muscles with "
+               "their tendons? Then give tendon_slack_length in muscles.csv. Else mend optimal_fiber_length",
+               against));
     if (relative < kShortestActive)
-      fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the "
-                                       "unit of both, or whose lengths these are",
+      fail(files_.lengths, fmt::format("{}; expected fiber lengths, 0.4 to 1.8 times the optimal one; check the unit "
+                                       "of both, or whose lengths these are",
                                        against));
     if (names_whole_muscles(files_.lengths))
       remark(files_.lengths, fmt::format("by its name the file has lengths of whole muscles, {}: they are taken for "
@@ -185,9 +183,8 @@ class TrialCheck {
              fmt::format("{}, expected 0 to 1 (1: the greatest effort); {}", found,
                          high <= 200.0 ? "in percent? Divide by 100" : "divide by the EMG of a maximal contraction"));
       if (low < kCertainlyLow)
-        fail(files_.activations, found +
-                                     ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it "
-                                     "(myoid emg)");
+        fail(files_.activations,
+             found + ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it (myoid emg)");
       if (largest_mean(a) > kHighestActivation)
         remark(files_.activations, fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1: an effort "
                                                "beyond the one taken for the greatest",
@@ -241,13 +238,12 @@ class TrialCheck {
                                             muscle(k)));
       if (r > kTogether && (factor > kLargestFactor || factor < 1.0 / kLargestFactor))
         fail(files_.velocities,
-             fmt::format("velocity of {} is {} times the rate of its length in {}; expected "
-                         "the same, in m/s",
+             fmt::format("velocity of {} is {} times the rate of its length in {}; expected the same, in m/s",
                          muscle(k), factor >= 10.0 ? fmt::format("{:.0f}", factor) : fmt::format("{:.2g}", factor),
                          files_.lengths));
       if (r < kDoubtful)
-        remark(files_.velocities, fmt::format("velocity of {} is not the rate of its length in {} (they agree to "
-                                              "r = {:.2f}); is it the same trial and clock?",
+        remark(files_.velocities, fmt::format("velocity of {} is not the rate of its length in {} (they agree to r = "
+                                              "{:.2f}); is it the same trial and clock?",
                                               muscle(k), files_.lengths, r));
     }
   }
@@ -306,9 +302,8 @@ class TrialCheck {
       if (explained(c, k) > kTogether) who = muscle(k);
     }
     remark(files_.moment_arms.front(),
-           fmt::format("the changes of length do not follow from the moment arms (dl = -r dq "
-                       "explains {:.0f} % of them){}; is a sign wrong, or the file of another "
-                       "trial or joint?",
+           fmt::format("the changes of length do not follow from the moment arms (dl = -r dq explains {:.0f} % of "
+                       "them){}; is a sign wrong, or the file of another trial or joint?",
                        100.0 * std::max(0.0, all), who.empty() ? "" : fmt::format("; without {} they do", who)));
   }
 
@@ -345,9 +340,9 @@ class TrialCheck {
       const double own = std::max(correlation(torque(0), predicted(0)), correlation(torque(1), predicted(1)));
       const double other = std::min(correlation(torque(0), predicted(1)), correlation(torque(1), predicted(0)));
       const std::string found = fmt::format(
-          "these moment arms make the other joint's torque (with the starting values r is {:.2f} "
-          "or more, of their own at most {:.2f}); --moment-arms has the first trial's files in the "
-          "order of --coordinate, then the next trial's",
+          "these moment arms make the other joint's torque (with the starting values r is {:.2f} or more, of their own "
+          "at most {:.2f}); --moment-arms has the first trial's files in the order of --coordinate, then the next "
+          "trial's",
           other, own);
       if (other > kTogether && own < kDoubtful) fail(files_.moment_arms.front(), found);
       if (other > kDoubtful && other > own + kClearly) remark(files_.moment_arms.front(), found);
@@ -358,8 +353,8 @@ class TrialCheck {
       const double size = torque(j).norm() * p.norm();
       const double r = size > 0.0 ? torque(j).dot(p) / size : 0.0;
       const std::string found = fmt::format(
-          "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are "
-          "the signs of the moment arms (r = -dl/dq) or of the torque reversed?",
+          "with the starting values the muscles' torque goes against that of {} (r = {:.2f}); are the signs of the "
+          "moment arms (r = -dl/dq) or of the torque reversed?",
           files_.torques, r);
       if (r < kAgainst) fail(files_.moment_arms[j], found);
       if (r < -kDoubtful) remark(files_.moment_arms[j], found);

@@ -32,8 +32,8 @@ void require_counts(const IdentifySources& s) {
   const std::size_t joints = std::max<std::size_t>(1, s.coordinates.size());
   if (joints > 1 && s.moment_arms.size() != joints * trials) {
     throw InvalidInput(
-        fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the "
-                    "first trial's in the order of --coordinate, then the next trial's",
+        fmt::format("--moment-arms: {} files for {} trials with {} coordinates each; give the first trial's in the "
+                    "order of --coordinate, then the next trial's",
                     s.moment_arms.size(), trials, joints));
   }
   if (joints == 1) require_count(s.moment_arms.size(), trials, "--moment-arms");
@@ -67,8 +67,7 @@ std::string trial_label(const std::vector<std::string>& lengths, std::size_t num
   };
   const auto is_alone = [&](int folders) {
     const std::string own = tail(lengths[number], folders);
-    return std::count_if(lengths.begin(), lengths.end(),
-                         [&](const std::string& other) { return tail(other, folders) == own; }) == 1;
+    return std::ranges::count_if(lengths, [&](const std::string& other) { return tail(other, folders) == own; }) == 1;
   };
   constexpr int kMostFolders = 8;
   int folders = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct IdentifySources {
   bool torque = true;                    ///< Fits torques; false: forces.
   std::optional<double> start_s, end_s;  ///< [s]
 };
+
+/// Receives a sentence on the files or their values.
+using TellRemark = std::function<void(const std::string&)>;
 
 /// The files of one trial of `myoid identify`.
 struct IdentifyFiles {

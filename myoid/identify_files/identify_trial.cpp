@@ -80,9 +80,7 @@ std::vector<Stretch> gaps_of(const Eigen::VectorXd& time_s) {
 
 class TrialReader {
  public:
-  TrialReader(const IdentifySources& sources,
-              const std::vector<MuscleSetup>& muscles,
-              const std::function<void(const std::string&)>& remark)
+  TrialReader(const IdentifySources& sources, const std::vector<MuscleSetup>& muscles, const TellRemark& remark)
       : sources_(sources), muscles_(muscles), remark_(remark) {}
 
   TrialData read(std::size_t number) {
@@ -96,7 +94,7 @@ class TrialReader {
     say_jumps(files.lengths, muscle_series(files.lengths), Unit::meter);
     trial.velocity_mps = files.velocities.empty() ? rates_of(muscle_series(files.lengths), trial.time_s)
                                                   : columns_of(files.velocities, trial.time_s);
-    trial.activation = emg_series(files.activations);
+    trial.activation = selected(files.activations, &MuscleSetup::emg_channel);
     require_finite(trial.activation, files.activations);
     trial.torque_nm = Eigen::VectorXd::Zero(trial.time_s.size());
     trial.moment_arm_m = Eigen::MatrixXd::Zero(trial.time_s.size(), trial.length_m.cols());
@@ -111,7 +109,7 @@ class TrialReader {
   const TimeSeries& series(const std::string& path) {
     const auto known = read_.find(path);
     if (known != read_.end()) return known->second;
-    if (std::find(sources_.motions.begin(), sources_.motions.end(), path) != sources_.motions.end())
+    if (std::ranges::find(sources_.motions, path) != sources_.motions.end())
       return read_.emplace(path, motion_series(path)).first->second;
     recording::SeriesFile file = recording::read_series(path);
     for (const recording::Repair& repair : file.repairs) remark_(recording::to_string(path, repair));
@@ -127,29 +125,19 @@ class TrialReader {
       remark_(fmt::format("{}: {}", path, jump.sentence()));
   }
 
-  /// Returns the columns of the muscles, by name.
-  TimeSeries muscle_series(const std::string& path) {
+  /// Returns the columns that a name of the muscles (`name`, `emg_channel`) names, each once.
+  TimeSeries selected(const std::string& path, std::string MuscleSetup::*name) {
     const TimeSeries& all = series(path);
     std::vector<std::string> names;
     for (const MuscleSetup& m : muscles_) {
-      if (!all.find(m.name))
-        throw ReadError(path, 0, fmt::format("no column '{}'; found {}", m.name, channel_names(all)));
-      names.push_back(m.name);
+      if (!all.find(m.*name))
+        throw ReadError(path, 0, fmt::format("no column '{}'; found {}", m.*name, channel_names(all)));
+      if (std::ranges::find(names, m.*name) == names.end()) names.push_back(m.*name);
     }
     return all.select(names);
   }
 
-  /// Returns the channels of the muscles' EMG, each once.
-  TimeSeries emg_series(const std::string& path) {
-    const TimeSeries& all = series(path);
-    std::vector<std::string> names;
-    for (const MuscleSetup& m : muscles_) {
-      if (!all.find(m.emg_channel))
-        throw ReadError(path, 0, fmt::format("no column '{}'; found {}", m.emg_channel, channel_names(all)));
-      if (std::find(names.begin(), names.end(), m.emg_channel) == names.end()) names.push_back(m.emg_channel);
-    }
-    return all.select(names);
-  }
+  TimeSeries muscle_series(const std::string& path) { return selected(path, &MuscleSetup::name); }
 
   Eigen::MatrixXd columns_of(const std::string& path, const Eigen::VectorXd& clock_s) {
     return on_clock_of(muscle_series(path), path, clock_s);
@@ -184,17 +172,17 @@ class TrialReader {
         shortest = file;
       }
       if (apart || lengths.sample_count() < 2) {
-        throw ReadError(file, 0,
-                        fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must "
-                                    "overlap; bring them to one clock",
-                                    time_s[0], last_s, files.lengths, begin_s, end_s));
+        throw ReadError(
+            file, 0,
+            fmt::format("covers {:g} to {:g} s, {} covers {:g} to {:g} s: they must overlap; bring them to one clock",
+                        time_s[0], last_s, files.lengths, begin_s, end_s));
       }
     }
     constexpr double kMost = 0.5;  // of the lengths' time
     if (span_s(lengths) < kMost * asked_s)
       remark_(
-          fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial "
-                      "cover; {} leaves out most. Was a file cut off, or is its clock another?",
+          fmt::format("{}: {:.3g} of {:.3g} s are used, the time that all files of the trial cover; {} leaves out "
+                      "most. Was a file cut off, or is its clock another?",
                       files.lengths, span_s(lengths), asked_s, shortest));
     return lengths.time_s();
   }
@@ -208,7 +196,7 @@ class TrialReader {
     std::vector<std::string> all{files.lengths, files.activations, files.velocities, files.torques};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), files.moment_arms.begin(), files.moment_arms.end());
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     all.erase(std::remove(all.begin(), all.end(), ""), all.end());
     return all;
@@ -256,12 +244,11 @@ class TrialReader {
     const auto column = [&](const std::string& joint) {
       const auto found = angles.find(joint);
       if (!found && !(sources_.coordinates.empty() && angles.channel_count() == 1)) {
-        throw ReadError(path, 0,
-                        sources_.coordinates.empty()
-                            ? fmt::format("has several columns ({}); name the joint's with "
-                                          "--coordinate",
-                                          channel_names(angles))
-                            : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
+        throw ReadError(
+            path, 0,
+            sources_.coordinates.empty()
+                ? fmt::format("has several columns ({}); name the joint's with --coordinate", channel_names(angles))
+                : fmt::format("no column '{}'; found {}", joint, channel_names(angles)));
       }
       return angles.values().col(found.value_or(0));
     };
@@ -288,8 +275,7 @@ class TrialReader {
     constexpr double kTwoTurns_rad = 4.0 * kPi;
     if (angles.values().cwiseAbs().maxCoeff() > kTwoTurns_rad) {
       throw ReadError(path, 0,
-                      fmt::format("an angle reaches {:.4g} rad: these are degrees; write "
-                                  "inDegrees=yes into the header",
+                      fmt::format("an angle reaches {:.4g} rad: these are degrees; write inDegrees=yes into the header",
                                   angles.values().cwiseAbs().maxCoeff()));
     }
     return angles;
@@ -297,7 +283,7 @@ class TrialReader {
 
   const IdentifySources& sources_;
   const std::vector<MuscleSetup>& muscles_;
-  const std::function<void(const std::string&)>& remark_;
+  const TellRemark& remark_;
   std::map<std::string, TimeSeries> read_;
 };
 
@@ -306,7 +292,7 @@ class TrialReader {
 TrialData read_identify_trial(const IdentifySources& sources,
                               std::size_t number,
                               const std::vector<MuscleSetup>& muscles,
-                              const std::function<void(const std::string&)>& remark) {
+                              const TellRemark& remark) {
   return TrialReader(sources, muscles, remark).read(number);
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "myoid/identification/study_data.h"
@@ -16,6 +14,6 @@ namespace myoid {
 [[nodiscard]] identification::TrialData read_identify_trial(const IdentifySources& sources,
                                                             std::size_t number,
                                                             const std::vector<identification::MuscleSetup>& muscles,
-                                                            const std::function<void(const std::string&)>& remark);
+                                                            const TellRemark& remark);
 
 }  // namespace myoid

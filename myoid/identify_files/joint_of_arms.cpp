@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,8 +52,8 @@ void add_muscles_without_arm(const StudyData& data,
     const Eigen::VectorXd here = joints[j].arm_m.cwiseAbs().colwise().maxCoeff().transpose();
     if (here.maxCoeff() < kNoArm_m)
       throw InvalidInput(
-          fmt::format("{}: every muscle's moment arm stays below 0.1 mm, expected some centimeters: none of "
-                      "these muscles moves this joint; give the file of the joint whose torque is fitted",
+          fmt::format("{}: every muscle's moment arm stays below 0.1 mm, expected some centimeters: none of these "
+                      "muscles moves this joint; give the file of the joint whose torque is fitted",
                       files.moment_arms[j]));
     most = most.cwiseMax(here);
   }
@@ -64,9 +63,8 @@ void add_muscles_without_arm(const StudyData& data,
   }
   if (!still.empty())
     remarks.push_back(
-        fmt::format("{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and "
-                    "nothing of it can be identified; is this the file of another joint? Else leave the "
-                    "muscle out of muscles.csv",
+        fmt::format("{}: the moment arm of {} stays below 0.1 mm: such a muscle makes no torque here, and nothing of "
+                    "it can be identified; is this the file of another joint? Else leave the muscle out of muscles.csv",
                     files.moment_arms.front(), fmt::join(still, ", ")));
 }
 
@@ -105,8 +103,8 @@ void compare_with_angles(const TrialData& trial,
                          const std::vector<JointArms>& joints,
                          const IdentifyFiles& files,
                          std::vector<std::string>& remarks) {
-  const bool known = std::all_of(joints.begin(), joints.end(),
-                                 [&](const JointArms& joint) { return joint.angle_rad.size() == trial.time_s.size(); });
+  const bool known = std::ranges::all_of(
+      joints, [&](const JointArms& joint) { return joint.angle_rad.size() == trial.time_s.size(); });
   if (!known || trial.time_s.size() < 3) return;
   const ArmChanges c = changes_by_arms(trial, joints);
   const auto count = static_cast<double>(c.of_length.rows());
@@ -121,15 +119,14 @@ void compare_with_angles(const TrialData& trial,
     best_reversed = std::max(best_reversed, share_explained(change, -by));
   }
   if (!any || best >= kExplains) return;
-  remarks.push_back(
-      fmt::format("{}: {}", files.moment_arms.front(),
-                  best_reversed >= kExplains
-                      ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r dq: "
-                                    "the sign of the moment arms or of the angles is reversed")
-                      : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of the "
-                                    "change of any muscle's length, expected most of it for a muscle that "
-                                    "crosses no other joint; is it the file of another joint or trial?",
-                                    100.0 * std::max(0.0, best))));
+  remarks.push_back(fmt::format(
+      "{}: {}", files.moment_arms.front(),
+      best_reversed >= kExplains ? std::string("lengths change by +r dq with the angles of --motion, expected dl = -r "
+                                               "dq: the sign of the moment arms or of the angles is reversed")
+                                 : fmt::format("with the angles of --motion dl = -r dq explains at most {:.0f} % of "
+                                               "the change of any muscle's length, expected most of it for a muscle "
+                                               "that crosses no other joint; is it the file of another joint or trial?",
+                                               100.0 * std::max(0.0, best))));
 }
 
 }  // namespace
@@ -150,8 +147,7 @@ std::string check_joint_by_name(const std::string& path, const std::string& torq
       fmt::format("by its name the moment arms about '{}', but the torque fitted is '{}'", stated, torque_column);
   if (torques.find(stated) || torques.find(fmt::format("{}_moment", stated)))
     throw InvalidInput(
-        fmt::format("{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment "
-                    "arms",
+        fmt::format("{}: {}; the torque file has both: give --coordinate {}, or the file of the other moment arms",
                     path, found, stated));
   return fmt::format("{}: {}; is it the file of another joint?", path, found);
 }

@@ -1,6 +1,5 @@
 #include "myoid/identify_files/muscle_columns.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <optional>
@@ -147,9 +146,8 @@ std::map<std::string, MuscleColumn> muscle_columns(const recording::CsvTable& ta
       const auto near = recording::nearest_word(table.names[c], names);
       throw ReadError(
           path, table.header_line,
-          fmt::format("unknown column '{}'{}; needed are muscle, max_isometric_force "
-                      "[N] and optimal_fiber_length [m]; delete a column that is no "
-                      "number of the muscle. Known are {}",
+          fmt::format("unknown column '{}'{}; needed are muscle, max_isometric_force [N] and optimal_fiber_length [m]; "
+                      "delete a column that is no number of the muscle. Known are {}",
                       table.names[c], near ? fmt::format(" (did you mean '{}'?)", *near) : "", fmt::join(names, ", ")));
     }
     const bool by_length = *name == kSpeedInLengths;
@@ -161,10 +159,10 @@ std::map<std::string, MuscleColumn> muscle_columns(const recording::CsvTable& ta
   }
   for (const char* needed : {"muscle", "max_isometric_force", "optimal_fiber_length"}) {
     if (columns.contains(needed)) continue;
-    throw ReadError(path, table.header_line,
-                    fmt::format("no column '{}'; found {}; write at least "
-                                "muscle,max_isometric_force,optimal_fiber_length (N, m)",
-                                needed, fmt::join(table.names, ", ")));
+    throw ReadError(
+        path, table.header_line,
+        fmt::format("no column '{}'; found {}; write at least muscle,max_isometric_force,optimal_fiber_length (N, m)",
+                    needed, fmt::join(table.names, ", ")));
   }
   return columns;
 }

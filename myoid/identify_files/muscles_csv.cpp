@@ -26,8 +26,7 @@ using identification::MuscleSetup;
 namespace {
 
 bool given_for_hill(std::string_view name) {
-  return std::any_of(muscle::kHillFields.begin(), muscle::kHillFields.end(),
-                     [&](const muscle::HillField& field) { return field.name == name; });
+  return std::ranges::any_of(muscle::kHillFields, [&](const muscle::HillField& field) { return field.name == name; });
 }
 
 /// Returns the field of MuscleExtras for a column beyond the eight of the paper's law.
@@ -157,10 +156,8 @@ StartingMuscle read_start(const Row& row) {
     const std::optional<double> start = row.number(name);
     const bool may_be_absent = name == "tendon_slack_length";
     if (start && *start == 0.0 && !may_be_absent)
-      row.fail(
-          fmt::format("muscle '{}': {} = 0, expected a positive number, or an empty cell for "
-                      "the literature's",
-                      setup.name, name));
+      row.fail(fmt::format("muscle '{}': {} = 0, expected a positive number, or an empty cell for the literature's",
+                           setup.name, name));
     if (start) {
       setup.start.*field.member = *start;
       continue;
@@ -217,10 +214,9 @@ void set_bounds(const Row& row,
     return;
   }
   if (within_bounds && !wishes.is_held() && (start < least || start > most))
-    row.fail(
-        fmt::format("muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and "
-                    "{}_upper set other bounds",
-                    setup.name, name, start, least, most, name, name));
+    row.fail(fmt::format(
+        "muscle '{}': {} = {}, expected {} to {} (SI units); columns {}_lower and {}_upper set other bounds",
+        setup.name, name, start, least, most, name, name));
 }
 
 /// Returns the rule for a parameter whose cells differ from the default.

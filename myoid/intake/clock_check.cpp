@@ -11,14 +11,14 @@ std::string check_clock(const std::filesystem::path& path, const Eigen::VectorXd
   const signals::ClockGaps gaps = signals::find_clock_gaps(time_s);
   if (gaps.usual_interval_s > 1.0 / kLimits.slowest_clock_hz) {
     throw ReadError(path, 0,
-                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the "
-                                "time in ms or in frames? expected seconds and {} Hz or more",
+                    fmt::format("{} samples from {:.6g} to {:.6g}, about one per {:.3g} s: is the time in ms or in "
+                                "frames? expected seconds and {} Hz or more",
                                 n, time_s[0], time_s[n - 1], gaps.usual_interval_s, kLimits.slowest_clock_hz));
   }
   if (gaps.longest_s() > kLongestGap_s) {
     throw ClockPause(path,
-                     fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make "
-                                 "two trials of it, with end_s before and start_s after the gap",
+                     fmt::format("{} in its clock; a pause of more than {} s cannot be bridged: make two trials of it, "
+                                 "with end_s before and start_s after the gap",
                                  gaps.text(), kLongestGap_s),
                      signals::clock_stretches(time_s, kLongestGap_s));
   }
@@ -32,8 +32,7 @@ void check_cutoff(const Study& study, const std::filesystem::path& path, const E
   const double rate_hz = static_cast<double>(n - 1) / (time_s[n - 1] - time_s[0]);
   if (study.motion.cutoff_hz < 0.45 * rate_hz) return;
   throw ReadError(path, 0,
-                  fmt::format("[motion] cutoff_hz = {}, but this file has {:.4g} Hz; expected less "
-                              "than 0.45 of that",
+                  fmt::format("[motion] cutoff_hz = {}, but this file has {:.4g} Hz; expected less than 0.45 of that",
                               study.motion.cutoff_hz, rate_hz));
 }
 

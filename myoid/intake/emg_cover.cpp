@@ -35,8 +35,8 @@ std::string lasts(const TrialLengths& t) {
 
 std::string which_rate(const TrialLengths& t) {
   return fmt::format(
-      "EMG at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would "
-      "end together with the other: correct the rate or the times in the file that is wrong",
+      "EMG at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would end together with "
+      "the other: correct the rate or the times in the file that is wrong",
       t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz, t.motion_rate_hz * t.motion_s / t.emg_s, t.motion_rate_hz);
 }
 
@@ -54,22 +54,21 @@ std::optional<Cover> check_cover(const std::filesystem::path& file,
   const double overlap = both.end_s - both.begin_s;
   if (end_s - begin_s < kLimits.shortest_trial_s) {
     throw ReadError(file, 0,
-                    fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give "
-                                "start_s and end_s that are farther apart",
+                    fmt::format("the trial lasts {:.3g} s ({:.5g} to {:.5g} s); at least {} s are needed: give start_s "
+                                "and end_s that are farther apart",
                                 end_s - begin_s, begin_s, end_s, kLimits.shortest_trial_s));
   }
   if (overlap < std::max(kLimits.shortest_trial_s, kLimits.covered * (end_s - begin_s))) {
     throw ReadError(file, 0,
-                    fmt::format("the {} ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} "
-                                "to {:.5g} s); are both in seconds, at the rate they were recorded with, on "
-                                "one clock? If so, give the trial the start_s and end_s that both have",
+                    fmt::format("the {} ({:.5g} to {:.5g} s) covers less than half of the motion ({:.5g} to {:.5g} s); "
+                                "are both in seconds, at the rate they were recorded with, on one clock? If so, give "
+                                "the trial the start_s and end_s that both have",
                                 recorded, first_s, last_s, begin_s, end_s));
   }
   if (!(overlap < end_s - begin_s - kLimits.uncovered_s)) return std::nullopt;
   return Cover{
       both.begin_s, both.end_s,
-      fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} "
-                  "to {:.5g} s)",
+      fmt::format("{}: the {} ({:.5g} to {:.5g} s) lacks {:.3g} s of the motion ({:.5g} to {:.5g} s)",
                   file.filename().string(), recorded, first_s, last_s, end_s - begin_s - overlap, begin_s, end_s)};
 }
 
@@ -118,8 +117,8 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
          .severity = sure ? Severity::error : Severity::warning,
          .where = t.trial,
          .about = "EMG and motion",
-         .says = fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last "
-                             "so, give the trial the start_s and end_s that both have",
+         .says = fmt::format("{}: {} the rate of one of them{} wrong{} {}. If both did last so, give the trial the "
+                             "start_s and end_s that both have",
                              lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?", which_rate(t))});
   }
   // Recordings stopped by hand differ by some seconds, not by one factor.
@@ -128,12 +127,12 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
   if (trials.size() == 1) {
     // A single trial must be longer by more than a late stop explains.
     if (most < kLimits.alone_longer) return found;
-    found.push_back({.code = RemarkCode::emg_length,
-                     .severity = Severity::warning,
-                     .where = first.trial,
-                     .says = fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, "
-                                         "end_s leaves it out",
-                                         lasts(first), which_rate(first))});
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = Severity::warning,
+         .where = first.trial,
+         .says = fmt::format("{}: is the rate of one of them wrong? {}. If the EMG did go on, end_s leaves it out",
+                             lasts(first), which_rate(first))});
     return found;
   }
   found.push_back({.code = RemarkCode::emg_length,

@@ -37,9 +37,7 @@ class NormTable {
   }
   [[noreturn]] void refuse_header(const std::string& message) const { refuse(table_.header_line, message); }
 
-  [[nodiscard]] bool has(const std::string& name) const {
-    return std::find(names_.begin(), names_.end(), name) != names_.end();
-  }
+  [[nodiscard]] bool has(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
   [[nodiscard]] const std::string& unit(const std::string& name) const { return units_[column(name)]; }
   [[nodiscard]] std::size_t line(Eigen::Index row) const { return table_.lines[static_cast<std::size_t>(row)]; }
 
@@ -48,7 +46,7 @@ class NormTable {
     Eigen::VectorXd values(static_cast<Eigen::Index>(table_.rows.size()));
     for (std::size_t r = 0; r < table_.rows.size(); ++r) {
       std::string cell = table_.rows[r][c];
-      if (table_.separator != ',') std::replace(cell.begin(), cell.end(), ',', '.');
+      if (table_.separator != ',') std::ranges::replace(cell, ',', '.');
       const std::optional<double> number = recording::parse_number(cell);
       if (!number || !std::isfinite(*number))
         refuse(table_.lines[r], fmt::format("column '{}': expected a number, found '{}'", name, cell));
@@ -59,7 +57,7 @@ class NormTable {
 
  private:
   [[nodiscard]] std::size_t column(const std::string& name) const {
-    const auto it = std::find(names_.begin(), names_.end(), name);
+    const auto it = std::ranges::find(names_, name);
     if (it == names_.end()) refuse_header(fmt::format("no column '{}'; there are {}", name, fmt::join(names_, ", ")));
     return static_cast<std::size_t>(it - names_.begin());
   }
@@ -73,9 +71,10 @@ Eigen::VectorXd read_percent(const NormTable& table) {
   const Eigen::VectorXd percent = table.values("percent");
   for (Eigen::Index i = 0; i < percent.size(); ++i) {
     if (percent[i] < 0.0 || percent[i] > 100.0 || (i > 0 && percent[i] <= percent[i - 1]))
-      table.refuse(table.line(i), fmt::format("percent is {}; expected numbers that rise from 0, the "
-                                              "movement's begin, to 100, its end",
-                                              percent[i]));
+      table.refuse(
+          table.line(i),
+          fmt::format("percent is {}; expected numbers that rise from 0, the movement's begin, to 100, its end",
+                      percent[i]));
   }
   return percent;
 }
@@ -124,8 +123,8 @@ Norm read_norm(const NormSpec& spec, const Study& study) {
   }
   if (norm.curves.empty())
     table.refuse_header(
-        fmt::format("no column is of a coordinate of the study; expected NAME_mean and NAME_sd, NAME being {} "
-                    "[deg] or {}_moment [N m]",
+        fmt::format("no column is of a coordinate of the study; expected NAME_mean and NAME_sd, NAME being {} [deg] or "
+                    "{}_moment [N m]",
                     fmt::join(coordinates, " or "), coordinates.front()));
   return norm;
 }

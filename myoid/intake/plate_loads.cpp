@@ -1,7 +1,6 @@
 #include "myoid/intake/plate_loads.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "myoid/files/toml_table.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/resample.h"
+#include "myoid/study/study_model.h"
 
 namespace myoid {
 namespace {
@@ -95,14 +95,10 @@ std::map<model::BodyIndex, double> distances(const model::BodyModel& model,
 model::BodyIndex body_named(const model::BodyModel& model, const std::string& name) {
   if (const auto body = model.find_body(name)) return *body;
   std::vector<std::string> names;
-  std::string list;
-  for (std::size_t b = 1; b < model.bodies.size(); ++b) {
-    names.push_back(model.bodies[b].name);
-    list += (b == 1 ? "" : ", ") + names.back();
-  }
+  for (std::size_t b = 1; b < model.bodies.size(); ++b) names.push_back(model.bodies[b].name);
   const auto near = recording::nearest_word(name, names);
   throw InvalidInput(fmt::format("force_plates: there is no body '{}'{}; there are {}", name,
-                                 near ? fmt::format(" (did you mean '{}'?)", *near) : "", list));
+                                 near ? fmt::format(" (did you mean '{}'?)", *near) : "", body_names(model)));
 }
 
 dynamics::LoadColumns splined(const TimeSeries& series, Eigen::Index first) {
@@ -161,14 +157,12 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
   if (plates.empty()) throw InvalidInput("there are no force plates that are understood");
   if (bodies.size() > plates.size()) {
     throw InvalidInput(
-        fmt::format("force_plates: {} bodies for {} force plates; name one for each "
-                    "plate, \"\" where nobody stands",
+        fmt::format("force_plates: {} bodies for {} force plates; name one for each plate, \"\" where nobody stands",
                     bodies.size(), plates.size()));
   }
   if (bodies.empty() && !markers)
     throw InvalidInput(
-        "force_plates: which body stands on a plate is told from markers, and the trial has none; "
-        "name the bodies");
+        "force_plates: which body stands on a plate is told from markers, and the trial has none; name the bodies");
   dynamics::ExternalLoads loads;
   for (std::size_t k = 0; k < plates.size(); ++k) {
     const recording::ForcePlate& plate = plates[k];
@@ -187,21 +181,20 @@ dynamics::ExternalLoads plate_loads(const std::vector<recording::ForcePlate>& pl
     } else {
       for (const Contact& c : contacts) {
         const auto near = distances(model, *markers, w, plate.time_s, c);
-        const auto best = std::min_element(near.begin(), near.end(),
-                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto best =
+            std::ranges::min_element(near, [](const auto& a, const auto& b) { return a.second < b.second; });
         const double begin_s = plate.time_s[c.first];
         const double end_s = plate.time_s[c.end - 1];
         if (best == near.end() || best->second > kFarFromPlate_m) {
           throw InvalidInput(
-              fmt::format("force plate {} bears up to {:.0f} N from {:.3g} to {:.3g} s, but no marker of the "
-                          "model is within {} m of its center of pressure; name the bodies: force_plates = {{ "
-                          "bodies = [...] }}",
+              fmt::format("force plate {} bears up to {:.0f} N from {:.3g} to {:.3g} s, but no marker of the model is "
+                          "within {} m of its center of pressure; name the bodies: force_plates = {{ bodies = [...] }}",
                           plate.number, w.force_n.middleRows(c.first, c.end - c.first).rowwise().norm().maxCoeff(),
                           begin_s, end_s, kFarFromPlate_m));
         }
         loads.notes.push_back(
-            fmt::format("force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm "
-                        "from the center of pressure",
+            fmt::format("force plate {} from {:.3g} to {:.3g} s is given to '{}', whose markers are {:.0f} mm from the "
+                        "center of pressure",
                         plate.number, begin_s, end_s, model.bodies[static_cast<std::size_t>(best->first)].name,
                         1e3 * best->second));
         by_body[best->first].push_back(c);

@@ -1,9 +1,11 @@
 #include "myoid/intake/read_trial.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
@@ -27,10 +29,10 @@ void require_files(const Study& study, const TrialSpec& trial) {
                                   Key{"external_loads", &trial.external_loads}, Key{"load_cell", &trial.load_cell}}) {
     std::error_code ignored;
     if (!*path || std::filesystem::exists(**path, ignored)) continue;
-    throw ReadError(study.file, 0,
-                    fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from "
-                                "the folder of the study",
-                                trial.name, key, (*path)->string()));
+    throw ReadError(
+        study.file, 0,
+        fmt::format("trial '{}': {} = \"{}\": there is no such file; a path counts from the folder of the study",
+                    trial.name, key, (*path)->string()));
   }
 }
 
@@ -46,14 +48,12 @@ TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel
   for (const Channel& channel : motion.channels()) any |= model.find_coordinate(channel.name).has_value();
   if (const std::string doubt = check_angle_unit(path, file.in_degrees, motion); !doubt.empty())
     warn(input, RemarkCode::unit_doubtful, doubt);
-  if (!any) {
-    std::string names;
-    for (const model::Coordinate& c : model.coordinates) names += (names.empty() ? "" : ", ") + c.name;
-    throw ReadError(path, 0,
-                    fmt::format("no column is a coordinate of the model; found {}, expected some "
-                                "of {}; rename the columns",
-                                channel_names(motion), names));
-  }
+  if (!any)
+    throw ReadError(
+        path, 0,
+        fmt::format("no column is a coordinate of the model; found {}, expected some of {}; rename the columns",
+                    channel_names(motion),
+                    fmt::join(std::views::transform(model.coordinates, &model::Coordinate::name), ", ")));
   return motion;
 }
 

@@ -1,7 +1,6 @@
 #include "myoid/intake/study_activation.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "myoid/core/parallel.h"
 #include "myoid/intake/trial_emg.h"
@@ -24,7 +23,7 @@ TimeSeries thinned(const TimeSeries& series, double rate_hz) {
 std::vector<bool> seen_trials(const Study& study) {
   std::vector<bool> seen;
   for (const TrialSpec& trial : study.trials) seen.push_back(trial.use != Use::validation);
-  if (std::find(seen.begin(), seen.end(), true) == seen.end()) seen.assign(seen.size(), true);
+  if (std::ranges::find(seen, true) == seen.end()) seen.assign(seen.size(), true);
   return seen;
 }
 

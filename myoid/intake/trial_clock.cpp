@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/recording/recording.h"
 #include "myoid/signals/clock_offset.h"
@@ -46,7 +44,7 @@ double interval_s(const Recording& file) {
   std::vector<std::string> names;
   for (const Channel& c : file.analog.channels()) names.push_back(c.name);
   for (const recording::Event& e : file.events) {
-    if (std::find(names.begin(), names.end(), e.label) == names.end()) names.push_back(e.label);
+    if (std::ranges::find(names, e.label) == names.end()) names.push_back(e.label);
   }
   const auto near = recording::nearest_word(name, names);
   std::string list;
@@ -74,9 +72,8 @@ Instants instants_of(const std::filesystem::path& path,
     Instants edges = signals::trigger_edges(*signal, name, falling);
     if (edges.time_s.empty()) {
       throw ReadError(path, 0,
-                      fmt::format("[sync]: '{}' has no {} edge; is it the right channel, or match "
-                                  "= \"{}\"?",
-                                  name, choice_name(spec.match), falling ? "rising" : "falling"));
+                      fmt::format("[sync]: '{}' has no {} edge; is it the right channel, or match = \"{}\"?", name,
+                                  choice_name(spec.match), falling ? "rising" : "falling"));
     }
     return edges;
   }
@@ -85,7 +82,7 @@ Instants instants_of(const std::filesystem::path& path,
     if (event.label == name) events.time_s.push_back(event.time_s);
   }
   if (events.time_s.empty()) no_such_signal(path, file, name);
-  std::sort(events.time_s.begin(), events.time_s.end());
+  std::ranges::sort(events.time_s);
   events.sd_s = interval_s(file) / std::sqrt(12.0);
   return events;
 }
@@ -132,18 +129,18 @@ TrialClock estimated(const SyncSpec& spec,
                                      : signals::estimate_clock_offset(signals::on_study_clock(envelopes, drift),
                                                                       movement, spec.search_s);
   if (!lead) {
-    throw ReadError(emg_file, 0,
-                    fmt::format("[sync] offset_s = \"estimate\": it cannot be told from EMG and "
-                                "motion within {} s (3 s of quick movement with EMG that goes "
-                                "with it are needed); give a number, or triggers",
-                                spec.search_s));
+    throw ReadError(
+        emg_file, 0,
+        fmt::format("[sync] offset_s = \"estimate\": it cannot be told from EMG and motion within {} s (3 s of quick "
+                    "movement with EMG that goes with it are needed); give a number, or triggers",
+                    spec.search_s));
   }
   return {.clock = {.offset_s = lead->lead_s - kUsualLead_s,
                     .drift_ppm = spec.drift_ppm,
                     .offset_sd_s = std::hypot(lead->sd_s, kUsualLeadSd_s)},
-          .source = fmt::format("estimated: it led the motion by {:.0f} ± {:.0f} ms, where people's "
-                                "EMG leads by {:.0f} ± {:.0f} ms",
-                                1e3 * lead->lead_s, 1e3 * lead->sd_s, 1e3 * kUsualLead_s, 1e3 * kUsualLeadSd_s)};
+          .source = fmt::format(
+              "estimated: it led the motion by {:.0f} ± {:.0f} ms, where people's EMG leads by {:.0f} ± {:.0f} ms",
+              1e3 * lead->lead_s, 1e3 * lead->sd_s, 1e3 * kUsualLead_s, 1e3 * kUsualLeadSd_s)};
 }
 
 }  // namespace
@@ -157,7 +154,7 @@ std::optional<TrialClock> trial_clock(const Study& study,
                                       const TrialSpec& trial,
                                       const TimeSeries& movement,
                                       const std::function<TimeSeries()>& envelopes,
-                                      const std::function<void(const std::filesystem::path&)>& remember) {
+                                      const Remember& remember) {
   const SyncSpec* spec = sync_of(study, trial);
   const auto& motion_file = trial.markers ? trial.markers : trial.motion;
   if (spec == nullptr || !trial.emg || !motion_file || *trial.emg == *motion_file) return std::nullopt;

@@ -22,6 +22,9 @@ struct TrialClock {
   std::string source;  ///< "as the study says", "5 edges of 'Sync' and 'Trig'", ...
 };
 
+/// Receives every further file that is read.
+using Remember = std::function<void(const std::filesystem::path&)>;
+
 /// Finds the clock of the trial's EMG by the study's [sync] or the trial's own: numbers, instants or a signal in both
 /// recordings, or "estimate": the offset at which `envelopes` lead `movement` by kUsualLead_s, with the uncertainty of
 /// that lead. Empty if there is nothing to correct: no [sync], no motion, or EMG and motion in one file. `envelopes` is
@@ -31,7 +34,7 @@ struct TrialClock {
                                                     const TrialSpec& trial,
                                                     const TimeSeries& movement,
                                                     const std::function<TimeSeries()>& envelopes,
-                                                    const std::function<void(const std::filesystem::path&)>& remember);
+                                                    const Remember& remember);
 
 /// Returns the sync settings of a trial; nullptr if there are none.
 [[nodiscard]] const SyncSpec* sync_of(const Study& study, const TrialSpec& trial);

@@ -56,7 +56,7 @@ std::vector<TimeSeries> on_other_clocks(const Study& study,
   std::vector<TimeSeries> found;
   for (const MuscleSpec& muscle : study.muscles) {
     const auto has = [&](const TimeSeries& s) { return s.find(muscle.emg).has_value(); };
-    if (has(file.data) || std::any_of(found.begin(), found.end(), has)) continue;
+    if (has(file.data) || std::ranges::any_of(found, has)) continue;
     try {
       TimeSeries one = recording::read_emg(path, study.emg.unit, study.emg.kind != EmgKind::raw, {muscle.emg}).data;
       if (has(one)) found.push_back(std::move(one));
@@ -76,8 +76,7 @@ void join_clocks(const Study& study,
   if (parts.empty()) return;
   std::vector<std::string> here;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (file.data.find(muscle.emg) && std::find(here.begin(), here.end(), muscle.emg) == here.end())
-      here.push_back(muscle.emg);
+    if (file.data.find(muscle.emg) && std::ranges::find(here, muscle.emg) == here.end()) here.push_back(muscle.emg);
   }
   if (!here.empty()) parts.insert(parts.begin(), file.data.select(here));
   double begin_s = -1e300, end_s = 1e300;
@@ -91,10 +90,10 @@ void join_clocks(const Study& study,
   }
   const Eigen::VectorXd clock = fastest->slice(begin_s, end_s).time_s();
   if (clock.size() < 2)
-    throw ReadError(path, 0,
-                    fmt::format("channels {} and {} have no time in common; give the muscles "
-                                "channels that were recorded together",
-                                channel_names(parts.front()), channel_names(parts.back())));
+    throw ReadError(
+        path, 0,
+        fmt::format("channels {} and {} have no time in common; give the muscles channels that were recorded together",
+                    channel_names(parts.front()), channel_names(parts.back())));
   std::vector<Channel> channels;
   Eigen::MatrixXd values(clock.size(), 0);
   for (const TimeSeries& part : parts) {
@@ -134,15 +133,15 @@ void require_raw(const Study& study, const std::filesystem::path& path, const Ti
     const auto x = emg.values().col(*column);
     if (x.cwiseAbs().maxCoeff() > kLimits.no_converter_v)
       throw ReadError(path, 0,
-                      fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct "
-                                  "[emg] unit, or leave out samples that are no measurement",
+                      fmt::format("channel '{}' reaches {:.3g} V, beyond any converter; correct [emg] unit, or leave "
+                                  "out samples that are no measurement",
                                   muscle.emg, x.cwiseAbs().maxCoeff()));
     if (x.maxCoeff() > x.minCoeff()) ++(signals::is_envelope(x, emg.mean_rate_hz()) ? envelopes : others);
   }
   if (envelopes > 0 && others == 0)
     throw ReadError(path, 0,
-                    "no channel is ever negative or goes up and down as raw EMG does: these are "
-                    "envelopes; set [emg] kind = \"envelope\"");
+                    "no channel is ever negative or goes up and down as raw EMG does: these are envelopes; set [emg] "
+                    "kind = \"envelope\"");
 }
 
 /// Refuses signals that are no envelopes or activations. Raw EMG, which swings about zero, and
@@ -165,31 +164,26 @@ void require_kind(const Study& study, const std::filesystem::path& path, const T
     }
     if (low < -kLimits.below_zero * high)
       throw ReadError(path, 0,
-                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = "
-                                  "\"{}\" is never below zero; is it raw EMG? Then set kind = "
-                                  "\"raw\"",
+                      fmt::format("channel '{}' reaches from {:.3g} to {:.3g} {}, but [emg] kind = \"{}\" is never "
+                                  "below zero; is it raw EMG? Then set kind = \"raw\"",
                                   muscle.emg, low, high, unit, kind));
     const bool lasting = signals::time_above_s(emg.values().col(*column), emg.mean_rate_hz(),
                                                kLimits.largest_activation) >= kLimits.spike_s;
     if (activation && high > kLimits.largest_activation && !lasting)
       warn(input, RemarkCode::emg_artifact,
-           fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an "
-                       "artefact?",
+           fmt::format("{}: channel '{}' reaches {:.3g}, above {:g} for less than {:g} s: an artefact?",
                        path.filename().string(), muscle.emg, high, kLimits.largest_activation, kLimits.spike_s));
     if (activation && lasting)
       throw ReadError(path, 0,
-                      fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; "
-                                  "percent? Divide by 100, or set [emg] kind = \"envelope\"",
+                      fmt::format("channel '{}' reaches {:.3g}, but an activation goes from 0 to 1; percent? Divide by "
+                                  "100, or set [emg] kind = \"envelope\"",
                                   muscle.emg, high));
   }
 }
 
 /// Returns the EMG on the clock of the motion, and describes the steps.
-TimeSeries on_clock_of_motion(const Study& study,
-                              const TrialSpec& trial,
-                              TimeSeries emg,
-                              const std::function<void(const std::filesystem::path&)>& remember,
-                              TrialInput& input) {
+TimeSeries on_clock_of_motion(
+    const Study& study, const TrialSpec& trial, TimeSeries emg, const Remember& remember, TrialInput& input) {
   const auto envelopes = [&] {
     signals::EnvelopeOptions options = envelope_options(study);
     options.whitening = false;  // this pass serves only the clock of one trial
@@ -214,10 +208,7 @@ signals::EnvelopeOptions envelope_options(const Study& study) {
           .as_published = study.emg.as_published};
 }
 
-TimeSeries read_trial_emg(const Study& study,
-                          const TrialSpec& trial,
-                          const std::function<void(const std::filesystem::path&)>& remember,
-                          TrialInput& input) {
+TimeSeries read_trial_emg(const Study& study, const TrialSpec& trial, const Remember& remember, TrialInput& input) {
   const double start = trial.start_s.value_or(-1e300);
   const double end = trial.end_s.value_or(1e300);
   recording::EmgFile file = recording::read_emg(*trial.emg, study.emg.unit, study.emg.kind != EmgKind::raw);
@@ -230,7 +221,7 @@ TimeSeries read_trial_emg(const Study& study,
   require_kind(study, *trial.emg, file.data, input);
   std::vector<std::string> wanted;
   for (const MuscleSpec& muscle : study.muscles) {
-    if (std::find(wanted.begin(), wanted.end(), muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
+    if (std::ranges::find(wanted, muscle.emg) == wanted.end()) wanted.push_back(muscle.emg);
   }
   // The EMG may begin earlier than the motion, because of the delay.
   TimeSeries emg = on_clock_of_motion(study, trial, file.data.select(wanted), remember, input).slice(start - 0.5, end);
@@ -241,8 +232,8 @@ TimeSeries read_trial_emg(const Study& study,
   if (const auto cover = check_cover(*trial.emg, "EMG", emg.time_s(), input))
     warn(input, RemarkCode::emg_cover,
          cover->lacks +
-             ": those seconds are not fitted. If both were recorded together, the rate of one of "
-             "them is wrong; else start_s and end_s leave the rest out");
+             ": those seconds are not fitted. If both were recorded together, the rate of one of them is wrong; else "
+             "start_s and end_s leave the rest out");
   return emg;
 }
 

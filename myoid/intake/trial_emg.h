@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-
 #include "myoid/core/time_series.h"
 #include "myoid/intake/trial_input.h"
 #include "myoid/signals/emg_envelope.h"
@@ -19,7 +16,7 @@ namespace myoid {
 /// that covers less than half of the motion; also as `check_clock` and `trial_clock`.
 [[nodiscard]] TimeSeries read_trial_emg(const Study& study,
                                         const TrialSpec& trial,
-                                        const std::function<void(const std::filesystem::path&)>& remember,
+                                        const Remember& remember,
                                         TrialInput& input);
 
 }  // namespace myoid

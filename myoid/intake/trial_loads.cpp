@@ -18,6 +18,7 @@
 #include "myoid/recording/recording.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/load_cell.h"
+#include "myoid/study/study_model.h"
 #include "myoid/study/trial_up.h"
 
 namespace myoid {
@@ -32,14 +33,14 @@ signals::LoadCell::Matrix read_calibration(const std::filesystem::path& path) {
   for (std::size_t n = 0; n < lines.size(); ++n) {
     if (recording::trim(lines[n]).empty() || recording::trim(lines[n]).starts_with('#')) continue;
     std::string cells(lines[n]);
-    std::replace_if(
-        cells.begin(), cells.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    std::ranges::replace_if(
+        cells, [](char c) { return c == ',' || c == ';'; }, ' ');
     const auto words = recording::split_words(cells);
     if (row == 6 || words.size() != 6) {
-      throw ReadError(path, n + 1,
-                      fmt::format("row {} of the calibration matrix has {} numbers; expected 6 rows "
-                                  "(Fx, Fy, Fz, Mx, My, Mz) of 6",
-                                  row + 1, words.size()));
+      throw ReadError(
+          path, n + 1,
+          fmt::format("row {} of the calibration matrix has {} numbers; expected 6 rows (Fx, Fy, Fz, Mx, My, Mz) of 6",
+                      row + 1, words.size()));
     }
     for (Eigen::Index c = 0; c < 6; ++c) {
       const auto number = recording::parse_number(words[static_cast<std::size_t>(c)]);
@@ -55,16 +56,14 @@ signals::LoadCell::Matrix read_calibration(const std::filesystem::path& path) {
 
 model::BodyIndex body_of(const model::BodyModel& model, const std::string& name, const std::string& what) {
   if (const auto body = model.find_body(name)) return *body;
-  std::string names;
-  for (std::size_t b = 1; b < model.bodies.size(); ++b) names += (b == 1 ? "" : ", ") + model.bodies[b].name;
-  throw InvalidInput(fmt::format("[load_cell] {}: there is no body '{}'; there are {}", what, name, names));
+  throw InvalidInput(fmt::format("[load_cell] {}: there is no body '{}'; there are {}", what, name, body_names(model)));
 }
 
 dynamics::ExternalForce read_load_cell(const Study& study,
                                        const TrialSpec& trial,
                                        const model::BodyModel& model,
                                        const std::optional<recording::MarkerSeries>& markers,
-                                       const std::function<void(const std::filesystem::path&)>& remember,
+                                       const Remember& remember,
                                        std::vector<Remark>& remarks) {
   const LoadCellSpec& spec = *study.load_cell;
   const std::filesystem::path& file = *trial.load_cell;
@@ -101,9 +100,8 @@ dynamics::ExternalForce read_load_cell(const Study& study,
   const model::BodyModel object = model::read_osim(*spec.instrument);
   if (!markers) {
     throw InvalidInput(
-        "[load_cell] instrument: its pose comes from markers, and the trial has "
-        "none; give the trial 'markers', or leave 'instrument' out where the study's "
-        "model holds the cell");
+        "[load_cell] instrument: its pose comes from markers, and the trial has none; give the trial 'markers', or "
+        "leave 'instrument' out where the study's model holds the cell");
   }
   const kinematics::IkResult pose = kinematics::inverse_kinematics(object, *markers);
   add_notes({fmt::format("{}: pose of '{}' with {:.2g} mm rms", spec.instrument->filename().string(), spec.frame,
@@ -116,7 +114,7 @@ dynamics::ExternalLoads read_plates(const Study& study,
                                     const TrialSpec& trial,
                                     const model::BodyModel& model,
                                     const std::optional<recording::MarkerSeries>& markers,
-                                    const std::function<void(const std::filesystem::path&)>& remember,
+                                    const Remember& remember,
                                     std::vector<Remark>& remarks) {
   const PlateSpec& spec = *trial.plates;
   const auto name = spec.file.filename().string();
@@ -145,8 +143,8 @@ dynamics::ExternalLoads read_plates(const Study& study,
         (markers->time_s[0] < loads.start_s - 0.05 ||
          markers->time_s[markers->frame_count() - 1] > loads.end_s + 0.05)) {
       throw InvalidInput(
-          fmt::format("the force plates were recorded from {:.4g} to {:.4g} s, the markers from {:.4g} to "
-                      "{:.4g} s; give start_s and end_s",
+          fmt::format("the force plates were recorded from {:.4g} to {:.4g} s, the markers from {:.4g} to {:.4g} s; "
+                      "give start_s and end_s",
                       loads.start_s, loads.end_s, markers->time_s[0], markers->time_s[markers->frame_count() - 1]));
     }
     return loads;
@@ -157,13 +155,12 @@ dynamics::ExternalLoads read_plates(const Study& study,
 
 }  // namespace
 
-std::optional<dynamics::ExternalLoads> read_trial_loads(
-    const Study& study,
-    const TrialSpec& trial,
-    const model::BodyModel& model,
-    const std::optional<recording::MarkerSeries>& markers,
-    const std::function<void(const std::filesystem::path&)>& remember,
-    std::vector<Remark>& remarks) {
+std::optional<dynamics::ExternalLoads> read_trial_loads(const Study& study,
+                                                        const TrialSpec& trial,
+                                                        const model::BodyModel& model,
+                                                        const std::optional<recording::MarkerSeries>& markers,
+                                                        const Remember& remember,
+                                                        std::vector<Remark>& remarks) {
   if (!trial.external_loads && !trial.load_cell && !trial.plates) return std::nullopt;
   dynamics::ExternalLoads loads;
   if (trial.external_loads) {
@@ -180,7 +177,7 @@ std::optional<dynamics::ExternalLoads> read_trial_loads(
   if (trial.load_cell) loads.forces.push_back(read_load_cell(study, trial, model, markers, remember, remarks));
   if (trial.plates) {
     dynamics::ExternalLoads plates = read_plates(study, trial, model, markers, remember, remarks);
-    std::move(plates.forces.begin(), plates.forces.end(), std::back_inserter(loads.forces));
+    std::ranges::move(plates.forces, std::back_inserter(loads.forces));
   }
   return loads;
 }

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "myoid/core/remark.h"
 #include "myoid/dynamics/external_loads.h"
 #include "myoid/files/marker_series.h"
+#include "myoid/intake/trial_clock.h"
 #include "myoid/model/body_model.h"
 #include "myoid/study/study.h"
 
@@ -24,7 +22,7 @@ namespace myoid {
     const TrialSpec& trial,
     const model::BodyModel& model,
     const std::optional<recording::MarkerSeries>& markers,
-    const std::function<void(const std::filesystem::path&)>& remember,
+    const Remember& remember,
     std::vector<Remark>& remarks);
 
 }  // namespace myoid

@@ -36,10 +36,11 @@ void match_labels(const model::BodyModel& model,
     name = same->second;
   }
   for (const auto& [name, like] : match.similar) {
-    add_notes({fmt::format("{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] "
-                           "rename = {{ \"{}\" = \"{}\" }}",
-                           path.filename().string(), name, like, name, like)},
-              input.remarks);
+    add_notes(
+        {fmt::format(
+            "{}: the model has no marker '{}'; did you mean '{}'? Then write [markers] rename = {{ \"{}\" = \"{}\" }}",
+            path.filename().string(), name, like, name, like)},
+        input.remarks);
   }
 }
 
@@ -63,6 +64,16 @@ recording::MarkerSeries read_markers(const Study& study,
   return std::move(file.markers);
 }
 
+/// Returns the frames from `start_s` to `end_s`, both included.
+recording::MarkerSeries frames_between(const recording::MarkerSeries& markers, double start_s, double end_s) {
+  const double* const begin = markers.time_s.data();
+  const double* const end = begin + markers.frame_count();
+  const double* const first = std::lower_bound(begin, end, start_s);
+  const Eigen::Index count = std::upper_bound(first, end, end_s) - first;
+  return {markers.time_s.segment(first - begin, count), markers.names,
+          markers.positions_m.middleRows(first - begin, count)};
+}
+
 /// Notes the faults of the markers and repairs as many as possible.
 recording::MarkerSeries mended(const Study& study,
                                const model::BodyModel& model,
@@ -73,10 +84,10 @@ recording::MarkerSeries mended(const Study& study,
   bool right_unit = true;
   for (Remark& fault : input.marker_faults) {
     right_unit = right_unit && fault.code != RemarkCode::marker_unit;
-    const bool used = std::any_of(model.markers.begin(), model.markers.end(),
-                                  [&](const model::Marker& marker) { return fault.about == marker.name; });
+    const bool used =
+        std::ranges::any_of(model.markers, [&](const model::Marker& marker) { return fault.about == marker.name; });
     // A fault of a marker that the model lacks has no effect.
-    const bool of_one = std::find(markers.names.begin(), markers.names.end(), fault.about) != markers.names.end();
+    const bool of_one = std::ranges::find(markers.names, fault.about) != markers.names.end();
     if (of_one && !used) fault.severity = Severity::note;
   }
   if (!right_unit) return markers;
@@ -94,17 +105,9 @@ recording::MarkerSeries read_trial_markers(const Study& study,
                                            const TrialSpec& trial,
                                            const model::BodyModel& model,
                                            TrialInput& input) {
-  const double start = trial.start_s.value_or(-1e300);
-  const double end = trial.end_s.value_or(1e300);
   recording::MarkerSeries markers = read_markers(study, model, *trial.markers, input);
-  if (trial.start_s || trial.end_s) {
-    Eigen::Index first = 0;
-    while (first < markers.frame_count() && markers.time_s[first] < start) ++first;
-    Eigen::Index last = markers.frame_count();
-    while (last > first && markers.time_s[last - 1] > end) --last;
-    markers.time_s = markers.time_s.segment(first, last - first).eval();
-    markers.positions_m = markers.positions_m.middleRows(first, last - first).eval();
-  }
+  if (trial.start_s || trial.end_s)
+    markers = frames_between(markers, trial.start_s.value_or(-1e300), trial.end_s.value_or(1e300));
   if (markers.frame_count() < 10)
     throw ReadError(*trial.markers, 0, fmt::format("only {} frames; at least 10 are needed", markers.frame_count()));
   if (std::string pauses = check_clock(*trial.markers, markers.time_s); !pauses.empty())
@@ -114,17 +117,10 @@ recording::MarkerSeries read_trial_markers(const Study& study,
 }
 
 recording::MarkerSeries calibration_window(const CalibrationSpec& spec, const recording::MarkerSeries& markers) {
-  recording::MarkerSeries window;
-  window.names = markers.names;
-  Eigen::Index first = 0;
-  while (first < markers.frame_count() && markers.time_s[first] < spec.window_s[0]) ++first;
-  Eigen::Index last = first;
-  while (last < markers.frame_count() && markers.time_s[last] <= spec.window_s[1]) ++last;
-  if (last - first < 2)
+  recording::MarkerSeries window = frames_between(markers, spec.window_s[0], spec.window_s[1]);
+  if (window.frame_count() < 2)
     throw InvalidInput(
         fmt::format("[ik] calibrate: no frames between {} and {} s", spec.window_s[0], spec.window_s[1]));
-  window.time_s = markers.time_s.segment(first, last - first);
-  window.positions_m = markers.positions_m.middleRows(first, last - first);
   return window;
 }
 

@@ -31,21 +31,14 @@ TimeSeries movement_of(const TrialInput& input) {
 
 std::vector<Remark> trial_faults(const Study& study, const TrialInput& input, const TimeSeries& envelope) {
   std::vector<Remark> faults = input.marker_faults;
-  const auto append = [&](std::vector<Remark> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(faults));
+  const auto append = [&](std::vector<Remark> more) { std::ranges::move(more, std::back_inserter(faults)); };
+  const auto check_clock_of = [&](const Eigen::VectorXd& time_s, const char* what) {
+    if (auto uneven = signals::check_clock_evenness(time_s, what)) faults.push_back(std::move(*uneven));
   };
-  if (input.emg) {
-    if (study.emg.kind == EmgKind::raw) append(signals::check_emg(*input.emg, !study.emg.as_published));
-    if (auto uneven = signals::check_clock_evenness(input.emg->time_s(), "EMG")) faults.push_back(std::move(*uneven));
-  }
-  if (input.markers) {
-    if (auto uneven = signals::check_clock_evenness(input.markers->time_s, "markers"))
-      faults.push_back(std::move(*uneven));
-  }
-  if (input.motion) {
-    if (auto uneven = signals::check_clock_evenness(input.motion->time_s(), "motion"))
-      faults.push_back(std::move(*uneven));
-  }
+  if (input.emg && study.emg.kind == EmgKind::raw) append(signals::check_emg(*input.emg, !study.emg.as_published));
+  if (input.emg) check_clock_of(input.emg->time_s(), "EMG");
+  if (input.markers) check_clock_of(input.markers->time_s, "markers");
+  if (input.motion) check_clock_of(input.motion->time_s(), "motion");
   if (envelope.empty()) return faults;
   const TimeSeries movement = movement_of(input);
   if (!movement.empty()) append(signals::check_clock_offset(envelope, movement));

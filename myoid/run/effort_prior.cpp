@@ -29,23 +29,23 @@ double unseen_effort(const Study& study) {
 std::string meaning_of_strength(const Study& study, bool maximal) {
   const EmgSpec& emg = study.emg;
   if (!maximal && effort_is_unknown(study))
-    return "F_max is the muscle's maximum and rests on the literature: the share of it at the "
-           "largest EMG is an unknown. Record a maximal contraction.";
+    return "F_max is the muscle's maximum and rests on the literature: the share of it at the largest EMG is an "
+           "unknown. Record a maximal contraction.";
   if (!maximal)
-    return "F_max means the force at the study's largest EMG, not the muscle's maximum; forces and "
-           "torques do not depend on it.";
+    return "F_max means the force at the study's largest EMG, not the muscle's maximum; forces and torques do not "
+           "depend on it.";
   if (emg.mvc_effort_sd > 0.0 || emg.mvc_effort < 1.0)
     return fmt::format(
-        "F_max is the force of a completely active muscle: the maximal contractions are taken to "
-        "reach {:.0f} +- {:.0f} % of it.",
+        "F_max is the force of a completely active muscle: the maximal contractions are taken to reach {:.0f} +- "
+        "{:.0f} % of it.",
         100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd);
   if (study.identify.estimator == identification::EstimatorKind::posterior)
     return fmt::format(
-        "F_max is the force of a completely active muscle: that of the maximal contractions is "
-        "taken to differ from it by {:.0f} % ([beliefs] effort_sd).",
+        "F_max is the force of a completely active muscle: that of the maximal contractions is taken to differ from it "
+        "by {:.0f} % ([beliefs] effort_sd).",
         100.0 * unseen_effort(study));
-  return "F_max is the force at the greatest effort that was recorded. Untrained people reach some "
-         "80 to 100 % of what their muscles could exert; [emg] mvc_effort accounts for that.";
+  return "F_max is the force at the greatest effort that was recorded. Untrained people reach some 80 to 100 % of what "
+         "their muscles could exert; [emg] mvc_effort accounts for that.";
 }
 
 identification::ParameterRule effort_bounds() {

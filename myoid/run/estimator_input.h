@@ -5,7 +5,7 @@
 #include "myoid/core/progress.h"
 #include "myoid/identification/estimator_settings.h"
 #include "myoid/identification/study_data.h"
-#include "myoid/run/fit_source.h"
+#include "myoid/run/fit_input.h"
 #include "myoid/signals/emg_envelope.h"
 
 namespace myoid {

@@ -8,7 +8,6 @@
 
 #include "myoid/methods/torque.h"
 #include "myoid/run/fit_input.h"
-#include "myoid/run/fit_source.h"
 #include "myoid/run/study_result.h"
 
 #include "tests/support/elbow_study.h"
@@ -34,9 +33,7 @@ identification::EstimatorOptions options_of(const StudyResult& result) {
   return torque_options(result.source.study, result.emg.normalisation, {});
 }
 
-identification::StudyData data_of(const StudyResult& result) {
-  return estimator_data(fit_source(result.source, result.trials, result.resting, result.emg));
-}
+identification::StudyData data_of(const StudyResult& result) { return estimator_data(fit_source(result)); }
 
 TEST(TorqueOptions, AGainsPriorIsTheShareOfTheMaximumThatTheMvcTrialsReach) {
   StudyResult result = with_one_channel();

@@ -52,8 +52,8 @@ std::vector<std::string> strained_channels(const identification::StudyData& data
   std::vector<std::string> channels;
   for (const identification::MuscleSetup& muscle : data.muscles) {
     const std::string& channel = muscle.emg_channel;
-    if (std::find(channels.begin(), channels.end(), channel) != channels.end()) continue;
-    const bool strained = std::any_of(data.trials.begin(), data.trials.end(), [&](const TrialData& trial) {
+    if (std::ranges::find(channels, channel) != channels.end()) continue;
+    const bool strained = std::ranges::any_of(data.trials, [&](const TrialData& trial) {
       return trial.calibration && trial.activation.find(channel) &&
              trial.activation.column(channel).maxCoeff() >= kStrained;
     });

@@ -65,6 +65,12 @@ std::string when_wrong() {
                      100.0 * kGateLimits.unrelated_share, kGateLimits.unrelated);
 }
 
+/// Returns the status of a prediction; it passes only if it is `good` by another measure, too.
+GateStatus status_of(const Explained& share, bool good) {
+  if (share.is_wrong()) return GateStatus::fail;
+  return good && share.r2() > kGateLimits.explains ? GateStatus::pass : GateStatus::warn;
+}
+
 Gate distance_gate(const IdentificationResult& fit) {
   constexpr double kFar = identification::kVerdictRules.prior_conflict;
   std::vector<std::string> far;
@@ -77,11 +83,11 @@ Gate distance_gate(const IdentificationResult& fit) {
   return {"Muscles within what is known of them", far.empty() ? GateStatus::pass : GateStatus::warn,
           far.empty() ? fmt::format("at most {:.1f} prior standard deviations from the literature", most)
                       : fmt::format("prior standard deviations from the literature: {}", fmt::join(far, "; ")),
-          fmt::format("every muscle's numbers, one by one and together, within {:.0f}; of the logarithm "
-                      "of what cannot be negative, such as F_max and lengths",
+          fmt::format("every muscle's numbers, one by one and together, within {:.0f}; of the logarithm of what cannot "
+                      "be negative, such as F_max and lengths",
                       kFar),
-          "Do not use the numbers of a muscle beyond before the cause is known: a label, sign, unit, "
-          "mass or geometry that is wrong, or a model too simple for the recording."};
+          "Do not use the numbers of a muscle beyond before the cause is known: a label, sign, unit, mass or geometry "
+          "that is wrong, or a model too simple for the recording."};
 }
 
 }  // namespace
@@ -94,10 +100,8 @@ bool Explained::is_wrong() const {
 }
 
 std::string Explained::text() const {
-  return fmt::format(
-      "R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque is {:.2f} rms and varies by "
-      "{:.2f}",
-      r2(), rms_nm, torque_rms_nm, spread_nm);
+  return fmt::format("R2 {:.2f}: {:.2f} N m rms below 1.5 Hz, where the torque is {:.2f} rms and varies by {:.2f}",
+                     r2(), rms_nm, torque_rms_nm, spread_nm);
 }
 
 identification::Score smoothed_score(const identification::TrialFit& fit) {
@@ -154,30 +158,25 @@ std::vector<OutlyingFold> outlying_folds(const std::vector<Fold>& folds) {
 
 std::vector<Gate> fit_gates(const IdentificationResult& fit) {
   std::vector<Gate> gates;
-  if (const Explained own = explained(fit, true); own.samples > 0) {
-    gates.push_back({"Describes the torque it was fitted to",
-                     own.is_wrong()                    ? GateStatus::fail
-                     : own.r2() > kGateLimits.explains ? GateStatus::pass
-                                                       : GateStatus::warn,
-                     own.text(), "R2 above 0.5; " + when_wrong(),
-                     "Muscles that do not even make the torque they were fitted to are none."});
-  }
-  if (const Explained held = explained(fit, false); held.samples > 0) {
-    gates.push_back({"Predicts the trials held back",
-                     held.is_wrong()                    ? GateStatus::fail
-                     : held.r2() > kGateLimits.explains ? GateStatus::pass
-                                                        : GateStatus::warn,
-                     held.text(), "R2 above 0.5; " + when_wrong(),
-                     "Below 0 their mean torque predicts them better, below -1 an unrelated torque "
-                     "of the same size."});
+  struct Question {
+    bool calibration;
+    const char *name, *why;
+  };
+  for (const auto& [calibration, name, why] :
+       {Question{true, "Describes the torque it was fitted to",
+                 "Muscles that do not even make the torque they were fitted to are none."},
+        Question{false, "Predicts the trials held back",
+                 "Below 0 their mean torque predicts them better, below -1 an unrelated torque of the same size."}}) {
+    const Explained share = explained(fit, calibration);
+    if (share.samples > 0)
+      gates.push_back({name, status_of(share, true), share.text(), "R2 above 0.5; " + when_wrong(), why});
   }
   if (!fit.prior_distances.empty()) gates.push_back(distance_gate(fit));
   // The distances have a gate of their own.
   std::vector<std::string> distances, others;
   add_distances_to(distances, fit.prior_distances);
-  std::copy_if(fit.warnings.begin(), fit.warnings.end(), std::back_inserter(others), [&](const std::string& text) {
-    return std::find(distances.begin(), distances.end(), text) == distances.end();
-  });
+  std::ranges::copy_if(fit.warnings, std::back_inserter(others),
+                       [&](const std::string& text) { return std::ranges::find(distances, text) == distances.end(); });
   if (!others.empty())
     gates.push_back({"Fit without reservations", GateStatus::warn, fmt::format("{}", fmt::join(others, "; ")), "none",
                      "Every number of the fit rests on it."});
@@ -200,15 +199,12 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
   std::string hint = fmt::format("Better in {} of the {} left out.", better, folds.size());
   if (const std::string beyond = identification::beyond_what_was_fitted(folds); !beyond.empty())
     hint += fmt::format(
-        " EMG beyond all that was fitted ({}): that prediction extrapolates. Record a maximal "
-        "contraction, or trials of like effort.",
+        " EMG beyond all that was fitted ({}): that prediction extrapolates. Record a maximal contraction, or trials "
+        "of like effort.",
         beyond);
   const bool beats = identified < literature && 2 * better > static_cast<int>(folds.size());
   gates.push_back(
-      {"Predicts torque it has not seen",
-       all.is_wrong()                             ? GateStatus::fail
-       : beats && all.r2() > kGateLimits.explains ? GateStatus::pass
-                                                  : GateStatus::warn,
+      {"Predicts torque it has not seen", status_of(all, beats),
        fmt::format("{}; unfiltered {:.2f} N m, the literature with its best gain {:.2f} N m", all.text(),
                    std::sqrt(identified / std::max(count, 1.0)), std::sqrt(literature / std::max(count, 1.0))),
        "R2 above 0.5 and better than the literature's parameters, over all and in most trials; " + when_wrong(),
@@ -221,8 +217,7 @@ std::vector<Gate> fold_gates(const std::vector<Fold>& folds) {
                                   f.usual_rms_nm));
     gates.push_back({"Trials alike", GateStatus::warn, fmt::format("{}", fmt::join(texts, "; ")),
                      "no error stands out from the others",
-                     "Is a file, a label, the held mass or the clock of that trial wrong? Mend it, "
-                     "or leave it out."});
+                     "Is a file, a label, the held mass or the clock of that trial wrong? Mend it, or leave it out."});
   }
   return gates;
 }

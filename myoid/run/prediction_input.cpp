@@ -34,7 +34,7 @@ Study study_of_run(const RunRecord& run) {
   study.identify.methods = {identification::Method::torque};
   for (const auto& [name, use] : run.uses) {
     const auto is_it = [&recorded = name](const TrialSpec& trial) { return recorded.starts_with(trial.name); };
-    if (std::none_of(study.trials.begin(), study.trials.end(), is_it))
+    if (std::ranges::none_of(study.trials, is_it))
       throw InvalidInput(
           fmt::format("{}: the trial '{}' of the run is missing; run the study again", run.study.string(), name));
   }
@@ -79,11 +79,10 @@ std::vector<TrialData> chosen(const std::vector<TrialData>& trials, const std::v
   }
   if (names.empty() && found.empty())
     throw InvalidInput(
-        "every trial of the study took part in the fit: name with --trials which to predict, add "
-        "trials with use = \"validation\" to the study, or give another study with --study");
+        "every trial of the study took part in the fit: name with --trials which to predict, add trials with use = "
+        "\"validation\" to the study, or give another study with --study");
   for (const std::string& name : names) {
-    const auto at =
-        std::find_if(trials.begin(), trials.end(), [&](const TrialData& trial) { return trial.name == name; });
+    const auto at = std::ranges::find_if(trials, [&](const TrialData& trial) { return trial.name == name; });
     if (at == trials.end()) {
       std::vector<std::string> there;
       for (const TrialData& trial : trials) there.push_back(trial.name);

@@ -13,6 +13,7 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/checks/trial_plausibility.h"
+#include "myoid/core/counted.h"
 #include "myoid/core/units.h"
 #include "myoid/dynamics/ground_support.h"
 #include "myoid/dynamics/inverse_dynamics.h"
@@ -73,8 +74,7 @@ MissingMuscles missing_muscles(const StudyResult& result) {
       if (there[i] || strength_nm[m] <= 0.002 * all_nm) continue;
       missing_nm += strength_nm[m];
       const std::string& name = result.source.model->muscles[i].name;
-      if (std::find(missing.names.begin(), missing.names.end(), name) == missing.names.end())
-        missing.names.push_back(name);
+      if (std::ranges::find(missing.names, name) == missing.names.end()) missing.names.push_back(name);
     }
     if (all_nm > 0.0) missing.share = std::max(missing.share, missing_nm / all_nm);
   }
@@ -137,7 +137,7 @@ Gate recordings_gate(const StudyResult& result) {
     ++grave;
     std::vector<std::string>& of = places[report::spelled(name(fault.code))];
     const std::string place = fault.where.empty() ? fault.about : fmt::format("{} in {}", fault.about, fault.where);
-    if (std::find(of.begin(), of.end(), place) == of.end()) of.push_back(place);
+    if (std::ranges::find(of, place) == of.end()) of.push_back(place);
   }
   std::vector<std::string> kinds;
   for (auto& [kind, of] : places) {
@@ -156,8 +156,7 @@ Gate recordings_gate(const StudyResult& result) {
   std::vector<std::string> found;
   if (grave > 0) found.push_back(fmt::format("{} found, {}", grave, fmt::join(kinds, "; ")));
   if (warnings > 0)
-    found.push_back(
-        fmt::format("{} warning{} about the files of {}", warnings, warnings == 1 ? "" : "s", fmt::join(trials, ", ")));
+    found.push_back(fmt::format("{} about the files of {}", counted(warnings, "warning"), fmt::join(trials, ", ")));
   return {"Recordings without faults", found.empty() ? GateStatus::pass : GateStatus::warn,
           found.empty() ? std::string("none found") : fmt::format("{}", fmt::join(found, "; ")),
           "no gap, jump, hum, clipping, missing EMG, ... beyond the limits",
@@ -231,13 +230,13 @@ std::vector<Gate> motion_gates(const Study& study, const std::vector<TrialResult
 std::vector<Gate> model_gates(const StudyResult& result) {
   std::vector<Gate> list;
   if (const MissingMuscles missing = missing_muscles(result); !missing.names.empty()) {
-    list.push_back({"Every muscle of the joint is in the study",
-                    missing.share > kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
-                    fmt::format("without {}: {:.0f} % of the joint's strength", fmt::join(missing.names, ", "),
-                                100.0 * missing.share),
-                    fmt::format("at most {:.0f} % missing", 100.0 * kGateLimits.missing_share),
-                    "What these muscles do is laid to the others: add them, or name them in a "
-                    "[[muscle]]'s osim list."});
+    list.push_back(
+        {"Every muscle of the joint is in the study",
+         missing.share > kGateLimits.missing_share ? GateStatus::warn : GateStatus::info,
+         fmt::format("without {}: {:.0f} % of the joint's strength", fmt::join(missing.names, ", "),
+                     100.0 * missing.share),
+         fmt::format("at most {:.0f} % missing", 100.0 * kGateLimits.missing_share),
+         "What these muscles do is laid to the others: add them, or name them in a [[muscle]]'s osim list."});
   }
   return list;
 }
@@ -268,8 +267,7 @@ std::vector<Gate> sharing_gates(const std::vector<TrialResult>& trials) {
 /// Tests whether activation 1 is a maximal contraction. Empty for EMG that is given as activation.
 std::vector<Gate> reference_gates(const Study& study, const EmgScale& emg) {
   if (emg.normalisation.empty()) return {};
-  const bool mvc =
-      std::all_of(emg.normalisation.begin(), emg.normalisation.end(), [](const auto& n) { return n.from_mvc; });
+  const bool mvc = std::ranges::all_of(emg.normalisation, [](const auto& n) { return n.from_mvc; });
   std::map<std::string, std::vector<std::string>> channels;  // by the trial of their largest effort
   for (const auto& n : emg.normalisation) channels[n.source_trial].push_back(n.channel);
   std::vector<std::string> sources;
@@ -286,14 +284,13 @@ std::vector<Gate> parameter_gates(const IdentificationResult& torque) {
                           torque.message, "converged", "Only a converged fit is an answer."}};
   for (report::Gate& gate : fit_gates(torque)) list.push_back(std::move(gate));
   const auto count = [&](Verdict v) {
-    return std::count_if(torque.estimates.begin(), torque.estimates.end(), [&](const auto& e) {
+    return std::ranges::count_if(torque.estimates, [&](const auto& e) {
       return e.verdict == v && e.tied_to.empty() && !identification::is_nuisance(e);
     });
   };
   list.push_back({"Parameters that this recording tells",
                   count(Verdict::identified) > 0 ? GateStatus::pass : GateStatus::warn,
-                  fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} "
-                              "non-physical",
+                  fmt::format("{} identified, {} weak, {} prior-dominated, {} not identifiable, {} non-physical",
                               count(Verdict::identified), count(Verdict::weak), count(Verdict::prior_dominated),
                               count(Verdict::not_identifiable), count(Verdict::non_physical)),
                   "those you need", "Use a number only if its verdict allows it."});
@@ -313,8 +310,8 @@ Gate electrode_gate(const identification::ExchangedElectrodes& exchanged) {
   // A larger difference of the synergists' strengths than usual could explain this, too.
   return {"Electrodes on the muscles that they are named for",
           exchanged.as_named.r2 > kGateLimits.explains ? GateStatus::warn : GateStatus::fail, exchanged.sentence(),
-          fmt::format("no two channels that fit {:.0f} % better as each other; fails where "
-                      "they make less than half of the torque as they are (R2 0.5)",
+          fmt::format("no two channels that fit {:.0f} % better as each other; fails where they make less than half of "
+                      "the torque as they are (R2 0.5)",
                       100.0 * identification::beliefs::kStrengthRatio.sd),
           "Every number of the two muscles is then the other's."};
 }
@@ -331,9 +328,7 @@ std::vector<report::Gate> quality_gates(const StudyResult& result) {
                     "The others are reported; the failures are listed under the trials."});
   }
   list.push_back(recordings_gate(result));
-  const auto add = [&list](std::vector<Gate> gates) {
-    std::move(gates.begin(), gates.end(), std::back_inserter(list));
-  };
+  const auto add = [&list](std::vector<Gate> gates) { std::ranges::move(gates, std::back_inserter(list)); };
   add(motion_gates(result.source.study, result.trials));
   add(model_gates(result));
   add(sharing_gates(result.trials));
@@ -368,8 +363,7 @@ report::Section recordings_section(const StudyResult& result) {
   constexpr std::size_t kMost = 40;
   report::Table table{"recordings",
                       "Faults of the recordings",
-                      "As recorded, before repairs. The limits stand in the guide to "
-                      "`myoid check`.",
+                      "As recorded, before repairs. The limits stand in the guide to `myoid check`.",
                       {"level", "trial", "time", "what was found", "what to do"},
                       std::move(warnings)};
   for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) {
@@ -391,7 +385,7 @@ report::Section recordings_section(const StudyResult& result) {
 
 bool motion_is_unreliable(const Study& study, const std::vector<TrialResult>& trials) {
   const std::vector<Gate> gates = motion_gates(study, trials);
-  return std::any_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.status == GateStatus::fail; });
+  return std::ranges::any_of(gates, [](const Gate& gate) { return gate.status == GateStatus::fail; });
 }
 
 std::vector<IdentificationResult> judged(std::vector<IdentificationResult> methods,

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/units.h"
 #include "myoid/intake/limits.h"
 #include "myoid/kinematics/lumped_muscles.h"
 #include "myoid/study/study_model.h"
@@ -41,9 +40,8 @@ std::string too_strong(const Study& study, const model::BodyModel& model, const 
     const double limit = kLimits.resting_share * strength;
     if (beside <= limit && largest <= limit + identification::kLargestWeight_nm) continue;
     return fmt::format(
-        "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its "
-        "muscles' strength ({:.0f} N m) and {:g} N m of weight: no relaxed joint resists that "
-        "much; N mm, or the instrument's offset?",
+        "{} reaches {:.1f} N m, {:.1f} N m beside a weight's: more than {:g} % of its muscles' strength ({:.0f} N m) "
+        "and {:g} N m of weight: no relaxed joint resists that much; N mm, or the instrument's offset?",
         name, largest, beside, 100.0 * kLimits.resting_share, strength, identification::kLargestWeight_nm);
   }
   return {};
@@ -57,8 +55,8 @@ std::string not_at_rest(const Study& study, const model::BodyModel& model, const
     const double mean = trial.activation->column(channel.name).mean();
     if (mean > limit) {
       return fmt::format(
-          "the muscles were not at rest: EMG channel '{}' is on average at {:.1f} % of {}, at most "
-          "{:g} % were expected",
+          "the muscles were not at rest: EMG channel '{}' is on average at {:.1f} % of {}, at most {:g} % were "
+          "expected",
           channel.name, 100.0 * mean, mvc ? "the maximal contraction" : "its greatest value in the study",
           100.0 * limit);
     }
@@ -90,11 +88,11 @@ RestingJoints resting_joints(const Study& study,
     }
     relaxed.push_back(&trial);
     if (trial.activation->empty())
-      found.remarks.push_back({.code = RemarkCode::resting_torque,
-                               .severity = Severity::note,
-                               .where = trial.spec->name,
-                               .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at "
-                                       "rest"});
+      found.remarks.push_back(
+          {.code = RemarkCode::resting_torque,
+           .severity = Severity::note,
+           .where = trial.spec->name,
+           .says = "a relaxed joint by the study's word: no EMG shows that the muscles were at rest"});
   }
   const std::vector<std::string> coordinates = study_coordinates(study.model);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
@@ -117,8 +115,7 @@ RestingJoints resting_joints(const Study& study,
 Eigen::VectorXd resting_torque_nm(const std::vector<RestingJoint>& joints,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& angle_rad) {
-  const auto found =
-      std::find_if(joints.begin(), joints.end(), [&](const RestingJoint& joint) { return joint.joint == coordinate; });
+  const auto found = std::ranges::find_if(joints, [&](const RestingJoint& joint) { return joint.joint == coordinate; });
   return found == joints.end() ? Eigen::VectorXd() : found->torque.at(angle_rad);
 }
 

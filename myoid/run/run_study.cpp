@@ -96,8 +96,8 @@ std::vector<TrialResult> joined(const Study& study,
     trial.faults = findings.of_trials[i];
     std::vector<Remark>& remarks = trial.remarks;
     remarks = trial.input.remarks;
-    std::copy_if(findings.dynamometers.begin(), findings.dynamometers.end(), std::back_inserter(remarks),
-                 [&](const Remark& remark) { return remark.where == trial.spec.name; });
+    std::ranges::copy_if(findings.dynamometers, std::back_inserter(remarks),
+                         [&](const Remark& remark) { return remark.where == trial.spec.name; });
     if (trial.emg.stages) add_notes(trial.emg.stages->findings, remarks);
     add_notes(trial.motion.notes, remarks);
     remarks.insert(remarks.end(), trial.forces.remarks.begin(), trial.forces.remarks.end());
@@ -117,8 +117,7 @@ std::optional<DesignStudyResult> next_recording(const StudySource& source,
   options.catalogue.dynamometer = false;
   std::vector<double> masses{0.0};
   for (const TrialSpec& trial : study.trials) {
-    if (std::find(masses.begin(), masses.end(), trial.held_mass_kg) == masses.end())
-      masses.push_back(trial.held_mass_kg);
+    if (std::ranges::find(masses, trial.held_mass_kg) == masses.end()) masses.push_back(trial.held_mass_kg);
   }
   if (masses.size() > 1) options.catalogue.held_masses_kg = masses;
   options.progress.stop = progress.stop;
@@ -137,8 +136,7 @@ StudyInputs read_stage(const Study& whole, const RunOptions& options, Stages& st
 
 /// Runs the stages from the activation to the data.
 StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& stages) {
-  StudySource& source = inputs.source;
-  const Study& study = source.study;
+  const Study& study = inputs.source.study;
   StudyActivation activation = stages.run(
       "activation", 0.15, 0.25, [&](const Progress&) { return study_activation(study, emg_of(inputs.trials)); });
   RecordingFindings recordings =
@@ -148,23 +146,18 @@ StudyResult up_to_data(StudyInputs inputs, const RunOptions& options, Stages& st
   StudyForces forces = stages.run("forces", 0.5, 0.7, [&](const Progress& progress) {
     return study_forces(inputs, activation, motion, options.share_forces, progress);
   });
-  std::vector<TrialResult> trials = joined(study, std::move(inputs.trials), std::move(activation.trials),
-                                           std::move(motion), std::move(forces.trials), recordings);
-  FitInput input = stages.run("data", 0.7, 0.72, [&](const Progress& progress) {
-    return fit_input(fit_source(source, trials, forces.resting, activation.scale), progress);
-  });
-  return {.start_s = options.start_s,
-          .end_s = options.end_s,
-          .source = std::move(source),
-          .trials = std::move(trials),
-          .emg = std::move(activation.scale),
-          .level_faults = std::move(recordings.levels),
-          .resting = std::move(forces.resting),
-          .fit_input = std::move(input),
-          .fit = {},
-          .folds = {},
-          .next = {},
-          .times = {}};
+  StudyResult result;
+  result.start_s = options.start_s;
+  result.end_s = options.end_s;
+  result.trials = joined(study, std::move(inputs.trials), std::move(activation.trials), std::move(motion),
+                         std::move(forces.trials), recordings);
+  result.source = std::move(inputs.source);
+  result.emg = std::move(activation.scale);
+  result.level_faults = std::move(recordings.levels);
+  result.resting = std::move(forces.resting);
+  result.fit_input =
+      stages.run("data", 0.7, 0.72, [&](const Progress& progress) { return fit_input(fit_source(result), progress); });
+  return result;
 }
 
 /// Runs the stages from the fit on.
@@ -179,7 +172,7 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   StudyValidation validation;
   if (study.identify.cross_validate && wants_torque(study))
     validation = stages.run("validation", 0.85, 0.95, [&](const Progress& progress) {
-      return study_validation(fit_source(result.source, result.trials, result.resting, result.emg), input, progress);
+      return study_validation(fit_source(result), input, progress);
     });
   if (study.identify.next_movements > 0 && wants_torque(study))
     result.next = stages.run("next recording", 0.95, 1.0,
@@ -189,33 +182,32 @@ void fit_and_validate(StudyResult& result, const RunOptions& options, Stages& st
   result.folds = std::move(validation.folds);
 }
 
+/// Runs all stages behind the reading.
+StudyResult finished(StudyInputs inputs, const RunOptions& options, Stages& stages) {
+  StudyResult result = up_to_data(std::move(inputs), options, stages);
+  fit_and_validate(result, options, stages);
+  options.progress.tell(1.0, "done");
+  result.times = std::move(stages).times();
+  return result;
+}
+
 }  // namespace
 
 StudyResult study_data(const Study& study, const RunOptions& options) {
   Stages stages(options.progress);
-  StudyInputs inputs = read_stage(study, options, stages);
-  StudyResult result = up_to_data(std::move(inputs), options, stages);
+  StudyResult result = up_to_data(read_stage(study, options, stages), options, stages);
   result.times = std::move(stages).times();
   return result;
 }
 
 StudyResult run_study(const Study& study, const RunOptions& options) {
   Stages stages(options.progress);
-  StudyInputs inputs = read_stage(study, options, stages);
-  StudyResult result = up_to_data(std::move(inputs), options, stages);
-  fit_and_validate(result, options, stages);
-  options.progress.tell(1.0, "done");
-  result.times = std::move(stages).times();
-  return result;
+  return finished(read_stage(study, options, stages), options, stages);
 }
 
 StudyResult analyse(StudyInputs inputs, const RunOptions& options) {
   Stages stages(options.progress);
-  StudyResult result = up_to_data(std::move(inputs), options, stages);
-  fit_and_validate(result, options, stages);
-  options.progress.tell(1.0, "done");
-  result.times = std::move(stages).times();
-  return result;
+  return finished(std::move(inputs), options, stages);
 }
 
 }  // namespace myoid

@@ -25,7 +25,7 @@ const IdentificationResult* torque_of(const StudyFit& fit) {
 
 bool wants_torque(const Study& study) {
   const std::vector<identification::Method>& methods = study.identify.methods;
-  return std::find(methods.begin(), methods.end(), identification::Method::torque) != methods.end();
+  return std::ranges::find(methods, identification::Method::torque) != methods.end();
 }
 
 StudyFit study_fit(const Study& study, const FitInput& input, const Progress& progress) {

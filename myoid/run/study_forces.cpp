@@ -25,7 +25,7 @@ std::optional<dynamics::UncarriedTime> uncarried_time(const Study& study,
   if (spec.external_torque) return std::nullopt;
   const std::vector<std::string> names = study_coordinates(study.model);
   const Eigen::VectorXd posture = motion.joints.q.values().row(0).transpose();
-  const bool bears = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  const bool bears = std::ranges::any_of(names, [&](const std::string& name) {
     return dynamics::bears_the_body(*motion.model, name, posture, study.subject.mass_kg.value_or(0.0));
   });
   return bears ? dynamics::uncarried_time(*motion.model, generalized) : std::nullopt;
@@ -65,8 +65,8 @@ std::vector<identification::RestingJoint> find_resting(const StudyInputs& inputs
   }
   RestingJoints found = resting_joints(inputs.source.study, *inputs.source.model, trials);
   for (Remark& remark : found.remarks) {
-    const auto of_it = std::find_if(trials.begin(), trials.end(),
-                                    [&](const RelaxedTrial& trial) { return trial.spec->name == remark.where; });
+    const auto of_it =
+        std::ranges::find_if(trials, [&](const RelaxedTrial& trial) { return trial.spec->name == remark.where; });
     forces[of_it->index].remarks.push_back(std::move(remark));
   }
   return std::move(found.joints);

@@ -19,7 +19,7 @@ namespace {
 std::vector<TrueValue> read_truth(const std::filesystem::path& path) {
   const recording::CsvTable table = recording::read_csv_table(path);
   const auto column = [&](std::string_view name) {
-    const auto it = std::find(table.names.begin(), table.names.end(), name);
+    const auto it = std::ranges::find(table.names, name);
     if (it == table.names.end()) throw ReadError(path, 1, fmt::format("no column '{}'", name));
     return static_cast<std::size_t>(it - table.names.begin());
   };
@@ -73,8 +73,7 @@ StudyInputs read_inputs(const Study& study) {
   require_plausible(source.study, *source.model, inputs.trials);
   for (const TrialInput& trial : inputs.trials) {
     for (const InputFile& file : trial.files) {
-      const bool known = std::any_of(source.files.begin(), source.files.end(),
-                                     [&](const InputFile& f) { return f.path == file.path; });
+      const bool known = std::ranges::any_of(source.files, [&](const InputFile& f) { return f.path == file.path; });
       if (!known) source.files.push_back(file);
     }
   }

@@ -40,8 +40,7 @@ TimeSeries frequency_of(const EmgScale& scale, const TrialResult& trial, double 
 }
 
 const TrialResult* result_of(const std::vector<TrialResult>& trials, const std::string& name) {
-  const auto found =
-      std::find_if(trials.begin(), trials.end(), [&](const TrialResult& t) { return t.spec.name == name; });
+  const auto found = std::ranges::find_if(trials, [&](const TrialResult& t) { return t.spec.name == name; });
   return found == trials.end() ? nullptr : &*found;
 }
 
@@ -93,8 +92,8 @@ identification::StudyData plain_data(const FitSource& source, identification::St
 std::vector<TrialPhases> study_phases(const FitSource& source,
                                       const identification::StudyData& of_study,
                                       identification::EstimatorOptions options) {
-  const bool worth_a_fit = std::any_of(of_study.trials.begin(), of_study.trials.end(),
-                                       [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
+  const bool worth_a_fit =
+      std::ranges::any_of(of_study.trials, [](const auto& t) { return t.calibration && duration_s(t) >= kShortest_s; });
   const identification::StudyData data = worth_a_fit ? plain_data(source, of_study) : of_study;
   identification::IdentificationResult fit;
   if (worth_a_fit) {
@@ -133,7 +132,7 @@ void exclude_phases(const std::vector<PhaseKind>& rule,
                     identification::StudyData& data) {
   for (std::size_t i = 0; i < phases.size(); ++i) {
     for (Phase& phase : phases[i].phases) {
-      const bool named = std::find(rule.begin(), rule.end(), phase.kind) != rule.end();
+      const bool named = std::ranges::find(rule, phase.kind) != rule.end();
       const bool sure = phase.kind != PhaseKind::fatigued || phase.frequency.has_value();
       if (!named || !sure) continue;
       phase.excluded = true;

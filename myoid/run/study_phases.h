@@ -4,7 +4,7 @@
 
 #include "myoid/identification/options.h"
 #include "myoid/phases/phases.h"
-#include "myoid/run/fit_source.h"
+#include "myoid/run/fit_input.h"
 
 namespace myoid {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "myoid/run/study_fit.h"
 #include "myoid/run/study_forces.h"
 #include "myoid/run/study_inputs.h"
-#include "myoid/run/trial_motion.h"
 #include "myoid/run/trial_result.h"
 
 namespace myoid {
@@ -38,5 +36,12 @@ struct StudyResult {
   std::optional<DesignStudyResult> next;
   std::vector<StageTime> times;
 };
+
+/// Returns the run's own trials as the source of a fit.
+[[nodiscard]] inline FitSource fit_source(const StudyResult& result) {
+  FitSource source{result.source.study, *result.source.model, result.trials, result.resting, {}, result.emg};
+  for (const TrialResult& trial : result.trials) source.activation.push_back(&trial.emg.activation);
+  return source;
+}
 
 }  // namespace myoid

@@ -32,8 +32,7 @@ FitInput without_left_out(const FitSource& source, const identification::StudyDa
   for (const TrialActivation& trial : seen.trials) of_fold.activation.push_back(&trial.activation);
   FitInput input = fit_input(of_fold, progress);
   std::erase_if(input.data.trials, [&](const identification::TrialData& trial) {
-    return std::none_of(split.trials.begin(), split.trials.end(),
-                        [&](const auto& of_split) { return of_split.name == trial.name; });
+    return std::ranges::none_of(split.trials, [&](const auto& of_split) { return of_split.name == trial.name; });
   });
   return input;
 }

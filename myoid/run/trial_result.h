@@ -31,7 +31,7 @@ struct TrialResult {
 /// Returns the number of trials that could not be computed.
 [[nodiscard]] inline int failed_trials(const std::vector<TrialResult>& trials) {
   return static_cast<int>(
-      std::count_if(trials.begin(), trials.end(), [](const TrialResult& trial) { return !trial.failure().empty(); }));
+      std::ranges::count_if(trials, [](const TrialResult& trial) { return !trial.failure().empty(); }));
 }
 
 }  // namespace myoid

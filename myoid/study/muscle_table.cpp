@@ -55,17 +55,17 @@ void visit(MuscleSpec& muscle, SettingVisitor& v) {
                                .otherwise = "the one of this name"});
   v.must(!stated || !muscle.osim.empty(), "osim", "expected at least one muscle of the model");
   if (muscle.osim.empty()) muscle.osim = {muscle.name};
-  v.text("emg", muscle.emg, muscle.same_as,
-         {.says = "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep "
-                  "muscle without an electrode.",
-          .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
-          .table = "same_as"});
+  v.text(
+      "emg", muscle.emg, muscle.same_as,
+      {.says =
+           "EMG channel; `{ same_as = \"MUSCLE\" }`: another muscle's channel, of a deep muscle without an electrode.",
+       .required = "the EMG channel, or { same_as = \"MUSCLE\" } where there is no electrode",
+       .table = "same_as"});
   v.table("start", !muscle.start.empty(), {.says = "Starting values, `start = { max_isometric_force = 900.0 }`."},
           [&muscle](SettingVisitor& inside) { visit_start(muscle.start, inside); });
   v.texts("fixed", muscle.fixed,
-          {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named "
-                   "here: unknown, it is free with the literature's spread, which the intervals "
-                   "of V_sh then carry.",
+          {.says = "Parameters that are held. `max_shortening_speed` is held only where it is named here: unknown, it "
+                   "is free with the literature's spread, which the intervals of V_sh then carry.",
            .words = kHillNames});
 }
 

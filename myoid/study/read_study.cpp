@@ -26,9 +26,8 @@ using Names = std::set<std::string>;
 Names muscle_names(const Study& study) {
   if (study.muscles.empty())
     refuse(study,
-           "no [[muscle]]; add one table per muscle to identify, with name, osim and emg. Without "
-           "EMG no "
-           "muscle can be identified: `ik`, `id` and `so` do without");
+           "no [[muscle]]; add one table per muscle to identify, with name, osim and emg. Without EMG no muscle can be "
+           "identified: `ik`, `id` and `so` do without");
   Names names;
   for (const MuscleSpec& muscle : study.muscles) {
     if (!names.insert(muscle.name).second) refuse(study, fmt::format("two [[muscle]] are named '{}'", muscle.name));
@@ -39,8 +38,8 @@ Names muscle_names(const Study& study) {
 void check_muscles(const Study& study, const Names& names) {
   for (const MuscleSpec& muscle : study.muscles) {
     if (!muscle.same_as) continue;
-    const auto other = std::find_if(study.muscles.begin(), study.muscles.end(),
-                                    [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
+    const auto other =
+        std::ranges::find_if(study.muscles, [&](const MuscleSpec& m) { return m.name == *muscle.same_as; });
     if (other == study.muscles.end() || other->same_as)
       refuse(study, fmt::format("[[muscle]] {}: emg same_as \"{}\" names no muscle with an electrode; there are {}",
                                 muscle.name, *muscle.same_as, fmt::join(names, ", ")));
@@ -54,8 +53,8 @@ void check_muscles(const Study& study, const Names& names) {
 
 void check_rule(const Study& study, const identification::ParameterRule& rule, const Names& names) {
   if (identification::is_lag(rule.parameter) && !study.identify.dynamics)
-    refuse(study, fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = "
-                              "true in [identify]; add that, or leave the table out",
+    refuse(study, fmt::format("[[parameter]] {}: the lags of the activation act only with dynamics = true in "
+                              "[identify]; add that, or leave the table out",
                               rule.parameter));
   if (identification::parameter_field(rule.parameter).scope != identification::Scope::muscle) return;
   for (const std::string& owner : rule.owners) {
@@ -68,13 +67,12 @@ void check_rule(const Study& study, const identification::ParameterRule& rule, c
 void check_trials(const Study& study) {
   if (study.trials.empty())
     refuse(study, "no [[trial]]; add one table per recording, with name, markers or motion, and emg");
-  const bool any_to_learn_from = std::any_of(study.trials.begin(), study.trials.end(), [](const TrialSpec& t) {
-    return t.use == Use::calibration || t.use == Use::isometric;
-  });
+  const bool any_to_learn_from = std::ranges::any_of(
+      study.trials, [](const TrialSpec& t) { return t.use == Use::calibration || t.use == Use::isometric; });
   if (!any_to_learn_from && !study.identify.methods.empty())
     refuse(study,
-           "no [[trial]] has use = \"calibration\" or \"isometric\", from which parameters are "
-           "found; the others only test or scale them");
+           "no [[trial]] has use = \"calibration\" or \"isometric\", from which parameters are found; the others only "
+           "test or scale them");
   Names names;
   for (const TrialSpec& trial : study.trials) {
     if (!names.insert(trial.name).second) refuse(study, fmt::format("two [[trial]] are named '{}'", trial.name));
@@ -120,8 +118,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& file) {
       if (other.name == *muscle.same_as) muscle.emg = other.emg;
     }
   }
-  study.emg.has_mvc =
-      std::any_of(study.trials.begin(), study.trials.end(), [](const TrialSpec& t) { return t.use == Use::mvc; });
+  study.emg.has_mvc = std::ranges::any_of(study.trials, [](const TrialSpec& t) { return t.use == Use::mvc; });
   check_references(study);
   return study;
 }

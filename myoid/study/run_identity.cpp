@@ -78,18 +78,17 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
       for (const json& method : content.value("methods", json::array())) {
         for (const json& e : method.value("estimates", json::array())) {
           const std::string muscle = text(e, "muscle");
-          const bool listed =
-              std::find(identity.muscles.begin(), identity.muscles.end(), muscle) != identity.muscles.end();
+          const bool listed = std::ranges::find(identity.muscles, muscle) != identity.muscles.end();
           if (!listed && text(e, "parameter") == "optimal_fiber_length") identity.muscles.push_back(muscle);
         }
       }
     }
     return identity;
   } catch (const json::exception& error) {
-    throw ReadError(path, 0,
-                    fmt::format("is not the result of a run: {}; run the study (myoid run) and "
-                                "give the folder of its result",
-                                error.what()));
+    throw ReadError(
+        path, 0,
+        fmt::format("is not the result of a run: {}; run the study (myoid run) and give the folder of its result",
+                    error.what()));
   }
 }
 
@@ -115,7 +114,7 @@ IdentityDifferences differences(const RunIdentity& here, const RunIdentity& ther
   }
   std::vector<std::string> only_here, only_there;
   const auto has = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
+    return std::ranges::find(list, name) != list.end();
   };
   for (const std::string& m : here.muscles) {
     if (!has(there.muscles, m)) only_here.push_back(m);

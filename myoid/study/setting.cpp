@@ -34,6 +34,12 @@ std::string expected(const SettingLimits& limits) {
   return fmt::format("{} or more", limits.lower);
 }
 
+/// Returns the setter of a value that a file holds as a T.
+template <typename T, typename Value>
+auto set_as(Value& value) {
+  return [&value](const SettingValue& given) { value = std::get<T>(given); };
+}
+
 template <typename T>
 SettingValue or_nothing(const std::optional<T>& value) {
   return value ? SettingValue(*value) : SettingValue();
@@ -56,7 +62,7 @@ std::string refusal(const Setting& setting, double value) {
 
 std::string refusal(const Setting& setting, const std::string& word) {
   const ChoiceNames words = setting.about.words;
-  if (words.empty() || std::find(words.begin(), words.end(), word) != words.end()) return "";
+  if (words.empty() || std::ranges::find(words, word) != words.end()) return "";
   std::vector<std::string> named;
   for (const std::string_view each : words) {
     if (!each.empty()) named.emplace_back(each);
@@ -67,12 +73,11 @@ std::string refusal(const Setting& setting, const std::string& word) {
 }
 
 bool SettingVisitor::flag(std::string_view key, bool& value, const About& about) {
-  return met({key, SettingKind::flag, about}, value, [&](SettingValue given) { value = std::get<bool>(given); });
+  return met({key, SettingKind::flag, about}, value, set_as<bool>(value));
 }
 
 bool SettingVisitor::flag(std::string_view key, std::optional<bool>& value, const About& about) {
-  return met({key, SettingKind::flag, about}, or_nothing(value),
-             [&](SettingValue given) { value = std::get<bool>(given); });
+  return met({key, SettingKind::flag, about}, or_nothing(value), set_as<bool>(value));
 }
 
 bool SettingVisitor::either(std::string_view key, bool& value, const About& about) {
@@ -81,12 +86,11 @@ bool SettingVisitor::either(std::string_view key, bool& value, const About& abou
 }
 
 bool SettingVisitor::number(std::string_view key, double& value, const About& about) {
-  return met({key, SettingKind::number, about}, value, [&](SettingValue given) { value = std::get<double>(given); });
+  return met({key, SettingKind::number, about}, value, set_as<double>(value));
 }
 
 bool SettingVisitor::number(std::string_view key, std::optional<double>& value, const About& about) {
-  return met({key, SettingKind::number, about}, or_nothing(value),
-             [&](SettingValue given) { value = std::get<double>(given); });
+  return met({key, SettingKind::number, about}, or_nothing(value), set_as<double>(value));
 }
 
 bool SettingVisitor::number(std::string_view key, std::optional<double>& value, bool& worded, const About& about) {
@@ -109,7 +113,7 @@ bool SettingVisitor::count(std::string_view key, std::optional<int>& value, cons
 }
 
 bool SettingVisitor::text(std::string_view key, std::string& value, const About& about) {
-  return met({key, SettingKind::text, about}, value, [&](SettingValue given) { value = std::get<std::string>(given); });
+  return met({key, SettingKind::text, about}, value, set_as<std::string>(value));
 }
 
 bool SettingVisitor::text(std::string_view key,
@@ -130,12 +134,12 @@ bool SettingVisitor::text(std::string_view key,
 
 bool SettingVisitor::path(std::string_view key, std::filesystem::path& value, const About& about) {
   return met({key, SettingKind::path, about}, value.empty() ? SettingValue() : SettingValue(value.string()),
-             [&](SettingValue given) { value = std::get<std::string>(given); });
+             set_as<std::string>(value));
 }
 
 bool SettingVisitor::path(std::string_view key, std::optional<std::filesystem::path>& value, const About& about) {
   return met({key, SettingKind::path, about}, value ? SettingValue(value->string()) : SettingValue(),
-             [&](SettingValue given) { value = std::get<std::string>(given); });
+             set_as<std::string>(value));
 }
 
 bool SettingVisitor::texts(std::string_view key, std::vector<std::string>& value, const About& about) {
@@ -149,19 +153,17 @@ bool SettingVisitor::texts(std::string_view key, std::vector<std::string>& value
 
 bool SettingVisitor::numbers(std::string_view key, std::vector<double>& value, const About& about) {
   return met({key, SettingKind::numbers, about}, value.empty() ? SettingValue() : SettingValue(value),
-             [&](SettingValue given) { value = std::get<std::vector<double>>(given); });
+             set_as<std::vector<double>>(value));
 }
 
 bool SettingVisitor::texts_by_name(std::string_view key,
                                    std::map<std::string, std::string>& value,
                                    const About& about) {
-  return met({key, SettingKind::texts_by_name, about}, value,
-             [&](SettingValue given) { value = std::get<std::map<std::string, std::string>>(given); });
+  return met({key, SettingKind::texts_by_name, about}, value, set_as<std::map<std::string, std::string>>(value));
 }
 
 bool SettingVisitor::numbers_by_name(std::string_view key, std::map<std::string, double>& value, const About& about) {
-  return met({key, SettingKind::numbers_by_name, about}, value,
-             [&](SettingValue given) { value = std::get<std::map<std::string, double>>(given); });
+  return met({key, SettingKind::numbers_by_name, about}, value, set_as<std::map<std::string, double>>(value));
 }
 
 void SettingVisitor::must(bool /*holds*/, std::string_view /*key*/, const std::string& /*message*/) {}

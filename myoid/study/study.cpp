@@ -32,8 +32,8 @@ void restrict_trials(Study& study, std::optional<double> start_s, std::optional<
     if (end_s) trial.end_s = std::min(*end_s, trial.end_s.value_or(*end_s));
     if (trial.start_s && trial.end_s && *trial.start_s >= *trial.end_s) {
       throw InvalidInput(
-          fmt::format("trial '{}': it would begin at {} s and end at {} s; --start "
-                      "must be before --end, and both within the trial's own times",
+          fmt::format("trial '{}': it would begin at {} s and end at {} s; --start must be before --end, and both "
+                      "within the trial's own times",
                       trial.name, *trial.start_s, *trial.end_s));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <variant>
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ namespace {
 /// Returns the mean distance from the elbow (or the middle of the epicondyles) to the middle of the styloids.
 std::optional<double> forearm_length(const recording::MarkerSeries& markers) {
   const auto find = [&](std::string_view name) -> Eigen::Index {
-    const auto it = std::find(markers.names.begin(), markers.names.end(), name);
+    const auto it = std::ranges::find(markers.names, name);
     return it == markers.names.end() ? -1 : it - markers.names.begin();
   };
   const Eigen::Index lateral = find("r_epicondyle_lateral");
@@ -67,9 +68,8 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   const model::MuscleProperties& p = muscle.properties;
   if (std::holds_alternative<model::SchutteCurves>(p.curves)) {
     throw ModelError(
-        fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give "
-                    "passive_force and pennation_angle by [[parameter]] and leave [identify] "
-                    "muscle_law and tendon at their defaults",
+        fmt::format("muscle '{}' is a {}, whose passive force is a free curve; give passive_force and pennation_angle "
+                    "by [[parameter]] and leave [identify] muscle_law and tendon at their defaults",
                     muscle.name, muscle.class_name));
   }
   const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
@@ -109,12 +109,9 @@ model::BodyModel prepared(const Study& study, model::BodyModel model) {
     throw ModelError(fmt::format("{}: [markers.weight] {}: the model has no such marker; there are {}",
                                  study.file.string(), name, fmt::join(names, ", ")));
   }
-  if (study.model.held_mass && !model.find_body(study.model.held_mass->body)) {
-    std::string names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i) names += (i == 1 ? "" : ", ") + model.bodies[i].name;
+  if (study.model.held_mass && !model.find_body(study.model.held_mass->body))
     throw ModelError(fmt::format("{}: [model] held_mass: the model has no body '{}'; there are {}", study.file.string(),
-                                 study.model.held_mass->body, names));
-  }
+                                 study.model.held_mass->body, body_names(model)));
   return model;
 }
 
@@ -136,6 +133,11 @@ std::optional<model::BodyModel> arm_of_markers(const Study& study, const recordi
   const bool built_in = study.model.text.empty() && !study.model.file;
   if (!built_in || study.model.forearm_length_m || !forearm_length(markers)) return std::nullopt;
   return prepared(study, model::parse_osim(model::arm4_osim(arm_options(study, &markers)), "arm4.osim"));
+}
+
+std::string body_names(const model::BodyModel& model) {
+  return fmt::format("{}",
+                     fmt::join(model.bodies | std::views::drop(1) | std::views::transform(&model::Body::name), ", "));
 }
 
 HeldMassSpec held_mass_place(const Study& study) {
@@ -209,11 +211,10 @@ std::string identified_model(const Study& study,
   const model::BodyModel before = model::parse_osim(osim, "the identified model");
   std::vector<model::OsimChange> changes;
   for (const IdentifiedMuscle& muscle : muscles) {
-    const auto spec = std::find_if(study.muscles.begin(), study.muscles.end(),
-                                   [&](const MuscleSpec& m) { return m.name == muscle.group; });
+    const auto spec = std::ranges::find_if(study.muscles, [&](const MuscleSpec& m) { return m.name == muscle.group; });
     if (spec == study.muscles.end()) continue;
     const auto changed = [&](std::string_view name) {
-      return std::find(muscle.changed.begin(), muscle.changed.end(), name) != muscle.changed.end();
+      return std::ranges::find(muscle.changed, name) != muscle.changed.end();
     };
     for (const std::string& name : spec->osim) {
       const auto index = before.find_muscle(name);

@@ -26,6 +26,9 @@ namespace myoid {
 [[nodiscard]] std::optional<model::BodyModel> arm_of_markers(const Study& study,
                                                              const recording::MarkerSeries& markers);
 
+/// Returns the names of all bodies but the ground, "femur_r, tibia_r", for messages.
+[[nodiscard]] std::string body_names(const model::BodyModel& model);
+
 /// Returns the point at which a trial's held mass acts. Throws InvalidInput if the study does not state it.
 [[nodiscard]] HeldMassSpec held_mass_place(const Study& study);
 

@@ -1,7 +1,6 @@
 #include "myoid/study/study_settings.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -34,8 +33,7 @@ void visit(HeldMassSpec& held, SettingVisitor& v) {
   v.must(given, "at_m", "expected the point's three coordinates in the body [m]");
   constexpr double kFarthest_m = 2.0;  // the end of a pole in a person's hands
   v.must(held.p_BP_m.norm() <= kFarthest_m, "at_m",
-         fmt::format("found a point {:.3g} m from the body's origin, expected less than {} m; is "
-                     "it in cm or mm?",
+         fmt::format("found a point {:.3g} m from the body's origin, expected less than {} m; is it in cm or mm?",
                      held.p_BP_m.norm(), kFarthest_m));
 }
 
@@ -45,9 +43,9 @@ namespace {
 void visit_coordinates(ModelSpec& model, SettingVisitor& v) {
   std::vector<std::string> names = study_coordinates(model);
   v.texts("coordinate", names,
-          {.says = "The joint whose torque the muscles share; or several that the same muscles "
-                   "cross, `[\"knee_angle_r\", \"ankle_angle_r\"]`: method `torque` fits all their "
-                   "torques at once, force sharing balances them all, and each is validated."});
+          {.says = "The joint whose torque the muscles share; or several that the same muscles cross, "
+                   "`[\"knee_angle_r\", \"ankle_angle_r\"]`: method `torque` fits all their torques at once, force "
+                   "sharing balances them all, and each is validated."});
   v.must(!names.empty(), "coordinate", "expected the name of a joint coordinate");
   for (auto it = names.begin(); it != names.end(); ++it)
     v.must(std::find(names.begin(), it, *it) == it, "coordinate", fmt::format("'{}' is named twice", *it));
@@ -75,8 +73,8 @@ void visit(ModelSpec& model, SettingVisitor& v) {
             .otherwise = "from markers, else the literature"});
   v.either("plane", model.horizontal, {.says = "Plane of the built-in arm's movement.", .words = kPlanes});
   v.flag("forearm_rotations", model.forearm_rotations,
-         {.says = "The built-in arm has a movable base, a carrying angle and forearm rotation, for "
-                  "landmarks that all move with the forearm."});
+         {.says = "The built-in arm has a movable base, a carrying angle and forearm rotation, for landmarks that all "
+                  "move with the forearm."});
   visit_coordinates(model, v);
   v.table("held_mass", model.held_mass,
           {.says = "The place where a trial's `held_mass_kg` acts.", .otherwise = "the built-in arm's palm"});
@@ -88,11 +86,11 @@ void visit(MotionSpec& motion, SettingVisitor& v) {
                                         "same band; `cutoff`: at `cutoff_hz`."});
   std::optional<double> cutoff_hz;
   if (motion.smoothing == Smoothing::cutoff) cutoff_hz = motion.cutoff_hz;
-  const bool given = v.number("cutoff_hz", cutoff_hz,
-                              {.says = "Smoothing at this frequency, −3 dB of both passes together; "
-                                       "below 0.45 of the recording's rate.",
-                               .limits = within(0.1, 500.0, "Hz"),
-                               .otherwise = "6 with `smoothing = \"cutoff\"`"});
+  const bool given = v.number(
+      "cutoff_hz", cutoff_hz,
+      {.says = "Smoothing at this frequency, −3 dB of both passes together; below 0.45 of the recording's rate.",
+       .limits = within(0.1, 500.0, "Hz"),
+       .otherwise = "6 with `smoothing = \"cutoff\"`"});
   if (given) {
     v.must(!stated || motion.smoothing == Smoothing::cutoff, "smoothing",
            "it stands beside cutoff_hz, which says how to smooth; expected cutoff");
@@ -107,9 +105,9 @@ void visit(MarkerSpec& markers, SettingVisitor& v) {
   static constexpr std::string_view kUps[] = {"auto", "x", "y", "z"};
   std::string up = markers.up == kUpOfTheFile ? "auto" : std::string(1, markers.up);
   v.text("up", up,
-         {.says = "The laboratory's vertical, of markers and force plates; it is turned onto the "
-                  "model's, against its gravity. `auto`: [as each `.c3d` file "
-                  "says](c3d.md#which-way-is-up), the model's for files that do not.",
+         {.says =
+              "The laboratory's vertical, of markers and force plates; it is turned onto the model's, against its "
+              "gravity. `auto`: [as each `.c3d` file says](c3d.md#which-way-is-up), the model's for files that do not.",
           .words = kUps});
   markers.up = up == "auto" ? kUpOfTheFile : up.front();
   v.texts_by_name("rename", markers.rename, {.says = "Marker name of the file = that of the model."});
@@ -149,24 +147,23 @@ void visit(EmgSpec& emg, SettingVisitor& v) {
   v.flag("rectify", emg.rectify, {.says = "First step of [the chain](emg.md) after the high-pass."});
   v.either("notch", emg.notch, {.says = "`auto`: takes mains hum out [where it is found](check.md).", .words = kNotch});
   v.flag("whitening", emg.whitening,
-         {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all "
-                  "channels or in none, as the recording allows; the report says which, and why. "
-                  "`false`: in none."});
+         {.says = "Raw EMG is [whitened](../theory/emg.md#whitening) before it is rectified, in all channels or in "
+                  "none, as the recording allows; the report says which, and why. `false`: in none."});
   v.number("highpass_hz", emg.highpass_hz, {.says = "High-pass of raw EMG.", .limits = above_zero("Hz")});
   v.number("lowpass_hz", emg.lowpass_hz,
            {.says = "Low-pass of the rectified EMG, −3 dB of both passes together.", .limits = above_zero("Hz")});
   v.flag("as_published", emg.as_published, {.says = "The source paper's design: no high-pass, uncorrected low-pass."});
   std::string normalise(kNormalise[0]);
   v.text("normalise", normalise,
-         {.says = "`max`: the largest effort over all maximal and task trials counts as 1; the "
-                  "report names it.",
+         {.says = "`max`: the largest effort over all maximal and task trials counts as 1; the report names it.",
           .words = kNormalise});
   v.number("normalise_window_s", emg.normalise_window_s,
            {.says = "Length of the moving mean that counts as 1.", .limits = within(0.01, 60.0, "s")});
-  v.number("mvc_effort", emg.mvc_effort,
-           {.says = "Share of the muscles' full force that the `mvc` trials reach, e.g. 0.9; "
-                    "see [below](#what-f_max-means).",
-            .limits = within(0.3, 1.0)});
+  v.number(
+      "mvc_effort", emg.mvc_effort,
+      {.says =
+           "Share of the muscles' full force that the `mvc` trials reach, e.g. 0.9; see [below](#what-f_max-means).",
+       .limits = within(0.3, 1.0)});
   v.number("mvc_effort_sd", emg.mvc_effort_sd,
            {.says = "How widely people differ in it, e.g. 0.06.", .limits = within(0.0, 0.3)});
   bool estimated = !emg.delay_s;
@@ -179,8 +176,7 @@ void visit(LoadCellSpec& cell, SettingVisitor& v) {
           {.says = "Six channels, in the order of the matrix's columns.", .otherwise = "required", .count = 6});
   v.must(!cell.channels.empty(), "channels", "expected six names: the channels of the matrix's columns");
   v.path("calibration", cell.calibration,
-         {.says = "File of six rows (Fx, Fy, Fz, Mx, My, Mz) of six numbers, N and N m for each "
-                  "volt.",
+         {.says = "File of six rows (Fx, Fy, Fz, Mx, My, Mz) of six numbers, N and N m for each volt.",
           .required = "the file of the 6 x 6 matrix [N/V] and [N m/V]"});
   v.number("sign", cell.sign,
            {.says = "`-1` where the cell measures the opposite of the load on the body.", .limits = within(-1.0, 1.0)});
@@ -207,8 +203,7 @@ void visit(LoadCellSpec& cell, SettingVisitor& v) {
 
 void visit(SharingSpec& sharing, SettingVisitor& v) {
   v.choice("objective", sharing.objective,
-           {.says = "The quantity of which [force sharing](so.md) uses the least, for method "
-                    "`paper`."});
+           {.says = "The quantity of which [force sharing](so.md) uses the least, for method `paper`."});
   v.number("exponent", sharing.exponent,
            {.says = "Exponent of the sum; 2 or 3 is usual.", .limits = {.lower = 1.0, .above_lower = true}});
   v.number("reserve_nm", sharing.reserve_nm,
@@ -231,37 +226,31 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
   v.choices("method", identify.methods, {.says = "The methods, one or several."});
   v.texts("muscles", identify.muscles, {.says = "The muscles whose parameters are found.", .word = "all"});
   v.flag("force_loop", identify.force_loop,
-         {.says = "Share the torque with the muscles found, fit them to their forces, share again, "
-                  "until nothing changes. The end is reported: `converged`, `diverged` (a gate "
-                  "fails) or `not_settled`. By the posterior the muscles are those of the torque, "
-                  "and one round shares it among them."});
+         {.says = "Share the torque with the muscles found, fit them to their forces, share again, until nothing "
+                  "changes. The end is reported: `converged`, `diverged` (a gate fails) or `not_settled`. By the "
+                  "posterior the muscles are those of the torque, and one round shares it among them."});
   v.flag("priors", identify.priors, {.says = "The [priors](../theory/priors.md) from the literature are used."});
   v.choice("estimator", identify.estimator,
-           {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the "
-                    "EMG; `posterior`, one posterior, whose intervals also hold what "
-                    "residuals do not show: moment arms, tendons, the scale of the torque, "
-                    "cross-talk and drift ([how](../theory/posterior.md))."});
+           {.says = "Method `torque`: `least_squares`, weighted and corrected for the errors of the EMG; `posterior`, "
+                    "one posterior, whose intervals also hold what residuals do not show: moment arms, tendons, the "
+                    "scale of the torque, cross-talk and drift ([how](../theory/posterior.md))."});
   v.count("posterior_draws", identify.posterior_draws,
-          {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the "
-                   "intervals, in place of an approximation; 1000 take some ten times as long. 0: "
-                   "none.",
+          {.says = "Estimator `posterior`: so many draws by Hamiltonian Monte Carlo make the intervals, in place of an "
+                   "approximation; 1000 take some ten times as long. 0: none.",
            .limits = within(0, 100000)});
   v.flag("gain", identify.gain, {.says = "The uncertainty of the EMG's normalization widens the intervals."});
   v.count("starts", identify.starts,
-          {.says = "Above 1: the search begins at the literature's values and at Sobol points over "
-                   "± 2 standard deviations of the priors, and the lowest minimum "
-                   "counts (`paper`: still that of the first, as published). A table of where they "
-                   "ended goes to the report and parameters.json (`searches`).",
+          {.says = "Above 1: the search begins at the literature's values and at Sobol points over ± 2 standard "
+                   "deviations of the priors, and the lowest minimum counts (`paper`: still that of the first, as "
+                   "published). A table of where they ended goes to the report and parameters.json (`searches`).",
            .limits = within(1, 1000)});
   v.choice("loss", identify.loss, {.says = "How much a large residual counts."});
   v.choice("eccentric", identify.eccentric,
-           {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of "
-                    "f_v, lengthening over shortening), `smooth` (ratio 1, no kink), `automatic` "
-                    "(the ratio where priors are used)."});
+           {.says = "Unknown of the lengthening branch: `product` (V_sh V_shl), `slope_ratio` (of f_v, lengthening "
+                    "over shortening), `smooth` (ratio 1, no kink), `automatic` (the ratio where priors are used)."});
   v.flag("normalised", identify.normalised, {.says = "l_mˢʰ and v_max keep their ratio to l_m⁰."});
   v.either("muscle_law", identify.model_muscles,
-           {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles "
-                    "have them.",
+           {.says = "`paper`: neither pennation nor passive force; `model`: as the model's muscles have them.",
             .words = kMuscleLaws});
   v.either("tendon", identify.elastic_tendon,
            {.says = "`elastic`: quasi-static, with the strain that the model's muscles have.", .words = kTendons});
@@ -270,21 +259,19 @@ void visit_fit(IdentifySpec& identify, SettingVisitor& v) {
 /// Visits [identify]: the law by which a muscle follows its EMG.
 void visit_lag(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("dynamics", identify.dynamics,
-         {.says = "A third way, not beside `lag`: the envelope becomes activation by the two lags "
-                  "of the source paper's equation (1), and `emg_delay` is the delay left beside "
-                  "them. `[[parameter]]` of `excitation_time`, `activation_time`, "
-                  "`deactivation_time` needs it."});
-  const bool stated = v.choice("lag", identify.lag,
-                               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the "
-                                        "delay is the mean of a pure one and the lags of excitation and "
-                                        "activation, which damp fast changes; `automatic`: the one that the "
-                                        "recording prefers ([how](../theory/identification.md); method `force` has "
-                                        "one muscle at a time and takes `delay`).",
-                                .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
-                                .silent = identify.dynamics});
+         {.says = "A third way, not beside `lag`: the envelope becomes activation by the two lags of the source "
+                  "paper's equation (1), and `emg_delay` is the delay left beside them. `[[parameter]]` of "
+                  "`excitation_time`, `activation_time`, `deactivation_time` needs it."});
+  const bool stated =
+      v.choice("lag", identify.lag,
+               {.says = "`delay`: the activation is the envelope of `emg_delay` ago; `shared`: the delay is the mean "
+                        "of a pure one and the lags of excitation and activation, which damp fast changes; "
+                        "`automatic`: the one that the recording prefers ([how](../theory/identification.md); method "
+                        "`force` has one muscle at a time and takes `delay`).",
+                .words = choice_names(identify.lag).first<3>(),  // `dynamics` is the fourth
+                .silent = identify.dynamics});
   v.must(!identify.dynamics || !stated, "lag",
-         "it stands beside dynamics = true, which is a third way to follow the EMG; leave one of "
-         "both out");
+         "it stands beside dynamics = true, which is a third way to follow the EMG; leave one of both out");
   v.flag("delay_per_channel", identify.delay_per_channel, {.says = "Each EMG channel has a delay of its own."});
 }
 
@@ -293,15 +280,13 @@ void visit_data(IdentifySpec& identify, SettingVisitor& v) {
   v.flag("cross_validate", identify.cross_validate,
          {.says = "A part of the data is left out of the fit and predicted, each part in turn."});
   v.choice("folds", identify.folds,
-           {.says = "The part that is left out: a trial; all trials of one `condition`; `block`: a "
-                    "fifth of every trial with half a second on either side."});
+           {.says = "The part that is left out: a trial; all trials of one `condition`; `block`: a fifth of every "
+                    "trial with half a second on either side."});
   v.count("next_movements", identify.next_movements,
-          {.says = "Movements to suggest for the [next recording](design.md), from this one's "
-                   "result; 0: none.",
+          {.says = "Movements to suggest for the [next recording](design.md), from this one's result; 0: none.",
            .limits = within(0, 50)});
   v.count("bootstrap", identify.bootstrap,
-          {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: "
-                   "none.",
+          {.says = "Replicates, blocks of 2 s within trials: the second route to intervals; 0: none.",
            .limits = within(0, 100000)});
   v.flag("profile", identify.profile, {.says = "Profile likelihood of every parameter, the third route."});
   v.number("angle_sd_deg", identify.angle_sd_deg,
@@ -322,10 +307,9 @@ void visit(IdentifySpec& identify, SettingVisitor& v) {
 
 void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
   constexpr SettingLimits kSpread = within(0.0, 1.0);
-  v.number("moment_arm_sd", beliefs.moment_arm,
-           {.says = "Relative error of the size of a muscle's moment arms; 0 where they were "
-                    "measured.",
-            .limits = kSpread});
+  v.number(
+      "moment_arm_sd", beliefs.moment_arm,
+      {.says = "Relative error of the size of a muscle's moment arms; 0 where they were measured.", .limits = kSpread});
   v.number("moment_arm_slope_sd", beliefs.moment_arm_slope,
            {.says = "Change of that error from the middle to an end of the recorded lengths.", .limits = kSpread});
   v.number("tendon_strain", beliefs.tendon_strain,
@@ -337,19 +321,18 @@ void visit(identification::UnseenSpreads& beliefs, SettingVisitor& v) {
   v.number("gain_drift_sd", beliefs.gain_drift,
            {.says = "Relative change of an EMG channel's gain over the session.", .limits = kSpread});
   v.number("effort_sd", beliefs.effort,
-           {.says = "Force of a maximal voluntary contraction: relative difference from that of a "
-                    "completely active muscle. Not beside `mvc_effort_sd` of `[emg]`.",
+           {.says = "Force of a maximal voluntary contraction: relative difference from that of a completely active "
+                    "muscle. Not beside `mvc_effort_sd` of `[emg]`.",
             .limits = kSpread});
   v.number("model_error_sd", beliefs.model_error,
            {.says = "Relative size of the muscle law's systematic errors.",
             .limits = {.lower = 0.0, .upper = 1.0, .above_lower = true}});
   v.number("strength_sd", beliefs.strength,
-           {.says = "Strength of the person over the model's, common to the F_max of all muscles; "
-                    "spread of the logarithm, beside that of each muscle.",
+           {.says = "Strength of the person over the model's, common to the F_max of all muscles; spread of the "
+                    "logarithm, beside that of each muscle.",
             .limits = kSpread});
   v.number("independent_rows", beliefs.independent_rows,
-           {.says = "Rows (of 0.22 s) of a trial, per joint, that count as independent evidence; "
-                    "0: all.",
+           {.says = "Rows (of 0.22 s) of a trial, per joint, that count as independent evidence; 0: all.",
             .limits = zero_or_more("")});
 }
 
@@ -358,8 +341,7 @@ void visit(NormSpec& norm, SettingVisitor& v) {
          {.says = "The group, for legends: `\"adults, N = 24\"`.",
           .required = "the name of the group, such as \"adults, N = 24\""});
   v.path("file", norm.file,
-         {.says = "[Table of mean and standard deviation](report.md#norms) over percent of the "
-                  "movement, `.csv`.",
+         {.says = "[Table of mean and standard deviation](report.md#norms) over percent of the movement, `.csv`.",
           .required = "the table of mean and standard deviation over percent of the movement"});
   v.texts("trials", norm.trials, {.says = "The movements that it belongs to.", .word = "all"});
 }
@@ -373,14 +355,12 @@ void visit(Study& study, SettingVisitor& v) {
   v.table("emg", study.emg, {.says = "The EMG of all trials."});
   v.table("sync", study.sync, {.says = "The clocks of all trials."});
   v.table("load_cell", study.load_cell,
-          {.says = "A load cell in something that the person holds; it acts in the trials that "
-                   "name a `load_cell`."});
+          {.says = "A load cell in something that the person holds; it acts in the trials that name a `load_cell`."});
   v.table("sharing", study.sharing, {.says = "Force sharing, for method `paper`."});
   v.table("phases", study.phases, {.says = "Warm-up and fatigue."});
   v.table("identify", study.identify, {.says = "The identification."});
   v.table("beliefs", study.beliefs,
-          {.says = "What is believed about errors that residuals hardly show: estimator "
-                   "`posterior`."});
+          {.says = "What is believed about errors that residuals hardly show: estimator `posterior`."});
   v.tables("muscle", study.muscles, {.says = "A muscle, or group, to identify."});
   v.tables("trial", study.trials, {.says = "A recording."});
   v.tables("parameter", study.parameters, {.says = "A wish for a parameter; later tables win."});

@@ -82,7 +82,7 @@ ordered_json settings(Study study, std::optional<std::filesystem::path> folder) 
 }
 
 std::string toml_key(const std::string& key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   return bare ? key : recording::toml_text(key);

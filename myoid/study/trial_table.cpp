@@ -12,31 +12,30 @@ namespace myoid {
 void visit(SyncSpec& sync, SettingVisitor& v) {
   constexpr SettingLimits kDrift = within(-1e5, 1e5, "ppm");
   v.number("offset_s", sync.offset_s, sync.estimate,
-           {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the "
-                    "motion by 60 ± 54 ms, as people's does, ± a quarter of the movement's period "
-                    "(0.2 to 0.3 s), since activation goes with velocity as well as with torque: "
-                    "better than nothing, no match for a trigger.",
+           {.says = "Seconds to add to the EMG's times. `estimate`: found so that the EMG leads the motion by 60 ± 54 "
+                    "ms, as people's does, ± a quarter of the movement's period (0.2 to 0.3 s), since activation goes "
+                    "with velocity as well as with torque: better than nothing, no match for a trigger.",
             .limits = any_number("s"),
             .word = "estimate"});
   v.number("offset_sd_s", sync.offset_sd_s,
            {.says = "Its standard deviation, if you know it.", .limits = above_zero("s"), .otherwise = "not stated"});
   v.number("drift_ppm", sync.drift_ppm,
-           {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its "
-                    "time 0 on (50: a minute of it lasts 60.003 s).",
+           {.says = "How much too slowly the EMG's clock counts, in microseconds per second from its time 0 on (50: a "
+                    "minute of it lasts 60.003 s).",
             .limits = kDrift});
-  v.text("emg_trigger", sync.emg_trigger,
-         {.says = "Record of the same instants, or of the same signal, in the EMG's recording as in "
-                  "the motion's: a channel, or the label of events (C3D, EDF+). Offset and drift follow "
-                  "from the two, with their errors, by as many edges as there are; edges that one "
-                  "recording missed are found by the intervals of the others."});
+  v.text(
+      "emg_trigger", sync.emg_trigger,
+      {.says =
+           "Record of the same instants, or of the same signal, in the EMG's recording as in the motion's: a channel, "
+           "or the label of events (C3D, EDF+). Offset and drift follow from the two, with their errors, by as many "
+           "edges as there are; edges that one recording missed are found by the intervals of the others."});
   v.text("motion_trigger", sync.motion_trigger,
-         {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, "
-                  "the label of events, or `start`, its first frame."});
+         {.says = "The same of the motion's recording: a channel, `NAME.x`, `.y`, `.z` of a marker, the label of "
+                  "events, or `start`, its first frame."});
   v.path("trigger_file", sync.trigger_file,
          {.says = "File that holds `motion_trigger`, on the motion's clock.", .otherwise = "the motion's"});
   v.choice("match", sync.match,
-           {.says = "Of channels: their `rising` or `falling` edges, or the `shape` of the whole "
-                    "signal."});
+           {.says = "Of channels: their `rising` or `falling` edges, or the `shape` of the whole signal."});
   v.number("search_s", sync.search_s,
            {.says = "How far `estimate` and `shape` look, either way.", .limits = within(0.05, 30.0, "s")});
   v.number("loads_offset_s", sync.loads_offset_s,
@@ -56,13 +55,12 @@ void visit(SyncSpec& sync, SettingVisitor& v) {
 
 void visit(PlateSpec& plates, SettingVisitor& v) {
   v.path("file", plates.file, {.says = "The `.c3d` with the force plates.", .otherwise = "that of the markers"});
-  const bool given =
-      v.texts("bodies", plates.bodies,
-              {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes to "
-                       "the body whose marker is nearest to its center of pressure, and is said.",
-               .word = "auto"});
+  const bool given = v.texts("bodies", plates.bodies,
+                             {.says = "The body that stands on plate 1, 2, … (`\"\"`: none). `auto`: each contact goes "
+                                      "to the body whose marker is nearest to its center of pressure, and is said.",
+                              .word = "auto"});
   const auto empty = [](const std::string& body) { return body.empty(); };
-  v.must(!given || plates.bodies.empty() || !std::all_of(plates.bodies.begin(), plates.bodies.end(), empty), "bodies",
+  v.must(!given || plates.bodies.empty() || !std::ranges::all_of(plates.bodies, empty), "bodies",
          "no body is named; name one for each plate (\"\" for none), or \"auto\"");
   v.number("least_force_n", plates.least_force_n,
            {.says = "Below this force a plate bears nothing.", .limits = above_zero("N")});
@@ -87,24 +85,22 @@ void visit_name(TrialSpec& trial, SettingVisitor& v) {
 void visit_files(TrialSpec& trial, SettingVisitor& v) {
   static const std::string kEmgFiles = recording::emg_endings_text() + ". A C3D file may be that of the markers.";
   v.path("markers", trial.markers,
-         {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS "
-                  "`_motion.tsv`.",
+         {.says = "`.trc`, `.c3d`, a [table of another program](file-formats.md) or BIDS `_motion.tsv`.",
           .otherwise = "this or `motion`, but for `mvc`"});
   v.path("motion", trial.motion, {.says = "Joint angles, to start later than at markers."});
   v.must(!trial.markers || !trial.motion, "motion",
          "give either 'markers' or 'motion', not both: the motion is computed from the markers");
   v.path("emg", trial.emg, {.says = kEmgFiles, .otherwise = "required, but for `static` and `passive`"});
   v.path("external_torque", trial.external_torque,
-         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque "
-                  "that the surroundings exert on the body, positive in the coordinate's direction. The "
-                  "muscles provide inverse dynamics minus it. A coordinate without a column is "
-                  "acted on by nothing."});
+         {.says = "File with `<coordinate>_moment` [N m], where a dynamometer took part: the torque that the "
+                  "surroundings exert on the body, positive in the coordinate's direction. The muscles provide inverse "
+                  "dynamics minus it. A coordinate without a column is acted on by nothing."});
   v.path("external_loads", trial.external_loads,
-         {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as "
-                  "[`convert`](convert.md) writes it for force plates."});
+         {.says = "Measured forces on bodies: OpenSim's ExternalLoads file (`.xml`), as [`convert`](convert.md) writes "
+                  "it for force plates."});
   v.path("load_cell", trial.load_cell,
-         {.says = "Recording with the channels of the load cell that [load_cell] describes (may be "
-                  "the `.c3d` of the markers)."});
+         {.says = "Recording with the channels of the load cell that [load_cell] describes (may be the `.c3d` of the "
+                  "markers)."});
   v.must(!trial.external_loads || !trial.load_cell, "load_cell",
          "give either 'external_loads' or 'load_cell', not both");
   v.table("force_plates", trial.plates, {.says = "Force plates under the person."});
@@ -116,13 +112,12 @@ void visit_files(TrialSpec& trial, SettingVisitor& v) {
 }
 
 void visit_use(TrialSpec& trial, SettingVisitor& v) {
-  v.choice("use", trial.use,
-           {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; "
-                    "`mvc` sets activation 1; `passive`, with the torque of a dynamometer: the joint's "
-                    "resting torque with the weight of limb and instrument, subtracted "
-                    "everywhere else (EMG, where given, must stay below 2 % of the maximal "
-                    "contraction); `static` is computed up to the torque and the shared forces, and is "
-                    "not fitted."});
+  v.choice(
+      "use", trial.use,
+      {.says = "`calibration` and `isometric` are fitted; `validation` is only predicted; `mvc` sets activation 1; "
+               "`passive`, with the torque of a dynamometer: the joint's resting torque with the weight of limb and "
+               "instrument, subtracted everywhere else (EMG, where given, must stay below 2 % of the maximal "
+               "contraction); `static` is computed up to the torque and the shared forces, and is not fitted."});
   v.must(trial.use == Use::mvc || trial.markers || trial.motion, "name",
          fmt::format("trial '{}' has neither 'markers' (.trc) nor 'motion' (.mot); add one", trial.name));
   v.must(trial.use == Use::static_pose || trial.use == Use::passive || trial.emg, "name",
@@ -132,8 +127,8 @@ void visit_use(TrialSpec& trial, SettingVisitor& v) {
 
 void visit_clock(TrialSpec& trial, SettingVisitor& v) {
   v.table("sync", trial.sync,
-          {.says = "How the EMG's clock stands to that of the motion, where [sync] does not hold: "
-                   "`sync = { offset_s = 0.012 }`.",
+          {.says = "How the EMG's clock stands to that of the motion, where [sync] does not hold: `sync = { offset_s = "
+                   "0.012 }`.",
            .otherwise = "[sync]"});
   if (!trial.sync) return;
   const auto& motion_file = trial.markers ? trial.markers : trial.motion;
@@ -157,16 +152,16 @@ void visit(TrialSpec& trial, SettingVisitor& v) {
             .limits = any_number("s"),
             .otherwise = "all"});
   v.number("end_s", trial.end_s,
-           {.says = "End of that part. A trial with a pause of more than 0.5 s is [cut "
-                    "there](check.md#what-is-mended) by itself.",
+           {.says = "End of that part. A trial with a pause of more than 0.5 s is [cut there](check.md#what-is-mended) "
+                    "by itself.",
             .limits = any_number("s"),
             .otherwise = "all"});
   v.must(!trial.start_s || !trial.end_s || *trial.start_s < *trial.end_s, "end_s",
          fmt::format("found {} s, expected a time after start_s = {} s", trial.end_s.value_or(0.0),
                      trial.start_s.value_or(0.0)));
   v.path("video", trial.video,
-         {.says = "Film of the trial, which the [report](report.md#the-workbench) shows beside the "
-                  "model: a format that browsers play (`.mp4`, `.webm`). No number depends on it."});
+         {.says = "Film of the trial, which the [report](report.md#the-workbench) shows beside the model: a format "
+                  "that browsers play (`.mp4`, `.webm`). No number depends on it."});
   v.number("video_offset_s", trial.video_offset_s,
            {.says = "When the film begins, in seconds of the motion.", .limits = any_number("s")});
   visit_clock(trial, v);

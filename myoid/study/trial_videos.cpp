@@ -68,8 +68,8 @@ void require_videos(const Study& study) {
     std::error_code ignored;
     if (!trial.video || std::filesystem::is_regular_file(*trial.video, ignored)) continue;
     throw ReadError(*trial.video, 0,
-                    fmt::format("the video of trial '{}' is no file; in study.toml its path counts "
-                                "from the folder of the study, after --video from here",
+                    fmt::format("the video of trial '{}' is no file; in study.toml its path counts from the folder of "
+                                "the study, after --video from here",
                                 trial.name));
   }
 }
