@@ -4,6 +4,7 @@
 
 #include "myoid/cli/context.h"
 #include "myoid/commands/output_file.h"
+#include "myoid/report/write_report.h"
 #include "myoid/results/simulation_files.h"
 
 namespace myoid::cli {

@@ -12,7 +12,7 @@
 #include "myoid/core/json_text.h"
 #include "myoid/dynamics/held_mass.h"
 #include "myoid/files/text_file.h"
-#include "myoid/results/sensitivity_files.h"
+#include "myoid/report/write_report.h"
 #include "myoid/simulation/forward_simulation.h"
 
 namespace myoid::commands {

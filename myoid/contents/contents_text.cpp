@@ -70,7 +70,7 @@ std::string contents_text(const ordered_json& contents) {
   for (const auto& [key, value] : contents.items()) {
     if (says_where_from(contents, key)) continue;
     std::string label = key;
-    std::replace(label.begin(), label.end(), '_', ' ');
+    std::ranges::replace(label, '_', ' ');
     if (!value.is_array()) {
       const auto from = contents.find(key + kFrom);
       text += fmt::format("{}: {}{}\n", label, number_or_text(value, 6),

@@ -13,6 +13,9 @@
 #include "myoid/c3d/c3d_signals.h"
 #include "myoid/core/clock_facts.h"
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/json_array.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_format.h"
 #include "myoid/recording/c3d_survey.h"
 #include "myoid/recording/emg_reader.h"
@@ -31,9 +34,25 @@ using recording::FileFormat;
 namespace {
 
 ordered_json repairs_json(const std::vector<recording::Repair>& repairs) {
-  ordered_json list = ordered_json::array();
-  for (const recording::Repair& r : repairs) list.push_back(recording::to_string(r));
-  return list;
+  return array_of(repairs, [](const recording::Repair& r) { return recording::to_string(r); });
+}
+
+/// Returns a marker with the number of frames that lack it, if there are any.
+ordered_json marker_json(const std::string& name, Eigen::Index missing) {
+  ordered_json marker{{"name", name}};
+  if (missing > 0) marker["missing_frames"] = missing;
+  return marker;
+}
+
+/// Returns a channel with its unit and range as far as they are known.
+ordered_json channel_json(const std::string& name, std::string_view unit, double low, double high) {
+  ordered_json channel{{"name", name}};
+  if (!unit.empty()) channel["unit"] = unit;
+  if (std::isfinite(low) && std::isfinite(high)) {
+    channel["lowest"] = low;
+    channel["highest"] = high;
+  }
+  return channel;
 }
 
 /// Returns start, duration and rate if there are any; `of` precedes the keys of a second clock.
@@ -51,8 +70,8 @@ ordered_json clock_json(const ClockFacts& facts, std::string_view of = "") {
 ordered_json channels_json(const TimeSeries& series) {
   ordered_json list = ordered_json::array();
   for (std::size_t c = 0; c < series.channels().size(); ++c) {
-    double low = INFINITY;
-    double high = -INFINITY;
+    double low = kInfinity;
+    double high = -kInfinity;
     Eigen::Index gaps = 0;
     for (const double v : series.values().col(static_cast<Eigen::Index>(c))) {
       if (std::isfinite(v)) {
@@ -62,13 +81,9 @@ ordered_json channels_json(const TimeSeries& series) {
         ++gaps;
       }
     }
-    ordered_json channel{{"name", series.channels()[c].name}};
-    if (series.channels()[c].unit != Unit::dimensionless)
-      channel["unit"] = std::string(symbol(series.channels()[c].unit));
-    if (low <= high) {
-      channel["lowest"] = low;
-      channel["highest"] = high;
-    }
+    const Unit unit = series.channels()[c].unit;
+    ordered_json channel =
+        channel_json(series.channels()[c].name, unit == Unit::dimensionless ? "" : symbol(unit), low, high);
     if (gaps > 0) channel["gaps"] = gaps;
     list.push_back(std::move(channel));
   }
@@ -92,15 +107,13 @@ ordered_json markers_json(const recording::MarkerSeries& markers) {
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     Eigen::Index missing = 0;
     for (Eigen::Index f = 0; f < markers.frame_count(); ++f) missing += markers.missing(f, m) ? 1 : 0;
-    ordered_json marker{{"name", markers.names[static_cast<std::size_t>(m)]}};
-    if (missing > 0) marker["missing_frames"] = missing;
-    j["markers"].push_back(std::move(marker));
+    j["markers"].push_back(marker_json(markers.names[at(m)], missing));
   }
   return j;
 }
 
 ordered_json trc_json(const std::filesystem::path& path) {
-  const recording::TrcFile file = recording::read_trc(path);
+  const recording::MarkerFile file = recording::read_trc(path);
   ordered_json j{{"kind", "markers (.trc)"}, {"unit", file.unit}};
   j.update(markers_json(file.markers));
   j["repairs"] = repairs_json(file.repairs);
@@ -108,13 +121,11 @@ ordered_json trc_json(const std::filesystem::path& path) {
 }
 
 ordered_json events_json(const std::vector<recording::Event>& events) {
-  ordered_json list = ordered_json::array();
-  for (const recording::Event& e : events) {
+  return array_of(events, [](const recording::Event& e) {
     ordered_json j{{"name", e.label.empty() ? "event" : e.label}, {"time_s", e.time_s}};
     if (!e.context.empty()) j["context"] = e.context;
-    list.push_back(j);
-  }
-  return list;
+    return j;
+  });
 }
 
 /// Adds the upward direction and its sources in the file; "not known" without any, "contradictory"
@@ -148,15 +159,11 @@ ordered_json c3d_json(const std::filesystem::path& path) {
                  {"duration_s", static_cast<double>(frames - 1) / file.point_rate_hz},
                  {"rate_hz", file.point_rate_hz}};
   if (!file.point_labels.empty()) j["point_unit"] = file.point_unit;
-  const auto columns = recording::marker_columns(file);
   j["markers"] = ordered_json::array();
   std::vector<bool> is_marker(file.point_labels.size(), false);
-  for (const Eigen::Index c : columns) {
-    is_marker[static_cast<std::size_t>(c)] = true;
-    const Eigen::Index missing = survey.missing_frames[static_cast<std::size_t>(c)];
-    ordered_json marker{{"name", file.point_labels[static_cast<std::size_t>(c)]}};
-    if (missing > 0) marker["missing_frames"] = missing;
-    j["markers"].push_back(marker);
+  for (const Eigen::Index c : recording::marker_columns(file)) {
+    is_marker[at(c)] = true;
+    j["markers"].push_back(marker_json(file.point_labels[at(c)], survey.missing_frames[at(c)]));
   }
   j["other_points"] = ordered_json::array();
   for (std::size_t c = 0; c < is_marker.size(); ++c)
@@ -164,15 +171,9 @@ ordered_json c3d_json(const std::filesystem::path& path) {
   if (!file.channels.empty()) j["analog_rate_hz"] = file.analog_rate_hz();
   j["channels"] = ordered_json::array();
   for (std::size_t c = 0; c < file.channels.size(); ++c) {
-    ordered_json entry{{"name", file.channels[c].name}};
-    if (!file.channels[c].unit_text.empty()) entry["unit"] = file.channels[c].unit_text;
-    const double low = survey.lowest[static_cast<Eigen::Index>(c)];
-    const double high = survey.highest[static_cast<Eigen::Index>(c)];
-    if (std::isfinite(low) && std::isfinite(high)) {
-      entry["lowest"] = low;
-      entry["highest"] = high;
-    }
-    j["channels"].push_back(entry);
+    const auto column = static_cast<Eigen::Index>(c);
+    j["channels"].push_back(
+        channel_json(file.channels[c].name, file.channels[c].unit_text, survey.lowest[column], survey.highest[column]));
   }
   j["force_plates"] = ordered_json::array();
   for (std::size_t p = 0; p < survey.plates.size(); ++p) {
@@ -218,8 +219,9 @@ ordered_json storage_json(const std::filesystem::path& path) {
   // An EMG file has no angles; a file that does not mention them may have none either.
   if (const auto to_volt = recording::stated_voltage(file)) {
     j["emg_unit"] = recording::voltage_name(*to_volt) + ", as the header says";
-  } else if (std::any_of(file.header.begin(), file.header.end(),
-                         [](const auto& entry) { return recording::equal_ignoring_case(entry.first, "inDegrees"); })) {
+  } else if (std::ranges::any_of(file.header, [](const auto& entry) {
+               return recording::equal_ignoring_case(entry.first, "inDegrees");
+             })) {
     j["angles"] = file.in_degrees ? "degrees" : "radians";
   } else if (file.in_degrees) {
     j["angles"] = "degrees (the header does not say; files of this kind are)";

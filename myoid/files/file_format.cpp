@@ -91,7 +91,7 @@ const std::vector<FormatEntry>& file_formats() {
        .kind = "a table",
        .holds = "channels or markers over time, as programs export them; tables without a clock",
        .reader = "tables/text_table",
-       .writer = "tables/table_writer",
+       .writer = "tables/storage_writer",
        .markers = true,
        .channels = true,
        .emg = true},

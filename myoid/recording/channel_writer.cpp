@@ -11,7 +11,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
-#include "myoid/tables/table_writer.h"
+#include "myoid/tables/storage_writer.h"
 
 namespace myoid::recording {
 namespace {

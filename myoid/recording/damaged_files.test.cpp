@@ -121,7 +121,7 @@ std::vector<Kind> kinds() {
                   "Y3\tZ3\n\n" +
                       rows(9, '\t', true, 0.01),
                   [](const std::string& t) {
-                    TrcFile f = parse_trc(t, "f.trc");
+                    MarkerFile f = parse_trc(t, "f.trc");
                     return of(f.markers, f.repairs);
                   }});
   const auto storage = [](const char* path) {

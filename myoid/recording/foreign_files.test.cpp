@@ -134,7 +134,7 @@ TEST(ForeignTrc, BlankCellsAtTheEndOfARowAreGaps) {
                            "Frame#\tTime\tA\t\t\tB\t\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n"
                            "1\t0.00\t1\t2\t3\t4\t5\t6\t\n2\t0.01\t1\t2\t3\t\t\t\t\t\n"
                            "3\t0.02\t1\t2\t3\t4\t5\t6\t\n";
-  const TrcFile file = parse_trc(text, "f.trc");
+  const MarkerFile file = parse_trc(text, "f.trc");
   EXPECT_EQ(file.markers.frame_count(), 3);
   EXPECT_TRUE(file.markers.missing(1, 1));
   EXPECT_DOUBLE_EQ(file.markers.position(2, 1).z(), 0.006);
@@ -146,7 +146,7 @@ TEST(ForeignTrc, WithAByteOrderMarkAndWindowsLineEnds) {
                      "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.01\t1\t2\t3\t4\t5\t6\n3\t0.02\t1\t2\t3\t4\t5\t6\n";
   std::string windows;
   for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
-  const TrcFile file = parse_trc(windows, "f.trc");
+  const MarkerFile file = parse_trc(windows, "f.trc");
   EXPECT_THAT(file.markers.names, ElementsAre("A", "B"));
   EXPECT_EQ(file.markers.frame_count(), 3);
 }

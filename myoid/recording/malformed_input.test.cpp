@@ -231,24 +231,24 @@ TEST(ParseStorage, ANumberTooLargeIsNotZero) {
 }
 
 TEST(ParseTrc, CommaDecimalsAreReadAndSaid) {
-  const TrcFile file = parse_trc(with(with(kTrc, "1.5\t2.5", "1,5\t2,5"), "0.01", "0,01"), "f.trc");
+  const MarkerFile file = parse_trc(with(with(kTrc, "1.5\t2.5", "1,5\t2,5"), "0.01", "0,01"), "f.trc");
   EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 0), 1.5e-3);
   EXPECT_EQ(file.markers.time_s[1], 0.01);
   EXPECT_EQ(test::repair_lines(file.repairs), "8: comma decimals read as decimal points\n");
 }
 
 TEST(ParseTrc, WithoutTheLineOfAxesTheFirstFrameIsNotLost) {
-  const TrcFile file = parse_trc(with(kTrc, "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n", ""), "f.trc");
+  const MarkerFile file = parse_trc(with(kTrc, "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n", ""), "f.trc");
   EXPECT_EQ(file.markers.frame_count(), 3);
   EXPECT_EQ(test::repair_lines(file.repairs), "5: the line X1 Y1 Z1 ... is missing\n");
 }
 
 TEST(ParseTrc, ARowThatEndsEarlyIsSaidAndTheLastOneOfACutFileLeftOut) {
-  const TrcFile inside = parse_trc(with(kTrc, "1\t0\t1\t2\t3\t4\t5\t6\n", "1\t0\t1\t2\t3\n"), "f.trc");
+  const MarkerFile inside = parse_trc(with(kTrc, "1\t0\t1\t2\t3\t4\t5\t6\n", "1\t0\t1\t2\t3\n"), "f.trc");
   EXPECT_TRUE(inside.markers.missing(0, 1));
   EXPECT_EQ(test::repair_lines(inside.repairs),
             "7: a row ends early; the markers behind its end are taken as missing\n");
-  const TrcFile cut = parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" without the 6
+  const MarkerFile cut = parse_trc(kTrc.substr(0, kTrc.size() - 4), "f.trc");  // "... 4 5" without the 6
   EXPECT_EQ(cut.markers.frame_count(), 2);
   EXPECT_EQ(test::repair_lines(cut.repairs),
             "9: the last row has no line end and may be cut off; left out\n3: the header says 3 "
@@ -383,7 +383,7 @@ TEST(ParseTrc, HeaderValuesTwoTabsApartAreReadInTheirOrder) {
             "mm");
   const auto path = test::data_folder() / "gait-emg/markers_walk.trc";
   MYOID_REQUIRE_DATA(path);
-  const TrcFile file = read_trc(path);
+  const MarkerFile file = read_trc(path);
   EXPECT_TRUE(file.repairs.empty()) << test::repair_lines(file.repairs);
   EXPECT_DOUBLE_EQ(file.markers.positions_m(0, 0), -0.652630);
 }

@@ -49,11 +49,6 @@ Recording read_text_table(const std::filesystem::path& path) {
   return recording;
 }
 
-MarkerFile markers_of_trc(const std::filesystem::path& path) {
-  TrcFile file = read_trc(path);
-  return {std::move(file.markers), std::move(file.unit), std::move(file.repairs), {}};
-}
-
 MarkerFile markers_of_bids(const std::filesystem::path& path) {
   BidsMotion motion = read_bids_motion(path);
   if (motion.markers.frame_count() == 0)
@@ -96,7 +91,7 @@ MarkerFile read_markers(const std::filesystem::path& path) {
   if (const auto format = format_of(path)) {
     switch (*format) {
       case FileFormat::trc:
-        return markers_of_trc(path);
+        return read_trc(path);
       case FileFormat::bids_motion:
         return markers_of_bids(path);
       case FileFormat::text_table:
@@ -144,7 +139,7 @@ Recording read_recording(const std::filesystem::path& path) {
       case FileFormat::c3d:
         return read_c3d_recording(path);
       case FileFormat::trc: {
-        TrcFile file = read_trc(path);
+        MarkerFile file = read_trc(path);
         Recording recording;
         recording.markers = std::move(file.markers);
         recording.repairs = std::move(file.repairs);

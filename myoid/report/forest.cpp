@@ -1,7 +1,8 @@
 #include "myoid/report/forest.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,9 +20,7 @@ constexpr double k95 = 1.96;
 /// Returns the place of z in the drawing, in percent of its width.
 double percent(double z) { return 50.0 + 50.0 * std::clamp(z, -kEnd, kEnd) / kEnd; }
 
-std::string number(const ForestRow& row, double value) {
-  return row.lower && row.upper ? format_rounded(value, *row.upper - *row.lower) : format_value(value);
-}
+std::string number(const ForestRow& row, double value) { return format_beside(value, row.lower, row.upper); }
 
 std::string interval(const ForestRow& row) {
   return row.lower && row.upper ? format_interval(*row.lower, *row.upper) : std::string("none");
@@ -85,41 +84,49 @@ std::string row_html(const ForestRow& row, bool first) {
       typeset(row.verdict));
 }
 
-/// Returns the advice on a number of this verdict.
-std::string_view meaning(Badge badge) {
-  switch (badge) {
-    case Badge::good:
-      return "the recording determines it: use it";
-    case Badge::weak:
-      return "known roughly: use the interval";
-    case Badge::info:
-      return "mostly the literature's: the recording adds little";
-    case Badge::none:
-      return "this recording cannot tell";
-    case Badge::bad:
-      return "no muscle can have it: look for an error";
-  }
-  return "";
-}
+/// The advice on numbers of a verdict, the best verdict first.
+constexpr std::array kAdvice{
+    std::pair{Badge::good, "the recording determines it: use it"},
+    std::pair{Badge::weak, "known roughly: use the interval"},
+    std::pair{Badge::info, "mostly the literature's: the recording adds little"},
+    std::pair{Badge::none, "this recording cannot tell"},
+    std::pair{Badge::bad, "no muscle can have it: look for an error"},
+};
 
 std::string legend(const std::vector<ForestRow>& rows) {
   std::string text = "<p class=\"legend\">";
   std::vector<std::string> seen;
-  for (const Badge badge : {Badge::good, Badge::weak, Badge::info, Badge::none, Badge::bad}) {
+  for (const auto& [badge, advice] : kAdvice) {
     for (const ForestRow& row : rows) {
-      if (row.badge != badge || std::find(seen.begin(), seen.end(), row.verdict) != seen.end()) continue;
+      if (row.badge != badge || std::ranges::find(seen, row.verdict) != seen.end()) continue;
       seen.push_back(row.verdict);
-      text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge), typeset(row.verdict),
-                          typeset(meaning(badge)));
+      text += fmt::format("<span>{} <b>{}</b>: {}</span> ", verdict_mark(badge), typeset(row.verdict), typeset(advice));
     }
   }
   text +=
       "<span>\u2014 95 % interval after the recording</span> "
       "<span><i class=\"prior\"></i> the literature's 95 %</span>";
-  if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.truth.has_value(); }))
+  if (std::ranges::any_of(rows, [](const ForestRow& r) { return r.truth.has_value(); }))
     text += " <span><i class=\"truth\"></i> truth of the virtual person</span>";
   return text + "</p>\n";
 }
+
+/// The light of the worst gate.
+struct Light {
+  GateStatus status;
+  const char* head;
+  const char* shape;  ///< Octagon, triangle or circle: the light is readable without its color.
+  const char* before_questions;
+};
+constexpr std::array<Light, 3> kLights{{
+    {GateStatus::fail, "Do not use the numbers",
+     "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" d=\"M13 13L27 27M27 13L13 27\"/>",
+     "; these failed:"},
+    {GateStatus::warn, "Use the numbers with caution",
+     "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>", "; these ask for caution:"},
+    {GateStatus::pass, "The recording passed every question",
+     "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" d=\"M11 20L18 27L29 13\"/>", "."},
+}};
 
 }  // namespace
 
@@ -139,7 +146,7 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
   };
   add(false);
   text += "</tbody>\n";
-  if (std::any_of(rows.begin(), rows.end(), [](const ForestRow& r) { return r.beside; })) {
+  if (std::ranges::any_of(rows, [](const ForestRow& r) { return r.beside; })) {
     text +=
         "<tbody class=\"beside\"><tr><th colspan=\"7\">Electrodes and joints: free so that their "
         "uncertainty counts</th></tr>\n";
@@ -162,34 +169,21 @@ std::string forest_html(const std::vector<ForestRow>& rows) {
 std::string light_html(const std::vector<Gate>& gates) {
   if (gates.empty()) return "";
   const auto count = [&](GateStatus status) {
-    return std::count_if(gates.begin(), gates.end(), [&](const Gate& gate) { return gate.status == status; });
+    return std::ranges::count_if(gates, [&](const Gate& gate) { return gate.status == status; });
   };
-  const auto failed = count(GateStatus::fail);
-  const auto warned = count(GateStatus::warn);
-  const auto asked = failed + warned + count(GateStatus::pass);
-  const GateStatus worst = failed > 0 ? GateStatus::fail : warned > 0 ? GateStatus::warn : GateStatus::pass;
+  const auto asked = static_cast<std::ptrdiff_t>(gates.size()) - count(GateStatus::info);
+  const Light& light =
+      *std::find_if(kLights.begin(), kLights.end() - 1, [&](const Light& worst) { return count(worst.status) > 0; });
   std::string questions;
   for (const Gate& gate : gates)
-    if (gate.status == worst && worst != GateStatus::pass)
+    if (gate.status == light.status && light.status != GateStatus::pass)
       questions +=
           fmt::format("<li>{}{}</li>", typeset(gate.name), gate.value.empty() ? "" : ": " + typeset(gate.value));
-  const char* head = failed > 0   ? "Do not use the numbers"
-                     : warned > 0 ? "Use the numbers with caution"
-                                  : "The recording passed every question";
-  // Octagon, triangle and circle: the light is readable without its color.
-  const char* shape = failed > 0   ? "<path d=\"M13 3H27L37 13V27L27 37H13L3 27V13Z\"/><path class=\"sign\" "
-                                     "d=\"M13 13L27 27M27 13L13 27\"/>"
-                      : warned > 0 ? "<path d=\"M20 3L38 36H2Z\"/><path class=\"sign\" d=\"M20 14V25M20 30V31\"/>"
-                                   : "<circle cx=\"20\" cy=\"20\" r=\"18\"/><path class=\"sign\" "
-                                     "d=\"M11 20L18 27L29 13\"/>";
   return fmt::format(
       "<div class=\"light {}\"><svg width=\"40\" height=\"40\" viewBox=\"0 0 40 40\" "
       "aria-hidden=\"true\">{}</svg><div><p><b>{}.</b> {} of {} questions about the recording and "
       "the fit (<a href=\"#quality\">all</a>) are answered well{}</p>{}</div></div>\n",
-      name(worst), shape, head, count(GateStatus::pass), asked,
-      questions.empty() ? "."
-      : failed > 0      ? "; these failed:"
-                        : "; these ask for caution:",
+      name(light.status), light.shape, light.head, count(GateStatus::pass), asked, light.before_questions,
       questions.empty() ? "" : "<ul>" + questions + "</ul>");
 }
 

@@ -1,6 +1,7 @@
 #include "myoid/report/html.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -93,61 +94,39 @@ code { font: 12px/1.4 Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 /// Longer cells may be broken into lines.
 constexpr std::size_t kShortCell = 30;
 
-std::string_view word(GateStatus status) {
-  switch (status) {
-    case GateStatus::pass:
-      return "passed";
-    case GateStatus::warn:
-      return "caution";
-    case GateStatus::fail:
-      return "failed";
-    case GateStatus::info:
-      return "note";
-  }
-  return "";
-}
-
 /// Writes the gates worst first, otherwise in the order given.
-std::string gates_html(std::vector<Gate> gates) {
+std::string gates_html(const std::vector<Gate>& gates) {
   if (gates.empty()) return "";
-  const auto rank = [](GateStatus status) {
-    switch (status) {
-      case GateStatus::fail:
-        return 0;
-      case GateStatus::warn:
-        return 1;
-      case GateStatus::pass:
-        return 2;
-      case GateStatus::info:
-        return 3;
-    }
-    return 4;
-  };
-  std::stable_sort(gates.begin(), gates.end(),
-                   [&](const Gate& a, const Gate& b) { return rank(a.status) < rank(b.status); });
   std::string text =
       "<div class=\"wide gates\"><table><thead><tr><th></th><th>Question</th><th>Found</th>"
       "<th>Asked for</th><th>What follows</th></tr></thead><tbody>\n";
-  for (const Gate& gate : gates) {
-    text += fmt::format(
-        "<tr><td><span class=\"badge "
-        "{}\">{}</span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "</tr>\n",
-        name(gate.status), word(gate.status), typeset(gate.name), typeset(gate.value), typeset(gate.threshold),
-        typeset(gate.why));
+  for (const auto& [status, word] : {std::pair{GateStatus::fail, "failed"}, std::pair{GateStatus::warn, "caution"},
+                                     std::pair{GateStatus::pass, "passed"}, std::pair{GateStatus::info, "note"}}) {
+    for (const Gate& gate : gates) {
+      if (gate.status != status) continue;
+      text += fmt::format(
+          "<tr><td><span class=\"badge {}\">{}</span></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+          name(status), word, typeset(gate.name), typeset(gate.value), typeset(gate.threshold), typeset(gate.why));
+    }
   }
   return text + "</tbody></table></div>\n";
 }
 
+std::string items_html(const std::vector<std::string>& texts) {
+  std::string items;
+  for (const std::string& text : texts) items += fmt::format("<li>{}</li>\n", typeset(text));
+  return items;
+}
+
+std::string part_html(std::string_view id, std::string_view heading, std::string_view content) {
+  return fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n{}</section>\n", escape_xml(id), typeset(heading), content);
+}
+
 std::string table_html(const Table& table) {
   std::string text = fmt::format("<h3 id=\"{}\">{}</h3>\n", escape_xml(table.id), typeset(table.title));
-  if (!table.caption.empty()) {
-    text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
-  }
+  if (!table.caption.empty()) text += fmt::format("<p class=\"caption\">{}</p>\n", typeset(table.caption));
   text += "<div class=\"wide\"><table><thead><tr>";
-  for (const std::string& column : table.columns) {
-    text += fmt::format("<th>{}</th>", typeset(column));
-  }
+  for (const std::string& column : table.columns) text += fmt::format("<th>{}</th>", typeset(column));
   text += "</tr></thead><tbody>\n";
   std::vector<std::string> hints;
   for (const std::vector<Cell>& row : table.rows) {
@@ -158,7 +137,7 @@ std::string table_html(const Table& table) {
         // The first two cells name a row: muscle and parameter.
         const std::string row_name = row.size() > 2 ? row[0].text + ' ' + row[1].text : row.front().text;
         const std::string line = fmt::format("{}: {}", row_name, cell.hint);
-        if (std::find(hints.begin(), hints.end(), line) == hints.end()) hints.push_back(line);
+        if (std::ranges::find(hints, line) == hints.end()) hints.push_back(line);
       }
       const std::string inner = cell.badge == Badge::none ? typeset(cell.text)
                                                           : fmt::format("<span class=\"badge {}\">{}</span>",
@@ -170,9 +149,7 @@ std::string table_html(const Table& table) {
   text += "</tbody></table></div>\n";
   if (!hints.empty()) {
     // On paper there is no pointer: the hints become a list.
-    text += "<ul class=\"hints\">\n";
-    for (const std::string& hint : hints) text += fmt::format("<li>{}</li>\n", typeset(hint));
-    text += "</ul>\n";
+    text += "<ul class=\"hints\">\n" + items_html(hints) + "</ul>\n";
   }
   return text;
 }
@@ -209,16 +186,13 @@ std::string figure_html(const Figure& whole) {
 }
 
 std::string section_html(const Section& section) {
-  std::string text =
-      fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escape_xml(section.id), typeset(section.heading));
-  for (const std::string& paragraph : section.paragraphs) {
-    text += fmt::format("<p>{}</p>\n", typeset(paragraph));
-  }
+  std::string text;
+  for (const std::string& paragraph : section.paragraphs) text += fmt::format("<p>{}</p>\n", typeset(paragraph));
   text += gates_html(section.gates);
   for (const StripGrid& grid : section.grids) text += strip_grid_html(grid);
   for (const Table& table : section.tables) text += table_html(table);
   for (const Figure& figure : section.figures) text += figure_html(figure);
-  return text + "</section>\n";
+  return part_html(section.id, section.heading, text);
 }
 
 /// Returns the scripts of the workbench: its values, its scenes and the program that shows them.
@@ -247,51 +221,37 @@ std::string html(const Report& report, const Workbench* workbench) {
   const bool live = workbench != nullptr && !workbench->trials.empty() && has_viewer();
   std::string text = head_html(report, live);
   text += fmt::format("<body>\n<header>\n<h1>{}</h1>\n", escape_xml(report.title));
-  if (!report.subtitle.empty()) {
-    text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
-  }
+  if (!report.subtitle.empty()) text += fmt::format("<div class=\"subtitle\">{}</div>\n", typeset(report.subtitle));
   if (!report.headline.empty()) {
-    const bool next = std::any_of(report.sections.begin(), report.sections.end(),
-                                  [](const Section& section) { return section.id == "next"; });
+    const bool next = std::ranges::any_of(report.sections, [](const Section& section) { return section.id == "next"; });
     text += fmt::format("<p class=\"headline\">{}{}</p>\n", typeset(report.headline),
                         next ? " <a href=\"#next\">What to record next</a>" : "");
   }
   text += light_html(report.gates);
-  for (const Link& link : report.links) {
+  for (const Link& link : report.links)
     text += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escape_xml(link.file), typeset(link.text));
-  }
   text += "</header>\n<nav class=\"contents\">";
   if (!report.forest.empty()) text += "<a href=\"#numbers\">All numbers</a>";
   if (live) text += "<a class=\"live-only\" href=\"#workbench\" hidden>Workbench</a>";
   if (!report.gates.empty()) text += "<a href=\"#quality\">Quality</a>";
-  for (const Section& section : report.sections) {
+  for (const Section& section : report.sections)
     text += fmt::format("<a href=\"#{}\">{}</a>", escape_xml(section.id), typeset(section.heading));
-  }
   text += "</nav>\n<main>\n";
-  if (!report.forest.empty())
-    text += "<section>\n<h2 id=\"numbers\">All numbers</h2>\n" + forest_html(report.forest) + "</section>\n";
+  if (!report.forest.empty()) text += part_html("numbers", "All numbers", forest_html(report.forest));
   if (live) text += "<section id=\"workbench\" class=\"workbench\" hidden></section>\n";
-  if (!report.gates.empty()) {
-    text += "<section>\n<h2 id=\"quality\">Quality of the data and of the fit</h2>\n" + gates_html(report.gates) +
-            "</section>\n";
-  }
+  if (!report.gates.empty())
+    text += part_html("quality", "Quality of the data and of the fit", gates_html(report.gates));
   for (const Section& section : report.sections) text += section_html(section);
   if (!report.assumptions.empty()) {
-    text += "<section>\n<h2 id=\"assumptions\">Assumptions</h2>\n<ul>\n";
-    for (const std::string& assumption : report.assumptions) {
-      text += fmt::format("<li>{}</li>\n", typeset(assumption));
-    }
-    text += "</ul>\n</section>\n";
+    text += part_html("assumptions", "Assumptions", "<ul>\n" + items_html(report.assumptions) + "</ul>\n");
   }
   if (!report.provenance.empty()) {
-    text +=
-        "<section>\n<h2 id=\"provenance\">Where this comes from</h2>\n<div class=\"wide\">"
-        "<table><tbody>\n";
-    for (const ProvenanceRow& row : report.provenance) {
-      text +=
+    std::string rows;
+    for (const ProvenanceRow& row : report.provenance)
+      rows +=
           fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape_xml(row.what), escape_xml(row.value));
-    }
-    text += "</tbody></table></div>\n</section>\n";
+    text += part_html("provenance", "Where this comes from",
+                      "<div class=\"wide\"><table><tbody>\n" + rows + "</tbody></table></div>\n");
   }
   text += "</main>\n";
   if (live) text += scripts_html(report, *workbench);

@@ -12,14 +12,18 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
+  return array_of(matrix.rowwise(), [](const auto& row) { return array_of(row, number_or_null); });
+}
+
 ordered_json provenance_json(const Provenance& provenance) {
   ordered_json object;
   object["program"] = provenance.program;
   object["version"] = provenance.version;
   object["command"] = provenance.command;
-  object["inputs"] = ordered_json::array();
-  for (const InputFile& file : provenance.inputs)
-    object["inputs"].push_back({{"path", file.path}, {"sha256", file.sha256}});
+  object["inputs"] = array_of(provenance.inputs, [](const InputFile& file) -> ordered_json {
+    return {{"path", file.path}, {"sha256", file.sha256}};
+  });
   object["options"] =
       provenance.options_json.empty() ? ordered_json::object() : parse_ordered_json(provenance.options_json);
   return object;
@@ -30,11 +34,10 @@ std::string embedded(const ordered_json& json) {
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
-    if (c == '<') {
+    if (c == '<')
       safe += "\\u003c";
-    } else {
+    else
       safe += c;
-    }
   }
   return safe;
 }

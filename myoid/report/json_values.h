@@ -3,14 +3,19 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/json_array.h"
 #include "myoid/core/provenance.h"
 
 namespace myoid::report {
 
 /// Returns a number as JSON; null where it is absent or not finite, which JSON cannot write.
 [[nodiscard]] nlohmann::ordered_json number_or_null(const std::optional<double>& value);
+
+/// Returns an array of the rows of a matrix.
+[[nodiscard]] nlohmann::ordered_json matrix_json(const Eigen::MatrixXd& matrix);
 
 /// Returns program, version, command, inputs with their SHA-256, and options.
 [[nodiscard]] nlohmann::ordered_json provenance_json(const Provenance& provenance);

@@ -3,16 +3,25 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 namespace myoid::report {
 namespace {
 
 constexpr double kSteps = 65534.0;
 
-template <typename Unsigned>
-void append(std::vector<std::uint8_t>& bytes, Unsigned number) {
-  for (std::size_t k = 0; k < sizeof(Unsigned); ++k)
-    bytes.push_back(static_cast<std::uint8_t>((number >> (8 * k)) & 0xFFU));
+/// Encodes the numbers' bytes, little end first.
+template <typename Number>
+std::string base64_of(const std::vector<Number>& numbers) {
+  using Bits = std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint32_t>;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(sizeof(Number) * numbers.size());
+  for (const Number number : numbers) {
+    const auto bits = std::bit_cast<Bits>(number);
+    for (std::size_t k = 0; k < sizeof(Bits); ++k)
+      bytes.push_back(static_cast<std::uint8_t>((bits >> (8 * k)) & 0xFFU));
+  }
+  return base64(std::span<const std::uint8_t>(bytes));
 }
 
 }  // namespace
@@ -30,26 +39,9 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-std::string base64(const std::vector<std::uint16_t>& numbers) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(2 * numbers.size());
-  for (const std::uint16_t n : numbers) append(bytes, n);
-  return base64(std::span<const std::uint8_t>(bytes));
-}
-
-std::string base64(const std::vector<std::uint32_t>& numbers) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * numbers.size());
-  for (const std::uint32_t n : numbers) append(bytes, n);
-  return base64(std::span<const std::uint8_t>(bytes));
-}
-
-std::string base64(const std::vector<float>& numbers) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * numbers.size());
-  for (const float n : numbers) append(bytes, std::bit_cast<std::uint32_t>(n));
-  return base64(std::span<const std::uint8_t>(bytes));
-}
+std::string base64(const std::vector<std::uint16_t>& numbers) { return base64_of(numbers); }
+std::string base64(const std::vector<std::uint32_t>& numbers) { return base64_of(numbers); }
+std::string base64(const std::vector<float>& numbers) { return base64_of(numbers); }
 
 PackingBox packing_box(std::span<const Vec3> points) {
   PackingBox box;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -77,6 +78,12 @@ std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples) 
   return {samples.begin(), samples.end()};
 }
 
+Panel time_panel(std::string title, std::string label, std::string unit) {
+  return {.title = std::move(title),
+          .x = {.label = "time", .unit = "s"},
+          .y = {.label = std::move(label), .unit = std::move(unit)}};
+}
+
 std::string format_value(double value, int digits) {
   if (std::isnan(value)) return "\u2013";
   if (std::isinf(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
@@ -103,6 +110,10 @@ std::string format_rounded(double value, double width) {
   // No minus before a zero.
   if (text.front() == '-' && text.find_first_of("123456789") == std::string::npos) text.erase(0, 1);
   return text;
+}
+
+std::string format_beside(double value, const std::optional<double>& lower, const std::optional<double>& upper) {
+  return lower && upper ? format_rounded(value, *upper - *lower) : format_value(value);
 }
 
 std::string format_interval(double lower, double upper, std::string_view between) {

@@ -27,33 +27,30 @@ enum class Role {
 /// have this length if used.
 struct Series {
   std::string name;  ///< In the legend; empty: no entry.
-  std::vector<double> x;
-  std::vector<double> y;
+  std::vector<double> x{}, y{};
   Role role = Role::reference;
-  std::vector<double> y_lower;  ///< points: lower end of the error bar. band: empty, y is the lower edge.
-  std::vector<double> y_upper;  ///< band: upper edge. points: upper end of the error bar.
+  std::vector<double> y_lower{};  ///< points: lower end of the error bar. band: empty, y is the lower edge.
+  std::vector<double> y_upper{};  ///< band: upper edge. points: upper end of the error bar.
 };
 
 struct Axis {
-  std::string label;            ///< "elbow flexion"
-  std::string unit;             ///< "deg", "N m"; empty: dimensionless
-  std::optional<double> lower;  ///< Empty: from the data.
-  std::optional<double> upper;
-  std::vector<std::string> categories;  ///< Names at x = 0, 1, 2, ...: instead of numbers.
+  std::string label;                       ///< "elbow flexion"
+  std::string unit{};                      ///< "deg", "N m"; empty: dimensionless
+  std::optional<double> lower{}, upper{};  ///< Empty: from the data.
+  std::vector<std::string> categories{};   ///< Names at x = 0, 1, 2, ...: instead of numbers.
 };
 
 struct Panel {
   std::string title;
-  Axis x;
-  Axis y;
-  std::vector<Series> series;
+  Axis x{}, y{};
+  std::vector<Series> series{};
 };
 
 struct Figure {
   std::string id;  ///< Name of its files, "forces_flex_slow": letters, digits, '_' and '-'.
   std::string title;
   std::string caption;  ///< Description, one or two sentences.
-  std::vector<Panel> panels;
+  std::vector<Panel> panels{};
   int columns = 1;  ///< Panels side by side.
   /// First lines of ID.csv, each behind "# ": the origin of the numbers.
   std::vector<std::string> comments{};
@@ -70,15 +67,15 @@ enum class Badge { none, good, weak, bad, info };
 struct Cell {
   std::string text;
   Badge badge = Badge::none;
-  std::string hint;  ///< A sentence shown when pointing at the cell, and in print after the table.
+  std::string hint{};  ///< A sentence shown when pointing at the cell, and in print after the table.
 };
 
 struct Table {
-  std::string id;
-  std::string title;
-  std::string caption;
+  std::string id{};
+  std::string title{};
+  std::string caption{};
   std::vector<std::string> columns;
-  std::vector<std::vector<Cell>> rows;  ///< As many cells as columns each.
+  std::vector<std::vector<Cell>> rows{};  ///< As many cells as columns each.
 };
 
 enum class GateStatus { pass, warn, fail, info };
@@ -109,26 +106,26 @@ struct ForestRow {
 
 /// A number of one person in a strip plot. Without a value the cell is empty.
 struct StripCell {
-  std::optional<double> value;
-  std::optional<double> lower, upper;  ///< 95 % interval.
-  std::optional<double> truth;         ///< In a virtual recording.
-  std::string verdict;                 ///< "identified"; empty for numbers without one.
-  Badge badge = Badge::none;           ///< Badge of the verdict; determines color and shape.
-  bool outlier = false;                ///< Far from the other persons.
+  std::optional<double> value{};
+  std::optional<double> lower{}, upper{};  ///< 95 % interval.
+  std::optional<double> truth{};           ///< In a virtual recording.
+  std::string verdict{};                   ///< "identified"; empty for numbers without one.
+  Badge badge = Badge::none;               ///< Badge of the verdict; determines color and shape.
+  bool outlier = false;                    ///< Far from the other persons.
 };
 
 /// A number that the persons share. Its cells have one scale.
 struct StripColumn {
-  std::string name;                               ///< "BIC"
-  std::string unit;                               ///< Empty: dimensionless.
-  std::optional<double> middle;                   ///< A line behind the persons.
-  std::optional<double> spread_low, spread_high;  ///< A field behind the persons.
+  std::string name;                                   ///< "BIC"
+  std::string unit{};                                 ///< Empty: dimensionless.
+  std::optional<double> middle{};                     ///< A line behind the persons.
+  std::optional<double> spread_low{}, spread_high{};  ///< A field behind the persons.
 };
 
 struct StripRow {
   std::string person;
-  std::string page;              ///< The person's own report, relative; empty: none.
-  std::vector<StripCell> cells;  ///< As many as columns.
+  std::string page{};              ///< The person's own report, relative; empty: none.
+  std::vector<StripCell> cells{};  ///< As many as columns.
 };
 
 /// Numbers of many persons: a row a person, a column a number.
@@ -136,8 +133,8 @@ struct StripGrid {
   std::string id;
   std::string title;
   std::string caption;
-  std::vector<StripColumn> columns;
-  std::vector<StripRow> rows;
+  std::vector<StripColumn> columns{};
+  std::vector<StripRow> rows{};
 };
 
 /// Another file of the run, by its name relative to the report.
@@ -149,10 +146,10 @@ struct Link {
 struct Section {
   std::string id;
   std::string heading;
-  std::vector<std::string> paragraphs;  ///< Plain text.
-  std::vector<Gate> gates;
-  std::vector<Table> tables;
-  std::vector<Figure> figures;
+  std::vector<std::string> paragraphs{};  ///< Plain text.
+  std::vector<Gate> gates{};
+  std::vector<Table> tables{};
+  std::vector<Figure> figures{};
   std::vector<StripGrid> grids{};  ///< Before the tables on the page.
 };
 
@@ -164,14 +161,14 @@ struct ProvenanceRow {
 /// All results of a run for a reader, as a value without any formatting.
 struct Report {
   std::string title;
-  std::string subtitle;             ///< Who, when, which data.
-  std::string headline;             ///< The result in two or three sentences.
-  std::vector<Link> links;          ///< Beside the report, to look at.
-  std::vector<Gate> gates;          ///< First of all: may the numbers below be believed?
+  std::string subtitle{};           ///< Who, when, which data.
+  std::string headline{};           ///< The result in two or three sentences.
+  std::vector<Link> links{};        ///< Beside the report, to look at.
+  std::vector<Gate> gates{};        ///< First of all: may the numbers below be believed?
   std::vector<ForestRow> forest{};  ///< All numbers in one picture; may be empty.
-  std::vector<Section> sections;
-  std::vector<std::string> assumptions;
-  std::vector<ProvenanceRow> provenance;  ///< Version, inputs with hashes, options.
+  std::vector<Section> sections{};
+  std::vector<std::string> assumptions{};
+  std::vector<ProvenanceRow> provenance{};  ///< Version, inputs with hashes, options.
 };
 
 /// Throws InvalidInput, naming the figure or table, if series have unequal lengths, rows unequal
@@ -181,12 +178,20 @@ void validate(const Report& report);
 /// Returns the samples as a curve's values.
 [[nodiscard]] std::vector<double> to_vector(const Eigen::Ref<const Eigen::VectorXd>& samples);
 
+/// Returns an empty panel over the time in seconds.
+[[nodiscard]] Panel time_panel(std::string title, std::string label, std::string unit);
+
 /// Formats a number for people: `digits` significant ones, no exponent between 1e-4 and 1e6.
 [[nodiscard]] std::string format_value(double value, int digits = 3);
 
 /// Formats a number with the decimals that show two digits of `width`, for example of its interval:
 /// "0.140" beside a width of 0.017. Zeros at the end are kept, so that a column can be compared.
 [[nodiscard]] std::string format_rounded(double value, double width);
+
+/// Formats a number with the decimals of its interval, or as format_value if there is none.
+[[nodiscard]] std::string format_beside(double value,
+                                        const std::optional<double>& lower,
+                                        const std::optional<double>& upper);
 
 /// Formats an interval, "0.1363 to 0.1371": both ends with the decimals that show two digits of the width.
 [[nodiscard]] std::string format_interval(double lower, double upper, std::string_view between = " to ");

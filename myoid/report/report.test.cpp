@@ -10,7 +10,6 @@
 
 #include "myoid/core/error.h"
 #include "myoid/report/html.h"
-#include "myoid/report/json.h"
 #include "myoid/report/tables.h"
 #include "myoid/report/write_report.h"
 

@@ -21,8 +21,7 @@ void validate_model(const Scene& scene) {
   for (const SceneSurface& s : scene.surfaces)
     require(s.body >= 0 && s.body < count && s.size_m.allFinite(), fmt::format("surface '{}' is on no body", s.name));
   for (const SceneMuscle& m : scene.muscles) {
-    require(std::all_of(m.points.begin(), m.points.end(), exists),
-            fmt::format("a point of muscle '{}' is on no body", m.name));
+    require(std::ranges::all_of(m.points, exists), fmt::format("a point of muscle '{}' is on no body", m.name));
   }
 }
 

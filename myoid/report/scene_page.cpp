@@ -29,53 +29,55 @@ ordered_json point_json(const ScenePoint& point) {
 }
 
 std::string_view name(SurfaceKind kind) {
-  switch (kind) {
-    case SurfaceKind::cylinder:
-      return "cylinder";
-    case SurfaceKind::ellipsoid:
-      return "ellipsoid";
-    case SurfaceKind::torus:
-      return "torus";
-  }
-  return "";
+  return kind == SurfaceKind::cylinder ? "cylinder" : kind == SurfaceKind::ellipsoid ? "ellipsoid" : "torus";
+}
+
+ordered_json body_json(const SceneBody& body) {
+  return {{"name", body.name},
+          {"mass", body.mass_kg},
+          {"center", vector_json(body.mass_center_m)},
+          {"sticks", array_of(body.sticks_m, [](const auto& ends) { return array_of(ends, vector_json); })},
+          {"meshes", body.meshes}};
+}
+
+ordered_json surface_json(const SceneSurface& s) {
+  const Eigen::Quaterniond q(s.pose.R);
+  return {{"name", s.name},
+          {"body", s.body},
+          {"kind", name(s.kind)},
+          {"size", vector_json(s.size_m)},
+          {"position", vector_json(s.pose.p)},
+          {"rotation", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+ordered_json line_of_json(const SceneMuscle& muscle) {
+  return {{"name", muscle.name},
+          {"strength", muscle.max_isometric_force_n},
+          {"points", array_of(muscle.points, point_json)}};
 }
 
 ordered_json model_json(const Scene& scene) {
-  ordered_json j{{"name", scene.name},
-                 {"notes", scene.notes},
-                 {"up", vector_json(scene.up)},
-                 {"bodies", ordered_json::array()},
-                 {"markers", ordered_json::array()},
-                 {"surfaces", ordered_json::array()},
-                 {"muscles", ordered_json::array()},
-                 {"coordinates", ordered_json::array()}};
-  for (const SceneBody& body : scene.bodies) {
-    ordered_json sticks = ordered_json::array();
-    for (const auto& [from, to] : body.sticks_m) sticks.push_back({vector_json(from), vector_json(to)});
-    j["bodies"].push_back({{"name", body.name},
-                           {"mass", body.mass_kg},
-                           {"center", vector_json(body.mass_center_m)},
-                           {"sticks", sticks},
-                           {"meshes", body.meshes}});
+  const auto marker = [](const SceneMarker& m) {
+    return ordered_json{{"name", m.name}, {"point", point_json(m.point)}};
+  };
+  const auto coordinate = [](const SceneCoordinate& c) { return ordered_json{{"name", c.name}, {"unit", c.unit}}; };
+  return {{"name", scene.name},
+          {"notes", scene.notes},
+          {"up", vector_json(scene.up)},
+          {"bodies", array_of(scene.bodies, body_json)},
+          {"markers", array_of(scene.markers, marker)},
+          {"surfaces", array_of(scene.surfaces, surface_json)},
+          {"muscles", array_of(scene.muscles, line_of_json)},
+          {"coordinates", array_of(scene.coordinates, coordinate)}};
+}
+
+std::vector<Vec3> measured_points(const Scene& scene) {
+  std::vector<Vec3> points;
+  for (Eigen::Index f = 0; f < scene.measured_m.rows(); ++f) {
+    for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
+      points.emplace_back(scene.measured_m.block<1, 3>(f, m).transpose());
   }
-  for (const SceneMarker& marker : scene.markers)
-    j["markers"].push_back({{"name", marker.name}, {"point", point_json(marker.point)}});
-  for (const SceneSurface& s : scene.surfaces) {
-    const Eigen::Quaterniond q(s.pose.R);
-    j["surfaces"].push_back({{"name", s.name},
-                             {"body", s.body},
-                             {"kind", name(s.kind)},
-                             {"size", vector_json(s.size_m)},
-                             {"position", vector_json(s.pose.p)},
-                             {"rotation", {q.x(), q.y(), q.z(), q.w()}}});
-  }
-  for (const SceneMuscle& muscle : scene.muscles) {
-    ordered_json points = ordered_json::array();
-    for (const ScenePoint& point : muscle.points) points.push_back(point_json(point));
-    j["muscles"].push_back({{"name", muscle.name}, {"strength", muscle.max_isometric_force_n}, {"points", points}});
-  }
-  for (const SceneCoordinate& c : scene.coordinates) j["coordinates"].push_back({{"name", c.name}, {"unit", c.unit}});
-  return j;
+  return points;
 }
 
 /// Returns every point that is given in ground.
@@ -85,18 +87,21 @@ std::vector<Vec3> points_of(const Scene& scene) {
     for (const Pose& pose : frame) points.push_back(pose.p);
   for (const auto& frame : scene.lines_m)
     for (const auto& line : frame) points.insert(points.end(), line.begin(), line.end());
-  for (Eigen::Index f = 0; f < scene.measured_m.rows(); ++f) {
-    for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
-      points.emplace_back(scene.measured_m.block<1, 3>(f, m).transpose());
-  }
+  const std::vector<Vec3> measured = measured_points(scene);
+  points.insert(points.end(), measured.begin(), measured.end());
   for (const SceneLoad& load : scene.loads)
     for (Eigen::Index f = 0; f < load.point_m.rows(); ++f) points.emplace_back(load.point_m.row(f).transpose());
   return points;
 }
 
+std::string packed_points(const PackingBox& box, const std::vector<Vec3>& points) {
+  std::vector<std::uint16_t> numbers;
+  for (const Vec3& p : points) pack(box, p, numbers);
+  return base64(numbers);
+}
+
 ordered_json lines_json(const Scene& scene, const PackingBox& box) {
-  std::vector<std::uint16_t> counts;
-  std::vector<std::uint16_t> points;
+  std::vector<std::uint16_t> counts, points;
   for (const auto& frame : scene.lines_m) {
     for (const auto& line : frame) {
       counts.push_back(static_cast<std::uint16_t>(line.size()));
@@ -115,18 +120,13 @@ ordered_json values_json(const SceneValues& values) {
 }
 
 ordered_json measured_json(const Scene& scene, const PackingBox& box) {
-  ordered_json j{{"names", scene.measured_markers}, {"markers", ordered_json::array()}};
-  for (const std::string& measured : scene.measured_markers) {
-    const auto it = std::find_if(scene.markers.begin(), scene.markers.end(),
-                                 [&](const SceneMarker& m) { return m.name == measured; });
-    j["markers"].push_back(it == scene.markers.end() ? -1 : it - scene.markers.begin());
-  }
-  std::vector<std::uint16_t> numbers;
-  for (Eigen::Index f = 0; f < scene.measured_m.rows(); ++f)
-    for (Eigen::Index m = 0; m + 2 < scene.measured_m.cols(); m += 3)
-      pack(box, scene.measured_m.block<1, 3>(f, m).transpose(), numbers);
-  j["points"] = base64(numbers);
-  return j;
+  const auto number_of = [&](const std::string& name) {
+    const auto it = std::ranges::find(scene.markers, name, &SceneMarker::name);
+    return it == scene.markers.end() ? -1 : it - scene.markers.begin();
+  };
+  return {{"names", scene.measured_markers},
+          {"markers", array_of(scene.measured_markers, number_of)},
+          {"points", packed_points(box, measured_points(scene))}};
 }
 
 ordered_json load_json(const SceneLoad& load, const PackingBox& box) {
@@ -142,10 +142,8 @@ ordered_json load_json(const SceneLoad& load, const PackingBox& box) {
 ordered_json scene_json(const Scene& scene) {
   const std::vector<Vec3> points = points_of(scene);
   const PackingBox box = packing_box(points);
-  std::vector<std::uint16_t> positions;
-  std::vector<std::uint16_t> rotations;
-  std::vector<float> times;
-  std::vector<float> coordinates;
+  std::vector<std::uint16_t> positions, rotations;
+  std::vector<float> times, coordinates;
   for (std::size_t f = 0; f < scene.poses.size(); ++f) {
     const auto row = static_cast<Eigen::Index>(f);
     times.push_back(static_cast<float>(scene.time_s[row]));
@@ -165,34 +163,30 @@ ordered_json scene_json(const Scene& scene) {
             {"rotations", base64(rotations)},
             {"angles", base64(coordinates)},
             {"lines", lines_json(scene, box)},
-            {"values", ordered_json::array()}});
-  for (const SceneValues& values : scene.values) j["values"].push_back(values_json(values));
-  if (!scene.loads.empty()) j["loads"] = ordered_json::array();
-  for (const SceneLoad& load : scene.loads) j["loads"].push_back(load_json(load, box));
+            {"values", array_of(scene.values, values_json)}});
+  if (!scene.loads.empty())
+    j["loads"] = array_of(scene.loads, [&](const SceneLoad& load) { return load_json(load, box); });
   if (!scene.measured_markers.empty()) j["measured"] = measured_json(scene, box);
   return j;
 }
 
 ordered_json mesh_json(const SceneMesh& mesh) {
   const PackingBox box = packing_box(mesh.vertices_m);
-  std::vector<std::uint16_t> vertices;
-  for (const Vec3& p : mesh.vertices_m) pack(box, p, vertices);
   // Few meshes need more than 16 bits for an index.
   const bool is_wide = mesh.vertices_m.size() > 65535;
   std::vector<std::uint16_t> narrow;
   std::vector<std::uint32_t> wide;
   for (const auto& triangle : mesh.triangles) {
     for (const int corner : triangle) {
-      if (is_wide) {
+      if (is_wide)
         wide.push_back(static_cast<std::uint32_t>(corner));
-      } else {
+      else
         narrow.push_back(static_cast<std::uint16_t>(corner));
-      }
     }
   }
   return {{"origin", {box.origin.x(), box.origin.y(), box.origin.z()}},
           {"step", box.step},
-          {"vertices", base64(vertices)},
+          {"vertices", packed_points(box, mesh.vertices_m)},
           {"wide", is_wide},
           {"corners", is_wide ? base64(wide) : base64(narrow)}};
 }
@@ -227,23 +221,18 @@ bool has_viewer() { return !viewer_bundle().script.empty(); }
 
 std::string scenes_json(const ScenePage& page) {
   validate_meshes(page);
-  ordered_json j{{"title", page.title},
-                 {"subtitle", page.subtitle},
-                 {"meshes", ordered_json::array()},
-                 {"scenes", ordered_json::array()}};
-  for (const SceneMesh& mesh : page.meshes) j["meshes"].push_back(mesh_json(mesh));
-  for (const Scene& scene : page.scenes) {
-    validate(scene);
-    j["scenes"].push_back(scene_json(scene));
-  }
-  return embedded(j);
+  for (const Scene& scene : page.scenes) validate(scene);
+  return embedded({{"title", page.title},
+                   {"subtitle", page.subtitle},
+                   {"meshes", array_of(page.meshes, mesh_json)},
+                   {"scenes", array_of(page.scenes, scene_json)}});
 }
 
 std::string scene_page(const ScenePage& page) {
   if (!has_viewer()) {
     throw InvalidInput(
-        "this program was built without three.js, so it cannot write pages with a moving model: "
-        "install the packages libjs-three and esbuild and build it again");
+        "this program was built without three.js, so it cannot write pages with a moving model: install the packages "
+        "libjs-three and esbuild and build it again");
   }
   if (page.scenes.empty()) throw InvalidInput("a page with a moving model needs a scene");
   const std::string scenes = scenes_json(page);

@@ -26,12 +26,9 @@ double percent(const StripScale& scale, double x) {
   return 100.0 * std::clamp((x - scale.lower) / (scale.upper - scale.lower), 0.0, 1.0);
 }
 
-std::string value_text(const StripCell& cell) {
-  return cell.lower && cell.upper ? format_rounded(*cell.value, *cell.upper - *cell.lower) : format_value(*cell.value);
-}
-
 std::string sentence(const StripRow& row, const StripColumn& column, const StripCell& cell) {
-  std::string text = fmt::format("{}, {}: {}", row.person, column.name, value_text(cell));
+  std::string text =
+      fmt::format("{}, {}: {}", row.person, column.name, format_beside(*cell.value, cell.lower, cell.upper));
   if (!column.unit.empty()) text += ' ' + column.unit;
   if (cell.lower && cell.upper) text += fmt::format(", 95 % interval {}", format_interval(*cell.lower, *cell.upper));
   if (cell.truth) text += fmt::format(", truth {}", format_value(*cell.truth));
@@ -112,8 +109,7 @@ std::string legend(const StripGrid& grid) {
 }  // namespace
 
 StripScale strip_scale(const StripGrid& grid, std::size_t column) {
-  const bool any =
-      std::any_of(grid.rows.begin(), grid.rows.end(), [&](const StripRow& row) { return is_told(row.cells[column]); });
+  const bool any = std::ranges::any_of(grid.rows, [&](const StripRow& row) { return is_told(row.cells[column]); });
   const auto counts = [&](const StripCell& cell) { return any ? is_told(cell) : !!cell.value; };
   constexpr double kMost = std::numeric_limits<double>::max();
   StripScale values{kMost, -kMost};
@@ -171,22 +167,15 @@ std::string strip_grid_html(const StripGrid& grid) {
 }
 
 std::string strip_grid_csv(const StripGrid& grid) {
-  Table table{.id = grid.id,
-              .title = {},
-              .caption = {},
-              .columns = {"person", "number", "unit", "value", "lower", "upper", "truth", "verdict", "outlier"},
-              .rows = {}};
-  const auto number = [](const std::optional<double>& x) {
-    return Cell{.text = x ? fmt::format("{}", *x) : "", .badge = Badge::none, .hint = {}};
-  };
-  const auto word = [](std::string text) { return Cell{.text = std::move(text), .badge = Badge::none, .hint = {}}; };
+  Table table{.columns = {"person", "number", "unit", "value", "lower", "upper", "truth", "verdict", "outlier"}};
+  const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; };
   for (const StripRow& row : grid.rows) {
     for (std::size_t c = 0; c < grid.columns.size(); ++c) {
       const StripCell& cell = row.cells[c];
       if (!cell.value) continue;
-      table.rows.push_back({word(row.person), word(grid.columns[c].name), word(grid.columns[c].unit),
-                            number(cell.value), number(cell.lower), number(cell.upper), number(cell.truth),
-                            word(cell.verdict), word(cell.outlier ? "yes" : "no")});
+      table.rows.push_back(
+          text_row({row.person, grid.columns[c].name, grid.columns[c].unit, number(cell.value), number(cell.lower),
+                    number(cell.upper), number(cell.truth), cell.verdict, cell.outlier ? "yes" : "no"}));
     }
   }
   return table_csv(table);

@@ -1,12 +1,14 @@
 #include "myoid/report/svg_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/core/numbers.h"
 #include "myoid/report/svg_path.h"
 #include "myoid/report/typeset.h"
 
@@ -27,37 +29,31 @@ struct Style {
   double width;
 };
 
-Style style_of(Role role) {
-  switch (role) {
-    case Role::reference:
-      return {"#1f5fa8", "", 1.6};
-    case Role::literature:
-      return {"#6b6b6b", "2 3", 1.5};
-    case Role::identified:
-      return {"#d1491b", "6 3", 1.7};
-    case Role::truth:
-      return {"#111111", "", 1.1};
-    case Role::raw:
-      return {"#b9bec4", "", 0.7};
-    case Role::band:
-      return {"#d1491b", "", 0.0};
-    case Role::unseen:
-      return {"#00694b", "7 2 1.5 2", 1.5};
-    case Role::range:
-      return {"#5a626b", "", 0.0};
-    case Role::norm:
-      return {"#3d8fc4", "", 0.0};
-    case Role::points:
-      return {"#1f5fa8", "", 1.3};
-  }
-  return {"#000000", "", 1.0};
+/// Returns the style of a role; the table is in the order of the enumerators.
+const Style& style_of(Role role) {
+  static constexpr std::array<Style, 10> kStyles{{{"#1f5fa8", "", 1.6},
+                                                  {"#6b6b6b", "2 3", 1.5},
+                                                  {"#d1491b", "6 3", 1.7},
+                                                  {"#111111", "", 1.1},
+                                                  {"#b9bec4", "", 0.7},
+                                                  {"#d1491b", "", 0.0},
+                                                  {"#00694b", "7 2 1.5 2", 1.5},
+                                                  {"#5a626b", "", 0.0},
+                                                  {"#3d8fc4", "", 0.0},
+                                                  {"#1f5fa8", "", 1.3}}};
+  return kStyles[static_cast<std::size_t>(role)];
+}
+
+/// Returns the attribute of a dashed line; empty for a solid one.
+std::string dash_of(const Style& style) {
+  return *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
 }
 
 bool is_area(Role role) { return role == Role::band || role == Role::range || role == Role::norm; }
 
 struct Range {
-  double lower = std::numeric_limits<double>::infinity();
-  double upper = -std::numeric_limits<double>::infinity();
+  double lower = kInfinity;
+  double upper = -kInfinity;
 
   void take(double value) {
     if (!std::isfinite(value)) return;
@@ -94,13 +90,9 @@ Range range_of(const Panel& panel, bool horizontal) {
     return range;
   }
   for (const Series& series : panel.series) {
-    if (horizontal) {
-      range.take(series.x);
-    } else {
-      range.take(series.y);
-      range.take(series.y_lower);
-      range.take(series.y_upper);
-    }
+    if (horizontal) range.take(series.x);
+    if (!horizontal)
+      for (const auto* values : {&series.y, &series.y_lower, &series.y_upper}) range.take(*values);
   }
   range.open(horizontal ? 0.0 : 0.05);
   if (axis.lower) range.lower = *axis.lower;
@@ -170,15 +162,10 @@ class PanelDrawing {
       grid(px(at), top_, px(at), bottom, "#e6e8eb");
       svg += text(px(at), bottom + 14.0, label, "middle", 10.0);
     };
-    if (panel_.x.categories.empty()) {
-      for (const double at : ticks(x_.lower, x_.upper, width_ > 300.0 ? 8 : 4)) {
-        mark_x(at, format_value(at, 6));
-      }
-    } else {
-      for (std::size_t k = 0; k < panel_.x.categories.size(); ++k) {
-        mark_x(static_cast<double>(k), panel_.x.categories[k]);
-      }
-    }
+    const std::vector<std::string>& categories = panel_.x.categories;
+    for (std::size_t k = 0; k < categories.size(); ++k) mark_x(static_cast<double>(k), categories[k]);
+    if (categories.empty())
+      for (const double at : ticks(x_.lower, x_.upper, width_ > 300.0 ? 8 : 4)) mark_x(at, format_value(at, 6));
     for (const double at : ticks(y_.lower, y_.upper, 5)) {
       grid(left_, py(at), left_ + width_, py(at), at == 0.0 ? "#b5bac0" : "#e6e8eb");
       svg += text(left_ - 5.0, py(at) + 3.5, format_value(at, 6), "end", 10.0);
@@ -206,12 +193,11 @@ class PanelDrawing {
         path.lift();
       }
     }
-    const Style style = style_of(series.role);
-    const std::string dash = *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
+    const Style& style = style_of(series.role);
     return fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
         "stroke-linejoin=\"round\"{}/>\n",
-        path.text(), style.color, style.width, dash);
+        path.text(), style.color, style.width, dash_of(style));
   }
 
   /// Returns the stretches without gaps, each as a closed area.
@@ -251,7 +237,7 @@ class PanelDrawing {
   }
 
   [[nodiscard]] std::string points(const Series& series) const {
-    const Style style = style_of(series.role);
+    const Style& style = style_of(series.role);
     std::string svg;
     const bool bars = !series.y_lower.empty() && !series.y_upper.empty();
     for (std::size_t k = 0; k < series.y.size(); ++k) {
@@ -270,17 +256,14 @@ class PanelDrawing {
   }
 
   const Panel& panel_;
-  double left_;
-  double top_;
-  double width_;
-  double height_;
-  Range x_;
-  Range y_;
+  double left_, top_, width_, height_;
+  Range x_, y_;
 };
 
 struct LegendEntry {
   std::string name;
   Role role;
+  bool operator==(const LegendEntry&) const = default;
 };
 
 /// Returns every name once, in order of appearance.
@@ -288,10 +271,8 @@ std::vector<LegendEntry> legend_of(const Figure& figure) {
   std::vector<LegendEntry> entries;
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series) {
-      const bool known = std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& entry) {
-        return entry.name == series.name && entry.role == series.role;
-      });
-      if (!series.name.empty() && !known) entries.push_back({series.name, series.role});
+      const LegendEntry entry{series.name, series.role};
+      if (!series.name.empty() && std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
     }
   }
   return entries;
@@ -300,7 +281,7 @@ std::vector<LegendEntry> legend_of(const Figure& figure) {
 double entry_width(const LegendEntry& entry) { return 44.0 + 6.2 * static_cast<double>(entry.name.size()); }
 
 std::string legend_mark(Role role, double x, double y) {
-  const Style style = style_of(role);
+  const Style& style = style_of(role);
   if (is_area(role)) {
     return fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"24\" height=\"9\" fill=\"{}\" "
@@ -310,11 +291,10 @@ std::string legend_mark(Role role, double x, double y) {
   if (role == Role::points) {
     return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", x + 12.0, y - 4.0, style.color);
   }
-  const std::string dash = *style.dash == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dash);
   return fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
       "stroke-width=\"{}\"{}/>\n",
-      x, y - 4.0, x + 24.0, y - 4.0, style.color, std::max(style.width, 1.0), dash);
+      x, y - 4.0, x + 24.0, y - 4.0, style.color, std::max(style.width, 1.0), dash_of(style));
 }
 
 }  // namespace
@@ -365,7 +345,7 @@ std::vector<std::size_t> decimate(const std::vector<double>& y, std::size_t bins
   const std::size_t n = y.size();
   if (n <= 4 * bins || bins == 0) {
     keep.resize(n);
-    for (std::size_t k = 0; k < n; ++k) keep[k] = k;
+    std::iota(keep.begin(), keep.end(), std::size_t{0});
     return keep;
   }
   for (std::size_t bin = 0; bin < bins; ++bin) {
@@ -385,7 +365,7 @@ std::vector<std::size_t> decimate(const std::vector<double>& y, std::size_t bins
     }
     chosen.push_back(lowest);
     chosen.push_back(highest);
-    std::sort(chosen.begin(), chosen.end());
+    std::ranges::sort(chosen);
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     keep.insert(keep.end(), chosen.begin(), chosen.end());
   }

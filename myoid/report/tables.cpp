@@ -1,5 +1,6 @@
 #include "myoid/report/tables.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,22 +30,18 @@ std::string csv_quoted(std::string_view text) {
 
 std::string table_csv(const Table& table) {
   std::string text;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    text += (c == 0 ? "" : ",") + csv_cell(table.columns[c]);
-  }
-  text += '\n';
-  for (const std::vector<Cell>& row : table.rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      text += (c == 0 ? "" : ",") + csv_cell(row[c].text);
-    }
+  const auto add = [&](const std::vector<Cell>& row) {
+    for (std::size_t c = 0; c < row.size(); ++c) text += (c == 0 ? "" : ",") + csv_cell(row[c].text);
     text += '\n';
-  }
+  };
+  add(text_row(table.columns));
+  for (const std::vector<Cell>& row : table.rows) add(row);
   return text;
 }
 
 std::vector<Cell> text_row(std::vector<std::string> texts) {
   std::vector<Cell> row;
-  for (std::string& text : texts) row.push_back({std::move(text), Badge::none, {}});
+  for (std::string& text : texts) row.push_back({std::move(text)});
   return row;
 }
 
@@ -64,9 +61,7 @@ std::string figure_csv(const Figure& figure) {
           csv_cell(panel.title) + ',' + csv_cell(series.name) + ',' + std::string(name(series.role));
       for (std::size_t k = 0; k < series.x.size(); ++k) {
         text += head + ',' + csv_number(series.x, k) + ',' + csv_number(series.y, k);
-        if (bounds) {
-          text += ',' + csv_number(series.y_lower, k) + ',' + csv_number(series.y_upper, k);
-        }
+        if (bounds) text += ',' + csv_number(series.y_lower, k) + ',' + csv_number(series.y_upper, k);
         text += '\n';
       }
     }
@@ -74,60 +69,22 @@ std::string figure_csv(const Figure& figure) {
   return text;
 }
 
+// In the order of the enumerators.
+
 std::string_view name(Role role) {
-  switch (role) {
-    case Role::reference:
-      return "reference";
-    case Role::literature:
-      return "literature";
-    case Role::identified:
-      return "identified";
-    case Role::truth:
-      return "truth";
-    case Role::raw:
-      return "raw";
-    case Role::band:
-      return "band";
-    case Role::unseen:
-      return "unseen";
-    case Role::range:
-      return "range";
-    case Role::norm:
-      return "norm";
-    case Role::points:
-      return "points";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 10> kNames{"reference", "literature", "identified", "truth", "raw",
+                                                           "band",      "unseen",     "range",      "norm",  "points"};
+  return kNames[static_cast<std::size_t>(role)];
 }
 
 std::string_view name(Badge badge) {
-  switch (badge) {
-    case Badge::none:
-      return "none";
-    case Badge::good:
-      return "good";
-    case Badge::weak:
-      return "weak";
-    case Badge::bad:
-      return "bad";
-    case Badge::info:
-      return "info";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 5> kNames{"none", "good", "weak", "bad", "info"};
+  return kNames[static_cast<std::size_t>(badge)];
 }
 
 std::string_view name(GateStatus status) {
-  switch (status) {
-    case GateStatus::pass:
-      return "pass";
-    case GateStatus::warn:
-      return "warn";
-    case GateStatus::fail:
-      return "fail";
-    case GateStatus::info:
-      return "info";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 4> kNames{"pass", "warn", "fail", "info"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 }  // namespace myoid::report

@@ -46,7 +46,7 @@ std::string typeset(std::string_view text) {
 
 std::string spelled(std::string_view name) {
   std::string words(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   return words;
 }
 

@@ -1,5 +1,7 @@
 #include "myoid/report/verdict_mark.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace myoid::report {
@@ -11,20 +13,14 @@ struct Mark {
   bool filled;
 };
 
-Mark mark_of(Badge badge) {
-  switch (badge) {
-    case Badge::good:
-      return {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true};
-    case Badge::weak:
-      return {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true};
-    case Badge::info:
-      return {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false};
-    case Badge::bad:
-      return {"#b3261e", "M0 -6L6 5H-6Z", true};
-    case Badge::none:
-      return {"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false};
-  }
-  return {"#5a626b", "", false};
+/// Returns the mark of a badge; the table is in the order of the enumerators.
+const Mark& mark_of(Badge badge) {
+  static constexpr std::array<Mark, 5> kMarks{{{"#5a626b", "M-4.5 -4.5L4.5 4.5M-4.5 4.5L4.5 -4.5", false},
+                                               {"#00694b", "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0Z", true},
+                                               {"#b86e00", "M0 -6L6 0L0 6L-6 0Z", true},
+                                               {"#b3261e", "M0 -6L6 5H-6Z", true},
+                                               {"#1f5fa8", "M-4.5 -4.5H4.5V4.5H-4.5Z", false}}};
+  return kMarks[static_cast<std::size_t>(badge)];
 }
 
 }  // namespace
@@ -39,7 +35,7 @@ Badge verdict_badge(std::string_view verdict) {
 std::string_view verdict_color(Badge badge) { return mark_of(badge).color; }
 
 std::string verdict_shape(Badge badge) {
-  const Mark mark = mark_of(badge);
+  const Mark& mark = mark_of(badge);
   return fmt::format("<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", mark.path,
                      mark.filled ? mark.color : "none", mark.color);
 }

@@ -21,7 +21,7 @@ ordered_json packed_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {{"lower", p.lower}, {"upper", p.upper}, {"codes", base64(p.codes)}};
 }
 
-ordered_json packed_json(const std::vector<double>& values) {
+ordered_json samples_json(const std::vector<double>& values) {
   return packed_json(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
 
@@ -36,87 +36,75 @@ ordered_json clock_json(const Eigen::VectorXd& time_s) {
   return {{"times", base64(std::vector<float>(time_s.begin(), time_s.end()))}};
 }
 
-ordered_json plot_json(const TimePlot& plot) {
-  ordered_json j{{"kind", plot.kind},
-                 {"title", plot.title},
-                 {"unit", plot.unit},
-                 {"joint", plot.joint},
-                 {"muscle", plot.muscle},
-                 {"file", plot.file},
-                 {"lines", ordered_json::array()}};
-  for (const TimeLine& line : plot.lines) {
-    j["lines"].push_back(
-        {{"name", line.name}, {"role", name(line.role)}, {"clock", line.clock}, {"value", packed_json(line.value)}});
-    if (line.upper.size() > 0) j["lines"].back()["upper"] = packed_json(line.upper);
-  }
+ordered_json line_json(const TimeLine& line) {
+  ordered_json j{
+      {"name", line.name}, {"role", name(line.role)}, {"clock", line.clock}, {"value", packed_json(line.value)}};
+  if (line.upper.size() > 0) j["upper"] = packed_json(line.upper);
   return j;
+}
+
+ordered_json plot_json(const TimePlot& plot) {
+  return {{"kind", plot.kind},
+          {"title", plot.title},
+          {"unit", plot.unit},
+          {"joint", plot.joint},
+          {"muscle", plot.muscle},
+          {"file", plot.file},
+          {"lines", array_of(plot.lines, line_json)}};
+}
+
+ordered_json row_json(const CarpetRow& row) {
+  return {{"name", row.name}, {"kind", row.kind}, {"unit", row.unit}, {"value", packed_json(row.value)}};
+}
+
+ordered_json mark_json(const TrialMark& mark) {
+  return {{"about", mark.about},
+          {"begin", mark.when ? ordered_json(mark.when->begin_s) : ordered_json(nullptr)},
+          {"end", mark.when ? ordered_json(mark.when->end_s) : ordered_json(nullptr)},
+          {"badge", name(mark.badge)},
+          {"text", mark.text}};
 }
 
 ordered_json drive_json(const MuscleDrive& drive) {
-  ordered_json arms = ordered_json::array();
-  for (const Eigen::VectorXd& arm : drive.moment_arm_m) arms.push_back(packed_json(arm));
   return {{"activation", packed_json(drive.activation)},
           {"length", packed_json(drive.length_m)},
           {"velocity", packed_json(drive.velocity_mps)},
-          {"arms", arms}};
+          {"arms", array_of(drive.moment_arm_m, packed_json)}};
 }
 
 ordered_json trial_json(const WorkbenchTrial& trial) {
-  ordered_json j{
-      {"name", trial.name},
-      {"use", trial.use},
-      {"scene", trial.scene},
-      {"badge", name(trial.badge)},
-      {"remarks", trial.remarks},
-      {"clocks", ordered_json::array()},
-      {"plots", ordered_json::array()},
-      {"carpet",
-       {{"begin", trial.carpet_when.begin_s}, {"end", trial.carpet_when.end_s}, {"rows", ordered_json::array()}}},
-      {"marks", ordered_json::array()},
-      {"drives", ordered_json::array()}};
-  for (const Eigen::VectorXd& clock : trial.clocks) j["clocks"].push_back(clock_json(clock));
-  for (const TimePlot& plot : trial.plots) j["plots"].push_back(plot_json(plot));
-  for (const CarpetRow& row : trial.carpet) {
-    j["carpet"]["rows"].push_back(
-        {{"name", row.name}, {"kind", row.kind}, {"unit", row.unit}, {"value", packed_json(row.value)}});
-  }
-  for (const TrialMark& mark : trial.marks) {
-    j["marks"].push_back({{"about", mark.about},
-                          {"begin", mark.timed ? ordered_json(mark.when.begin_s) : ordered_json(nullptr)},
-                          {"end", mark.timed ? ordered_json(mark.when.end_s) : ordered_json(nullptr)},
-                          {"badge", name(mark.badge)},
-                          {"text", mark.text}});
-  }
-  for (const MuscleDrive& drive : trial.drives) j["drives"].push_back(drive_json(drive));
+  ordered_json j{{"name", trial.name},
+                 {"use", trial.use},
+                 {"scene", trial.scene},
+                 {"badge", name(trial.badge)},
+                 {"remarks", trial.remarks},
+                 {"clocks", array_of(trial.clocks, clock_json)},
+                 {"plots", array_of(trial.plots, plot_json)},
+                 {"carpet",
+                  {{"begin", trial.carpet_when.begin_s},
+                   {"end", trial.carpet_when.end_s},
+                   {"rows", array_of(trial.carpet, row_json)}}},
+                 {"marks", array_of(trial.marks, mark_json)},
+                 {"drives", array_of(trial.drives, drive_json)}};
   if (!trial.video.empty()) j["video"] = {{"file", trial.video}, {"offset", trial.video_offset_s}};
   return j;
+}
+
+ordered_json number_json(const MovableNumber& n) {
+  return {{"field", n.field},    {"name", n.name},   {"unit", n.unit},
+          {"lower", n.lower},    {"upper", n.upper}, {"sd_log", number_or_null(n.sd_log)},
+          {"verdict", n.verdict}};
 }
 
 ordered_json muscle_json(const MovableMuscle& muscle) {
   ordered_json j{{"name", muscle.name},
                  {"literature", muscle.literature},
                  {"identified", muscle.identified},
-                 {"numbers", ordered_json::array()},
-                 {"correlation", ordered_json::array()}};
-  for (const MovableNumber& n : muscle.numbers) {
-    j["numbers"].push_back({{"field", n.field},
-                            {"name", n.name},
-                            {"unit", n.unit},
-                            {"lower", n.lower},
-                            {"upper", n.upper},
-                            {"sd_log", number_or_null(n.sd_log)},
-                            {"verdict", n.verdict}});
-  }
-  for (Eigen::Index r = 0; r < muscle.correlation.rows(); ++r) {
-    ordered_json row = ordered_json::array();
-    for (Eigen::Index c = 0; c < muscle.correlation.cols(); ++c)
-      row.push_back(number_or_null(muscle.correlation(r, c)));
-    j["correlation"].push_back(row);
-  }
+                 {"numbers", array_of(muscle.numbers, number_json)},
+                 {"correlation", matrix_json(muscle.correlation)}};
   if (muscle.draws.size() == 0) return j;
-  j["draws"] = {{"weight", packed_json(muscle.draw_weights)}, {"values", ordered_json::array()}};
-  for (Eigen::Index r = 0; r < muscle.draws.rows(); ++r)
-    j["draws"]["values"].push_back(packed_json(Eigen::VectorXd(muscle.draws.row(r))));
+  const auto of_number = [](const auto& row) { return packed_json(Eigen::VectorXd(row)); };
+  j["draws"] = {{"weight", packed_json(muscle.draw_weights)}, {"values", array_of(muscle.draws.rowwise(), of_number)}};
   return j;
 }
 
@@ -127,29 +115,32 @@ ordered_json axis_json(const Axis& axis) {
           {"upper", number_or_null(axis.upper)}};
 }
 
-ordered_json figure_json(const Figure& figure) {
-  ordered_json j{
-      {"id", figure.id}, {"title", figure.title}, {"columns", figure.columns}, {"panels", ordered_json::array()}};
-  for (const Panel& panel : figure.panels) {
-    ordered_json series = ordered_json::array();
-    for (const Series& s : panel.series) {
-      series.push_back(
-          {{"name", s.name}, {"role", name(s.role)}, {"x", packed_json(s.x)}, {"value", packed_json(s.y)}});
-      if (!s.y_upper.empty()) series.back()["upper"] = packed_json(s.y_upper);
-      if (!s.y_lower.empty()) series.back()["lower"] = packed_json(s.y_lower);
-    }
-    j["panels"].push_back(
-        {{"title", panel.title}, {"x", axis_json(panel.x)}, {"y", axis_json(panel.y)}, {"series", series}});
-  }
+ordered_json curve_json(const Series& s) {
+  ordered_json j{{"name", s.name}, {"role", name(s.role)}, {"x", samples_json(s.x)}, {"value", samples_json(s.y)}};
+  if (!s.y_upper.empty()) j["upper"] = samples_json(s.y_upper);
+  if (!s.y_lower.empty()) j["lower"] = samples_json(s.y_lower);
   return j;
+}
+
+ordered_json panel_json(const Panel& panel) {
+  return {{"title", panel.title},
+          {"x", axis_json(panel.x)},
+          {"y", axis_json(panel.y)},
+          {"series", array_of(panel.series, curve_json)}};
+}
+
+ordered_json figure_json(const Figure& figure) {
+  return {{"id", figure.id},
+          {"title", figure.title},
+          {"columns", figure.columns},
+          {"panels", array_of(figure.panels, panel_json)}};
 }
 
 /// Returns true if the page can draw the figure itself: curves over numbers.
 bool is_live(const Figure& figure) {
-  return !figure.in_workbench && std::all_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
+  return !figure.in_workbench && std::ranges::all_of(figure.panels, [](const Panel& panel) {
     return panel.x.categories.empty() && panel.y.categories.empty() &&
-           std::none_of(panel.series.begin(), panel.series.end(),
-                        [](const Series& s) { return s.role == Role::points; });
+           std::ranges::none_of(panel.series, [](const Series& s) { return s.role == Role::points; });
   });
 }
 
@@ -181,8 +172,7 @@ void validate(const WorkbenchTrial& trial, const Workbench& workbench) {
   for (const MuscleDrive& drive : trial.drives) {
     const Eigen::Index n = trial.clocks.empty() ? -1 : trial.clocks.front().size();
     const bool equal = drive.activation.size() == n && drive.length_m.size() == n && drive.velocity_mps.size() == n &&
-                       std::all_of(drive.moment_arm_m.begin(), drive.moment_arm_m.end(),
-                                   [&](const auto& arm) { return arm.size() == n; });
+                       std::ranges::all_of(drive.moment_arm_m, [&](const auto& arm) { return arm.size() == n; });
     require(equal, trial, fmt::format("expected {} samples of a muscle's inputs", n));
   }
 }
@@ -197,11 +187,9 @@ std::string workbench_json(const Workbench& workbench, const Report& report) {
   validate(workbench);
   ordered_json j{{"title", report.title},
                  {"fields", workbench.fields},
-                 {"trials", ordered_json::array()},
-                 {"muscles", ordered_json::array()},
+                 {"trials", array_of(workbench.trials, trial_json)},
+                 {"muscles", array_of(workbench.muscles, muscle_json)},
                  {"figures", ordered_json::array()}};
-  for (const WorkbenchTrial& trial : workbench.trials) j["trials"].push_back(trial_json(trial));
-  for (const MovableMuscle& muscle : workbench.muscles) j["muscles"].push_back(muscle_json(muscle));
   for (const Section& section : report.sections) {
     for (const Figure& figure : section.figures)
       if (is_live(figure)) j["figures"].push_back(figure_json(figure));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,8 @@ struct CarpetRow {
 
 /// A fault of a recording, marked in carpet and plots.
 struct TrialMark {
-  std::string about;  ///< Channel or marker.
-  Stretch when{};
-  bool timed = false;  ///< False: of the whole trial.
+  std::string about;              ///< Channel or marker.
+  std::optional<Stretch> when{};  ///< Empty: the whole trial.
   Badge badge = Badge::none;
   std::string text;
 };

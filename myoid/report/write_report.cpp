@@ -1,27 +1,86 @@
 #include "myoid/report/write_report.h"
 
+#include <nlohmann/json.hpp>
+
+#include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/report/html.h"
-#include "myoid/report/json.h"
+#include "myoid/report/json_values.h"
 #include "myoid/report/strip_grid.h"
 #include "myoid/report/svg_plot.h"
 #include "myoid/report/tables.h"
 
 namespace myoid::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json gate_json(const Gate& gate) {
+  return {{"name", gate.name},
+          {"status", name(gate.status)},
+          {"value", gate.value},
+          {"threshold", gate.threshold},
+          {"why", gate.why}};
+}
+
+Json cell_json(const Cell& cell) {
+  Json entry = {{"text", cell.text}};
+  if (cell.badge != Badge::none) entry["badge"] = name(cell.badge);
+  if (!cell.hint.empty()) entry["hint"] = cell.hint;
+  return entry;
+}
+
+Json table_json(const Table& table) {
+  const auto row_json = [](const std::vector<Cell>& row) { return array_of(row, cell_json); };
+  return {{"id", table.id},
+          {"title", table.title},
+          {"caption", table.caption},
+          {"columns", table.columns},
+          {"rows", array_of(table.rows, row_json)}};
+}
+
+Json drawing_json(const Figure& figure) {
+  return {{"id", figure.id}, {"title", figure.title}, {"caption", figure.caption}};
+}
+
+Json section_json(const Section& section) {
+  return {{"id", section.id},
+          {"heading", section.heading},
+          {"paragraphs", section.paragraphs},
+          {"gates", array_of(section.gates, gate_json)},
+          {"tables", array_of(section.tables, table_json)},
+          {"figures", array_of(section.figures, drawing_json)}};
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  const auto link_json = [](const Link& link) { return Json{{"text", link.text}, {"file", link.file}}; };
+  const auto fact_json = [](const ProvenanceRow& row) { return Json{{"what", row.what}, {"value", row.value}}; };
+  return json_text({{"title", report.title},
+                    {"subtitle", report.subtitle},
+                    {"headline", report.headline},
+                    {"gates", array_of(report.gates, gate_json)},
+                    {"links", array_of(report.links, link_json)},
+                    {"sections", array_of(report.sections, section_json)},
+                    {"assumptions", report.assumptions},
+                    {"provenance", array_of(report.provenance, fact_json)}}) +
+         '\n';
+}
+
+void write_figure(const Figure& figure, const std::filesystem::path& directory) {
+  recording::write_file(directory / "figures" / (figure.id + ".svg"), svg_plot(figure));
+  recording::write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
+}
 
 void write_report(const Report& report, const std::filesystem::path& directory, const Workbench* workbench) {
   validate(report);
   for (const Section& section : report.sections) {
-    for (const Table& table : section.tables) {
+    for (const Table& table : section.tables)
       recording::write_file(directory / "tables" / (table.id + ".csv"), table_csv(table));
-    }
-    for (const StripGrid& grid : section.grids) {
+    for (const StripGrid& grid : section.grids)
       recording::write_file(directory / "tables" / (grid.id + ".csv"), strip_grid_csv(grid));
-    }
-    for (const Figure& figure : section.figures) {
-      recording::write_file(directory / "figures" / (figure.id + ".svg"), svg_plot(figure));
-      recording::write_file(directory / "figures" / (figure.id + ".csv"), figure_csv(figure));
-    }
+    for (const Figure& figure : section.figures) write_figure(figure, directory);
   }
   recording::write_file(directory / "report.json", report_json(report));
   recording::write_file(directory / "report.html", html(report, workbench));

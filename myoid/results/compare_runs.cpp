@@ -1,6 +1,7 @@
 #include "myoid/results/compare_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -18,6 +19,7 @@
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/estimate_columns.h"
+#include "myoid/report/tables.h"
 #include "myoid/study/run_identity.h"
 
 namespace myoid {
@@ -79,10 +81,10 @@ Run read_run(const std::filesystem::path& folder) {
       }
     }
   } catch (const json::exception& error) {
-    throw ReadError(path, 0,
-                    fmt::format("is not the result of a run: {}; run the study (myoid run) and "
-                                "give the folder of its result",
-                                error.what()));
+    throw ReadError(
+        path, 0,
+        fmt::format("is not the result of a run: {}; run the study (myoid run) and give the folder of its result",
+                    error.what()));
   }
   return run;
 }
@@ -130,7 +132,7 @@ std::pair<OfSession, OfSession> of_sessions(const ParameterEstimate& first, cons
 
 /// Adjusts by Holm (1979): the k-th smallest of n p-values times n - k + 1, never below an earlier result.
 void adjust_p_values(std::vector<ComparedParameter*> compared) {
-  std::sort(compared.begin(), compared.end(), [](const auto* a, const auto* b) { return *a->p_value < *b->p_value; });
+  std::ranges::sort(compared, {}, [](const ComparedParameter* p) { return *p->p_value; });
   double largest = 0.0;
   for (std::size_t k = 0; k < compared.size(); ++k) {
     largest = std::max(largest, std::min(1.0, *compared[k]->p_value * static_cast<double>(compared.size() - k)));
@@ -139,10 +141,14 @@ void adjust_p_values(std::vector<ComparedParameter*> compared) {
   }
 }
 
+/// Returns the branch of a muscle behind `before`; empty if the number is of both branches.
+std::string branch_text(const std::string& fit_case, std::string_view before, std::string_view behind = "") {
+  return fit_case == "both" ? "" : fmt::format("{}{}{}", before, fit_case, behind);
+}
+
 std::string text_of(const Key& key) {
   const auto& [muscle, parameter, method, fit_case] = key;
-  return fmt::format("{} {} (method {}{})", muscle, parameter, method,
-                     fit_case == "both" ? std::string() : ", " + fit_case);
+  return fmt::format("{} {} (method {}{})", muscle, parameter, method, branch_text(fit_case, ", "));
 }
 
 std::string interval_text(const ParameterEstimate& e) {
@@ -152,15 +158,9 @@ std::string interval_text(const ParameterEstimate& e) {
 }
 
 report::Badge badge(Change change) {
-  switch (change) {
-    case Change::differs:
-      return report::Badge::info;
-    case Change::no_change:
-      return report::Badge::good;
-    case Change::cannot_tell:
-      return report::Badge::weak;
-  }
-  return report::Badge::none;
+  return change == Change::differs     ? report::Badge::info
+         : change == Change::no_change ? report::Badge::good
+                                       : report::Badge::weak;
 }
 
 std::string sentence(const ComparedParameter& p) {
@@ -182,27 +182,22 @@ report::Panel panel_of(const RunComparison& comparison,
                        const std::string& method,
                        const std::string& parameter,
                        const std::string& fit_case) {
-  report::Panel panel;
-  panel.title = parameter + (fit_case == "both" ? "" : ", " + fit_case);
-  report::Series first{.name = "first", .x = {}, .y = {}, .role = report::Role::points, .y_lower = {}, .y_upper = {}};
-  report::Series second = first;
-  second.name = "second";
+  report::Panel panel{.title = parameter + branch_text(fit_case, ", ")};
+  report::Series first{.name = "first", .role = report::Role::points};
+  report::Series second{.name = "second", .role = report::Role::points};
+  const auto add = [&](report::Series& series, const std::string& category, const ParameterEstimate& of) {
+    series.x.push_back(static_cast<double>(panel.x.categories.size()));
+    panel.x.categories.push_back(category);
+    series.y.push_back(of.estimate);
+    series.y_lower.push_back(of.ci_low.value_or(of.estimate));
+    series.y_upper.push_back(of.ci_high.value_or(of.estimate));
+  };
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;
     if (e.method != method || e.parameter != parameter || e.fit_case != fit_case) continue;
-    panel.y.label = parameter;
-    panel.y.unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit));
-    const auto at = static_cast<double>(panel.x.categories.size() / 2);
-    panel.x.categories.push_back(p.muscle + " 1");
-    panel.x.categories.push_back(p.muscle + " 2");
-    const auto add = [](report::Series& series, double x, const ParameterEstimate& of) {
-      series.x.push_back(x);
-      series.y.push_back(of.estimate);
-      series.y_lower.push_back(of.ci_low.value_or(of.estimate));
-      series.y_upper.push_back(of.ci_high.value_or(of.estimate));
-    };
-    add(first, 2.0 * at, p.first);
-    add(second, 2.0 * at + 1.0, p.second);
+    panel.y = {.label = parameter, .unit = e.unit == Unit::dimensionless ? "" : std::string(symbol(e.unit))};
+    add(first, p.muscle + " 1", p.first);
+    add(second, p.muscle + " 2", p.second);
   }
   panel.series = {first, second};
   return panel;
@@ -228,7 +223,7 @@ ComparedParameter compared(const Run& run, const Key& key, const ParameterEstima
 std::vector<std::string> methods_of(const RunComparison& comparison) {
   std::vector<std::string> methods;
   for (const ComparedParameter& p : comparison.parameters) {
-    if (std::find(methods.begin(), methods.end(), p.first.method) == methods.end()) methods.push_back(p.first.method);
+    if (std::ranges::find(methods, p.first.method) == methods.end()) methods.push_back(p.first.method);
   }
   return methods;
 }
@@ -250,33 +245,29 @@ std::string headline(const RunComparison& comparison) {
   std::map<Change, int> count;
   for (const ComparedParameter& p : comparison.parameters) ++count[p.change];
   std::string text = fmt::format(
-      "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no "
-      "difference, and {} cannot be compared because a recording does not determine them.",
+      "Of {} numbers that both sessions hold, {} differ by more than chance explains, {} show no difference, and {} "
+      "cannot be compared because a recording does not determine them.",
       comparison.parameters.size(), count[Change::differs], count[Change::no_change], count[Change::cannot_tell]);
   if (!comparison.unlike.empty())
     text += fmt::format(" The two are not of one kind: {}.", fmt::join(comparison.unlike, "; "));
   return text;
 }
 
-/// Returns table and figure of one method.
 report::Section method_section(const RunComparison& comparison, const std::string& method) {
-  report::Section section{.id = "method_" + method, .heading = "Method " + method};
   report::Table table{.id = "compared_" + method,
                       .title = "Parameters",
                       .caption = "Estimate with its 95 % interval. p-values are adjusted for their number (Holm).",
-                      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"},
-                      .rows = {}};
+                      .columns = {"muscle", "parameter", "unit", "first", "second", "difference", "verdict"}};
   report::Figure figure{.id = "intervals_" + method,
                         .title = "Both sessions",
                         .caption = "Estimates with 95 % intervals; 1 the first session, 2 the second.",
-                        .panels = {},
                         .columns = 2};
   std::set<std::pair<std::string, std::string>> shown;
   for (const ComparedParameter& p : comparison.parameters) {
     const ParameterEstimate& e = p.first;
     if (e.method != method) continue;
     table.rows.push_back({{p.muscle},
-                          {e.parameter + (e.fit_case == "both" ? "" : " (" + e.fit_case + ")")},
+                          {e.parameter + branch_text(e.fit_case, " (", ")")},
                           {std::string(symbol(e.unit))},
                           {interval_text(p.first)},
                           {interval_text(p.second)},
@@ -285,38 +276,30 @@ report::Section method_section(const RunComparison& comparison, const std::strin
     if (shown.insert({e.parameter, e.fit_case}).second)
       figure.panels.push_back(panel_of(comparison, method, e.parameter, e.fit_case));
   }
-  section.tables.push_back(std::move(table));
-  section.figures.push_back(std::move(figure));
-  return section;
+  return {.id = "method_" + method,
+          .heading = "Method " + method,
+          .tables = {std::move(table)},
+          .figures = {std::move(figure)}};
 }
 
 report::Section errors_section(const RunComparison& comparison) {
   report::Table errors{.id = "trial_errors",
                        .title = "Root mean square error of the torque",
-                       .caption = "",
-                       .columns = {"trial", "method", "first [N m]", "second [N m]"},
-                       .rows = {}};
-  const auto cell = [](const std::optional<double>& x) { return report::Cell{x ? report::format_value(*x) : "-"}; };
+                       .columns = {"trial", "method", "first [N m]", "second [N m]"}};
+  const auto cell = [](const std::optional<double>& x) { return x ? report::format_value(*x) : "-"; };
   for (const ComparedTrial& t : comparison.trials)
-    errors.rows.push_back({{t.trial}, {t.method}, cell(t.rmse_first_nm), cell(t.rmse_second_nm)});
-  report::Section trials{.id = "trials", .heading = "How well the trials are predicted"};
-  trials.tables.push_back(std::move(errors));
-  trials.paragraphs = comparison.remarks;
-  return trials;
+    errors.rows.push_back(report::text_row({t.trial, t.method, cell(t.rmse_first_nm), cell(t.rmse_second_nm)}));
+  return {.id = "trials",
+          .heading = "How well the trials are predicted",
+          .paragraphs = comparison.remarks,
+          .tables = {std::move(errors)}};
 }
 
 }  // namespace
 
 std::string_view name(Change change) {
-  switch (change) {
-    case Change::differs:
-      return "differs";
-    case Change::no_change:
-      return "no_change";
-    case Change::cannot_tell:
-      return "cannot_tell";
-  }
-  return "?";
+  static constexpr std::array<std::string_view, 3> kNames{"differs", "no_change", "cannot_tell"};
+  return kNames[static_cast<std::size_t>(change)];
 }
 
 RunComparison compare_runs(const std::filesystem::path& first, const std::filesystem::path& second) {
@@ -325,18 +308,17 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
   RunComparison comparison{.first = first, .second = second};
   IdentityDifferences unlike = differences(read_run_identity(first), read_run_identity(second));
   comparison.unlike = std::move(unlike.grave);
-  std::move(unlike.other.begin(), unlike.other.end(), std::back_inserter(comparison.unlike));
+  std::ranges::move(unlike.other, std::back_inserter(comparison.unlike));
   if (a.posterior != b.posterior)
     comparison.unlike.push_back(
-        "one is by the posterior, the other by least squares, whose F_max and intervals do not "
-        "mean the same: run both sessions with one estimator");
+        "one is by the posterior, the other by least squares, whose F_max and intervals do not mean the same: run both "
+        "sessions with one estimator");
   for (const Key& key : a.order) {
     const auto other = b.estimates.find(key);
-    if (other == b.estimates.end()) {
+    if (other == b.estimates.end())
       comparison.remarks.push_back(text_of(key) + " is in the first session only");
-    } else {
+    else
       comparison.parameters.push_back(compared(a, key, other->second));
-    }
   }
   for (const Key& key : b.order) {
     if (!a.estimates.contains(key)) comparison.remarks.push_back(text_of(key) + " is in the second session only");
@@ -353,15 +335,15 @@ RunComparison compare_runs(const std::filesystem::path& first, const std::filesy
 }
 
 report::Report comparison_report(const RunComparison& comparison) {
-  report::Report page;
-  page.title = "Two sessions compared";
-  page.subtitle = comparison.first.string() + " and " + comparison.second.string();
-  page.headline = headline(comparison);
+  report::Report page{
+      .title = "Two sessions compared",
+      .subtitle = comparison.first.string() + " and " + comparison.second.string(),
+      .headline = headline(comparison),
+      .assumptions = {
+          "The two sessions are independent; where both used the same prior, the test is cautious.",
+          "A number that a session calls prior_dominated, not_identifiable or non_physical is not compared."}};
   for (const std::string& method : methods_of(comparison)) page.sections.push_back(method_section(comparison, method));
   page.sections.push_back(errors_section(comparison));
-  page.assumptions = {"The two sessions are independent; where both used the same prior, the test is cautious.",
-                      "A number that a session calls prior_dominated, not_identifiable or non_physical is not "
-                      "compared."};
   return page;
 }
 

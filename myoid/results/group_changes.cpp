@@ -16,7 +16,6 @@ namespace myoid {
 namespace {
 
 using report::Badge;
-using report::Cell;
 
 constexpr std::size_t kFewestForGroup = 3;
 
@@ -29,37 +28,12 @@ std::string compared_method(const std::vector<PersonChange>& changes) {
   return method;
 }
 
-std::string word_of(Change change) {
-  switch (change) {
-    case Change::differs:
-      return "differs";
-    case Change::no_change:
-      return "no change";
-    case Change::cannot_tell:
-      return "cannot tell";
-  }
-  return "";
-}
-
 Badge mark_of(Change change) {
-  switch (change) {
-    case Change::differs:
-      return Badge::weak;
-    case Change::no_change:
-      return Badge::good;
-    case Change::cannot_tell:
-      return Badge::none;
-  }
-  return Badge::none;
+  return change == Change::differs ? Badge::weak : change == Change::no_change ? Badge::good : Badge::none;
 }
 
 report::StripCell change_cell(const ComparedParameter& p) {
-  report::StripCell cell{.value = p.difference,
-                         .lower = {},
-                         .upper = {},
-                         .truth = {},
-                         .verdict = word_of(p.change),
-                         .badge = mark_of(p.change)};
+  report::StripCell cell{.value = p.difference, .verdict = report::spelled(name(p.change)), .badge = mark_of(p.change)};
   if (p.smallest_detectable) {
     cell.lower = p.difference - *p.smallest_detectable;
     cell.upper = p.difference + *p.smallest_detectable;
@@ -73,27 +47,21 @@ report::StripCell& place(std::vector<report::StripGrid>& grids,
                          std::size_t person,
                          const ComparedParameter& p) {
   const std::string id = "change_" + p.first.parameter + (p.first.fit_case == "both" ? "" : "_" + p.first.fit_case);
-  auto grid = std::find_if(grids.begin(), grids.end(), [&](const auto& g) { return g.id == id; });
+  auto grid = std::ranges::find(grids, id, &report::StripGrid::id);
   if (grid == grids.end()) {
     report::StripGrid made{.id = id,
                            .title = "Change of " + report::spelled(p.first.parameter) +
                                     (p.first.fit_case == "both" ? "" : ", " + p.first.fit_case),
                            .caption =
                                "Second session minus first; the bar is the smallest change that these two recordings "
-                               "detect, to either side. A bar that does not reach the line is a change.",
-                           .columns = {},
-                           .rows = {}};
-    for (const PersonChange& change : changes)
-      made.rows.push_back({.person = change.person, .page = change.page, .cells = {}});
+                               "detect, to either side. A bar that does not reach the line is a change."};
+    for (const PersonChange& change : changes) made.rows.push_back({.person = change.person, .page = change.page});
     grid = grids.insert(grids.end(), std::move(made));
   }
-  auto column =
-      std::find_if(grid->columns.begin(), grid->columns.end(), [&](const auto& c) { return c.name == p.muscle; });
+  auto column = std::ranges::find(grid->columns, p.muscle, &report::StripColumn::name);
   if (column == grid->columns.end()) {
     const std::string unit(symbol(p.first.unit));
-    column = grid->columns.insert(
-        column,
-        {.name = p.muscle, .unit = unit == "1" ? "" : unit, .middle = 0.0, .spread_low = {}, .spread_high = {}});
+    column = grid->columns.insert(column, {.name = p.muscle, .unit = unit == "1" ? "" : unit, .middle = 0.0});
     for (report::StripRow& row : grid->rows) row.cells.emplace_back();
   }
   return grid->rows[person].cells[static_cast<std::size_t>(column - grid->columns.begin())];
@@ -108,7 +76,7 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
     if (!cell.value || !cell.lower) continue;
     differences.push_back(*cell.value);
     detectable.push_back(*cell.value - *cell.lower);
-    differ += cell.verdict == word_of(Change::differs);
+    differ += cell.verdict == name(Change::differs);
   }
   if (differences.empty()) return;
   const auto n = static_cast<double>(differences.size());
@@ -126,9 +94,7 @@ void add_row(const report::StripGrid& grid, std::size_t column, report::Table& t
 }  // namespace
 
 report::Section change_section(const std::vector<PersonChange>& changes) {
-  report::Section section;
-  section.id = "changes";
-  section.heading = "From the first session to the second";
+  report::Section section{.id = "changes", .heading = "From the first session to the second"};
   const std::string method = compared_method(changes);
   for (std::size_t i = 0; i < changes.size(); ++i) {
     for (const ComparedParameter& p : changes[i].comparison.parameters)
@@ -137,16 +103,15 @@ report::Section change_section(const std::vector<PersonChange>& changes) {
       section.paragraphs.push_back(fmt::format("{}: the sessions are not of one kind: {}.", changes[i].person,
                                                fmt::join(changes[i].comparison.unlike, "; ")));
   }
-  report::Table table{.id = "changes",
-                      .title = "Changes over the persons",
-                      .caption =
-                          "Of persons whose two recordings tell the number. The smallest detectable change of a "
-                          "person follows from the two intervals. That of the group is 1.96 standard deviations of "
-                          "the differences between persons: for persons who did not change, it holds every error "
-                          "of a repetition, placing the electrodes anew included.",
-                      .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
-                                  "smallest detectable change, median person", "of the group"},
-                      .rows = {}};
+  report::Table table{
+      .id = "changes",
+      .title = "Changes over the persons",
+      .caption =
+          "Of persons whose two recordings tell the number. The smallest detectable change of a person follows from "
+          "the two intervals. That of the group is 1.96 standard deviations of the differences between persons: for "
+          "persons who did not change, it holds every error of a repetition, placing the electrodes anew included.",
+      .columns = {"parameter", "muscle", "unit", "persons", "differ", "mean difference",
+                  "smallest detectable change, median person", "of the group"}};
   for (const report::StripGrid& grid : section.grids)
     for (std::size_t c = 0; c < grid.columns.size(); ++c) add_row(grid, c, table);
   if (!table.rows.empty()) section.tables.push_back(std::move(table));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +19,6 @@ namespace {
 using identification::EmgLag;
 using identification::EstimatorKind;
 using identification::IdentificationResult;
-using identification::Method;
 
 /// Greatest joint motion of a maximal contraction that counts as isometric.
 constexpr double kIsometricRange_deg = 15.0;
@@ -26,14 +26,14 @@ constexpr double kIsometricRange_deg = 15.0;
 /// Writes sentences one after the other and collects the references that they cite.
 class Writer {
  public:
-  void say(const std::string& sentence) {
+  template <typename... Values>
+  void say(fmt::format_string<Values...> sentence, Values&&... values) {
     if (!text_.paragraph.empty()) text_.paragraph += ' ';
-    text_.paragraph += sentence;
+    text_.paragraph += fmt::format(sentence, std::forward<Values>(values)...);
   }
   /// Returns " (Lu and O'Connor 1999)".
   std::string cite(std::string_view key) {
-    const std::string text(key);
-    if (std::find(text_.keys.begin(), text_.keys.end(), text) == text_.keys.end()) text_.keys.push_back(text);
+    if (std::ranges::find(text_.keys, key) == text_.keys.end()) text_.keys.emplace_back(key);
     return fmt::format(" ({})", reference(key).cited);
   }
   MethodsText take() { return std::move(text_); }
@@ -50,13 +50,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 template <typename Predicate>
 std::size_t count_trials(const StudyResult& result, const Predicate& is) {
-  return static_cast<std::size_t>(std::count_if(result.trials.begin(), result.trials.end(), is));
-}
-
-const IdentificationResult* method_named(const StudyResult& result, std::string_view name) {
-  for (const IdentificationResult& method : result.fit.methods)
-    if (method.method == name) return &method;
-  return nullptr;
+  return static_cast<std::size_t>(std::ranges::count_if(result.trials, is));
 }
 
 std::string joints_of(const StudyResult& result) {
@@ -77,39 +71,38 @@ void say_trials(const StudyResult& result, Writer& out) {
   add(Use::passive, "of passive movement");
   add(Use::static_pose, "of a static posture");
   add(Use::validation, "held back for validation");
-  out.say(fmt::format("Muscle parameters were identified from {}: {}.", counted(result.trials.size(), "trial"),
-                      listed(parts)));
+  out.say("Muscle parameters were identified from {}: {}.", counted(result.trials.size(), "trial"), listed(parts));
   if (result.start_s || result.end_s)
-    out.say(fmt::format("The time from {} to {} of each trial was used.",
-                        result.start_s ? fmt::format("{:g} s", *result.start_s) : "its begin",
-                        result.end_s ? fmt::format("{:g} s", *result.end_s) : "its end"));
+    out.say("The time from {} to {} of each trial was used.",
+            result.start_s ? fmt::format("{:g} s", *result.start_s) : "its begin",
+            result.end_s ? fmt::format("{:g} s", *result.end_s) : "its end");
   if (const int failed = failed_trials(result.trials); failed > 0)
-    out.say(
-        fmt::format("{} could not be computed and took no part.", counted(static_cast<std::size_t>(failed), "trial")));
+    out.say("{} could not be computed and took no part.", counted(static_cast<std::size_t>(failed), "trial"));
 }
 
 void say_motion(const StudyResult& result, Writer& out) {
   const Study& study = result.source.study;
-  const std::string model = fmt::format(
-      "the {} {}{}", study.model.file || !study.model.text.empty() ? "musculoskeletal model" : "built-in model",
-      result.source.model->name, study.model.file || !study.model.text.empty() ? out.cite("delp2007") : "");
+  const bool given_model = study.model.file || !study.model.text.empty();
+  const std::string model = fmt::format("the {} {}{}", given_model ? "musculoskeletal model" : "built-in model",
+                                        result.source.model->name, given_model ? out.cite("delp2007") : "");
   const std::size_t fitted = count_trials(result, [](const TrialResult& t) { return t.motion.ik.has_value(); });
   const std::size_t given = count_trials(result, [](const TrialResult& t) { return t.input.motion.has_value(); });
   if (fitted > 0)
     out.say(
-        fmt::format("Joint angles of {} were found from marker positions by inverse "
-                    "kinematics, a weighted least-squares fit of the whole chain{} in every "
-                    "frame.",
-                    model, out.cite("lu1999")));
+        "Joint angles of {} were found from marker positions by inverse kinematics, a weighted least-squares fit of "
+        "the whole chain{} in every frame.",
+        model, out.cite("lu1999"));
   if (given > 0)
-    out.say(fmt::format("{} of {} were given{}.", fitted > 0 ? "Other joint angles" : "Joint angles", model,
-                        fitted > 0 ? fmt::format(" for {}", counted(given, "trial")) : ""));
+    out.say("{} of {} were given{}.", fitted > 0 ? "Other joint angles" : "Joint angles", model,
+            fitted > 0 ? fmt::format(" for {}", counted(given, "trial")) : "");
   const auto cutoff = motion_cutoff_hz(study);
-  out.say(cutoff ? fmt::format("Angles were smoothed by quintic splines{} with a cut-off frequency "
-                               "of {:g} Hz (-3 dB), which also gave velocities and accelerations.",
-                               out.cite("woltring1986"), *cutoff)
-                 : std::string("Angles were not smoothed; quintic splines gave velocities and "
-                               "accelerations."));
+  if (cutoff)
+    out.say(
+        "Angles were smoothed by quintic splines{} with a cut-off frequency of {:g} Hz (-3 dB), which also gave "
+        "velocities and accelerations.",
+        out.cite("woltring1986"), *cutoff);
+  else
+    out.say("Angles were not smoothed; quintic splines gave velocities and accelerations.");
 }
 
 void say_torque(const StudyResult& result, Writer& out) {
@@ -123,8 +116,8 @@ void say_torque(const StudyResult& result, Writer& out) {
   add([](const TrialResult& t) { return t.spec.load_cell.has_value(); }, "forces of a load cell");
   add([](const TrialResult& t) { return t.spec.external_loads.has_value(); }, "measured external forces");
   add([](const TrialResult& t) { return t.spec.held_mass_kg > 0.0; }, "held masses");
-  out.say(fmt::format("The torque of the muscles about {} was found by inverse dynamics{}.", joints_of(result),
-                      from.empty() ? "" : fmt::format(" from {}", listed(from))));
+  out.say("The torque of the muscles about {} was found by inverse dynamics{}.", joints_of(result),
+          from.empty() ? "" : fmt::format(" from {}", listed(from)));
 }
 
 /// Returns true if the joint hardly moves in any maximal contraction; false if unknown.
@@ -144,11 +137,10 @@ bool isometric_mvc(const StudyResult& result) {
   return any;
 }
 
-/// Returns the method of normalization in the terms of the CEDE consensus.
 std::string cede_name(const StudyResult& result) {
   const auto& channels = result.emg.normalisation;
-  const auto from_mvc = static_cast<std::size_t>(
-      std::count_if(channels.begin(), channels.end(), [](const auto& n) { return n.from_mvc; }));
+  const auto from_mvc =
+      static_cast<std::size_t>(std::ranges::count_if(channels, [](const auto& n) { return n.from_mvc; }));
   if (from_mvc == 0) return "normalization to the peak EMG amplitude in the task";
   const std::string name =
       isometric_mvc(result) ? "normalization to a standardized isometric MVC" : "normalization to MVC";
@@ -162,23 +154,18 @@ std::string cede_name(const StudyResult& result) {
 void say_emg(const StudyResult& result, Writer& out) {
   const signals::EmgChain chain = emg_chain(result, nullptr);
   if (chain.steps.empty()) return;
-  for (const std::string& sentence : chain.methods) out.say(sentence);
-  if (result.emg.whitening.applied)
-    out.say(fmt::format("Whitening lessens the noise of the envelope{}.", out.cite("clancy1994")));
+  for (const std::string& sentence : chain.methods) out.say("{}", sentence);
+  if (result.emg.whitening.applied) out.say("Whitening lessens the noise of the envelope{}.", out.cite("clancy1994"));
   if (result.source.study.emg.kind == EmgKind::activation) {
-    out.say(
-        fmt::format("How the activations were normalized was not known to the program, as the "
-                    "CEDE consensus{} asks to report.",
-                    out.cite("besomi2020")));
+    out.say("How the activations were normalized was not known to the program, as the CEDE consensus{} asks to report.",
+            out.cite("besomi2020"));
     return;
   }
-  out.say(fmt::format("In the terms of the CEDE consensus{} this was {}.", out.cite("besomi2020"), cede_name(result)));
+  out.say("In the terms of the CEDE consensus{} this was {}.", out.cite("besomi2020"), cede_name(result));
   const EmgSpec& emg = result.source.study.emg;
   if (emg.has_mvc && (emg.mvc_effort < 1.0 || emg.mvc_effort_sd > 0.0))
-    out.say(
-        fmt::format("Maximal contractions were taken to reach {:g} +- {:g} % of the muscles' "
-                    "full force.",
-                    100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd));
+    out.say("Maximal contractions were taken to reach {:g} +- {:g} % of the muscles' full force.",
+            100.0 * emg.mvc_effort, 100.0 * emg.mvc_effort_sd);
 }
 
 std::string delay_text(const StudyResult& result) {
@@ -194,13 +181,12 @@ std::string lag_text(const StudyResult& result, EmgLag lag) {
       return fmt::format("Activation was the normalized envelope after {}.", delay_text(result));
     case EmgLag::shared:
       return fmt::format(
-          "Activation was the normalized envelope after {}, which was split into a pure delay and "
-          "two first-order lags of excitation and activation.",
+          "Activation was the normalized envelope after {}, which was split into a pure delay and two first-order lags "
+          "of excitation and activation.",
           delay_text(result));
     case EmgLag::equation_1:
       return fmt::format(
-          "Activation was the normalized envelope after {} and two first-order lags of excitation "
-          "and activation.",
+          "Activation was the normalized envelope after {} and two first-order lags of excitation and activation.",
           delay_text(result));
   }
   return "";
@@ -210,35 +196,28 @@ void say_muscles(const StudyResult& result, Writer& out) {
   const IdentifySpec& spec = result.source.study.identify;
   std::vector<std::string> names;
   for (const auto& muscle : result.fit_input.data.muscles) names.push_back(muscle.name);
-  out.say(fmt::format(
-      "{} {} a Hill-type law{}: a Gaussian force-length relation, a hyperbolic force-velocity "
-      "relation for shortening and another one for lengthening, {}, and {}.",
+  out.say(
+      "{} {} a Hill-type law{}: a Gaussian force-length relation, a hyperbolic force-velocity relation for shortening "
+      "and another one for lengthening, {}, and {}.",
       names.size() == 1 ? fmt::format("The muscle {}", listed(names)) : fmt::format("The muscles {}", listed(names)),
       names.size() == 1 ? "followed" : "each followed", out.cite("venture2006"),
       spec.model_muscles ? "pennation and passive force of the model" : "without pennation and passive force",
-      spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon"));
-  const IdentificationResult* torque = method_named(result, "torque");
-  if (torque != nullptr) out.say(lag_text(result, torque->lag));
+      spec.elastic_tendon ? "a quasi-static elastic tendon" : "a rigid tendon");
+  const IdentificationResult* torque = method_of(result.fit, "torque");
+  if (torque != nullptr) out.say("{}", lag_text(result, torque->lag));
 }
 
 /// Describes the loss function; empty for squares.
-std::string loss_text(identification::Loss loss) {
-  switch (loss) {
-    case identification::Loss::square:
-      return "";
-    case identification::Loss::huber:
-      return " with Huber's loss";
-    case identification::Loss::cauchy:
-      return " with Cauchy's loss";
-  }
-  return "";
+std::string_view loss_text(identification::Loss loss) {
+  using identification::Loss;
+  return loss == Loss::huber ? " with Huber's loss" : loss == Loss::cauchy ? " with Cauchy's loss" : "";
 }
 
 void say_least_squares(const StudyResult& result, const IdentificationResult& torque, Writer& out) {
   const identification::EstimatorOptions& options = result.fit_input.options;
-  out.say(fmt::format(
-      "All parameters were estimated together from {} samples of the torque by weighted nonlinear "
-      "least squares{}{}{}{}.",
+  out.say(
+      "All parameters were estimated together from {} samples of the torque by weighted nonlinear least "
+      "squares{}{}{}{}.",
       torque.samples_used, loss_text(options.loss),
       options.residual_cutoff_hz
           ? fmt::format(", with measured and modelled torque low-passed at {:g} Hz", *options.residual_cutoff_hz)
@@ -246,76 +225,69 @@ void say_least_squares(const StudyResult& result, const IdentificationResult& to
       options.priors && !torque.exact ? ", with prior distributions from the literature" : "",
       options.weights && options.correct_attenuation && !torque.exact
           ? ", corrected for the errors of the EMG as a regressor"
-          : ""));
+          : "");
   if (torque.exact) return;
   std::vector<std::string> routes{
       fmt::format("a covariance that allows for correlated errors{}", out.cite("newey1987"))};
   if (options.intervals.profile) routes.push_back(fmt::format("the profile likelihood{}", out.cite("raue2009")));
-  out.say(fmt::format("95 % intervals are the widest by {}{}.", listed(routes),
-                      torque.model_error > 0.0 ? ", widened by the systematic error that the residuals showed" : ""));
+  out.say("95 % intervals are the widest by {}{}.", listed(routes),
+          torque.model_error > 0.0 ? ", widened by the systematic error that the residuals showed" : "");
 }
 
 void say_posterior(const IdentifySpec& spec, const IdentificationResult& torque, Writer& out) {
   out.say(
-      fmt::format("All parameters were estimated from {} samples of the torque as the mean of their posterior "
-                  "density about its mode, with prior distributions from the literature, integrated over "
-                  "errors of moment arms, tendons, the scale of the torque, cross-talk and electrode drift. "
-                  "Repetitions of a movement repeat its errors: the samples count as {:.0f} independent ones "
-                  "(a coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 % "
-                  "intervals are {}.",
-                  torque.samples_used, torque.effective_samples,
-                  spec.posterior_draws > 0
-                      ? fmt::format("those of {} draws by Hamiltonian Monte Carlo", spec.posterior_draws)
-                      : "those of the posterior's marginal densities, which follow the density to two standard "
-                        "deviations about the mode and include the volume of the other parameters (a "
-                        "simplified Laplace approximation; Rue, Martino and Chopin, J. R. Stat. Soc. B 71, "
-                        "319, 2009)"));
+      "All parameters were estimated from {} samples of the torque as the mean of their posterior density about its "
+      "mode, with prior distributions from the literature, integrated over errors of moment arms, tendons, the scale "
+      "of the torque, cross-talk and electrode drift. Repetitions of a movement repeat its errors: the samples count "
+      "as {:.0f} independent ones (a coarsened posterior; Miller and Dunson, J. Am. Stat. Assoc. 114, 1113, 2019). 95 "
+      "% intervals are {}.",
+      torque.samples_used, torque.effective_samples,
+      spec.posterior_draws > 0
+          ? fmt::format("those of {} draws by Hamiltonian Monte Carlo", spec.posterior_draws)
+          : "those of the posterior's marginal densities, which follow the density to two standard deviations about "
+            "the mode and include the volume of the other parameters (a simplified Laplace approximation; Rue, Martino "
+            "and Chopin, J. R. Stat. Soc. B 71, 319, 2009)");
 }
 
 void say_fit(const StudyResult& result, Writer& out) {
   const IdentifySpec& spec = result.source.study.identify;
-  const IdentificationResult* torque = method_named(result, "torque");
+  const IdentificationResult* torque = method_of(result.fit, "torque");
   if (torque != nullptr) {
     if (spec.estimator == EstimatorKind::posterior)
       say_posterior(spec, *torque, out);
     else
       say_least_squares(result, *torque, out);
     out.say(
-        "Each parameter was classed as identified, weak, dominated by its prior, or not "
-        "identifiable by this recording.");
+        "Each parameter was classed as identified, weak, dominated by its prior, or not identifiable by this "
+        "recording.");
   }
-  if (method_named(result, "force") != nullptr)
+  if (method_of(result.fit, "force") != nullptr)
+    out.say("The parameters of each muscle were also fitted to its own force, as force sharing assigns it.");
+  if (method_of(result.fit, "paper") != nullptr)
     out.say(
-        "The parameters of each muscle were also fitted to its own force, as force sharing assigns "
-        "it.");
-  if (method_named(result, "paper") != nullptr)
-    out.say(
-        fmt::format("{} the method as published{} was applied: each muscle alone, shortening and lengthening "
-                    "apart, by Gauss-Newton steps on forces that minimize the sum of {} to the power "
-                    "{:g}{}.",
-                    torque != nullptr ? "For comparison" : "As the only method,", out.cite("venture2006"),
-                    result.source.study.sharing.objective == forces::SharingObjective::activation ? "activations"
-                    : result.source.study.sharing.objective == forces::SharingObjective::force    ? "muscle forces"
-                                                                                                  : "muscle stresses",
-                    result.source.study.sharing.exponent, out.cite("crowninshield1981")));
+        "{} the method as published{} was applied: each muscle alone, shortening and lengthening apart, by "
+        "Gauss-Newton steps on forces that minimize the sum of {} to the power {:g}{}.",
+        torque != nullptr ? "For comparison" : "As the only method,", out.cite("venture2006"),
+        result.source.study.sharing.objective == forces::SharingObjective::activation ? "activations"
+        : result.source.study.sharing.objective == forces::SharingObjective::force    ? "muscle forces"
+                                                                                      : "muscle stresses",
+        result.source.study.sharing.exponent, out.cite("crowninshield1981"));
 }
 
 void say_validation(const StudyResult& result, Writer& out) {
   using identification::FoldKind;
   if (!result.folds.empty()) {
     const FoldKind kind = result.source.study.identify.folds;
-    out.say(
-        fmt::format("For validation each {} in turn was left out of the fit, and its torque "
-                    "predicted.",
-                    kind == FoldKind::trial       ? "trial"
-                    : kind == FoldKind::condition ? "condition"
-                                                  : "fifth of the trials"));
+    out.say("For validation each {} in turn was left out of the fit, and its torque predicted.",
+            kind == FoldKind::trial       ? "trial"
+            : kind == FoldKind::condition ? "condition"
+                                          : "fifth of the trials");
   }
   if (result.source.study.phases.search && !result.fit_input.phases.empty()) {
     std::vector<std::string> kinds;
     for (const PhaseKind kind : result.source.study.phases.exclude) kinds.push_back(report::spelled(choice_name(kind)));
     if (!kinds.empty())
-      out.say(fmt::format("Phases that an automatic search found to be {} were not fitted.", fmt::join(kinds, " or ")));
+      out.say("Phases that an automatic search found to be {} were not fitted.", fmt::join(kinds, " or "));
   }
 }
 
@@ -324,15 +296,8 @@ Reference program_reference(const MethodsText& text) {
           .cited = "Myoid",
           .kind = "misc",
           .authors = "{The Myoid contributors}",
-          .title =
-              "Myoid: identification of a person's muscle parameters from motion capture and "
-              "EMG",
-          .container = "",
-          .year = "",
-          .volume = text.version,
-          .number = "",
-          .pages = "",
-          .doi = ""};
+          .title = "Myoid: identification of a person's muscle parameters from motion capture and EMG",
+          .volume = text.version};
 }
 
 /// Returns "The Myoid contributors. Myoid: ... Version 0.1.0."
@@ -352,7 +317,7 @@ MethodsText methods_text(const StudyResult& result, const Provenance& provenance
   say_muscles(result, out);
   say_fit(result, out);
   say_validation(result, out);
-  out.say(fmt::format("All computations were made with Myoid {}.", provenance.version));
+  out.say("All computations were made with Myoid {}.", provenance.version);
   MethodsText text = out.take();
   text.version = provenance.version;
   return text;
@@ -371,21 +336,15 @@ std::string methods_bibtex(const MethodsText& text) {
 }
 
 report::Section methods_section(const MethodsText& text) {
-  report::Section section{"methods", "Methods, ready to paste", {}, {}, {}, {}};
-  section.paragraphs = {text.paragraph,
-                        "The same text is in `methods.txt`; `methods.bib` has the references for "
-                        "BibTeX. State which ethics approval, laboratory and instruments the data "
-                        "come from: the files do not say so."};
-  report::Table table{
-      .id = "references", .title = "References", .caption = "", .columns = {"key", "reference"}, .rows = {}};
-  const auto add = [&](const std::string& key, const std::string& text_of_reference) {
-    table.rows.push_back({{.text = key, .badge = report::Badge::none, .hint = {}},
-                          {.text = text_of_reference, .badge = report::Badge::none, .hint = {}}});
-  };
-  for (const std::string& key : text.keys) add(key, printed(reference(key)));
-  add("myoid", printed_program(text));
-  section.tables = {std::move(table)};
-  return section;
+  report::Table table{.id = "references", .title = "References", .columns = {"key", "reference"}};
+  for (const std::string& key : text.keys) table.rows.push_back({{key}, {printed(reference(key))}});
+  table.rows.push_back({{"myoid"}, {printed_program(text)}});
+  return {.id = "methods",
+          .heading = "Methods, ready to paste",
+          .paragraphs = {text.paragraph,
+                         "The same text is in `methods.txt`; `methods.bib` has the references for BibTeX. State which "
+                         "ethics approval, laboratory and instruments the data come from: the files do not say so."},
+          .tables = {std::move(table)}};
 }
 
 }  // namespace myoid

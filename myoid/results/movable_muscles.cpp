@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "myoid/core/index.h"
 #include "myoid/identification/parameter_fields.h"
 #include "myoid/intervals/log_covariance.h"
 #include "myoid/report/typeset.h"
@@ -20,7 +21,7 @@ std::vector<std::string> field_names() {
   for (const identification::ParameterField& field : identification::parameter_fields()) {
     if (field.scope == identification::Scope::muscle && field.field >= 0 &&
         field.field < identification::kMuscleFieldCount)
-      names[static_cast<std::size_t>(field.field)] = std::string(field.name);
+      names[at(field.field)] = std::string(field.name);
   }
   return names;
 }
@@ -34,12 +35,12 @@ Eigen::MatrixXd draws_of(const IdentificationResult& fit,
                          const std::vector<std::string>& fields) {
   Eigen::MatrixXd draws(static_cast<Eigen::Index>(numbers.size()), fit.draws.cols());
   for (Eigen::Index k = 0; k < draws.rows(); ++k) {
-    const auto f = static_cast<std::size_t>(numbers[static_cast<std::size_t>(k)].field);
+    const std::size_t f = at(numbers[at(k)].field);
     const double found = fit.values.muscles[m][f];
     draws.row(k).setConstant(found);
     const std::optional<Eigen::Index> row = identification::unknown_of(fit, muscles[m].name, fields[f]);
     if (!row || *row >= fit.draws.rows()) continue;
-    const std::string& label = fit.free_parameters[static_cast<std::size_t>(*row)];
+    const std::string& label = fit.free_parameters[at(*row)];
     const std::string first = label.substr(0, label.find_first_of("+."));
     for (std::size_t owner = 0; owner < muscles.size(); ++owner)
       if (muscles[owner].name == first) draws.row(k) = found / fit.values.muscles[owner][f] * fit.draws.row(*row);
@@ -57,7 +58,7 @@ report::MovableMuscle movable(const IdentificationResult& fit,
   report::MovableMuscle muscle{setup.name, {start.begin(), start.end()}, {found.begin(), found.end()}};
   std::vector<std::string> names;
   for (const int field : {identification::kFiberLength, identification::kWidth, identification::kMaxForce}) {
-    const auto f = static_cast<std::size_t>(field);
+    const std::size_t f = at(field);
     names.push_back(fields[f]);
     std::string verdict;
     for (const identification::ParameterEstimate& e : fit.estimates) {
@@ -78,7 +79,7 @@ report::MovableMuscle movable(const IdentificationResult& fit,
   const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
   muscle.correlation = Eigen::MatrixXd::Identity(sd.size(), sd.size());
   for (Eigen::Index i = 0; i < sd.size(); ++i) {
-    muscle.numbers[static_cast<std::size_t>(i)].sd_log = sd[i];
+    muscle.numbers[at(i)].sd_log = sd[i];
     for (Eigen::Index j = 0; j < sd.size(); ++j)
       if (i != j && sd[i] > 0.0 && sd[j] > 0.0) muscle.correlation(i, j) = covariance(i, j) / (sd[i] * sd[j]);
   }

@@ -11,10 +11,10 @@ namespace myoid {
 namespace {
 
 bool belongs_to(const Norm& norm, const TrialResult& trial) {
-  const bool part = std::any_of(trial.input.remarks.begin(), trial.input.remarks.end(),
-                                [](const Remark& r) { return r.code == RemarkCode::clock_pause; });
+  const bool part =
+      std::ranges::any_of(trial.input.remarks, [](const Remark& r) { return r.code == RemarkCode::clock_pause; });
   const auto& named = norm.trials;
-  return !part && (named.empty() || std::find(named.begin(), named.end(), trial.spec.name) != named.end());
+  return !part && (named.empty() || std::ranges::find(named, trial.spec.name) != named.end());
 }
 
 }  // namespace

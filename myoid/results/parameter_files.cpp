@@ -26,12 +26,12 @@ using identification::EstimateColumn;
 using identification::IdentificationResult;
 using identification::ParameterEstimate;
 using nlohmann::ordered_json;
+using report::number_or_null;
 
 std::string number_or_empty(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? recording::format_number(*value) : "";
 }
 
-/// Formats a member of an estimate as a cell of parameters.csv.
 struct CsvCell {
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(const std::optional<double>& value) const { return number_or_empty(value); }
@@ -41,10 +41,9 @@ struct CsvCell {
   std::string operator()(identification::Verdict verdict) const { return std::string(identification::name(verdict)); }
 };
 
-/// Converts a member of an estimate to a value of parameters.json.
 struct JsonValue {
-  ordered_json operator()(const std::optional<double>& value) const { return report::number_or_null(value); }
-  ordered_json operator()(double value) const { return report::number_or_null(value); }
+  ordered_json operator()(const std::optional<double>& value) const { return number_or_null(value); }
+  ordered_json operator()(double value) const { return number_or_null(value); }
   ordered_json operator()(bool value) const { return value; }
   ordered_json operator()(const auto& other) const { return CsvCell{}(other); }
 };
@@ -60,12 +59,9 @@ ordered_json estimate_json(const ParameterEstimate& e) {
     object[std::string(column.name)] = cell_of(e, column, JsonValue{});
   object["routes_disagree"] = e.routes_disagree;
   if (!e.tied_to.empty()) object["tied_to"] = e.tied_to;
-  ordered_json routes = ordered_json::array();
-  for (const identification::RouteInterval& r : e.routes) {
-    routes.push_back(
-        {{"route", r.route}, {"ci_low", report::number_or_null(r.low)}, {"ci_high", report::number_or_null(r.high)}});
-  }
-  object["intervals"] = routes;
+  object["intervals"] = array_of(e.routes, [](const identification::RouteInterval& r) -> ordered_json {
+    return {{"route", r.route}, {"ci_low", number_or_null(r.low)}, {"ci_high", number_or_null(r.high)}};
+  });
   if (e.variance_shares) {
     for (std::size_t s = 0; s < identification::kSourceColumns.size(); ++s)
       object["variance_shares"][std::string(identification::kSourceColumns[s])] = (*e.variance_shares)[s];
@@ -97,7 +93,7 @@ std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
     cells.push_back(column.kind == EstimateColumn::Kind::sentence ? report::csv_quoted(cell) : cell);
   }
   for (const std::string& route : more.routes) {
-    const auto it = std::find_if(e.routes.begin(), e.routes.end(), [&](const auto& r) { return r.route == route; });
+    const auto it = std::ranges::find(e.routes, route, &identification::RouteInterval::route);
     const bool known = it != e.routes.end();
     cells.push_back(known ? number_or_empty(it->low) : "");
     cells.push_back(known ? number_or_empty(it->high) : "");
@@ -108,40 +104,17 @@ std::string estimate_row(const ParameterEstimate& e, const MoreColumns& more) {
   return fmt::format("{}", fmt::join(cells, ","));
 }
 
+ordered_json basin_json(const identification::BasinRow& basin) {
+  return {{"cost", number_or_null(basin.cost)}, {"starts", basin.starts},
+          {"converged", basin.converged},       {"distance", number_or_null(basin.distance)},
+          {"as_good_as_the_best", basin.rival}, {"of_the_given_start", basin.given}};
+}
+
 ordered_json basins_json(const identification::BasinTable& table) {
-  ordered_json object = {{"fit", table.fit},
-                         {"starts", table.starts},
-                         {"starts_without_a_minimum", table.failed},
-                         {"basins", ordered_json::array()}};
-  for (const identification::BasinRow& basin : table.basins) {
-    object["basins"].push_back({{"cost", report::number_or_null(basin.cost)},
-                                {"starts", basin.starts},
-                                {"converged", basin.converged},
-                                {"distance", report::number_or_null(basin.distance)},
-                                {"as_good_as_the_best", basin.rival},
-                                {"of_the_given_start", basin.given}});
-  }
-  return object;
-}
-
-std::vector<double> list_of(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
-
-ordered_json matrix_json(const Eigen::MatrixXd& matrix) {
-  ordered_json rows = ordered_json::array();
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    ordered_json row = ordered_json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(report::number_or_null(matrix(r, c)));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-/// Returns the list as a JSON array.
-template <typename List, typename Format>
-ordered_json array_of(const List& list, Format format) {
-  ordered_json array = ordered_json::array();
-  for (const auto& item : list) array.push_back(format(item));
-  return array;
+  return {{"fit", table.fit},
+          {"starts", table.starts},
+          {"starts_without_a_minimum", table.failed},
+          {"basins", array_of(table.basins, basin_json)}};
 }
 
 ordered_json distance_json(const identification::PriorDistance& d) {
@@ -155,8 +128,8 @@ ordered_json branch_test_json(const identification::BranchTest& test) {
   return {{"muscle", test.muscle},
           {"optimal_fiber_length_difference", test.length_difference_m},
           {"force_length_width_difference", test.width_difference_m},
-          {"wald", report::number_or_null(test.wald)},
-          {"p_value", report::number_or_null(test.p_value)}};
+          {"wald", number_or_null(test.wald)},
+          {"p_value", number_or_null(test.p_value)}};
 }
 
 /// Converts a trial. `number` writes numbers that method paper does not have.
@@ -179,60 +152,54 @@ ordered_json trial_json(const identification::TrialFit& t, Number number) {
 ordered_json method_json(const IdentificationResult& method) {
   // Method paper has neither noise nor delay, and predicts forces, not torque.
   const bool paper = method.method == "paper";
-  const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : report::number_or_null(value); };
-  ordered_json m;
-  m["method"] = method.method;
-  m["termination"] = std::string(math::name(method.termination));
-  m["message"] = method.message;
-  m["iterations"] = method.iterations;
-  m["samples_used"] = method.samples_used;
-  m["samples_dropped"] = method.samples_dropped;
-  m["effective_samples"] = report::number_or_null(method.effective_samples);
-  m["torque_sd_nm"] = unless_paper(method.torque_sd_nm);
-  m["emg_cv"] = unless_paper(method.emg_cv);
-  m["r2"] = report::number_or_null(method.r2);
-  m["model_error"] = unless_paper(method.model_error);
-  m["condition"] = unless_paper(method.condition);
-  m["emg_delay_s"] = unless_paper(method.delay_s);
-  m["emg_lag"] = paper ? ordered_json(nullptr) : ordered_json(identification::name(method.lag));
-  m["shared_lag_gain"] = report::number_or_null(method.shared_lag_gain);
-  m["hardly_told_apart"] = method.collinear;
-  m["estimates"] = array_of(method.estimates, estimate_json);
-  m["exact_data"] = method.exact;
-  m["left_open_by_the_data"] = method.undetermined;
-  m["diagnoses"] = method.diagnoses;
+  const auto unless_paper = [&](double value) { return paper ? ordered_json(nullptr) : number_or_null(value); };
   std::vector<std::string> warnings = method.interval_warnings;
   warnings.insert(warnings.end(), method.warnings.begin(), method.warnings.end());
-  m["warnings"] = warnings;
-  m["prior_distances"] = array_of(method.prior_distances, distance_json);
-  m["bootstrap"] = {{"converged", method.bootstrap_replicates}, {"failed", method.bootstrap_failed}};
-  m["branch_tests"] = array_of(method.branch_tests, branch_test_json);
-  m["searches"] = array_of(method.basins, basins_json);
-  m["covariance"] = {{"parameters", method.free_parameters},
-                     {"mean", list_of(method.solution)},
-                     {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"},
-                     {"matrix", matrix_json(method.covariance)}};
-  m["envelope_variance"] = list_of(method.envelope_variance);
-  m["noise"] = list_of(method.noise);
-  m["trials"] = array_of(method.trials, [&](const identification::TrialFit& t) { return trial_json(t, unless_paper); });
-  return m;
+  return {{"method", method.method},
+          {"termination", std::string(math::name(method.termination))},
+          {"message", method.message},
+          {"iterations", method.iterations},
+          {"samples_used", method.samples_used},
+          {"samples_dropped", method.samples_dropped},
+          {"effective_samples", number_or_null(method.effective_samples)},
+          {"torque_sd_nm", unless_paper(method.torque_sd_nm)},
+          {"emg_cv", unless_paper(method.emg_cv)},
+          {"r2", number_or_null(method.r2)},
+          {"model_error", unless_paper(method.model_error)},
+          {"condition", unless_paper(method.condition)},
+          {"emg_delay_s", unless_paper(method.delay_s)},
+          {"emg_lag", paper ? ordered_json(nullptr) : ordered_json(identification::name(method.lag))},
+          {"shared_lag_gain", number_or_null(method.shared_lag_gain)},
+          {"hardly_told_apart", method.collinear},
+          {"estimates", array_of(method.estimates, estimate_json)},
+          {"exact_data", method.exact},
+          {"left_open_by_the_data", method.undetermined},
+          {"diagnoses", method.diagnoses},
+          {"warnings", warnings},
+          {"prior_distances", array_of(method.prior_distances, distance_json)},
+          {"bootstrap", {{"converged", method.bootstrap_replicates}, {"failed", method.bootstrap_failed}}},
+          {"branch_tests", array_of(method.branch_tests, branch_test_json)},
+          {"searches", array_of(method.basins, basins_json)},
+          {"covariance",
+           {{"parameters", method.free_parameters},
+            {"mean", report::to_vector(method.solution)},
+            {"scale", "natural logarithm of F_max, V_sh, P and gains; SI otherwise"},
+            {"matrix", report::matrix_json(method.covariance)}}},
+          {"envelope_variance", report::to_vector(method.envelope_variance)},
+          {"noise", report::to_vector(method.noise)},
+          {"trials", array_of(method.trials, [&](const auto& trial) { return trial_json(trial, unless_paper); })}};
 }
 
-/// Returns the parameters by which a fold was predicted.
-ordered_json fold_values(const identification::Fold& fold) {
-  ordered_json values = ordered_json::array();
-  for (const ParameterEstimate& e : fold.parameters)
-    values.push_back(
-        {{"muscle", e.muscle}, {"parameter", e.parameter}, {"estimate", report::number_or_null(e.estimate)}});
-  return values;
+ordered_json fold_value_json(const ParameterEstimate& e) {
+  return {{"muscle", e.muscle}, {"parameter", e.parameter}, {"estimate", number_or_null(e.estimate)}};
 }
 
 ordered_json score_json(const identification::Score& s) {
-  return ordered_json{{"rmse_nm", report::number_or_null(s.rmse_nm())},
-                      {"nrmse_range", report::number_or_null(s.nrmse_range())},
-                      {"nrmse_sd", report::number_or_null(s.nrmse_sd())},
-                      {"r2", report::number_or_null(s.r2())},
-                      {"vaf", report::number_or_null(s.vaf())}};
+  return {{"rmse_nm", number_or_null(s.rmse_nm())},
+          {"nrmse_range", number_or_null(s.nrmse_range())},
+          {"nrmse_sd", number_or_null(s.nrmse_sd())},
+          {"r2", number_or_null(s.r2())},
+          {"vaf", number_or_null(s.vaf())}};
 }
 
 ordered_json fold_json(const identification::Fold& f) {
@@ -240,19 +207,19 @@ ordered_json fold_json(const identification::Fold& f) {
           {"joint", f.joint},
           {"identified", score_json(f.identified)},
           {"identified_smoothed", score_json(f.smooth)},
-          {"smoothed_below_hz", report::number_or_null(f.smooth_hz)},
+          {"smoothed_below_hz", number_or_null(f.smooth_hz)},
           {"identified_below_cutoff", score_json(f.band)},
           {"literature_with_gain", score_json(f.literature)},
-          {"gain", report::number_or_null(f.gain)},
+          {"gain", number_or_null(f.gain)},
           {"regression_on_emg", score_json(f.regression)},
           {"constant", score_json(f.constant)},
           {"paper", f.paper ? score_json(*f.paper) : ordered_json(nullptr)},
-          {"lag_s", report::number_or_null(f.lag_s)},
-          {"covered", report::number_or_null(f.covered)},
-          {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", report::number_or_null(f.unseen.ratio)}}},
+          {"lag_s", number_or_null(f.lag_s)},
+          {"covered", number_or_null(f.covered)},
+          {"unseen_effort", {{"channel", f.unseen.channel}, {"ratio", number_or_null(f.unseen.ratio)}}},
           {"converged", f.converged},
           {"emg_lag", identification::name(f.lag)},
-          {"parameters", fold_values(f)}};
+          {"parameters", array_of(f.parameters, fold_value_json)}};
 }
 
 ordered_json phase_json(const std::string& trial, const Phase& phase) {
@@ -260,8 +227,8 @@ ordered_json phase_json(const std::string& trial, const Phase& phase) {
           {"phase", std::string(choice_name(phase.kind))},
           {"begin_s", phase.begin_s},
           {"end_s", phase.end_s},
-          {"torque_per_emg", report::number_or_null(phase.gain)},
-          {"median_frequency", report::number_or_null(phase.frequency)},
+          {"torque_per_emg", number_or_null(phase.gain)},
+          {"median_frequency", number_or_null(phase.frequency)},
           {"fitted", !phase.excluded},
           {"reason", phase.reason}};
 }
@@ -271,7 +238,7 @@ ordered_json resting_json(const identification::RestingJoint& joint) {
           {"trials", joint.trials},
           {"lowest_rad", joint.torque.lowest_rad},
           {"highest_rad", joint.torque.highest_rad},
-          {"legendre_nm", list_of(joint.torque.coefficient_nm)},
+          {"legendre_nm", report::to_vector(joint.torque.coefficient_nm)},
           {"weight_sin_nm", joint.torque.weight_sin_nm},
           {"weight_cos_nm", joint.torque.weight_cos_nm},
           {"viscosity_nms", joint.torque.viscosity_nms},
@@ -328,10 +295,9 @@ std::string parameters_json(const std::vector<IdentificationResult>& methods,
                             const std::vector<identification::Fold>& folds,
                             const Provenance& provenance,
                             const ParameterContext& context) {
-  ordered_json object;
-  object["provenance"] = report::provenance_json(provenance);
-  object["methods"] = array_of(methods, method_json);
-  object["segments"] = ordered_json::array();
+  ordered_json object{{"provenance", report::provenance_json(provenance)},
+                      {"methods", array_of(methods, method_json)},
+                      {"segments", ordered_json::array()}};
   for (const TrialPhases& trial : context.phases) {
     for (const Phase& phase : trial.phases) object["segments"].push_back(phase_json(trial.trial, phase));
   }
@@ -372,8 +338,7 @@ void write_parameter_files(const std::vector<IdentificationResult>& methods,
       std::filesystem::remove(folder / name, ignored);  // from an earlier run
   };
   write_or_remove("fold_parameters.csv", !folds.empty(), [&] { return fold_parameters_csv(folds); });
-  const auto drawn =
-      std::find_if(methods.begin(), methods.end(), [](const auto& method) { return method.draws.size() > 0; });
+  const auto drawn = std::ranges::find_if(methods, [](const auto& method) { return method.draws.size() > 0; });
   write_or_remove("posterior.csv", drawn != methods.end(), [&] { return posterior_csv(*drawn); });
 }
 

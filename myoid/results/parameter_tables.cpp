@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/identification/parameter_fields.h"
+#include "myoid/report/tables.h"
 #include "myoid/report/typeset.h"
 #include "myoid/report/verdict_mark.h"
 
@@ -30,8 +30,7 @@ Badge badge(Verdict verdict) { return report::verdict_badge(identification::name
 /// Rounds a value to the digits of its interval's ends, so that all three can be compared.
 std::string value_of(const ParameterEstimate& e, double value) {
   if (!std::isfinite(value)) return "-";
-  return e.ci_low && e.ci_high && !is_undetermined(e) ? format_rounded(value, *e.ci_high - *e.ci_low)
-                                                      : format_value(value);
+  return is_undetermined(e) ? format_value(value) : report::format_beside(value, e.ci_low, e.ci_high);
 }
 
 std::string unit(const ParameterEstimate& e) {
@@ -49,7 +48,7 @@ std::string prior(const ParameterEstimate& e) {
 }
 
 Cell verdict_cell(const ParameterEstimate& e) {
-  return {report::spelled(identification::name(e.verdict)), badge(e.verdict), {}};
+  return {report::spelled(identification::name(e.verdict)), badge(e.verdict)};
 }
 
 std::optional<double> truth_of(const StudyResult& result, const ParameterEstimate& e) {
@@ -62,21 +61,21 @@ std::optional<double> truth_of(const StudyResult& result, const ParameterEstimat
 
 Cell truth_cell(const StudyResult& result, const ParameterEstimate& e) {
   const std::optional<double> truth = truth_of(result, e);
-  if (!truth) return {"-", Badge::none, {}};
-  if (!e.ci_low || !e.ci_high) return {value_of(e, *truth), Badge::none, {}};
+  if (!truth) return {"-"};
+  if (!e.ci_low || !e.ci_high) return {value_of(e, *truth)};
   const bool inside = *truth >= *e.ci_low && *truth <= *e.ci_high;
-  return {value_of(e, *truth), inside ? Badge::good : Badge::weak, {}};
+  return {value_of(e, *truth), inside ? Badge::good : Badge::weak};
 }
 
 /// Describes the resting torques from passive trials, for the table of nuisances.
 std::string measured_at_rest(const StudyResult& result) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kDegrees = 180.0 / kPi;
   std::string text;
   for (const identification::RestingJoint& joint : result.resting) {
     const identification::RestingTorque& torque = joint.torque;
     text += fmt::format(
-        " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. "
-        "It is part of every torque predicted, and the joint's numbers here come on top of it.",
+        " What {} does by itself was measured ({}): {:.1f} N m at {:.0f}°, {:.1f} N m at {:.0f}°. It is part of every "
+        "torque predicted, and the joint's numbers here come on top of it.",
         joint.joint, fmt::join(joint.trials, ", "), torque.at(torque.lowest_rad), torque.lowest_rad * kDegrees,
         torque.at(torque.highest_rad), torque.highest_rad * kDegrees);
   }
@@ -103,7 +102,7 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
   for (const bool nuisance : {false, true}) {
     for (const ParameterEstimate& e : method.estimates) {
       if (identification::is_nuisance(e) != nuisance) continue;
-      const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+      const auto same = std::ranges::find_if(groups, [&](const Group& group) {
         const ParameterEstimate& first = *group.first;
         // Parameters tied by a ratio have different values.
         return !e.tied_to.empty() && first.muscle == e.tied_to && first.parameter == e.parameter &&
@@ -131,42 +130,32 @@ std::vector<EstimateLine> estimate_lines(const IdentificationResult& method, std
 std::vector<Table> estimate_tables(const StudyResult& result, const IdentificationResult& method) {
   const bool known = !result.source.truth.empty();
   const std::string truth = known ? " Truth: green where it lies in the interval, else yellow." : "";
-  const std::string by = method.method == "force" ? "Every muscle alone, both branches at once, against the force that "
-                                                    "force sharing assigned to it. "
-                                                  : "All muscles and both branches at once against the joint torque. ";
-  Table muscles{"parameters_" + method.method,
-                fmt::format("Identified parameters (method {})", method.method),
-                by +
-                    "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard "
-                    "deviation." +
-                    truth,
-                {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"},
-                {}};
+  const std::string by =
+      method.method == "force"
+          ? "Every muscle alone, both branches at once, against the force that force sharing assigned to it. "
+          : "All muscles and both branches at once against the joint torque. ";
+  Table muscles{
+      "parameters_" + method.method,
+      fmt::format("Identified parameters (method {})", method.method),
+      by + "Interval: 95 %, for correlated residuals. Prior: the literature's mean ± standard deviation." + truth,
+      {"muscle", "parameter", "unit", "prior", "estimate", "95 % interval", "verdict", "why"}};
   if (known) muscles.columns.insert(muscles.columns.begin() + 6, "truth");
-  Table others{"nuisances_" + method.method,
-               "Numbers of the electrodes and of the joint",
-               "Free, so that their uncertainty widens the muscles' intervals; they belong to no "
-               "muscle and are not counted above." +
+  Table others{"nuisances_" + method.method, "Numbers of the electrodes and of the joint",
+               "Free, so that their uncertainty widens the muscles' intervals; they belong to no muscle and are not "
+               "counted above." +
                    measured_at_rest(result) + truth,
-               muscles.columns,
-               {}};
+               muscles.columns};
   others.columns.front() = "of";
   for (const EstimateLine& line : estimate_lines(method, result.fit_input.data.muscles.size())) {
     const ParameterEstimate& e = *line.estimate;
-    std::vector<Cell> row{{line.owners},
-                          {report::spelled(e.parameter)},
-                          {unit(e)},
-                          {prior(e)},
-                          {value_of(e, e.estimate)},
-                          {interval(e)},
-                          verdict_cell(e),
-                          {e.reason}};
-    if (known) row.insert(row.begin() + 6, truth_cell(result, e));
+    std::vector<Cell> row = report::text_row(
+        {line.owners, report::spelled(e.parameter), unit(e), prior(e), value_of(e, e.estimate), interval(e)});
+    if (known) row.push_back(truth_cell(result, e));
+    row.insert(row.end(), {verdict_cell(e), {e.reason}});
     (identification::is_nuisance(e) ? others : muscles).rows.push_back(std::move(row));
   }
-  std::vector<Table> tables{std::move(muscles)};
-  if (!others.rows.empty()) tables.push_back(std::move(others));
-  return tables;
+  if (others.rows.empty()) return {std::move(muscles)};
+  return {std::move(muscles), std::move(others)};
 }
 
 std::vector<report::ForestRow> forest_rows(const StudyResult& result, const IdentificationResult& method) {
@@ -198,22 +187,17 @@ std::vector<Table> paper_tables(const IdentificationResult& method) {
   const auto empty = [](std::string id, std::string title) {
     return Table{std::move(id),
                  std::move(title),
-                 "Each muscle fitted apart to the force that force sharing assigned to it, plain "
-                 "Gauss-Newton, as published; intervals and verdicts are ours.",
-                 {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"},
-                 {}};
+                 "Each muscle fitted apart to the force that force sharing assigned to it, plain Gauss-Newton, as "
+                 "published; intervals and verdicts are ours.",
+                 {"muscle", "parameter", "unit", "initial", "estimate", "95 % interval", "verdict", "why"}};
   };
   std::vector<Table> tables{empty("table_1_shortening", "Table I: parameters from shortening (method paper)"),
                             empty("table_2_lengthening", "Table II: parameters from lengthening (method paper)")};
   for (const ParameterEstimate& e : method.estimates) {
-    tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back({{e.muscle},
-                                                               {report::spelled(e.parameter)},
-                                                               {unit(e)},
-                                                               {format_value(e.initial)},
-                                                               {value_of(e, e.estimate)},
-                                                               {interval(e)},
-                                                               verdict_cell(e),
-                                                               {e.reason}});
+    std::vector<Cell> row = report::text_row({e.muscle, report::spelled(e.parameter), unit(e), format_value(e.initial),
+                                              value_of(e, e.estimate), interval(e)});
+    row.insert(row.end(), {verdict_cell(e), {e.reason}});
+    tables[e.fit_case == "shortening" ? 0 : 1].rows.push_back(std::move(row));
   }
   return tables;
 }
@@ -223,12 +207,10 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
   Table table{
       "basins_" + method.method,
       fmt::format("Where the searches from {} starts ended (method {})", method.basins.front().starts, method.method),
-      "The given start and points spread evenly over two standard deviations of the "
-      "priors. Distance: from the best minimum, root mean square over the unknowns, in "
-      "these standard deviations. A second minimum of equal cost is an equally good "
-      "answer.",
-      {"fit", "cost", "starts", "of them converged", "distance", "the given start"},
-      {}};
+      "The given start and points spread evenly over two standard deviations of the priors. Distance: from the best "
+      "minimum, root mean square over the unknowns, in these standard deviations. A second minimum of equal cost is an "
+      "equally good answer.",
+      {"fit", "cost", "starts", "of them converged", "distance", "the given start"}};
   for (const identification::BasinTable& searches : method.basins) {
     for (const identification::BasinRow& basin : searches.basins) {
       const bool other_answer = basin.rival && &basin != searches.basins.data();
@@ -236,14 +218,14 @@ std::vector<Table> basin_tables(const IdentificationResult& method) {
           {{searches.fit},
            {fmt::format("{:.6g}", basin.cost)},
            {fmt::format("{}", basin.starts)},
-           {fmt::format("{}", basin.converged), basin.converged < basin.starts ? Badge::weak : Badge::none, {}},
+           {fmt::format("{}", basin.converged), basin.converged < basin.starts ? Badge::weak : Badge::none},
            other_answer ? Cell{fmt::format("{:.2g}", basin.distance), Badge::weak, "as good as the best"}
                         : Cell{fmt::format("{:.2g}", basin.distance)},
            {basin.given ? "ends here" : ""}});
     }
     if (searches.failed > 0)
       table.rows.push_back(
-          {{searches.fit}, {"none found", Badge::weak, {}}, {fmt::format("{}", searches.failed)}, {"0"}, {"–"}, {""}});
+          {{searches.fit}, {"none found", Badge::weak}, {fmt::format("{}", searches.failed)}, {"0"}, {"–"}, {""}});
   }
   return {table};
 }

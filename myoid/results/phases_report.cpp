@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "myoid/report/tables.h"
+
 namespace myoid {
 namespace {
 
@@ -14,29 +16,16 @@ using report::to_vector;
 std::string percent_of(const std::optional<double>& x) { return x ? fmt::format("{:.0f} %", 100.0 * *x) : "-"; }
 
 Badge badge(PhaseKind kind) {
-  switch (kind) {
-    case PhaseKind::regular:
-      return Badge::good;
-    case PhaseKind::fatigued:
-    case PhaseKind::changed:
-    case PhaseKind::warm_up:
-      return Badge::weak;
-    case PhaseKind::rest:
-    case PhaseKind::isometric:
-      return Badge::info;
-  }
-  return Badge::none;
+  if (kind == PhaseKind::regular) return Badge::good;
+  return kind == PhaseKind::rest || kind == PhaseKind::isometric ? Badge::info : Badge::weak;
 }
 
 /// Draws measured and predicted torque over the excluded phases.
 report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) {
-  report::Panel panel{.title = trial.trial,
-                      .x = {.label = "time", .unit = "s", .lower = {}, .upper = {}, .categories = {}},
-                      .y = {.label = "torque", .unit = "N m", .lower = {}, .upper = {}, .categories = {}},
-                      .series = {}};
-  const auto data = std::find_if(result.fit_input.data.trials.begin(), result.fit_input.data.trials.end(),
-                                 [&](const auto& t) { return t.name == trial.trial; });
-  if (data == result.fit_input.data.trials.end()) return panel;
+  report::Panel panel = report::time_panel(trial.trial, "torque", "N m");
+  const auto& trials = result.fit_input.data.trials;
+  const auto data = std::ranges::find(trials, trial.trial, &identification::TrialData::name);
+  if (data == trials.end()) return panel;
   const double low = data->torque_nm.minCoeff();
   const double high = data->torque_nm.maxCoeff();
   for (const Phase& phase : trial.phases) {
@@ -45,26 +34,15 @@ report::Panel torque_panel(const StudyResult& result, const TrialPhases& trial) 
                             .x = {phase.begin_s, phase.end_s},
                             .y = {low, low},
                             .role = Role::band,
-                            .y_lower = {},
                             .y_upper = {high, high}});
   }
-  panel.series.push_back({.name = "inverse dynamics",
-                          .x = to_vector(data->time_s),
-                          .y = to_vector(data->torque_nm),
-                          .role = Role::reference,
-                          .y_lower = {},
-                          .y_upper = {}});
-  for (const identification::IdentificationResult& method : result.fit.methods) {
-    if (method.method != "torque") continue;
-    for (const identification::TrialFit& fit : method.trials) {
-      if (fit.trial != trial.trial) continue;
-      panel.series.push_back({.name = "identified muscles",
-                              .x = to_vector(fit.time_s),
-                              .y = to_vector(fit.torque_fit_nm),
-                              .role = Role::identified,
-                              .y_lower = {},
-                              .y_upper = {}});
-    }
+  panel.series.push_back({"inverse dynamics", to_vector(data->time_s), to_vector(data->torque_nm), Role::reference});
+  const identification::IdentificationResult* torque = torque_of(result.fit);
+  if (torque == nullptr) return panel;
+  for (const identification::TrialFit& fit : torque->trials) {
+    if (fit.trial == trial.trial)
+      panel.series.push_back(
+          {"identified muscles", to_vector(fit.time_s), to_vector(fit.torque_fit_nm), Role::identified});
   }
   return panel;
 }
@@ -77,14 +55,12 @@ report::Section phases_section(const StudyResult& result) {
       .id = "phases",
       .title = "Rest, isometric contraction, warm-up, fatigue",
       .caption =
-          "Found from change points of the torque per EMG and of the EMG's median frequency; "
-          "both relative to the trial's regular phase.",
-      .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency", "fitted", "reason"},
-      .rows = {}};
+          "Found from change points of the torque per EMG and of the EMG's median frequency; both relative to the "
+          "trial's regular phase.",
+      .columns = {"trial", "phase", "from [s]", "to [s]", "torque per EMG", "median frequency", "fitted", "reason"}};
   report::Figure figure{.id = "phases_torque",
                         .title = "Trials of which a phase was left out",
                         .caption = "Shaded: not fitted.",
-                        .panels = {},
                         .columns = 1};
   int whole = 0;
   for (const TrialPhases& trial : result.fit_input.phases) {
@@ -119,20 +95,18 @@ report::Section informed_section(const StudyResult& result) {
     report::Table table{.id = "informed_forces",
                         .title = "Forces with the identified muscles, informed by the EMG",
                         .caption =
-                            "What the muscles found must do so that the torque is balanced, as near to the EMG "
-                            "as they can; antagonists may act together. The forces themselves are in each "
-                            "trial's EmgInformed_force.sto and EmgInformed_activation.sto.",
+                            "What the muscles found must do so that the torque is balanced, as near to the EMG as they "
+                            "can; antagonists may act together. The forces themselves are in each trial's "
+                            "EmgInformed_force.sto and EmgInformed_activation.sto.",
                         .columns = {"trial", "departure from the EMG (rms)", "torque no muscle carries (rms) [N m]",
-                                    "frames not solved"},
-                        .rows = {}};
+                                    "frames not solved"}};
     for (const identification::InformedForces& f : result.fit.informed) {
       const auto samples = static_cast<double>(f.activation.size());
-      table.rows.push_back(
-          {{f.trial},
-           {fmt::format("{:.3f}", std::sqrt((f.activation - f.measured).squaredNorm() / samples))},
-           {fmt::format("{:.2f}", std::sqrt(f.reserve_nm.squaredNorm() /
-                                            static_cast<double>(std::max<Eigen::Index>(1, f.reserve_nm.size()))))},
-           {fmt::format("{}", f.frames_not_solved)}});
+      const auto reserves = static_cast<double>(std::max<Eigen::Index>(1, f.reserve_nm.size()));
+      table.rows.push_back(report::text_row(
+          {f.trial, fmt::format("{:.3f}", std::sqrt((f.activation - f.measured).squaredNorm() / samples)),
+           fmt::format("{:.2f}", std::sqrt(f.reserve_nm.squaredNorm() / reserves)),
+           fmt::format("{}", f.frames_not_solved)}));
     }
     section.tables.push_back(std::move(table));
   }
@@ -143,17 +117,14 @@ report::Section informed_section(const StudyResult& result) {
     report::Table table{.id = "force_loop",
                         .title = "Forces and parameters, round by round",
                         .caption =
-                            "The largest relative change of a parameter, the change of the "
-                            "forces, and the torque that no muscle carries.",
-                        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"},
-                        .rows = {}};
+                            "The largest relative change of a parameter, the change of the forces, and the torque that "
+                            "no muscle carries.",
+                        .columns = {"round", "largest change", "of", "change of forces", "reserve (rms) [N m]"}};
     for (std::size_t k = 0; k < loop.rounds.size(); ++k) {
       const identification::ForceLoopRound& round = loop.rounds[k];
-      table.rows.push_back({{fmt::format("{}", k + 1)},
-                            {fmt::format("{:.2g}", round.parameter_change)},
-                            {round.parameter},
-                            {fmt::format("{:.2g}", round.force_change)},
-                            {fmt::format("{:.3f}", round.reserve_nm)}});
+      table.rows.push_back(
+          report::text_row({fmt::format("{}", k + 1), fmt::format("{:.2g}", round.parameter_change), round.parameter,
+                            fmt::format("{:.2g}", round.force_change), fmt::format("{:.3f}", round.reserve_nm)}));
     }
     section.tables.push_back(std::move(table));
   }

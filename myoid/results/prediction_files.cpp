@@ -7,35 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "myoid/core/time_series.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/report/tables.h"
+#include "myoid/results/stage_files.h"
 #include "myoid/tables/storage_writer.h"
 
 namespace myoid {
-namespace {
-
-/// Columns of one unit, one after the other.
-struct Columns {
-  Unit unit = Unit::dimensionless;
-  std::vector<Channel> channels;
-  std::vector<Eigen::VectorXd> values;
-
-  void add(std::string name, Eigen::VectorXd column) {
-    channels.push_back({std::move(name), unit});
-    values.push_back(std::move(column));
-  }
-  [[nodiscard]] TimeSeries series(const Eigen::VectorXd& time_s) && {
-    Eigen::MatrixXd all(time_s.size(), static_cast<Eigen::Index>(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = values[i];
-    return {time_s, std::move(channels), std::move(all)};
-  }
-};
-
-}  // namespace
 
 Band prediction_band(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) {
   if (sd.size() != mean.size()) return {};
@@ -47,31 +27,30 @@ void write_prediction(const identification::TrialFit& prediction,
                       const std::vector<std::string>& muscles,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& comments) {
-  Columns torque{.unit = Unit::newton_meter};
+  SeriesColumns torque;
   const std::string& joint = prediction.joint;
   if (prediction.torque_fit_nm.size() > 0) {
     if (prediction.torque_nm.size() == prediction.torque_fit_nm.size() && prediction.torque_nm.allFinite())
-      torque.add(joint + "_measured", prediction.torque_nm);
-    torque.add(joint + "_predicted", prediction.torque_fit_nm);
+      torque.add(joint + "_measured", Unit::newton_meter, prediction.torque_nm);
+    torque.add(joint + "_predicted", Unit::newton_meter, prediction.torque_fit_nm);
     Band band = prediction_band(prediction.torque_fit_nm, prediction.torque_sd_nm);
     if (band.low.size() > 0) {
-      torque.add(joint + "_low", std::move(band.low));
-      torque.add(joint + "_high", std::move(band.high));
+      torque.add(joint + "_low", Unit::newton_meter, std::move(band.low));
+      torque.add(joint + "_high", Unit::newton_meter, std::move(band.high));
     }
-    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joint),
-                             std::move(torque).series(prediction.time_s),
+    recording::write_storage(folder / fmt::format("predicted_torque_{}.sto", joint), torque.series(prediction.time_s),
                              {.title = "Predicted torque", .comments = comments});
   }
-  Columns forces{.unit = Unit::newton};
+  SeriesColumns forces;
   for (std::size_t k = 0; k < muscles.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    forces.add(muscles[k], prediction.force_fit_n.col(column));
+    forces.add(muscles[k], Unit::newton, prediction.force_fit_n.col(column));
     if (prediction.force_sd_n.cols() <= column) continue;
     Band band = prediction_band(prediction.force_fit_n.col(column), prediction.force_sd_n.col(column));
-    forces.add(muscles[k] + "_low", band.low.cwiseMax(0.0));
-    forces.add(muscles[k] + "_high", std::move(band.high));
+    forces.add(muscles[k] + "_low", Unit::newton, band.low.cwiseMax(0.0));
+    forces.add(muscles[k] + "_high", Unit::newton, std::move(band.high));
   }
-  recording::write_storage(folder / "predicted_forces.sto", std::move(forces).series(prediction.time_s),
+  recording::write_storage(folder / "predicted_forces.sto", forces.series(prediction.time_s),
                            {.title = "Predicted forces", .comments = comments});
 }
 
@@ -82,7 +61,7 @@ void write_predictions(const std::vector<identification::TrialFit>& predictions,
   const std::vector<std::string> comments{fmt::format("Made by myoid {}.", provenance.version)};
   for (const identification::TrialFit& trial : predictions) {
     std::string name = trial.trial;
-    std::replace(name.begin(), name.end(), '/', '_');
+    std::ranges::replace(name, '/', '_');
     write_prediction(trial, muscles, folder / name, comments);
   }
   recording::write_file(folder / "predictions.csv", predictions_csv(predictions));
@@ -106,14 +85,11 @@ std::string predictions_csv(const std::vector<identification::TrialFit>& predict
                                   "band_r2", "covered"}};
   for (const identification::TrialFit& p : predictions) {
     const double covered = identification::covered_share(p.torque_nm, p.torque_fit_nm, p.torque_sd_nm);
-    std::vector<report::Cell> row;
-    row.push_back({p.trial});
-    row.push_back({p.joint});
-    row.push_back({p.calibration ? "true" : "false"});
+    std::vector<std::string> row{p.trial, p.joint, p.calibration ? "true" : "false"};
     for (const double value :
          {p.score.n, p.score.rmse_nm(), p.score.nrmse_range(), p.score.r2(), p.band.rmse_nm(), p.band.r2(), covered})
-      row.push_back({std::isfinite(value) ? recording::format_number(value) : ""});
-    table.rows.push_back(std::move(row));
+      row.push_back(std::isfinite(value) ? recording::format_number(value) : "");
+    table.rows.push_back(report::text_row(std::move(row)));
   }
   return report::table_csv(table);
 }

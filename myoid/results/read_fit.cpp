@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
@@ -24,7 +25,7 @@ double number(const json& cell) {
 
 Eigen::VectorXd vector_of(const json& list) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(static_cast<std::size_t>(i)));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = number(list.at(at(i)));
   return values;
 }
 
@@ -49,8 +50,7 @@ identification::IdentificationResult fit_of(const json& method) {
   fit.solution = vector_of(covariance.at("mean"));
   const auto n = static_cast<Eigen::Index>(fit.free_parameters.size());
   fit.covariance.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    fit.covariance.row(i) = vector_of(covariance.at("matrix").at(static_cast<std::size_t>(i)));
+  for (Eigen::Index i = 0; i < n; ++i) fit.covariance.row(i) = vector_of(covariance.at("matrix").at(at(i)));
   return fit;
 }
 
@@ -71,10 +71,9 @@ identification::IdentificationResult read_fit(const std::filesystem::path& folde
       std::vector<std::string> labels;
       for (const identification::Unknown& unknown : map.free()) labels.push_back(unknown.label);
       if (labels != fit.free_parameters || fit.solution.size() != map.size())
-        throw InvalidInput(
-            fmt::format("{} has {} unknowns, the study {} or others: its settings are not those of the run; "
-                        "run the study again",
-                        path.string(), fit.free_parameters.size(), labels.size()));
+        throw InvalidInput(fmt::format(
+            "{} has {} unknowns, the study {} or others: its settings are not those of the run; run the study again",
+            path.string(), fit.free_parameters.size(), labels.size()));
       fit.values = map.values(fit.solution);
       fit.delay_s = fit.values.channels.front()[identification::kDelay];
       return fit;

@@ -15,12 +15,10 @@ constexpr auto kReferences = std::to_array<Reference>({
      .cited = "Besomi et al. 2020",
      .kind = "article",
      .authors = "Besomi, M. and Hodges, P. W. and Clancy, E. A. and others",
-     .title = "Consensus for experimental design in electromyography (CEDE) project: Amplitude "
-              "normalization matrix",
+     .title = "Consensus for experimental design in electromyography (CEDE) project: Amplitude normalization matrix",
      .container = "Journal of Electromyography and Kinesiology",
      .year = "2020",
      .volume = "53",
-     .number = "",
      .pages = "102438",
      .doi = "10.1016/j.jelekin.2020.102438"},
     {.key = "clancy1994",
@@ -48,8 +46,8 @@ constexpr auto kReferences = std::to_array<Reference>({
     {.key = "delp2007",
      .cited = "Delp et al. 2007",
      .kind = "article",
-     .authors = "Delp, S. L. and Anderson, F. C. and Arnold, A. S. and Loan, P. and Habib, A. and "
-                "John, C. T. and Guendelman, E. and Thelen, D. G.",
+     .authors = "Delp, S. L. and Anderson, F. C. and Arnold, A. S. and Loan, P. and Habib, A. and John, C. T. and "
+                "Guendelman, E. and Thelen, D. G.",
      .title = "OpenSim: Open-source software to create and analyze dynamic simulations of movement",
      .container = "IEEE Transactions on Biomedical Engineering",
      .year = "2007",
@@ -61,8 +59,7 @@ constexpr auto kReferences = std::to_array<Reference>({
      .cited = "Lu and O'Connor 1999",
      .kind = "article",
      .authors = "Lu, T. W. and O'Connor, J. J.",
-     .title = "Bone position estimation from skin marker co-ordinates using global optimisation "
-              "with joint constraints",
+     .title = "Bone position estimation from skin marker co-ordinates using global optimisation with joint constraints",
      .container = "Journal of Biomechanics",
      .year = "1999",
      .volume = "32",
@@ -73,8 +70,7 @@ constexpr auto kReferences = std::to_array<Reference>({
      .cited = "Newey and West 1987",
      .kind = "article",
      .authors = "Newey, W. K. and West, K. D.",
-     .title = "A simple, positive semi-definite, heteroskedasticity and autocorrelation consistent "
-              "covariance matrix",
+     .title = "A simple, positive semi-definite, heteroskedasticity and autocorrelation consistent covariance matrix",
      .container = "Econometrica",
      .year = "1987",
      .volume = "55",
@@ -84,10 +80,10 @@ constexpr auto kReferences = std::to_array<Reference>({
     {.key = "raue2009",
      .cited = "Raue et al. 2009",
      .kind = "article",
-     .authors = "Raue, A. and Kreutz, C. and Maiwald, T. and Bachmann, J. and Schilling, M. and "
-                "Klingm{\\\"u}ller, U. and Timmer, J.",
-     .title = "Structural and practical identifiability analysis of partially observed dynamical "
-              "models by exploiting the profile likelihood",
+     .authors = "Raue, A. and Kreutz, C. and Maiwald, T. and Bachmann, J. and Schilling, M. and Klingm{\\\"u}ller, U. "
+                "and Timmer, J.",
+     .title = "Structural and practical identifiability analysis of partially observed dynamical models by exploiting "
+              "the profile likelihood",
      .container = "Bioinformatics",
      .year = "2009",
      .volume = "25",
@@ -98,15 +94,10 @@ constexpr auto kReferences = std::to_array<Reference>({
      .cited = "Venture et al. 2006",
      .kind = "inproceedings",
      .authors = "Venture, G. and Yamane, K. and Nakamura, Y.",
-     .title = "Identification of human musculo-tendon subject specific dynamics using "
-              "musculo-skeletal computations and non linear least square",
-     .container = "IEEE/RAS-EMBS International Conference on Biomedical Robotics and "
-                  "Biomechatronics (BioRob)",
-     .year = "2006",
-     .volume = "",
-     .number = "",
-     .pages = "",
-     .doi = ""},
+     .title = "Identification of human musculo-tendon subject specific dynamics using musculo-skeletal computations "
+              "and non linear least square",
+     .container = "IEEE/RAS-EMBS International Conference on Biomedical Robotics and Biomechatronics (BioRob)",
+     .year = "2006"},
     {.key = "woltring1986",
      .cited = "Woltring 1986",
      .kind = "article",
@@ -132,8 +123,7 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
 std::span<const Reference> all_references() { return kReferences; }
 
 const Reference& reference(std::string_view key) {
-  const auto found =
-      std::find_if(kReferences.begin(), kReferences.end(), [&](const Reference& r) { return r.key == key; });
+  const auto* const found = std::ranges::find(kReferences, key, &Reference::key);
   if (found == kReferences.end()) throw InvalidInput(fmt::format("no reference has the key '{}'", key));
   return *found;
 }

@@ -12,9 +12,9 @@ struct Reference {
   std::string_view cited;    ///< Citation in the running text: "Lu and O'Connor 1999".
   std::string_view kind;     ///< "article", "inproceedings", "misc"
   std::string_view authors;  ///< In BibTeX's form, separated by " and ".
-  std::string_view title, container, year;
-  std::string_view volume;  ///< For a "misc" entry: the version.
-  std::string_view number, pages, doi;
+  std::string_view title, container{}, year{};
+  std::string_view volume{};  ///< For a "misc" entry: the version.
+  std::string_view number{}, pages{}, doi{};
 };
 
 /// Returns all publications that the program can cite, in alphabetical order of the keys.

@@ -33,21 +33,19 @@ using nlohmann::ordered_json;
 TimeSeries identified_forces(const StudyResult& result,
                              const identification::TrialData& data,
                              const IdentificationResult& method) {
-  const auto fit =
-      std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
-  std::vector<Channel> channels;
-  const auto muscles = static_cast<Eigen::Index>(result.fit_input.data.muscles.size());
-  Eigen::MatrixXd values(data.time_s.size(), 3 * muscles);
-  for (Eigen::Index m = 0; m < muscles; ++m) {
-    const std::string& muscle = result.fit_input.data.muscles[static_cast<std::size_t>(m)].name;
-    channels.push_back({muscle + "_reference", Unit::newton});
-    channels.push_back({muscle + "_literature", Unit::newton});
-    channels.push_back({muscle + "_identified", Unit::newton});
-    values.col(3 * m) = data.force_n.col(m);
-    values.col(3 * m + 1) = fit->literature_force_n.col(m);
-    values.col(3 * m + 2) = fit->force_fit_n.col(m);
+  const identification::TrialFit* fit = trial_of(method, data.name);
+  SeriesColumns columns;
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
+    const std::string& muscle = result.fit_input.data.muscles[m].name;
+    const auto add = [&](const char* of, const Eigen::MatrixXd& force_n) {
+      const Eigen::VectorXd force = force_n.col(static_cast<Eigen::Index>(m));
+      columns.add(muscle + of, Unit::newton, force.array().isFinite().select(force, 0.0));
+    };
+    add("_reference", data.force_n);
+    add("_literature", fit->literature_force_n);
+    add("_identified", fit->force_fit_n);
   }
-  return {data.time_s, std::move(channels), values.array().isFinite().select(values, 0.0)};
+  return columns.series(data.time_s);
 }
 
 void write_informed_forces(const StudyResult& result,
@@ -74,43 +72,57 @@ void write_informed_forces(const StudyResult& result,
 /// no model if the motion failed its gates or no number changes.
 void write_identified_model(const StudyResult& result, const std::filesystem::path& folder) {
   if (motion_is_unreliable(result.source.study, result.trials)) return;
-  const bool from_mvc = from_maximal_effort(result.source.study.emg);
-  for (const IdentificationResult& method : result.fit.methods) {
-    if (method.method != "torque") continue;
-    std::vector<IdentifiedMuscle> muscles;
-    for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
-      IdentifiedMuscle muscle{
-          result.fit_input.data.muscles[m].name, result.fit_input.data.muscles[m].start, method.muscles[m], {}};
-      for (const ParameterEstimate& e : method.estimates) {
-        const bool sure =
-            e.verdict == identification::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
-        if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
-      }
-      muscles.push_back(std::move(muscle));
+  const IdentificationResult* torque = torque_of(result.fit);
+  if (torque == nullptr) return;
+  const Study& study = result.source.study;
+  const bool from_mvc = from_maximal_effort(study.emg);
+  bool any = false;
+  std::vector<IdentifiedMuscle> muscles;
+  for (std::size_t m = 0; m < result.fit_input.data.muscles.size(); ++m) {
+    const identification::MuscleSetup& setup = result.fit_input.data.muscles[m];
+    IdentifiedMuscle muscle{setup.name, setup.start, torque->muscles[m], {}};
+    for (const ParameterEstimate& e : torque->estimates) {
+      const bool sure =
+          e.verdict == identification::Verdict::identified && (from_mvc || e.parameter != "max_isometric_force");
+      if (e.muscle == muscle.group && sure) muscle.changed.push_back(e.parameter);
     }
-    if (std::all_of(muscles.begin(), muscles.end(), [](const IdentifiedMuscle& m) { return m.changed.empty(); }))
-      return;
-    const std::string stem = result.source.study.model.file ? result.source.study.model.file->stem().string() : "arm4";
-    recording::write_file(folder / (stem + "_identified.osim"),
-                          identified_model(result.source.study, result.source.model_text, muscles));
+    any = any || !muscle.changed.empty();
+    muscles.push_back(std::move(muscle));
   }
+  if (!any) return;
+  const std::string stem = study.model.file ? study.model.file->stem().string() : "arm4";
+  recording::write_file(folder / (stem + "_identified.osim"),
+                        identified_model(study, result.source.model_text, muscles));
 }
 
-ordered_json faults_json(const std::vector<Remark>& faults) {
-  ordered_json list = ordered_json::array();
-  for (const Remark& fault : faults) {
-    list.push_back({{"fault", std::string(name(fault.code))},
-                    {"level", std::string(name(fault.severity))},
-                    {"channel", fault.about},
-                    {"begin_s", fault.when.value_or(Stretch{}).begin_s},
-                    {"end_s", fault.when.value_or(Stretch{}).end_s},
-                    {"value", fault.value.value_or(0.0)},
-                    {"message", sentence(fault)}});
-  }
-  return list;
+ordered_json fault_json(const Remark& fault) {
+  return {{"fault", std::string(name(fault.code))},
+          {"level", std::string(name(fault.severity))},
+          {"channel", fault.about},
+          {"begin_s", fault.when.value_or(Stretch{}).begin_s},
+          {"end_s", fault.when.value_or(Stretch{}).end_s},
+          {"value", fault.value.value_or(0.0)},
+          {"message", sentence(fault)}};
 }
 
-/// Returns the record of a run: inputs, results, times and remarks.
+ordered_json trial_record(const TrialResult& trial) {
+  ordered_json record = {{"name", trial.spec.name},
+                         {"use", std::string(choice_name(trial.spec.use))},
+                         {"failure", trial.failure()},
+                         {"notes", sentences(trial.remarks)},
+                         {"faults", array_of(trial.faults, fault_json)}};
+  if (const auto& emg = trial.input.emg_clock) {
+    ordered_json& clock = record["emg_clock"];
+    clock = {{"offset_s", emg->clock.offset_s},
+             {"drift_ppm", emg->clock.drift_ppm},
+             {"pivot_s", emg->clock.pivot_s},
+             {"source", emg->source}};
+    if (emg->clock.offset_sd_s) clock["offset_sd_s"] = *emg->clock.offset_sd_s;
+    if (emg->clock.drift_sd_ppm) clock["drift_sd_ppm"] = *emg->clock.drift_sd_ppm;
+  }
+  return record;
+}
+
 ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
   ordered_json run = report::provenance_json(provenance);
   run["study"] = std::filesystem::absolute(result.source.study.file).string();
@@ -123,26 +135,10 @@ ordered_json run_json(const StudyResult& result, const Provenance& provenance) {
                          {"message", result.fit.force_loop->message},
                          {"rounds", result.fit.force_loop->rounds.size()}};
   }
-  run["trials"] = ordered_json::array();
-  for (const TrialResult& trial : result.trials) {
-    run["trials"].push_back({{"name", trial.spec.name},
-                             {"use", std::string(choice_name(trial.spec.use))},
-                             {"failure", trial.failure()},
-                             {"notes", sentences(trial.remarks)},
-                             {"faults", faults_json(trial.faults)}});
-    if (const auto& emg = trial.input.emg_clock) {
-      ordered_json& clock = run["trials"].back()["emg_clock"];
-      clock = {{"offset_s", emg->clock.offset_s},
-               {"drift_ppm", emg->clock.drift_ppm},
-               {"pivot_s", emg->clock.pivot_s},
-               {"source", emg->source}};
-      if (emg->clock.offset_sd_s) clock["offset_sd_s"] = *emg->clock.offset_sd_s;
-      if (emg->clock.drift_sd_ppm) clock["drift_sd_ppm"] = *emg->clock.drift_sd_ppm;
-    }
-  }
+  run["trials"] = array_of(result.trials, trial_record);
   const signals::EmgChain emg = emg_chain(result, nullptr);
   run["emg"] = {{"steps", emg.steps}, {"methods", emg.methods}};
-  run["faults"] = faults_json(result.level_faults);
+  run["faults"] = array_of(result.level_faults, fault_json);
   return run;
 }
 
@@ -155,29 +151,25 @@ void remove_results(const std::filesystem::path& folder) {
   const nlohmann::json run = parse_json(std::string(std::istreambuf_iterator<char>(stream), {}), false);
   if (run.is_discarded() || !run.contains("trials")) return;
   std::error_code ignored;
+  const auto remove_if = [&](const fs::path& place, const auto& is_ours) {
+    for (const auto& entry : fs::directory_iterator(place, ignored))
+      if (is_ours(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+  };
   for (const nlohmann::json& trial : run["trials"]) {
     const std::string name = trial.value("name", "");
     if (name.empty() || name.find('/') != std::string::npos || name == "..") continue;
-    for (const auto& entry : fs::directory_iterator(folder / name, ignored)) {
-      const std::string file = entry.path().filename().string();
-      const bool ours = file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" ||
-                        file == "activation.sto" || file == "identified_forces.sto" ||
-                        file.starts_with("MuscleAnalysis_") || file.starts_with("EmgInformed_") ||
-                        file.starts_with("StaticOptimization_");
-      if (ours) fs::remove(entry.path(), ignored);
-    }
+    remove_if(folder / name, [](const std::string& file) {
+      return file == "ik.mot" || file == "ik_marker_errors.sto" || file == "id.sto" || file == "activation.sto" ||
+             file == "identified_forces.sto" || file.starts_with("MuscleAnalysis_") ||
+             file.starts_with("EmgInformed_") || file.starts_with("StaticOptimization_");
+    });
     fs::remove(folder / name, ignored);  // removes only an empty folder
   }
   for (const char* place : {"figures", "tables"}) {
-    for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {
-      const fs::path extension = entry.path().extension();
-      if (extension == ".svg" || extension == ".csv") fs::remove(entry.path(), ignored);
-    }
+    remove_if(folder / place,
+              [](const fs::path& file) { return file.extension() == ".svg" || file.extension() == ".csv"; });
   }
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string file = entry.path().filename().string();
-    if (file.ends_with("_identified.osim")) fs::remove(entry.path(), ignored);
-  }
+  remove_if(folder, [](const std::string& file) { return file.ends_with("_identified.osim"); });
 }
 
 void write_results(const StudyResult& result, const Provenance& provenance, const std::filesystem::path& folder) {
@@ -208,11 +200,8 @@ void write_results(const StudyResult& result, const Provenance& provenance, cons
                                {.title = "Forces", .comments = with_emg(&method)});
     }
   }
-  const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
-                                   [](const auto& method) { return method.method == "torque"; });
   for (const identification::InformedForces& forces : result.fit.informed)
-    write_informed_forces(result, forces, folder / forces.trial,
-                          with_emg(torque == result.fit.methods.end() ? nullptr : &*torque));
+    write_informed_forces(result, forces, folder / forces.trial, with_emg(torque_of(result.fit)));
   write_identified_model(result, folder);
   write_parameter_files(result.fit.methods, result.folds, provenance, parameter_context(result), folder);
   const MethodsText methods = methods_text(result, provenance);

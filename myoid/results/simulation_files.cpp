@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "myoid/core/index.h"
 #include "myoid/core/json_text.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/muscle/force_length.h"
 #include "myoid/muscle/force_velocity.h"
 #include "myoid/muscle/literature.h"
-#include "myoid/report/svg_plot.h"
-#include "myoid/report/tables.h"
+#include "myoid/report/json_values.h"
 #include "myoid/results/stage_files.h"
 #include "myoid/simulation/forward_simulation.h"
 #include "myoid/tables/storage_writer.h"
@@ -22,10 +22,8 @@ namespace {
 
 using simulation::Simulation;
 
-std::vector<double> numbers(const Eigen::Ref<const Eigen::VectorXd>& v, double scale = 1.0) {
-  std::vector<double> result(static_cast<std::size_t>(v.size()));
-  for (Eigen::Index k = 0; k < v.size(); ++k) result[static_cast<std::size_t>(k)] = scale * v[k];
-  return result;
+std::string made_by(const Provenance& provenance) {
+  return fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command);
 }
 
 std::size_t coordinate_count(const Simulation& s) { return static_cast<std::size_t>(s.motion.channel_count()) / 3; }
@@ -33,77 +31,55 @@ std::string coordinate_name(const Simulation& s, std::size_t k) { return s.motio
 
 /// Returns columns first, first + stride, ... under names without `ending`.
 TimeSeries every(const TimeSeries& series, Eigen::Index first, Eigen::Index stride, std::string_view ending) {
-  std::vector<Channel> channels;
-  Eigen::MatrixXd values(series.sample_count(), series.channel_count() / stride);
-  for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    Channel channel = series.channels()[static_cast<std::size_t>(first + stride * c)];
-    channel.name.resize(channel.name.size() - ending.size());
-    channels.push_back(std::move(channel));
-    values.col(c) = series.values().col(first + stride * c);
+  SeriesColumns columns;
+  for (Eigen::Index c = first; c < series.channel_count(); c += stride) {
+    const Channel& channel = series.channels()[at(c)];
+    columns.add(channel.name.substr(0, channel.name.size() - ending.size()), channel.unit, series.values().col(c));
   }
-  return {series.time_s(), std::move(channels), std::move(values)};
+  return columns.series(series.time_s());
 }
 
 TimeSeries with_held(const TimeSeries& q, const HeldCoordinates& held) {
-  std::vector<Channel> channels;
-  Eigen::MatrixXd values(q.sample_count(), q.channel_count() + static_cast<Eigen::Index>(held.size()));
-  Eigen::Index column = 0;
-  for (const auto& [name, value] : held) {
-    channels.push_back({name, Unit::radian});
-    values.col(column++).setConstant(value);
-  }
-  channels.insert(channels.end(), q.channels().begin(), q.channels().end());
-  values.rightCols(q.channel_count()) = q.values();
-  return {q.time_s(), std::move(channels), std::move(values)};
+  SeriesColumns columns;
+  for (const auto& [name, value] : held)
+    columns.add(name, Unit::radian, Eigen::VectorXd::Constant(q.sample_count(), value));
+  for (Eigen::Index c = 0; c < q.channel_count(); ++c)
+    columns.add(q.channels()[at(c)].name, q.channels()[at(c)].unit, q.values().col(c));
+  return columns.series(q.time_s());
 }
 
 /// Begins with the torques of inverse dynamics: muscles, joint, external and device together.
 TimeSeries torques(const Simulation& s) {
-  const auto n = static_cast<Eigen::Index>(coordinate_count(s));
-  std::vector<Channel> channels;
-  Eigen::MatrixXd values(s.torque.sample_count(), 6 * n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto c = static_cast<std::size_t>(k);
-    const Unit unit = s.torque.channels()[5 * c].unit;
-    const std::string name = coordinate_name(s, c) + (unit == Unit::newton_meter ? "_moment" : "_force");
-    for (const char* what : {"", "_muscles", "_gravity", "_joint", "_external", "_device"})
-      channels.push_back({name + what, unit});
-    const auto& parts = s.torque.values().middleCols(5 * k, 5);
-    values.col(6 * k) = parts.col(0) + parts.col(2) + parts.col(3) + parts.col(4);
-    values.middleCols(6 * k + 1, 5) = parts;
+  SeriesColumns columns;
+  for (std::size_t k = 0; k < coordinate_count(s); ++k) {
+    const Unit unit = s.torque.channels()[5 * k].unit;
+    const std::string name = coordinate_name(s, k) + (unit == Unit::newton_meter ? "_moment" : "_force");
+    const auto& parts = s.torque.values().middleCols(5 * static_cast<Eigen::Index>(k), 5);
+    columns.add(name, unit, parts.col(0) + parts.col(2) + parts.col(3) + parts.col(4));
+    Eigen::Index part = 0;
+    for (const char* what : {"_muscles", "_gravity", "_joint", "_external", "_device"})
+      columns.add(name + what, unit, parts.col(part++));
   }
-  return {s.torque.time_s(), std::move(channels), std::move(values)};
+  return columns.series(s.torque.time_s());
 }
 
 TimeSeries states(const Simulation& s) {
-  const Eigen::Index n = s.activation.channel_count();
-  const auto nq = static_cast<Eigen::Index>(coordinate_count(s));
-  std::vector<Channel> channels;
-  Eigen::MatrixXd values(s.motion.sample_count(), 2 * nq + 3 * n);
-  Eigen::Index column = 0;
-  const auto add = [&](std::string name, const TimeSeries& from, Eigen::Index c) {
-    channels.push_back({std::move(name), from.channels()[static_cast<std::size_t>(c)].unit});
-    values.col(column++) = from.values().col(c);
+  SeriesColumns columns;
+  const auto add = [&](const std::string& name, const TimeSeries& from, Eigen::Index c) {
+    columns.add(name, from.channels()[at(c)].unit, from.values().col(c));
   };
-  for (Eigen::Index k = 0; k < nq; ++k) {
-    const std::string name = coordinate_name(s, static_cast<std::size_t>(k));
-    add(name + "/value", s.motion, 3 * k);
-    add(name + "/speed", s.motion, 3 * k + 1);
+  for (std::size_t k = 0; k < coordinate_count(s); ++k) {
+    const std::string name = coordinate_name(s, k);
+    add(name + "/value", s.motion, 3 * static_cast<Eigen::Index>(k));
+    add(name + "/speed", s.motion, 3 * static_cast<Eigen::Index>(k) + 1);
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const std::string& name = s.activation.channels()[static_cast<std::size_t>(i)].name;
+  for (Eigen::Index i = 0; i < s.activation.channel_count(); ++i) {
+    const std::string& name = s.activation.channels()[at(i)].name;
     add(name + "/activation", s.activation, i);
     add(name + "/fiber_length", s.fiber_length, i);
     add(name + "/fiber_velocity", s.fiber_velocity, i);
   }
-  return {s.motion.time_s(), std::move(channels), std::move(values)};
-}
-
-report::Panel panel(std::string title, std::string label, std::string unit) {
-  return {.title = std::move(title),
-          .x = {.label = "time", .unit = "s"},
-          .y = {.label = std::move(label), .unit = std::move(unit)},
-          .series = {}};
+  return columns.series(s.motion.time_s());
 }
 
 void add(report::Panel& target,
@@ -113,35 +89,34 @@ void add(report::Panel& target,
          report::Role role,
          double scale = 1.0) {
   target.series.push_back({.name = std::move(name),
-                           .x = numbers(series.time_s()),
-                           .y = numbers(series.values().col(column), scale),
+                           .x = report::to_vector(series.time_s()),
+                           .y = report::to_vector(scale * series.values().col(column)),
                            .role = role});
 }
 
 constexpr report::Role kRoles[] = {report::Role::reference, report::Role::identified, report::Role::literature,
                                    report::Role::truth};
 
-/// Adds one panel per quantity, of at most four muscles: colors and dashes tell the roles apart.
-void add_muscles(report::Panel& target, const TimeSeries& series, double scale = 1.0) {
+/// Returns a panel of one quantity of at most four muscles: colors and dashes tell the roles apart.
+report::Panel muscle_panel(
+    std::string title, std::string label, std::string unit, const TimeSeries& series, double scale = 1.0) {
+  report::Panel panel = report::time_panel(std::move(title), std::move(label), std::move(unit));
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(series.channel_count(), 4); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    add(target, series, i, series.channels()[k].name, kRoles[k], scale);
+    add(panel, series, i, series.channels()[k].name, kRoles[k], scale);
   }
+  return panel;
 }
 
 report::Figure curves_figure() {
   report::Figure figure{.id = "figure2",
                         .title = "Force over velocity and force over length",
                         .caption =
-                            "Figure 2 of the source paper: equations (4) and (3) with its "
-                            "initial values V_sh 0.3, V_sh V_shl 0.12, V_ml 1.3 and the "
-                            "widths of its tables; v over v_max, l_m over l_m0.",
-                        .panels = {},
+                            "Figure 2 of the source paper: equations (4) and (3) with its initial values V_sh 0.3, "
+                            "V_sh V_shl 0.12, V_ml 1.3 and the widths of its tables; v over v_max, l_m over l_m0.",
                         .columns = 2};
-  report::Panel velocity{.title = "f_v",
-                         .x = {.label = "fiber velocity / v_max", .unit = ""},
-                         .y = {.label = "f_v", .unit = "", .lower = 0.0, .upper = 1.4},
-                         .series = {}};
+  report::Panel velocity{
+      .title = "f_v", .x = {.label = "fiber velocity / v_max"}, .y = {.label = "f_v", .lower = 0.0, .upper = 1.4}};
   const muscle::VelocityHyperbola<double> law{muscle::kPaperCurvature, muscle::kPaperCurvatureProduct,
                                               muscle::kPaperPlateau};
   report::Series curve{.name = "", .role = report::Role::reference};
@@ -150,10 +125,8 @@ report::Figure curves_figure() {
     curve.y.push_back(muscle::force_velocity(law, 0.01 * k).value);
   }
   velocity.series.push_back(std::move(curve));
-  report::Panel length{.title = "f_l",
-                       .x = {.label = "fiber length / l_m0", .unit = ""},
-                       .y = {.label = "f_l", .unit = "", .lower = 0.0, .upper = 1.1},
-                       .series = {}};
+  report::Panel length{
+      .title = "f_l", .x = {.label = "fiber length / l_m0"}, .y = {.label = "f_l", .lower = 0.0, .upper = 1.1}};
   std::size_t role = 0;
   for (const muscle::PaperMuscle& m : muscle::kPaperMuscles) {
     report::Series line{.name = std::string(m.name), .role = kRoles[role++]};
@@ -187,17 +160,12 @@ report::Figure movement_figure(const Simulation& s) {
   report::Figure figure{.id = "movement",
                         .title = "Simulated movement",
                         .caption =
-                            "Excitations of the muscles, motion of the joints, and lengths and "
-                            "forces of the muscles; at most four of each quantity.",
-                        .panels = {},
+                            "Excitations of the muscles, motion of the joints, and lengths and forces of the muscles; "
+                            "at most four of each quantity.",
                         .columns = 2};
-  report::Panel excitation = panel("Neural input", "excitation", "");
-  add_muscles(excitation, s.excitation);
-  report::Panel activation = panel("Muscle activity", "activation", "");
-  add_muscles(activation, s.activation);
-  report::Panel angle = panel("Joint angle", "angle", "deg");
-  report::Panel speed = panel("Joint speed", "speed", "deg/s");
-  report::Panel torque = panel("Torque of the muscles", "torque", "N m");
+  report::Panel angle = report::time_panel("Joint angle", "angle", "deg");
+  report::Panel speed = report::time_panel("Joint speed", "speed", "deg/s");
+  report::Panel torque = report::time_panel("Torque of the muscles", "torque", "N m");
   std::size_t shown = 0;
   for (std::size_t k = 0; k < coordinate_count(s) && shown < 4; ++k) {
     const auto c = static_cast<Eigen::Index>(k);
@@ -210,14 +178,14 @@ report::Figure movement_figure(const Simulation& s) {
     add(torque, s.torque, 5 * c, name, kRoles[shown]);
     ++shown;
   }
-  report::Panel force = panel("Tendon force", "force", "N");
-  add_muscles(force, s.tendon_force);
-  report::Panel length = panel("Fiber length", "length", "cm");
-  add_muscles(length, s.fiber_length, 100.0);
-  report::Panel velocity = panel("Fiber velocity", "velocity", "cm/s");
-  add_muscles(velocity, s.fiber_velocity, 100.0);
-  figure.panels = {std::move(excitation), std::move(activation), std::move(angle),  std::move(speed),
-                   std::move(torque),     std::move(force),      std::move(length), std::move(velocity)};
+  figure.panels = {muscle_panel("Neural input", "excitation", "", s.excitation),
+                   muscle_panel("Muscle activity", "activation", "", s.activation),
+                   std::move(angle),
+                   std::move(speed),
+                   std::move(torque),
+                   muscle_panel("Tendon force", "force", "N", s.tendon_force),
+                   muscle_panel("Fiber length", "length", "cm", s.fiber_length, 100.0),
+                   muscle_panel("Fiber velocity", "velocity", "cm/s", s.fiber_velocity, 100.0)};
   std::erase_if(figure.panels, [](const report::Panel& p) { return p.series.empty(); });
   return figure;
 }
@@ -227,34 +195,22 @@ std::vector<report::Figure> paper_figures() {
   movement.id = "figure4";
   movement.title = "Simulation of the flexion and extension of the elbow";
   movement.caption =
-      "Figure 4 of the source paper: the built-in arm in the horizontal plane, four muscles with "
-      "mass and elastic tendons, under steps of neural input.";
+      "Figure 4 of the source paper: the built-in arm in the horizontal plane, four muscles with mass and elastic "
+      "tendons, under steps of neural input.";
   return {curves_figure(), std::move(movement)};
 }
 
-void write_figure(const report::Figure& figure, const std::filesystem::path& folder) {
-  recording::write_file(folder / "figures" / (figure.id + ".svg"), report::svg_plot(figure));
-  recording::write_file(folder / "figures" / (figure.id + ".csv"), report::figure_csv(figure));
-}
-
 std::string simulation_json(const Simulation& s, const Provenance& provenance) {
-  using nlohmann::ordered_json;
-  ordered_json inputs = ordered_json::array();
-  for (const InputFile& file : provenance.inputs) inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
-  ordered_json json = {{"program", provenance.program},
-                       {"version", provenance.version},
-                       {"command", provenance.command},
-                       {"inputs", inputs},
-                       {"options", parse_ordered_json(provenance.options_json)},
-                       {"finished", s.status == math::OdeStatus::done},
-                       {"message", s.message},
-                       {"reached_s", s.reached_s},
-                       {"samples", s.motion.sample_count()},
-                       {"steps", s.statistics.steps},
-                       {"rejected_steps", s.statistics.rejected},
-                       {"rate_evaluations", s.statistics.rate_evaluations},
-                       {"kinks_located", s.statistics.events},
-                       {"jumps_passed", s.jumps_passed}};
+  nlohmann::ordered_json json = report::provenance_json(provenance);
+  json.update({{"finished", s.status == math::OdeStatus::done},
+               {"message", s.message},
+               {"reached_s", s.reached_s},
+               {"samples", s.motion.sample_count()},
+               {"steps", s.statistics.steps},
+               {"rejected_steps", s.statistics.rejected},
+               {"rate_evaluations", s.statistics.rate_evaluations},
+               {"kinks_located", s.statistics.events},
+               {"jumps_passed", s.jumps_passed}});
   if (s.energy.sample_count() > 1) {
     const simulation::EnergyBalance balance = simulation::energy_balance(s);
     json["energy"] = {
@@ -268,8 +224,7 @@ void write_simulation(const Simulation& s,
                       const HeldCoordinates& held,
                       const Provenance& provenance,
                       const std::filesystem::path& folder) {
-  const std::vector<std::string> comments = {
-      fmt::format("{} {}: {}", provenance.program, provenance.version, provenance.command)};
+  const std::vector<std::string> comments = {made_by(provenance)};
   const auto write = [&](const std::string& file, const TimeSeries& series, std::string title) {
     if (series.channel_count() == 0) return;
     recording::write_storage(folder / file, series, {.title = std::move(title), .comments = comments});
@@ -297,6 +252,28 @@ void write_simulation(const Simulation& s,
   write("states.sto", states(s), "ModelStates");
   write("energy.sto", s.energy, "Energy");
   recording::write_file(folder / "simulation.json", simulation_json(s, provenance));
+}
+
+void write_sensitivities(const simulation::Sensitivities& s,
+                         const std::vector<std::string>& muscles,
+                         const Provenance& provenance,
+                         const std::filesystem::path& folder) {
+  std::vector<Channel> channels;
+  for (const std::string& name : s.parameters) channels.push_back({name, Unit::dimensionless});
+  const auto write = [&](const std::string& file, const Eigen::MatrixXd& values, const std::string& what) {
+    recording::write_storage(folder / "sensitivities" / (file + ".sto"), {s.time_s, channels, values},
+                             {.title = fmt::format("d({})/d(parameter), SI", what), .comments = {made_by(provenance)}});
+  };
+  write("angle", s.angle, "elbow flexion");
+  write("speed", s.speed, "its speed");
+  write("acceleration", s.acceleration, "its acceleration");
+  write("torque", s.torque, "torque of the muscles");
+  write("device", s.device, "torque of the device");
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    write(muscles[i] + "_activation", s.activation[i], "activation of " + muscles[i]);
+    write(muscles[i] + "_fiber_length", s.fiber_length[i], "fiber length of " + muscles[i]);
+    write(muscles[i] + "_tendon_force", s.tendon_force[i], "tendon force of " + muscles[i]);
+  }
 }
 
 }  // namespace myoid

@@ -8,6 +8,7 @@
 #include "myoid/core/provenance.h"
 #include "myoid/model/body_model.h"
 #include "myoid/report/report.h"
+#include "myoid/simulation/sensitivity.h"
 #include "myoid/simulation/simulation.h"
 
 namespace myoid {
@@ -35,7 +36,12 @@ void write_simulation(const simulation::Simulation& simulation,
 /// of neural input, of the built-in arm with muscle mass.
 [[nodiscard]] std::vector<report::Figure> paper_figures();
 
-/// Writes figures/ID.svg and figures/ID.csv.
-void write_figure(const report::Figure& figure, const std::filesystem::path& folder);
+/// Writes sensitivities/angle.sto, speed.sto, acceleration.sto, torque.sto, device.sto, and per
+/// muscle MUSCLE_activation.sto, MUSCLE_fiber_length.sto, MUSCLE_tendon_force.sto: a column per
+/// parameter, the derivative in SI units of the quantity over those of the parameter (radians).
+void write_sensitivities(const simulation::Sensitivities& sensitivities,
+                         const std::vector<std::string>& muscles,
+                         const Provenance& provenance,
+                         const std::filesystem::path& folder);
 
 }  // namespace myoid

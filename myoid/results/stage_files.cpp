@@ -1,10 +1,10 @@
 #include "myoid/results/stage_files.h"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/files/text_file.h"
 #include "myoid/tables/storage_writer.h"
@@ -21,23 +21,25 @@ TimeSeries without_gaps(const TimeSeries& series) {
   }
   std::vector<Eigen::Index> columns;
   for (Eigen::Index c = 0; c < series.channel_count(); ++c) {
-    bool complete = true;
-    for (const Eigen::Index r : rows) complete = complete && std::isfinite(series.values()(r, c));
-    if (complete) columns.push_back(c);
+    if (series.values()(rows, c).allFinite()) columns.push_back(c);
   }
-  Eigen::VectorXd time(static_cast<Eigen::Index>(rows.size()));
-  Eigen::MatrixXd values(time.size(), static_cast<Eigen::Index>(columns.size()));
   std::vector<Channel> channels;
-  for (const Eigen::Index c : columns) channels.push_back(series.channels()[static_cast<std::size_t>(c)]);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    time[static_cast<Eigen::Index>(i)] = series.time_s()[rows[i]];
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = series.values()(rows[i], columns[k]);
-  }
-  return {std::move(time), std::move(channels), std::move(values)};
+  for (const Eigen::Index c : columns) channels.push_back(series.channels()[at(c)]);
+  return {series.time_s()(rows), std::move(channels), series.values()(rows, columns)};
 }
 
 }  // namespace
+
+void SeriesColumns::add(std::string name, Unit unit, Eigen::VectorXd column) {
+  channels.push_back({std::move(name), unit});
+  values.push_back(std::move(column));
+}
+
+TimeSeries SeriesColumns::series(const Eigen::VectorXd& time_s) const {
+  Eigen::MatrixXd all(time_s.size(), static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = values[i];
+  return {time_s, channels, std::move(all)};
+}
 
 void write_motion(const model::BodyModel& model,
                   const TimeSeries& q,
@@ -47,8 +49,7 @@ void write_motion(const model::BodyModel& model,
   std::vector<Channel> channels = q.channels();
   for (Channel& channel : channels) {
     const auto c = model.find_coordinate(channel.name);
-    if (c && model.coordinates[static_cast<std::size_t>(*c)].motion != model::MotionType::rotational)
-      channel.unit = Unit::meter;
+    if (c && model.coordinates[at(*c)].motion != model::MotionType::rotational) channel.unit = Unit::meter;
   }
   recording::write_storage(path, {q.time_s(), std::move(channels), q.values()},
                            {.title = "Coordinates", .angles_in_degrees = true, .comments = comments});

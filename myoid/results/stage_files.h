@@ -12,6 +12,15 @@
 
 namespace myoid {
 
+/// Columns of a series, one after the other.
+struct SeriesColumns {
+  std::vector<Channel> channels;
+  std::vector<Eigen::VectorXd> values;
+
+  void add(std::string name, Unit unit, Eigen::VectorXd column);
+  [[nodiscard]] TimeSeries series(const Eigen::VectorXd& time_s) const;
+};
+
 /// Writes coordinates as ik.mot: rotations in degrees, translations in meters.
 void write_motion(const model::BodyModel& model,
                   const TimeSeries& q,

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
 #include "myoid/intervals/log_covariance.h"
 #include "myoid/muscle/hill_muscle.h"
 
@@ -19,6 +20,7 @@ using identification::IdentificationResult;
 using report::Figure;
 using report::Panel;
 using report::Role;
+using report::time_panel;
 using report::to_vector;
 
 /// Returns the literature's parameters with the true ones substituted; empty without a truth.
@@ -43,14 +45,13 @@ using Curve = std::function<double(double x, const HillParameters<double>& muscl
 struct MuscleVersions {
   HillParameters<double> literature, identified;
   std::optional<HillParameters<double>> truth;
-  /// Covariance of the logarithms of the identified parameters, in the order of
-  /// muscle::kHillFields.
+  /// Covariance of the logarithms of the identified parameters, in the order of muscle::kHillFields.
   Eigen::MatrixXd log_covariance;
 };
 
 report::Series sampled(
     std::string name, Role role, double from, double to, const Curve& curve, const HillParameters<double>& muscle) {
-  report::Series series{std::move(name), {}, {}, role, {}, {}};
+  report::Series series{.name = std::move(name), .role = role};
   for (int i = 0; i <= 160; ++i) {
     const double x = from + (to - from) * i / 160.0;
     series.x.push_back(x);
@@ -106,8 +107,10 @@ VisitedRange visited(const identification::StudyData& data, std::size_t m) {
 }
 
 Panel length_panel(const MuscleVersions& of, const VisitedRange& range) {
-  Panel panel{"", {"fiber length", "m", {}, {}, {}}, {"force / (a F_max)", "", {}, {}, {}}, {}};
-  panel.series.push_back({"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::range, {}, {1.0, 1.0}});
+  Panel panel{.title = "",
+              .x = {.label = "fiber length", .unit = "m"},
+              .y = {.label = "force / (a F_max)"},
+              .series = {{"visited", {range.low_m, range.high_m}, {0.0, 0.0}, Role::range, {}, {1.0, 1.0}}}};
   const double l0 = of.literature.optimal_fiber_length_m;
   const double span = 1.6 * of.literature.force_length_width_m;
   add_curves(panel, of, l0 - span, l0 + span, [](double x, const auto& muscle) {
@@ -117,10 +120,9 @@ Panel length_panel(const MuscleVersions& of, const VisitedRange& range) {
 }
 
 Panel velocity_panel(const MuscleVersions& of, const VisitedRange& range) {
-  Panel panel{"",
-              {"fiber velocity (lengthening positive)", "m/s", {}, {}, {}},
-              {"force / isometric force", "", {}, {}, {}},
-              {}};
+  Panel panel{.title = "",
+              .x = {.label = "fiber velocity (lengthening positive)", .unit = "m/s"},
+              .y = {.label = "force / isometric force"}};
   double highest = std::max(of.literature.eccentric_plateau, of.identified.eccentric_plateau);
   if (of.truth) highest = std::max(highest, of.truth->eccentric_plateau);
   panel.series.push_back(
@@ -149,13 +151,11 @@ Figure muscle_curves(const StudyResult& result, const IdentificationResult& meth
                 {length_panel(of, range), velocity_panel(of, range)},
                 2};
   figure.bad =
-      "The shaded range covers a small part of the curve: outside of it the curve is the law's "
-      "shape and the literature's number. The band is as wide as the curve is high. The curve is "
-      "far narrower than the literature's.";
+      "The shaded range covers a small part of the curve: outside of it the curve is the law's shape and the "
+      "literature's number. The band is as wide as the curve is high. The curve is far narrower than the literature's.";
   figure.act =
-      "Read the curve inside of the shaded range only. Record other joint angles to widen the "
-      "range "
-      "of lengths, and faster movements to widen the range of velocities.";
+      "Read the curve inside of the shaded range only. Record other joint angles to widen the range of lengths, and "
+      "faster movements to widen the range of velocities.";
   return figure;
 }
 
@@ -170,16 +170,15 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
   const TimeSeries& raw = trial.emg.stages->raw;
   const TimeSeries& rectified = trial.emg.stages->rectified;
   const TimeSeries& envelope = trial.emg.stages->envelope;
-  for (std::size_t c = 0; c < raw.channels().size(); ++c) {
-    const auto column = static_cast<Eigen::Index>(c);
-    const std::vector<double> t = to_vector(raw.time_s());
-    Panel left{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"EMG", "mV", {}, {}, {}}, {}};
-    left.series.push_back({"raw, mean removed", t, to_vector(1e3 * raw.values().col(column)), Role::reference, {}, {}});
-    Panel right{raw.channels()[c].name, {"time", "s", {}, {}, {}}, {"rectified EMG", "mV", {}, {}, {}}, {}};
-    right.series.push_back({"rectified", t, to_vector(1e3 * rectified.values().col(column)), Role::raw, {}, {}});
-    right.series.push_back({"envelope", t, to_vector(1e3 * envelope.values().col(column)), Role::identified, {}, {}});
-    figure.panels.push_back(left);
-    figure.panels.push_back(right);
+  const std::vector<double> t = to_vector(raw.time_s());
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) {
+    const auto millivolts = [&](const TimeSeries& volts) { return to_vector(1e3 * volts.values().col(c)); };
+    Panel left = time_panel(raw.channels()[at(c)].name, "EMG", "mV");
+    left.series = {{"raw, mean removed", t, millivolts(raw), Role::reference}};
+    Panel right = time_panel(raw.channels()[at(c)].name, "rectified EMG", "mV");
+    right.series = {{"rectified", t, millivolts(rectified), Role::raw},
+                    {"envelope", t, millivolts(envelope), Role::identified}};
+    figure.panels.insert(figure.panels.end(), {left, right});
   }
   return figure;
 }
@@ -187,12 +186,11 @@ Figure emg_figure(const TrialResult& trial, const std::vector<std::string>& chai
 Figure force_figure(const StudyResult& result,
                     const identification::TrialData& data,
                     const IdentificationResult& method) {
-  const auto fit =
-      std::find_if(method.trials.begin(), method.trials.end(), [&](const auto& t) { return t.trial == data.name; });
+  const identification::TrialFit* fit = trial_of(method, data.name);
   Figure figure{fmt::format("forces_{}_{}", method.method, data.name),
                 fmt::format("Muscle forces in trial {} (method {})", data.name, method.method),
-                "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's "
-                "parameters with the measured EMG. Orange dashed: identified parameters.",
+                "Blue: force that force sharing assigns (no co-contraction). Grey dotted: literature's parameters with "
+                "the measured EMG. Orange dashed: identified parameters.",
                 {},
                 2};
   figure.in_workbench = true;
@@ -201,16 +199,14 @@ Figure force_figure(const StudyResult& result,
     const auto c = static_cast<Eigen::Index>(m);
     const Eigen::VectorXd error = fit->force_fit_n.col(c) - data.force_n.col(c);
     const bool finite = error.allFinite();
-    Panel panel{finite
-                    ? fmt::format("{}: identified against shared {:.0f} N rms", result.fit_input.data.muscles[m].name,
-                                  std::sqrt(error.squaredNorm() / static_cast<double>(error.size())))
-                    : result.fit_input.data.muscles[m].name,
-                {"time", "s", {}, {}, {}},
-                {"force", "N", {}, {}, {}},
-                {}};
-    panel.series.push_back({"shared", t, to_vector(data.force_n.col(c)), Role::reference, {}, {}});
-    panel.series.push_back({"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature, {}, {}});
-    if (finite) panel.series.push_back({"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified, {}, {}});
+    Panel panel = time_panel(result.fit_input.data.muscles[m].name, "force", "N");
+    panel.series = {{"shared", t, to_vector(data.force_n.col(c)), Role::reference},
+                    {"literature", t, to_vector(fit->literature_force_n.col(c)), Role::literature}};
+    if (finite) {
+      panel.title += fmt::format(": identified against shared {:.0f} N rms",
+                                 std::sqrt(error.squaredNorm() / static_cast<double>(error.size())));
+      panel.series.push_back({"identified", t, to_vector(fit->force_fit_n.col(c)), Role::identified});
+    }
     figure.panels.push_back(std::move(panel));
   }
   return figure;

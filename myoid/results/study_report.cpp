@@ -30,40 +30,31 @@ using report::Figure;
 using report::Section;
 using report::Table;
 
-const IdentificationResult* method_of(const StudyResult& result, std::string_view name) {
-  for (const IdentificationResult& m : result.fit.methods) {
-    if (m.method == name) return &m;
-  }
-  return nullptr;
-}
-
 std::vector<std::string> assumptions(const StudyResult& result) {
   std::vector<std::string> list = result.source.study.subject.notes;
-  list.push_back(result.source.study.identify.elastic_tendon
-                     ? "Tendons stretch by the strain that the model gives them, quasi-statically."
-                     : "The tendon is taken as rigid: fiber length = musculotendon length - tendon "
-                       "slack length. Optimal fiber length and tendon slack length then act only "
-                       "together; the slack length is held.");
+  list.push_back(
+      result.source.study.identify.elastic_tendon
+          ? "Tendons stretch by the strain that the model gives them, quasi-statically."
+          : "The tendon is taken as rigid: fiber length = musculotendon length - tendon slack length. Optimal fiber "
+            "length and tendon slack length then act only together; the slack length is held.");
   list.push_back(fmt::format("{}; the muscles are effective ones that stand for all heads lumped into them.",
                              result.source.study.identify.model_muscles
                                  ? "Pennation and passive muscle force come from the model"
                                  : "Pennation and passive muscle force are neglected, as in the source paper"));
-  const bool freed =
-      std::any_of(result.fit.methods.begin(), result.fit.methods.end(), [](const IdentificationResult& method) {
-        return std::any_of(method.estimates.begin(), method.estimates.end(),
-                           [](const auto& e) { return e.parameter == "max_shortening_speed"; });
-      });
-  list.push_back(freed ? "v_max is identified with the other numbers unless the study states it; "
-                         "where it is held, as always in method paper, its error goes into V_sh."
+  const bool freed = std::ranges::any_of(result.fit.methods, [](const IdentificationResult& method) {
+    return std::ranges::find(method.estimates, "max_shortening_speed", &ParameterEstimate::parameter) !=
+           method.estimates.end();
+  });
+  list.push_back(freed ? "v_max is identified with the other numbers unless the study states it; where it is held, as "
+                         "always in method paper, its error goes into V_sh."
                        : "v_max is held at its starting value; an error in it goes into V_sh.");
   list.push_back(
-      "At low activation the optimal length is longer than at full activation (about 15 %); the l0 "
-      "given here belongs to the activations of this recording.");
+      "At low activation the optimal length is longer than at full activation (about 15 %); the l0 given here belongs "
+      "to the activations of this recording.");
   for (const auto& muscle : result.source.study.muscles) {
     if (muscle.same_as)
       list.push_back(
-          fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can "
-                      "hardly be told apart.",
+          fmt::format("{} has no electrode: it is taken to act as {} does. Their strengths can hardly be told apart.",
                       muscle.name, *muscle.same_as));
   }
   if (!result.source.study.subject.mass_kg && !result.source.study.model.file)
@@ -87,7 +78,7 @@ std::string identified_numbers(const IdentificationResult& fit) {
   std::vector<std::pair<std::string, std::vector<std::string>>> owners;
   for (const ParameterEstimate& e : fit.estimates) {
     if (identification::is_nuisance(e) || !e.tied_to.empty() || e.verdict != Verdict::identified) continue;
-    auto of = std::find_if(owners.begin(), owners.end(), [&](const auto& entry) { return entry.first == e.parameter; });
+    auto of = std::ranges::find(owners, e.parameter, [](const auto& entry) { return entry.first; });
     if (of == owners.end()) of = owners.insert(owners.end(), {e.parameter, {}});
     of->second.push_back(e.muscle);
   }
@@ -100,8 +91,8 @@ std::string identified_numbers(const IdentificationResult& fit) {
 }
 
 std::string headline(const StudyResult& result) {
-  const IdentificationResult* best = method_of(result, "torque");
-  if (best == nullptr) best = method_of(result, "force");
+  const IdentificationResult* best = method_of(result.fit, "torque");
+  if (best == nullptr) best = method_of(result.fit, "force");
   if (best == nullptr) return "Parameters by the source paper's method, each with an interval and a verdict.";
   int total = 0, sure = 0, weak = 0;
   for (const ParameterEstimate& e : best->estimates) {
@@ -122,8 +113,8 @@ std::string headline(const StudyResult& result) {
       theirs.push_back(f.literature.r2());
     }
     text += fmt::format(
-        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is "
-        "perfect, the literature's muscles with a best gain reach {:.2f}).",
+        " The torque of {}s left out of the fit is predicted with an R2 of {:.2f} (median; 1 is perfect, the "
+        "literature's muscles with a best gain reach {:.2f}).",
         choice_name(result.source.study.identify.folds), math::median(std::move(ours)),
         math::median(std::move(theirs)));
   }
@@ -144,10 +135,10 @@ std::string subtitle(const StudyResult& result) {
 }
 
 Section parameters_section(const StudyResult& result, const IdentificationResult& torque) {
-  Section section{"parameters", "Parameters", {}, {}, {}, {}};
+  Section section{.id = "parameters", .heading = "Parameters"};
   section.paragraphs.push_back(
-      fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise "
-                  "{} of the torque of each channel; EMG delay {:.0f} ms.",
+      fmt::format("{} samples, worth {:.0f} independent ones; torque noise {:.2f} N m; EMG noise {} of the torque of "
+                  "each channel; EMG delay {:.0f} ms.",
                   torque.samples_used, torque.effective_samples, torque.torque_sd_nm,
                   torque.emg_cv < 0.005 ? std::string("too small to be told from it, below 1 %")
                                         : fmt::format("{:.0f} %", 100.0 * torque.emg_cv),
@@ -162,33 +153,22 @@ Section parameters_section(const StudyResult& result, const IdentificationResult
   return section;
 }
 
-Section force_method_section(const StudyResult& result, const IdentificationResult& force) {
-  Section section{"force_method", "Muscle by muscle", {}, {}, {}, {}};
-  section.tables = tables_with_basins(estimate_tables(result, force), force);
-  return section;
-}
-
 Section paper_section(const IdentificationResult& paper) {
-  Section section{"paper", "The source paper's method beside it", {}, {}, {}, {}};
-  section.paragraphs.push_back(
-      "Published in 2006: every muscle alone, shortening and lengthening apart, against forces "
-      "that an optimization assigned. Those forces know nothing of co-contraction or of the "
-      "person's own "
-      "strength, so that its numbers often leave physiology; the verdicts say where.");
-  section.tables = tables_with_basins(paper_tables(paper), paper);
-  return section;
+  return {.id = "paper",
+          .heading = "The source paper's method beside it",
+          .paragraphs = {"Published in 2006: every muscle alone, shortening and lengthening apart, against forces that "
+                         "an optimization assigned. Those forces know nothing of co-contraction or of the person's own "
+                         "strength, so that its numbers often leave physiology; the verdicts say where."},
+          .tables = tables_with_basins(paper_tables(paper), paper)};
 }
 
 /// Shows the muscle forces of the trial with the most movement. The workbench shows all trials, and
 /// the trials' folders hold the numbers.
 Section forces_section(const StudyResult& result, const IdentificationResult& method) {
-  Section forces{"forces", "Muscle forces", {}, {}, {}, {}};
+  Section forces{.id = "forces", .heading = "Muscle forces"};
   const auto& trials = result.fit_input.data.trials;
-  const auto most = std::max_element(trials.begin(), trials.end(), [](const auto& a, const auto& b) {
-    const auto range = [](const identification::TrialData& d) {
-      return (d.length_m.colwise().maxCoeff() - d.length_m.colwise().minCoeff()).maxCoeff();
-    };
-    return std::lround(100.0 * range(a)) < std::lround(100.0 * range(b));
+  const auto most = std::ranges::max_element(trials, {}, [](const identification::TrialData& d) {
+    return std::lround(100.0 * (d.length_m.colwise().maxCoeff() - d.length_m.colwise().minCoeff()).maxCoeff());
   });
   if (most != trials.end()) forces.figures.push_back(force_figure(result, *most, method));
   return forces;
@@ -196,16 +176,15 @@ Section forces_section(const StudyResult& result, const IdentificationResult& me
 
 /// Returns the EMG of the first calibration trial that has EMG; empty if none has.
 std::optional<Section> emg_section(const StudyResult& result) {
-  const auto task = std::find_if(result.trials.begin(), result.trials.end(),
-                                 [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
+  const auto task = std::ranges::find_if(
+      result.trials, [](const TrialResult& t) { return t.emg.stages && t.spec.use == Use::calibration; });
   if (task == result.trials.end()) return std::nullopt;
-  Section section{"emg", "EMG", {}, {}, {}, {}};
-  section.figures.push_back(emg_figure(*task, signals::header_lines(emg_chain(result, nullptr))));
-  return section;
+  return Section{
+      .id = "emg", .heading = "EMG", .figures = {emg_figure(*task, signals::header_lines(emg_chain(result, nullptr)))}};
 }
 
 Section trials_section(const StudyResult& result) {
-  Section trials{"trials", "Trials", {}, {}, {trials_table(result)}, {}};
+  Section trials{.id = "trials", .heading = "Trials", .tables = {trials_table(result)}};
   std::vector<std::string>& notes = trials.paragraphs;
   for (const TrialResult& t : result.trials) {
     for (const std::string& note : sentences(t.remarks)) notes.push_back(fmt::format("{}: {}", t.spec.name, note));
@@ -229,14 +208,15 @@ std::vector<report::ProvenanceRow> provenance_rows(const StudyResult& result, co
 }  // namespace
 
 report::Report study_report(const StudyResult& result, const Provenance& provenance) {
-  report::Report report;
-  report.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name);
-  report.subtitle = subtitle(result);
-  report.headline = headline(result);
-  report.gates = quality_gates(result);
-  const IdentificationResult* torque = method_of(result, "torque");
-  const IdentificationResult* force = method_of(result, "force");
-  const IdentificationResult* paper = method_of(result, "paper");
+  report::Report report{.title = fmt::format("Muscle parameters of {}", result.source.study.subject.name),
+                        .subtitle = subtitle(result),
+                        .headline = headline(result),
+                        .gates = quality_gates(result),
+                        .assumptions = assumptions(result),
+                        .provenance = provenance_rows(result, provenance)};
+  const IdentificationResult* torque = method_of(result.fit, "torque");
+  const IdentificationResult* force = method_of(result.fit, "force");
+  const IdentificationResult* paper = method_of(result.fit, "paper");
 
   const IdentificationResult* best = torque != nullptr ? torque : force != nullptr ? force : paper;
   if (best != nullptr) report.forest = forest_rows(result, *best);
@@ -244,7 +224,10 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   std::vector<Section>& sections = report.sections;
   sections.push_back(recordings_section(result));
   if (torque != nullptr) sections.push_back(parameters_section(result, *torque));
-  if (force != nullptr) sections.push_back(force_method_section(result, *force));
+  if (force != nullptr)
+    sections.push_back({.id = "force_method",
+                        .heading = "Muscle by muscle",
+                        .tables = tables_with_basins(estimate_tables(result, *force), *force)});
   for (Section& section : validation_sections(result)) sections.push_back(std::move(section));
   if (result.next) sections.push_back(next_recording_section(*result.next));
   if (paper != nullptr) sections.push_back(paper_section(*paper));
@@ -254,9 +237,6 @@ report::Report study_report(const StudyResult& result, const Provenance& provena
   if (!result.fit_input.phases.empty()) sections.push_back(phases_section(result));
   sections.push_back(trials_section(result));
   sections.push_back(methods_section(methods_text(result, provenance)));
-
-  report.assumptions = assumptions(result);
-  report.provenance = provenance_rows(result, provenance);
   return report;
 }
 

@@ -1,10 +1,11 @@
 #include "myoid/results/study_scene.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/scene/model_meshes.h"
 #include "myoid/scene/model_scene.h"
 #include "myoid/study/study_model.h"
@@ -22,7 +23,7 @@ TimeSeries muscle_activation(const Study& study, const TrialResult& trial) {
     const auto column = emg.find(study.muscles[g].emg);
     if (!column) continue;
     for (const int m : groups[g].members) {
-      channels.push_back({trial.motion.model->muscles[static_cast<std::size_t>(m)].name, Unit::dimensionless});
+      channels.push_back({trial.motion.model->muscles[at(m)].name, Unit::dimensionless});
       columns.push_back(*column);
     }
   }
@@ -39,13 +40,13 @@ void add_loads(const TrialResult& trial, report::Scene& scene) {
   for (const auto& load : loads.forces) {
     if (!load.force) continue;
     report::SceneLoad shown{load.name};
-    shown.point_m.setConstant(scene.time_s.size(), 3, std::numeric_limits<double>::quiet_NaN());
+    shown.point_m.setConstant(scene.time_s.size(), 3, kNan);
     shown.force_n.setZero(scene.time_s.size(), 3);
     for (Eigen::Index f = 0; f < scene.time_s.size(); ++f) {
       const double t = scene.time_s[f];
       if (of_file && (t < loads.start_s || t > loads.end_s)) continue;
-      const auto& poses = scene.poses[static_cast<std::size_t>(f)];
-      const auto pose = [&](int body) { return poses[static_cast<std::size_t>(body)]; };
+      const auto& poses = scene.poses[at(f)];
+      const auto pose = [&](int body) { return poses[at(body)]; };
       const Vec3 force = pose(load.force_frame).R * load.force->at(loads.data_time_s(t));
       if (!force.allFinite() || force.norm() < kLeast_n) continue;
       const Pose frame = pose(load.point_frame);
@@ -76,7 +77,7 @@ report::Scene trial_scene(const Study& study, const TrialResult& trial, int most
 
 report::ScenePage study_scenes(const StudyResult& result, int most_frames) {
   const auto moving = [](const TrialResult& trial) { return trial.has_motion(); };
-  const auto count = std::count_if(result.trials.begin(), result.trials.end(), moving);
+  const auto count = std::ranges::count_if(result.trials, moving);
   report::ScenePage page{.title = result.source.study.subject.name,
                          .subtitle = fmt::format("model {}, {} trials", result.source.model->name, count)};
   const int each = std::max(100, most_frames / static_cast<int>(std::max<std::ptrdiff_t>(1, count)));

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/report/typeset.h"
 #include "myoid/results/movable_muscles.h"
@@ -26,7 +29,6 @@ using report::TimePlot;
 using report::TrialMark;
 using report::WorkbenchTrial;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr Eigen::Index kMostSamples = 15000;  // of a plot over all trials
 constexpr Eigen::Index kLeastSamples = 250;   // of a plot of one trial
 constexpr Eigen::Index kCarpetColumns = 160;
@@ -35,8 +37,7 @@ constexpr Eigen::Index kMostForces = 40;  // of muscles without a fit: the stron
 
 const IdentificationResult* fit_of(const StudyResult& result) {
   for (const char* name : {"torque", "force"})
-    for (const IdentificationResult& method : result.fit.methods)
-      if (method.method == name) return &method;
+    if (const IdentificationResult* method = method_of(result.fit, name)) return method;
   return result.fit.methods.empty() ? nullptr : &result.fit.methods.front();
 }
 
@@ -47,7 +48,7 @@ class TrialPlots {
 
   /// Returns every k-th value, so that at most `most` are left.
   [[nodiscard]] Eigen::VectorXd thinned(const Eigen::Ref<const Eigen::VectorXd>& values) const {
-    const Eigen::Index step = step_of(values.size());
+    const Eigen::Index step = std::max<Eigen::Index>(1, (values.size() + most_ - 1) / most_);
     return values(Eigen::seq(0, Eigen::last, step));
   }
 
@@ -80,9 +81,6 @@ class TrialPlots {
   }
 
  private:
-  [[nodiscard]] Eigen::Index step_of(Eigen::Index n) const {
-    return std::max<Eigen::Index>(1, (n + most_ - 1) / most_);
-  }
   WorkbenchTrial& trial_;
   Eigen::Index most_;
 };
@@ -98,15 +96,15 @@ Eigen::VectorXd greatest(const Eigen::VectorXd& time_s,
                          const Eigen::Ref<const Eigen::VectorXd>& values,
                          const Stretch& when,
                          Eigen::Index columns) {
-  constexpr double kUnseen = -std::numeric_limits<double>::infinity();
+  constexpr double kUnseen = -kInfinity;
   Eigen::VectorXd result = Eigen::VectorXd::Constant(columns, kUnseen);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     double& at = result[column_of(time_s[i], when, columns)];
-    at = std::isfinite(values[i]) && !std::isnan(at) ? std::max(at, values[i]) : kNone;
+    at = std::isfinite(values[i]) && !std::isnan(at) ? std::max(at, values[i]) : kNan;
   }
   // A stretch shorter than the sampling interval takes the preceding value.
   for (Eigen::Index i = 0; i < columns; ++i) {
-    if (result[i] == kUnseen) result[i] = i > 0 ? result[i - 1] : kNone;
+    if (result[i] == kUnseen) result[i] = i > 0 ? result[i - 1] : kNan;
   }
   return result;
 }
@@ -169,15 +167,16 @@ void add_torques(const StudyResult& result,
     }();
     if (fitted != nullptr) {
       const Eigen::VectorXd& t = fitted->time_s;
-      plot.lines.push_back(plots.line("measured", Role::reference, t, fitted->torque_nm));
-      if (fitted->literature_torque_nm.size() == t.size())
-        plot.lines.push_back(plots.line("literature", Role::literature, t, fitted->literature_torque_nm));
-      if (fitted->torque_fit_nm.size() == t.size())
-        plot.lines.push_back(plots.line("identified", Role::identified, t, fitted->torque_fit_nm));
+      const auto add = [&](const char* name, Role role, const Eigen::VectorXd& torque_nm) {
+        if (torque_nm.size() == t.size()) plot.lines.push_back(plots.line(name, role, t, torque_nm));
+      };
+      add("measured", Role::reference, fitted->torque_nm);
+      add("literature", Role::literature, fitted->literature_torque_nm);
+      add("identified", Role::identified, fitted->torque_fit_nm);
       const auto* fold = fold_of(result, trial.spec.name, fitted->joint, t.size());
       const Band band = fold != nullptr ? prediction_band(fold->predicted_nm, fold->predicted_sd_nm)
                                         : prediction_band(fitted->torque_fit_nm, fitted->torque_sd_nm);
-      if (fold != nullptr) plot.lines.push_back(plots.line("left out", Role::unseen, t, fold->predicted_nm));
+      if (fold != nullptr) add("left out", Role::unseen, fold->predicted_nm);
       if (band.low.size() == t.size())
         plot.lines.insert(plot.lines.begin(), plots.band("95 % band", t, band.low, band.high));
     } else if (trial.has_motion() && static_cast<Eigen::Index>(j) < trial.forces.muscle_torque.channel_count()) {
@@ -204,7 +203,7 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
       const Eigen::VectorXd mv = 1e3 * raw.values().col(c);
       plots.add(
           {.kind = "emg",
-           .title = raw.channels()[static_cast<std::size_t>(c)].name,
+           .title = raw.channels()[at(c)].name,
            .unit = "mV",
            .lines = {{"raw", Role::raw, clock, -greatest(t, -mv, when, columns), greatest(t, mv, when, columns)},
                      plots.line("envelope", Role::identified, envelope.time_s(), 1e3 * envelope.values().col(c))}});
@@ -215,12 +214,11 @@ void add_emg(const TrialResult& trial, TrialPlots& plots) {
   TimePlot plot{
       .kind = "activation", .title = "activation by EMG", .unit = "", .file = trial.spec.name + "/activation.sto"};
   for (Eigen::Index c = 0; c < activation.channel_count(); ++c)
-    plot.lines.push_back(plots.line(activation.channels()[static_cast<std::size_t>(c)].name, Role::reference,
-                                    activation.time_s(), activation.values().col(c)));
+    plot.lines.push_back(plots.line(activation.channels()[at(c)].name, Role::reference, activation.time_s(),
+                                    activation.values().col(c)));
   plots.add(std::move(plot));
 }
 
-/// Adds forces of the study's muscles by the fit.
 void add_fitted_forces(const StudyResult& result,
                        const identification::TrialData& data,
                        const identification::TrialFit& fit,
@@ -246,15 +244,13 @@ void add_fitted_forces(const StudyResult& result,
 void add_shared_forces(const TrialResult& trial, TrialPlots& plots) {
   const TimeSeries& force = trial.forces.shared.force;
   if (force.empty()) return;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(force.channel_count()));
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return force.values().col(a).maxCoeff() > force.values().col(b).maxCoeff();
-  });
+  std::vector<Eigen::Index> order(at(force.channel_count()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](Eigen::Index c) { return force.values().col(c).maxCoeff(); });
   if (order.size() > kMostForces) order.resize(kMostForces);
   for (const Eigen::Index c : order) {
     plots.add({.kind = "force",
-               .title = force.channels()[static_cast<std::size_t>(c)].name,
+               .title = force.channels()[at(c)].name,
                .unit = "N",
                .lines = {plots.line("shared", Role::reference, force.time_s(), force.values().col(c))},
                .file = trial.spec.name + "/StaticOptimization_force.sto"});
@@ -277,7 +273,7 @@ void add_carpet(const TrialResult& trial, WorkbenchTrial& shown) {
   }
   const auto add = [&](const TimeSeries& of, Eigen::Index c, const char* kind, const char* unit, double scale) {
     const Eigen::Index columns = std::min(kCarpetColumns, of.sample_count());
-    shown.carpet.push_back({of.channels()[static_cast<std::size_t>(c)].name, kind, unit,
+    shown.carpet.push_back({of.channels()[at(c)].name, kind, unit,
                             greatest(of.time_s(), scale * of.values().col(c), shown.carpet_when, columns)});
   };
   for (Eigen::Index c = 0; c < emg.channel_count(); ++c) add(emg, c, "EMG", "", 1.0);
@@ -301,8 +297,8 @@ void add_remarks(const StudyResult& result,
     if (fold.trial != trial.spec.name) continue;
     worse(Badge::bad);
     shown.remarks.push_back(
-        fmt::format("Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its "
-                    "files, labels, held mass and clock.",
+        fmt::format("Predicted worse than the other trials: {:.2f} N m rms, where {:.2f} is usual. Look at its files, "
+                    "labels, held mass and clock.",
                     fold.rms_nm, fold.usual_rms_nm));
   }
   for (std::string& text : sentences(trial.remarks, Severity::warning)) {
@@ -312,12 +308,7 @@ void add_remarks(const StudyResult& result,
   for (const Remark& fault : trial.faults) {
     if (fault.severity != Severity::warning && fault.severity != Severity::error) continue;
     worse(Badge::weak);
-    TrialMark mark{.about = fault.about, .badge = Badge::weak, .text = sentence(fault)};
-    if (fault.when) {
-      mark.when = *fault.when;
-      mark.timed = true;
-    }
-    shown.marks.push_back(std::move(mark));
+    shown.marks.push_back({.about = fault.about, .when = fault.when, .badge = Badge::weak, .text = sentence(fault)});
   }
   if (fit == nullptr) return;
   for (const identification::TrialFit& t : fit->trials) {
@@ -327,10 +318,8 @@ void add_remarks(const StudyResult& result,
   }
   for (const identification::Fold& fold : result.folds) {
     if (fold.trial == trial.spec.name)
-      shown.remarks.push_back(
-          fmt::format("Left out, it is predicted within {:.2f} N m rms (R² "
-                      "{:.2f}).",
-                      fold.identified.rmse_nm(), fold.identified.r2()));
+      shown.remarks.push_back(fmt::format("Left out, it is predicted within {:.2f} N m rms (R² {:.2f}).",
+                                          fold.identified.rmse_nm(), fold.identified.r2()));
   }
 }
 
@@ -364,12 +353,11 @@ WorkbenchTrial shown_trial(const StudyResult& result,
   WorkbenchTrial shown{.name = trial.spec.name, .use = std::string(choice_name(trial.spec.use))};
   TrialPlots plots(shown, most);
   const auto& all = result.fit_input.data.trials;
-  const auto data = std::find_if(all.begin(), all.end(), [&](const auto& d) { return d.name == trial.spec.name; });
+  const auto data = std::ranges::find(all, trial.spec.name, &identification::TrialData::name);
   const identification::TrialFit* fitted = nullptr;
   if (fit != nullptr && data != all.end()) {
     plots.clock(data->time_s);
-    for (const identification::TrialFit& t : fit->trials)
-      if (t.trial == trial.spec.name && fitted == nullptr) fitted = &t;
+    fitted = trial_of(*fit, trial.spec.name);
     if (fitted != nullptr) add_drives(result, *fit, *data, plots, shown);
   }
   add_angles(result, trial, plots);

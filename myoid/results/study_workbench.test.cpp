@@ -68,8 +68,8 @@ TEST(StudyWorkbench, MarksAFaultOnItsChannelAndOnTheTrial) {
   EXPECT_EQ(trial.badge, report::Badge::weak);
   ASSERT_EQ(trial.marks.size(), 1U);
   EXPECT_EQ(trial.marks[0].about, "BIC");
-  EXPECT_TRUE(trial.marks[0].timed);
-  EXPECT_EQ(trial.marks[0].when.end_s, 2.0);
+  EXPECT_TRUE(trial.marks[0].when.has_value());
+  EXPECT_EQ(trial.marks[0].when.value_or(Stretch{}).end_s, 2.0);
   // The channel at a glance: the greatest activation of each of 160 stretches rises to the end's.
   ASSERT_EQ(trial.carpet.size(), 1U);
   EXPECT_EQ(trial.carpet[0].value.size(), 160);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/core/numbers.h"
 #include "myoid/methods/prediction.h"
 #include "myoid/results/prediction_files.h"
 #include "myoid/run/prediction_gates.h"
@@ -29,7 +29,7 @@ using report::to_vector;
 std::vector<double> after_delay(const Eigen::VectorXd& predicted, const Eigen::VectorXd& time_s, double delay_s) {
   std::vector<double> curve = to_vector(predicted);
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s) curve[i] = std::numeric_limits<double>::quiet_NaN();
+    if (time_s[static_cast<Eigen::Index>(i)] < time_s[0] + delay_s) curve[i] = kNan;
   }
   return curve;
 }
@@ -47,7 +47,7 @@ Panel torque_panel(std::string title,
                    const Eigen::VectorXd& identified_nm,
                    const Eigen::VectorXd& identified_sd_nm,
                    double delay_s) {
-  Panel panel{std::move(title), {"time", "s", {}, {}, {}}, {"torque", "N m", {}, {}, {}}, {}};
+  Panel panel = report::time_panel(std::move(title), "torque", "N m");
   const std::vector<double> t = to_vector(time_s);
   if (const Band band = prediction_band(identified_nm, identified_sd_nm); band.low.size() > 0)
     panel.series.push_back({"95 % band",
@@ -56,9 +56,9 @@ Panel torque_panel(std::string title,
                             Role::band,
                             {},
                             after_delay(band.high, time_s, delay_s)});
-  panel.series.push_back({"inverse dynamics", t, to_vector(measured_nm), Role::reference, {}, {}});
-  panel.series.push_back({"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature, {}, {}});
-  panel.series.push_back({"identified", t, after_delay(identified_nm, time_s, delay_s), Role::identified, {}, {}});
+  panel.series.push_back({"inverse dynamics", t, to_vector(measured_nm), Role::reference});
+  panel.series.push_back({"literature", t, after_delay(literature_nm, time_s, delay_s), Role::literature});
+  panel.series.push_back({"identified", t, after_delay(identified_nm, time_s, delay_s), Role::identified});
   return panel;
 }
 
@@ -66,18 +66,16 @@ Figure folds_figure(const StudyResult& result, double delay_s) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
   Figure figure{"torque_held_out",
                 fmt::format("Joint torque predicted for {}s that took no part in the fit", left_out),
-                fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. "
-                            "Grey dotted: literature's muscles with one best gain.",
+                fmt::format("Blue: inverse dynamics. Orange dashed: muscles identified on the other {}s. Grey dotted: "
+                            "literature's muscles with one best gain. The worst predicted come first.",
                             left_out),
                 {},
                 2};
-  figure.in_workbench = choice_name(result.source.study.identify.folds) == "trial";
+  figure.in_workbench = left_out == "trial";
   figure.most_on_page = 6;
-  figure.caption += " The worst predicted come first.";
   std::vector<const identification::Fold*> folds;
   for (const identification::Fold& f : result.folds) folds.push_back(&f);
-  std::stable_sort(folds.begin(), folds.end(),
-                   [](const auto* a, const auto* b) { return a->identified.r2() < b->identified.r2(); });
+  std::ranges::stable_sort(folds, {}, [](const identification::Fold* f) { return f->identified.r2(); });
   for (const identification::Fold* f : folds) {
     figure.panels.push_back(
         torque_panel(fmt::format("{}: R2 {:.2f}", title_of(result, f->trial, f->joint), f->identified.r2()), f->time_s,
@@ -102,67 +100,68 @@ std::string share_text(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("-");
 }
 
+/// Returns a trial's first cells: its name, RMSE, NRMSE and R2, good above `least_r2`; R2 smoothed; NRMSE and R2 below
+/// 1.5 Hz.
+std::vector<Cell> score_cells(Cell name,
+                              const identification::Score& score,
+                              double least_r2,
+                              std::string smoothed,
+                              const identification::Score& band) {
+  return {std::move(name),
+          {fmt::format("{:.2f}", score.rmse_nm())},
+          {fmt::format("{:.1f} %", 100.0 * score.nrmse_range())},
+          {fmt::format("{:.3f}", score.r2()), score.r2() > least_r2 ? Badge::good : Badge::weak},
+          {std::move(smoothed)},
+          {fmt::format("{:.1f} %", 100.0 * band.nrmse_range())},
+          {fmt::format("{:.3f}", band.r2())}};
+}
+
 Table folds_table(const StudyResult& result) {
   const std::string_view left_out = choice_name(result.source.study.identify.folds);
-  Table table{"leave_one_trial_out",
-              fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
-              fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
-                  "NRMSE is RMSE over the range. The prediction is that of a fit without this part "
-                  "(fold_parameters.csv); in band: share of the samples within the prediction's 95 % band; "
-                  "smoothed, it is low-passed where the noise of its EMG does "
-                  "least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
-                  "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. "
-                  "Baselines, "
-                  "RMSE in N m and R2 in "
-                  "brackets: the literature's parameters with the one gain that fits the others best; "
-                  "torque regressed on EMG times moment arm; the source paper's method; the others' mean "
-                  "torque.",
-              {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz",
-               "R2 below 1.5 Hz", "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper", "constant"},
-              {}};
+  Table table{
+      "leave_one_trial_out",
+      fmt::format("Leave-one-{}-out prediction of the joint torque", left_out),
+      fmt::format("R2 = 1 - SSE/SST, negative when worse than the {}'s own mean. ", left_out) +
+          "NRMSE is RMSE over the range. The prediction is that of a fit without this part (fold_parameters.csv); in "
+          "band: share of the samples within the prediction's 95 % band; smoothed, it is low-passed where the noise of "
+          "its EMG does least harm. Below 1.5 Hz both torques are compared without faster changes, which in the "
+          "prediction are mostly noise of the EMG. Lag: positive if the prediction comes late. Baselines, RMSE in N m "
+          "and R2 in brackets: the literature's parameters with the one gain that fits the others best; torque "
+          "regressed on EMG times moment arm; the source paper's method; the others' mean torque.",
+      {std::string(left_out), "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz",
+       "VAF", "in band", "lag [ms]", "literature x gain", "regression", "paper", "constant"}};
   const std::vector<OutlyingFold> outlying = outlying_folds(result.folds);
   for (const identification::Fold& f : result.folds) {
-    const bool stands_out = std::any_of(outlying.begin(), outlying.end(), [&](const OutlyingFold& o) {
-      return o.trial == f.trial && o.joint == f.joint;
-    });
+    const bool stands_out =
+        std::ranges::any_of(outlying, [&](const OutlyingFold& o) { return o.trial == f.trial && o.joint == f.joint; });
     const std::string title = title_of(result, f.trial, f.joint);
-    table.rows.push_back(
-        {stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
-         {fmt::format("{:.2f}", f.identified.rmse_nm())},
-         {fmt::format("{:.1f} %", 100.0 * f.identified.nrmse_range())},
-         {fmt::format("{:.3f}", f.identified.r2()),
-          f.identified.r2() > std::max(0.0, f.literature.r2()) ? Badge::good : Badge::weak},
-         {smoothed_text(f.smooth, f.smooth_hz)},
-         {fmt::format("{:.1f} %", 100.0 * f.band.nrmse_range())},
-         {fmt::format("{:.3f}", f.band.r2())},
-         {fmt::format("{:.3f}", f.identified.vaf())},
-         {share_text(f.covered)},
-         {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
-         {error_and_r2(f.literature)},
-         {error_and_r2(f.regression)},
-         {f.paper ? error_and_r2(*f.paper) : std::string("-")},
-         {fmt::format("{:.2f}", f.constant.rmse_nm())}});
+    std::vector<Cell> row =
+        score_cells(stands_out ? Cell{title, Badge::bad, "its error stands out from the others' errors"} : Cell{title},
+                    f.identified, std::max(0.0, f.literature.r2()), smoothed_text(f.smooth, f.smooth_hz), f.band);
+    row.insert(row.end(), {{fmt::format("{:.3f}", f.identified.vaf())},
+                           {share_text(f.covered)},
+                           {fmt::format("{:.0f}", 1000.0 * f.lag_s)},
+                           {error_and_r2(f.literature)},
+                           {error_and_r2(f.regression)},
+                           {f.paper ? error_and_r2(*f.paper) : "-"},
+                           {fmt::format("{:.2f}", f.constant.rmse_nm())}});
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-/// Returns the table of held-back validation trials.
 Table held_back_table(const StudyResult& result, const identification::IdentificationResult& method) {
-  Table table{"validation_trials",
-              "Trials held back for validation",
-              "Joint torque predicted with the muscles identified on the calibration trials.",
-              {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"},
-              {}};
+  Table table{
+      "validation_trials",
+      "Trials held back for validation",
+      "Joint torque predicted with the muscles identified on the calibration trials.",
+      {"trial", "RMSE [N m]", "NRMSE", "R2", "R2 smoothed", "NRMSE below 1.5 Hz", "R2 below 1.5 Hz", "in band"}};
   for (const identification::TrialFit& t : method.trials) {
     if (t.calibration) continue;
-    table.rows.push_back({{title_of(result, t.trial, t.joint)},
-                          {fmt::format("{:.2f}", t.score.rmse_nm())},
-                          {fmt::format("{:.1f} %", 100.0 * t.score.nrmse_range())},
-                          {fmt::format("{:.3f}", t.score.r2()), t.score.r2() > 0.0 ? Badge::good : Badge::weak},
-                          {smoothed_text(smoothed_score(t), t.smooth_hz)},
-                          {fmt::format("{:.1f} %", 100.0 * t.band.nrmse_range())},
-                          {fmt::format("{:.3f}", t.band.r2())},
-                          {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))}});
+    table.rows.push_back(score_cells({title_of(result, t.trial, t.joint)}, t.score, 0.0,
+                                     smoothed_text(smoothed_score(t), t.smooth_hz), t.band));
+    table.rows.back().push_back(
+        {share_text(identification::covered_share(t.torque_nm, t.torque_fit_nm, t.torque_sd_nm))});
   }
   return table;
 }
@@ -170,8 +169,8 @@ Table held_back_table(const StudyResult& result, const identification::Identific
 Figure held_back_figure(const StudyResult& result, const identification::IdentificationResult& method) {
   Figure figure{"torque_validation",
                 "Joint torque predicted for the trials held back",
-                "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration "
-                "trials. Grey dotted: literature's muscles.",
+                "Blue: inverse dynamics. Orange dashed: muscles identified on the calibration trials. Grey dotted: "
+                "literature's muscles.",
                 {},
                 2};
   figure.in_workbench = true;
@@ -192,26 +191,20 @@ std::string range_text(const Eigen::VectorXd& values, int decimals) {
 }  // namespace
 
 std::vector<Section> validation_sections(const StudyResult& result) {
-  const auto torque = std::find_if(result.fit.methods.begin(), result.fit.methods.end(),
-                                   [](const auto& m) { return m.method == "torque"; });
-  const bool fitted = torque != result.fit.methods.end();
+  const identification::IdentificationResult* torque = torque_of(result.fit);
   std::vector<Section> sections;
   if (!result.folds.empty()) {
-    sections.push_back({"validation",
-                        fmt::format("Validation on {}s left out", choice_name(result.source.study.identify.folds)),
-                        {},
-                        {},
-                        {folds_table(result)},
-                        {folds_figure(result, fitted ? torque->delay_s : 0.0)}});
+    sections.push_back(
+        {.id = "validation",
+         .heading = fmt::format("Validation on {}s left out", choice_name(result.source.study.identify.folds)),
+         .tables = {folds_table(result)},
+         .figures = {folds_figure(result, torque != nullptr ? torque->delay_s : 0.0)}});
   }
-  if (fitted &&
-      std::any_of(torque->trials.begin(), torque->trials.end(), [](const auto& t) { return !t.calibration; })) {
-    sections.push_back({"validation_trials",
-                        "Validation on trials held back",
-                        {},
-                        {},
-                        {held_back_table(result, *torque)},
-                        {held_back_figure(result, *torque)}});
+  if (torque != nullptr && std::ranges::any_of(torque->trials, [](const auto& t) { return !t.calibration; })) {
+    sections.push_back({.id = "validation_trials",
+                        .heading = "Validation on trials held back",
+                        .tables = {held_back_table(result, *torque)},
+                        .figures = {held_back_figure(result, *torque)}});
   }
   return sections;
 }
@@ -219,12 +212,10 @@ std::vector<Section> validation_sections(const StudyResult& result) {
 Table trials_table(const StudyResult& result) {
   Table table{"trials",
               "Trials",
-              "What was recorded and how it went. Ranges of several joints in the order of the "
-              "study's coordinates.",
-              {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"},
-              {}};
-  const bool clocks = std::any_of(result.trials.begin(), result.trials.end(),
-                                  [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
+              "What was recorded and how it went. Ranges of several joints in the order of the study's coordinates.",
+              {"trial", "use", "duration", "held mass", "joint range", "torque range", "status"}};
+  const bool clocks =
+      std::ranges::any_of(result.trials, [](const TrialResult& t) { return t.input.emg_clock.has_value(); });
   if (clocks) table.columns.insert(table.columns.end() - 1, "EMG's clock moved by");
   for (const TrialResult& t : result.trials) {
     std::vector<Cell> row{{t.spec.name}, {std::string(choice_name(t.spec.use))}};
@@ -236,12 +227,12 @@ Table trials_table(const StudyResult& result) {
         torques.push_back(range_text(t.forces.muscle_torque.values().col(static_cast<Eigen::Index>(j)), 1));
       }
       const auto& clock = t.motion.joints.q.time_s();
-      row.push_back({fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])});
-      row.push_back({fmt::format("{} kg", format_value(t.spec.held_mass_kg))});
-      row.push_back({fmt::format("{} deg", fmt::join(angles, "; "))});
-      row.push_back({fmt::format("{} N m", fmt::join(torques, "; "))});
+      row.insert(row.end(), {{fmt::format("{:.1f} s", clock[clock.size() - 1] - clock[0])},
+                             {fmt::format("{} kg", format_value(t.spec.held_mass_kg))},
+                             {fmt::format("{} deg", fmt::join(angles, "; "))},
+                             {fmt::format("{} N m", fmt::join(torques, "; "))}});
     } else {
-      for (int k = 0; k < 4; ++k) row.push_back({"-"});
+      row.resize(row.size() + 4, {"-"});
     }
     if (clocks) {
       row.push_back(t.input.emg_clock

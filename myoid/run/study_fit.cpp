@@ -16,11 +16,16 @@ namespace myoid {
 
 using identification::IdentificationResult;
 
-const IdentificationResult* torque_of(const StudyFit& fit) {
-  for (const IdentificationResult& method : fit.methods) {
-    if (method.method == "torque") return &method;
-  }
-  return nullptr;
+const IdentificationResult* method_of(const StudyFit& fit, std::string_view name) {
+  const auto found = std::ranges::find(fit.methods, name, &IdentificationResult::method);
+  return found == fit.methods.end() ? nullptr : &*found;
+}
+
+const IdentificationResult* torque_of(const StudyFit& fit) { return method_of(fit, "torque"); }
+
+const identification::TrialFit* trial_of(const IdentificationResult& method, const std::string& trial) {
+  const auto found = std::ranges::find(method.trials, trial, &identification::TrialFit::trial);
+  return found == method.trials.end() ? nullptr : &*found;
 }
 
 bool wants_torque(const Study& study) {

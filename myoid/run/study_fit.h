@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "myoid/core/progress.h"
@@ -22,8 +24,15 @@ struct StudyFit {
   std::optional<identification::ForceLoop> force_loop;  ///< If the study asks for it.
 };
 
+/// Returns the result of the method of this name; nullptr if there is none.
+[[nodiscard]] const identification::IdentificationResult* method_of(const StudyFit& fit, std::string_view name);
+
 /// Returns the result of method torque; nullptr if there is none.
 [[nodiscard]] const identification::IdentificationResult* torque_of(const StudyFit& fit);
+
+/// Returns the first fit of a trial by a method; nullptr if there is none.
+[[nodiscard]] const identification::TrialFit* trial_of(const identification::IdentificationResult& method,
+                                                       const std::string& trial);
 
 /// Returns true if the study asks for method torque.
 [[nodiscard]] bool wants_torque(const Study& study);

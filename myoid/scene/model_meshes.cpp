@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/osim/osim_frames.h"
 
 namespace myoid {
@@ -122,7 +123,7 @@ void add_meshes(const LoadedMeshes& loaded, report::ScenePage& page) {
   for (const BodyMesh& m : loaded.meshes) {
     const auto number = static_cast<int>(page.meshes.size());
     page.meshes.push_back({m.mesh.vertices, m.mesh.triangles});
-    for (report::Scene& scene : page.scenes) scene.bodies[static_cast<std::size_t>(m.body)].meshes.push_back(number);
+    for (report::Scene& scene : page.scenes) scene.bodies[at(m.body)].meshes.push_back(number);
   }
   for (report::Scene& scene : page.scenes)
     scene.notes.insert(scene.notes.end(), loaded.notes.begin(), loaded.notes.end());

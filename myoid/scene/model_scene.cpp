@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/core/parallel.h"
 #include "myoid/model/kinematic_tree.h"
 #include "myoid/model/muscle_path.h"
@@ -21,13 +21,12 @@
 namespace myoid {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-/// Returns rows of the clock that are at least 1 / rate apart, at most `most_frames`.
+/// Returns rows of the clock that are at least 0.02 s apart, at most `most_frames`.
 std::vector<Eigen::Index> chosen_frames(const Eigen::VectorXd& time_s, const SceneOptions& options) {
+  constexpr double kMostFramesPerSecond = 50.0;
   const Eigen::Index count = time_s.size();
   const double duration = time_s[count - 1] - time_s[0];
-  double step = 1.0 / options.most_frames_per_s;
+  double step = 1.0 / kMostFramesPerSecond;
   if (duration / step > options.most_frames - 1) step = duration / (options.most_frames - 1);
   std::vector<Eigen::Index> rows;
   // Frame k is the first sample after k steps: as even as the samples allow.
@@ -70,7 +69,7 @@ Vec3 size_of(const model::WrapObject& object) {
 }
 
 bool is_fixed(const model::MusclePath& path) {
-  return path.wraps.empty() && std::none_of(path.points.begin(), path.points.end(), [](const model::PathPoint& p) {
+  return path.wraps.empty() && std::ranges::none_of(path.points, [](const model::PathPoint& p) {
            return p.condition.has_value() || p.moving.has_value();
          });
 }
@@ -89,12 +88,11 @@ report::Scene still_scene(const model::BodyModel& model) {
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     const model::Muscle& muscle = model.muscles[m];
     report::SceneMuscle line{muscle.name, muscle.properties.max_isometric_force_n};
-    if (is_fixed(muscle.path)) {
+    if (is_fixed(muscle.path))
       for (const model::PathPoint& p : muscle.path.points) line.points.push_back({p.body, p.p_BP});
-    } else {
+    else
       scene.moving_muscles.push_back(static_cast<int>(m));
-    }
-    for (const model::PathWrap& wrap : muscle.path.wraps) is_used[static_cast<std::size_t>(wrap.wrap_object)] = true;
+    for (const model::PathWrap& wrap : muscle.path.wraps) is_used[at(wrap.wrap_object)] = true;
     scene.muscles.push_back(std::move(line));
   }
   for (std::size_t w = 0; w < model.wrap_objects.size(); ++w) {
@@ -126,7 +124,7 @@ void place(const model::BodyModel& model, const Eigen::MatrixXd& q, report::Scen
       scene.poses[at(f)] = state.X_GB;
       auto& lines = scene.lines_m[at(f)];
       for (const int m : scene.moving_muscles) {
-        const model::MusclePath& path = model.muscles[static_cast<std::size_t>(m)].path;
+        const model::MusclePath& path = model.muscles[at(m)].path;
         model::compute_path(model, path, state, workspace, result);
         lines.push_back(model::path_polyline(model, path, state, workspace.stations));
       }
@@ -161,14 +159,13 @@ double rounded_up(double value) {
 
 void add_coloring(const model::BodyModel& model, const MuscleColoring& coloring, report::Scene& scene) {
   const auto muscles = static_cast<Eigen::Index>(model.muscles.size());
-  Eigen::MatrixXd values = Eigen::MatrixXd::Constant(scene.time_s.size(), muscles, kMissing);
+  Eigen::MatrixXd values = Eigen::MatrixXd::Constant(scene.time_s.size(), muscles, kNan);
   std::vector<std::string> without;
   for (Eigen::Index m = 0; m < muscles; ++m) {
     const std::string& name = model.muscles[at(m)].name;
     const auto& channels = coloring.series.channels();
-    const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
-      return belongs_to(channel.name, name, coloring.name);
-    });
+    const auto found = std::ranges::find_if(
+        channels, [&](const Channel& channel) { return belongs_to(channel.name, name, coloring.name); });
     if (found == channels.end()) {
       without.push_back(name);
       continue;
@@ -183,11 +180,10 @@ void add_coloring(const model::BodyModel& model, const MuscleColoring& coloring,
     }
   }
   if (without.size() == model.muscles.size()) {
-    throw InvalidInput(
-        fmt::format("no column of the {} file is a muscle of the model; its columns "
-                    "begin with '{}', the muscles with '{}'",
-                    coloring.name, coloring.series.channels().empty() ? "" : coloring.series.channels().front().name,
-                    without.empty() ? "" : without.front()));
+    throw InvalidInput(fmt::format(
+        "no column of the {} file is a muscle of the model; its columns begin with '{}', the muscles with '{}'",
+        coloring.name, coloring.series.channels().empty() ? "" : coloring.series.channels().front().name,
+        without.empty() ? "" : without.front()));
   }
   if (!without.empty()) {
     constexpr std::size_t kNamed = 6;
@@ -208,22 +204,19 @@ void add_coloring(const model::BodyModel& model, const MuscleColoring& coloring,
 
 void add_measured(const recording::MarkerSeries& markers, report::Scene& scene) {
   scene.measured_markers = markers.names;
-  scene.measured_m.setConstant(scene.time_s.size(), markers.positions_m.cols(), kMissing);
+  scene.measured_m.setConstant(scene.time_s.size(), markers.positions_m.cols(), kNan);
   for (Eigen::Index f = 0; f < scene.time_s.size(); ++f) {
     const auto time = find_time(markers.time_s, scene.time_s[f]);
     if (!time) continue;
     scene.measured_m.row(f) = (1.0 - time->share) * markers.positions_m.row(time->before) +
                               time->share * markers.positions_m.row(time->after);
   }
-  const auto in_model = [&](const std::string& name) {
-    return std::any_of(scene.markers.begin(), scene.markers.end(),
-                       [&](const report::SceneMarker& m) { return m.name == name; });
-  };
-  const auto count = std::count_if(markers.names.begin(), markers.names.end(), in_model);
+  const auto count = std::ranges::count_if(markers.names, [&](const std::string& name) {
+    return std::ranges::find(scene.markers, name, &report::SceneMarker::name) != scene.markers.end();
+  });
   if (count < markers.marker_count()) {
     scene.notes.push_back(
-        fmt::format("{} of {} measured markers have no marker of their name in "
-                    "the model: no error is drawn for them.",
+        fmt::format("{} of {} measured markers have no marker of their name in the model: no error is drawn for them.",
                     markers.marker_count() - count, markers.marker_count()));
   }
   if (!scene.measured_m.array().isFinite().any()) scene.notes.emplace_back("No marker was measured at these times.");
@@ -252,7 +245,7 @@ report::Scene model_scene(const model::BodyModel& model, const SceneInput& input
     }
   }
   place(model, q, scene);
-  for (const std::string& text : model.unsupported) scene.notes.push_back(text);
+  scene.notes.insert(scene.notes.end(), model.unsupported.begin(), model.unsupported.end());
   for (const MuscleColoring& coloring : input.colorings) add_coloring(model, coloring, scene);
   if (input.markers != nullptr) add_measured(*input.markers, scene);
   return scene;

@@ -26,7 +26,6 @@ struct SceneInput {
 };
 
 struct SceneOptions {
-  double most_frames_per_s = 50.0;
   int most_frames = 1500;
 };
 

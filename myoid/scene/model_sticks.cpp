@@ -24,8 +24,8 @@ std::vector<double> carried_masses(const model::BodyModel& model) {
 }
 
 BodySticks to_children(const Vec3& own, std::vector<ChildJoint> children) {
-  std::stable_sort(children.begin(), children.end(),
-                   [](const ChildJoint& a, const ChildJoint& b) { return a.carried_kg > b.carried_kg; });
+  std::ranges::stable_sort(children,
+                           [](const ChildJoint& a, const ChildJoint& b) { return a.carried_kg > b.carried_kg; });
   BodySticks sticks;
   const auto add = [&](const Vec3& from, const Vec3& to) {
     if (from != to) sticks.push_back({from, to});
@@ -46,7 +46,7 @@ BodySticks to_children(const Vec3& own, std::vector<ChildJoint> children) {
   Vec3 fork = own;
   Vec3 middle = Vec3::Zero();
   for (const Vec3& end : ends) middle += end / static_cast<double>(ends.size());
-  const bool is_fork = ends.size() > 1 && std::all_of(ends.begin(), ends.end(), [&](const Vec3& e) {
+  const bool is_fork = ends.size() > 1 && std::ranges::all_of(ends, [&](const Vec3& e) {
                          return (e - middle).norm() < (middle - own).norm();
                        });
   if (is_fork) {

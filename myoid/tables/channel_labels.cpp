@@ -36,32 +36,16 @@ bool is_time(const TableColumn& column) {
 }
 
 Kind kind_by_name(const std::string& label) {
-  static const std::map<std::string, Kind> kWords{{"frame", Kind::frame},
-                                                  {"frames", Kind::frame},
-                                                  {"frame#", Kind::frame},
-                                                  {"sample", Kind::frame},
-                                                  {"samples", Kind::frame},
-                                                  {"sample #", Kind::frame},
-                                                  {"sample number", Kind::frame},
-                                                  {"index", Kind::frame},
-                                                  {"#", Kind::frame},
-                                                  {"no", Kind::frame},
-                                                  {"no.", Kind::frame},
-                                                  {"nr", Kind::frame},
-                                                  {"sub frame", Kind::sub_frame},
-                                                  {"subframe", Kind::sub_frame},
-                                                  {"sub frame#", Kind::sub_frame},
-                                                  {"marker", Kind::remark},
-                                                  {"markers", Kind::remark},
-                                                  {"activity", Kind::remark},
-                                                  {"event", Kind::remark},
-                                                  {"events", Kind::remark},
-                                                  {"comment", Kind::remark},
-                                                  {"comments", Kind::remark},
-                                                  {"remark", Kind::remark},
-                                                  {"note", Kind::remark}};
-  const auto it = kWords.find(lower(label));
-  return it == kWords.end() ? Kind::channel : it->second;
+  static const std::map<Kind, std::set<std::string>> kWords{
+      {Kind::frame,
+       {"frame", "frames", "frame#", "sample", "samples", "sample #", "sample number", "index", "#", "no", "no.",
+        "nr"}},
+      {Kind::sub_frame, {"sub frame", "subframe", "sub frame#"}},
+      {Kind::remark, {"marker", "markers", "activity", "event", "events", "comment", "comments", "remark", "note"}}};
+  const std::string word = lower(label);
+  for (const auto& [kind, words] : kWords)
+    if (words.contains(word)) return kind;
+  return Kind::channel;
 }
 
 }  // namespace

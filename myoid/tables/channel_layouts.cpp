@@ -20,12 +20,12 @@ using Kind = TableColumn::Kind;
 std::optional<TableLayout> nexus_devices(const TableText& text, const std::filesystem::path& path) {
   const auto section = nexus_section(text, "Devices", path);
   if (!section) return std::nullopt;
-  if (!(section->rate_hz > 0.0))
-    throw ReadError(path, section->labels_line + 1,
+  TableLayout layout = section->layout;
+  if (!(layout.rate_hz > 0.0))
+    throw ReadError(path, layout.names_line + 1,
                     "the section 'Devices' states no rate; write it in the line below the title");
-  TableLayout layout = layout_of(*section);
   layout.frame_rate_hz = nexus_frame_rate(text);
-  layout.repairs.push_back({section->labels_line + 1, "the section 'Devices' is read"});
+  layout.repairs.push_back({layout.names_line + 1, "the section 'Devices' is read"});
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     TableColumn& column = layout.columns[c];
     if (column.kind != Kind::channel) continue;
@@ -54,8 +54,7 @@ std::optional<TableLayout> qualisys_channels(const TableText& text, const std::f
   std::vector<std::string> names, head;
   std::size_t begin = 0;
   for (std::size_t n = 0; n < std::min(text.lines.size(), kHeader); ++n) {
-    auto cells = cells_of(text.lines[n], '\t');
-    while (!cells.empty() && cells.back().empty()) cells.pop_back();
+    auto cells = filled_cells(text.lines[n], '\t');
     if (cells.empty()) continue;
     if (cells[0] == "CHANNEL_NAMES") {
       names.assign(cells.begin() + 1, cells.end());
@@ -75,9 +74,7 @@ std::optional<TableLayout> qualisys_channels(const TableText& text, const std::f
   layout.first_row = *first;
   layout.end_row = end_of_block(text, *first, '\t');
   const std::size_t header = head.empty() ? *first : layout.names_line;
-  layout.rate_hz = stated_number(text, header, '\t', {"frequency"}).value_or(0.0);
-  layout.rows_said = stated_number(text, header, '\t', {"no_of_samples"});
-  layout.channels_said = stated_number(text, header, '\t', {"total_no_of_channels", "no_of_channels"});
+  layout.read_header(text, header, {{"frequency"}, {"no_of_samples"}, {"total_no_of_channels", "no_of_channels"}});
   const bool named = !head.empty();
   for (const std::string& name : named ? head : names) layout.columns.push_back(take_label_apart(name));
   if (named) {
@@ -115,14 +112,13 @@ std::optional<TableLayout> biopac_channels(const TableText& text, const std::fil
     throw ReadError(path, 3, fmt::format("{} channels are stated, but the text ends before", *count));
   TableLayout layout;
   layout.separator = text.lines[head].find('\t') != std::string_view::npos ? '\t' : ',';
-  auto cells = cells_of(text.lines[head], layout.separator);
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  const auto cells = filled_cells(text.lines[head], layout.separator);
   // A time column before the channels is ignored: the stated interval is more exact.
   if (cells.size() < channels || cells.size() > channels + 1)
-    throw ReadError(path, head + 1,
-                    fmt::format("{} channels are stated in line 3, the row of columns has {}: a line "
-                                "of the header is lost",
-                                *count, cells.size()));
+    throw ReadError(
+        path, head + 1,
+        fmt::format("{} channels are stated in line 3, the row of columns has {}: a line of the header is lost", *count,
+                    cells.size()));
   if (cells.size() > channels) layout.columns.push_back({Kind::left_out, cells[0]});
   for (std::size_t c = 0; c < channels; ++c)
     layout.columns.push_back(
@@ -144,17 +140,11 @@ std::optional<TableLayout> bts_tracks(const TableText& text, const std::filesyst
   if (text.lines.empty() || !trim(text.lines[0]).starts_with("BTS ASCII")) return std::nullopt;
   constexpr std::size_t kHeader = 40;
   for (std::size_t n = 1; n < std::min(text.lines.size(), kHeader); ++n) {
-    auto cells = cells_of(text.lines[n], '\t');
-    if (!equal_ignoring_case(cells[0], "Frame")) continue;
-    while (cells.back().empty()) cells.pop_back();
+    const auto cells = filled_cells(text.lines[n], '\t');
+    if (cells.empty() || !equal_ignoring_case(cells[0], "Frame")) continue;
     TableLayout layout;
-    layout.separator = '\t';
-    layout.names_line = n;
-    layout.first_row = n + 1;
-    layout.end_row = end_of_block(text, n + 1, '\t');
-    layout.rate_hz = stated_number(text, n, '\t', {"frequency"}).value_or(0.0);
-    layout.rows_said = stated_number(text, n, '\t', {"frames"});
-    layout.channels_said = stated_number(text, n, '\t', {"tracks"});
+    layout.set_rows_below(text, n, '\t');
+    layout.read_header(text, n, {{"frequency"}, {"frames"}, {"tracks"}});
     const auto unit = unit_in_cell(stated_text(text, n, '\t', "measure unit"));
     for (const std::string& cell : cells) layout.columns.push_back(take_label_apart(cell));
     set_kinds(layout.columns);

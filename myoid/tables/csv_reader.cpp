@@ -1,6 +1,7 @@
 #include "myoid/tables/csv_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/tables/channel_labels.h"
 
 namespace myoid::recording {
@@ -15,21 +17,22 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
-/// Finds the first line, from `n` on, that is neither blank nor a remark.
-std::size_t next_line(const TableText& text, std::size_t n) {
-  while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;
-  return n;
-}
-
-/// Returns the separator of a header row.
 char separator_of(std::string_view head) {
-  const auto count = [&](char c) { return std::count(head.begin(), head.end(), c); };
+  const auto count = [&](char c) { return std::ranges::count(head, c); };
   return count(';') > 0 && count(';') >= count(',') ? ';' : count('\t') > count(',') ? '\t' : ',';
 }
 
-bool is_time(std::string_view name) {
-  return equal_ignoring_case(name, "time") || equal_ignoring_case(name, "t") || equal_ignoring_case(name, "time_s") ||
-         equal_ignoring_case(name, "times") || equal_ignoring_case(name, "time_ms");
+struct Head {
+  std::size_t line = 0;  ///< Counted from 0.
+  char separator = ',';
+  std::vector<std::string> names;
+};
+
+Head head_of(const TableText& text, const std::filesystem::path& path) {
+  const std::size_t line = next_line(text, 0);
+  if (line == text.lines.size()) throw ReadError(path, 0, "there is no header row");
+  const char separator = separator_of(text.lines[line]);
+  return {line, separator, filled_cells(text.lines[line], separator)};
 }
 
 /// Splits "name [unit]" or "name (unit)".
@@ -60,30 +63,26 @@ bool take_units_row(const std::vector<std::string>& cells, std::vector<TableColu
 
 /// Returns the layout of a header row with a time column and rows of numbers below.
 TableLayout plain_layout(const TableText& text, const std::filesystem::path& path) {
+  const Head head = head_of(text, path);
   TableLayout layout;
   layout.plain = true;
-  const std::size_t head = next_line(text, 0);
-  if (head == text.lines.size()) throw ReadError(path, 0, "there is no header row");
-  layout.separator = separator_of(text.lines[head]);
-  layout.names_line = head;
-  std::vector<std::string> names = cells_of(text.lines[head], layout.separator);
-  while (!names.empty() && names.back().empty()) names.pop_back();
-  for (const std::string& name : names) layout.columns.push_back(take_apart(name));
-  layout.first_row = next_line(text, head + 1);
+  layout.separator = head.separator;
+  layout.names_line = head.line;
+  for (const std::string& name : head.names) layout.columns.push_back(take_apart(name));
+  layout.first_row = next_line(text, head.line + 1);
   layout.end_row = text.lines.size();
   if (layout.first_row < text.lines.size() &&
       take_units_row(cells_of(text.lines[layout.first_row], layout.separator), layout.columns))
     ++layout.first_row;
-  const auto time =
-      std::find_if(layout.columns.begin(), layout.columns.end(), [](const TableColumn& c) { return is_time(c.name); });
+  const auto time = std::ranges::find_if(layout.columns, names_plain_time, &TableColumn::name);
   if (time == layout.columns.end()) {
-    throw ReadError(path, head + 1,
-                    fmt::format("no time column; expected one named time (in s) among {}", fmt::join(names, ", ")));
+    throw ReadError(
+        path, head.line + 1,
+        fmt::format("no time column; expected one named time (in s) among {}", fmt::join(head.names, ", ")));
   }
   if (time->unit && time->unit->unit != Unit::second)
-    throw ReadError(
-        path, head + 1,
-        fmt::format("column '{}': time is in s or ms", names[static_cast<std::size_t>(time - layout.columns.begin())]));
+    throw ReadError(path, head.line + 1,
+                    fmt::format("column '{}': time is in s or ms", head.names[at(time - layout.columns.begin())]));
   if (!time->unit && equal_ignoring_case(time->name, "time_ms")) time->unit = parse_unit("ms");
   time->kind = Kind::time;
   return layout;
@@ -91,15 +90,24 @@ TableLayout plain_layout(const TableText& text, const std::filesystem::path& pat
 
 }  // namespace
 
+std::size_t next_line(const TableText& text, std::size_t n) {
+  while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;
+  return n;
+}
+
+bool names_plain_time(std::string_view name) {
+  return std::ranges::any_of(std::array{"time", "t", "time_s", "times", "time_ms"},
+                             [&](const char* word) { return equal_ignoring_case(name, word); });
+}
+
 CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path) {
   const TableText whole(text);
+  Head head = head_of(whole, path);
   CsvTable table;
-  std::size_t n = next_line(whole, 0);
-  if (n == whole.lines.size()) throw ReadError(path, 0, "there is no header row");
-  table.header_line = n + 1;
-  table.separator = separator_of(whole.lines[n]);
-  table.names = cells_of(whole.lines[n], table.separator);
-  while (!table.names.empty() && table.names.back().empty()) table.names.pop_back();
+  table.header_line = head.line + 1;
+  table.separator = head.separator;
+  table.names = std::move(head.names);
+  std::size_t n = head.line;
   while ((n = next_line(whole, n + 1)) < whole.lines.size()) {
     std::vector<std::string> cells = cells_of(whole.lines[n], table.separator);
     while (cells.size() > table.names.size() && cells.back().empty()) cells.pop_back();

@@ -25,6 +25,12 @@ struct CsvTable {
 [[nodiscard]] CsvTable read_csv_table(const std::filesystem::path& path);
 [[nodiscard]] CsvTable parse_csv_table(std::string_view text, const std::filesystem::path& path);
 
+/// Returns the first line, from `n` on, that is neither blank nor a remark.
+[[nodiscard]] std::size_t next_line(const TableText& text, std::size_t n);
+
+/// Returns true for the names of the time column in such tables, whatever the case: "time", "t", "time_ms", ...
+[[nodiscard]] bool names_plain_time(std::string_view name);
+
 /// Reads a table with a time column (`time`, `Time [s]`, `t`, `time (ms)`, ...) as a series. Decimal commas are read
 /// where a semicolon or tab separates; an empty cell is a gap. Throws ReadError if there is no time column, a cell is
 /// no number, time does not increase, two columns share a name, or the time's unit is unknown.

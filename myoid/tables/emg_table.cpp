@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/channel_labels.h"
 #include "myoid/tables/channel_layouts.h"
@@ -114,9 +114,8 @@ class TableFinder {
 
   /// Returns true for a row that begins with a number and has text in one cell.
   [[nodiscard]] bool has_remark(const Cells& cells) const {
-    const auto texts = std::count_if(cells.begin(), cells.end(), [&](const std::string& cell) {
-      return !cell.empty() && !cell_number(cell, layout_.separator);
-    });
+    const auto texts = std::ranges::count_if(
+        cells, [&](const std::string& cell) { return !cell.empty() && !cell_number(cell, layout_.separator); });
     return texts == 1 && cell_number(cells[0], layout_.separator);
   }
 
@@ -167,12 +166,9 @@ class TableFinder {
       layout_.repairs.push_back(
           {layout_.names_line + 1,
            fmt::format("rates in whole Hz stand for whole samples in 27 ms: {:.7g} Hz", fmt::join(rounded, ", "))});
-    const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
-                                     [](const TableColumn& c) { return c.kind == Kind::time; });
-    const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
-                                   [](const TableColumn& c) { return c.rate_hz > 0.0; });
-    if (times > 1 || (times == 0 && rated)) layout_.short_row = ShortRow::ended;
-    leave_out_counters(times > 1 || (times == 0 && rated));
+    const bool several_clocks = layout_.clocks() != Clocks::of_rows;
+    if (several_clocks) layout_.short_row = ShortRow::ended;
+    leave_out_counters(several_clocks);
     if (const auto devices = device_row()) put_devices_before_names(layout_, *devices);
   }
 
@@ -181,16 +177,14 @@ class TableFinder {
     const Cells first = row(layout_.first_row);
     const std::size_t next = layout_.first_row + 1;
     const Cells second = next < text_.lines.size() ? row(next) : Cells();
-    const bool with_sub_frames = std::any_of(layout_.columns.begin(), layout_.columns.end(),
-                                             [](const TableColumn& c) { return c.kind == Kind::sub_frame; });
+    const bool with_sub_frames = layout_.count(Kind::sub_frame) > 0;
     std::vector<std::string> left_out;
     bool taken = false;
     for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
       TableColumn& column = layout_.columns[c];
       if (column.kind != Kind::frame && column.kind != Kind::sub_frame) continue;
       const auto number = [&](const Cells& cells) {
-        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-        return c < cells.size() ? parse_number(cells[c]).value_or(kNone) : kNone;
+        return c < cells.size() ? parse_number(cells[c]).value_or(kNan) : kNan;
       };
       const double begin = number(first);
       const bool counts = number(second) == begin + 1.0 && column.kind == Kind::frame;
@@ -239,9 +233,7 @@ class TableFinder {
     layout_.rate_hz = rate && *rate > 0.0 && *rate <= 1e6 ? *rate : 0.0;
     layout_.rows_said = stated_number(text_, end, separator, {"count", "number of samples"});
     layout_.length_s = stated_number(text_, end, separator, {"collection length (seconds)"});
-    const bool timed = std::any_of(layout_.columns.begin(), layout_.columns.end(),
-                                   [](const TableColumn& c) { return c.kind == Kind::time; });
-    if (!timed && layout_.rate_hz > 0.0)
+    if (layout_.count(Kind::time) == 0 && layout_.rate_hz > 0.0)
       layout_.repairs.push_back(
           {0, fmt::format("no time column; the rate of {} Hz stated in the header is taken", layout_.rate_hz)});
   }
@@ -255,19 +247,11 @@ class TableFinder {
 /// Returns true if the first line that is no remark is a header with one time column, and no other
 /// line of text follows.
 bool is_plain(const TableText& text, const TableLayout& layout) {
-  std::size_t n = 0;
-  while (n < text.lines.size() && (trim(text.lines[n]).empty() || trim(text.lines[n]).starts_with('#'))) ++n;
-  if (n != layout.names_line) return false;
-  std::size_t times = 0;
-  for (const TableColumn& column : layout.columns) {
-    if (column.kind != Kind::time && column.kind != Kind::channel) return false;
-    if (column.name.find(',') != std::string::npos) return false;
-    const std::string name = lower(column.name);
-    if (column.kind == Kind::channel) continue;
-    if (name != "time" && name != "t" && name != "times" && name != "time_s" && name != "time_ms") return false;
-    ++times;
-  }
-  return times == 1;
+  return next_line(text, 0) == layout.names_line && layout.count(Kind::time) == 1 &&
+         std::ranges::all_of(layout.columns, [](const TableColumn& column) {
+           return column.name.find(',') == std::string::npos &&
+                  (column.kind == Kind::channel || (column.kind == Kind::time && names_plain_time(column.name)));
+         });
 }
 
 /// Tries all separators and returns the widest table.
@@ -290,8 +274,8 @@ void refuse_two_commas(const TableText& text, const TableLayout& layout, const s
     if (first[i].empty() || first[i].find_first_not_of("0123456789") != std::string::npos) return;
   }
   throw ReadError(path, layout.first_row + 1,
-                  fmt::format("{} cells below {} names: commas stand between cells and inside "
-                              "numbers; export with semicolons or tabs, or with decimal points",
+                  fmt::format("{} cells below {} names: commas stand between cells and inside numbers; export with "
+                              "semicolons or tabs, or with decimal points",
                               2 * names, names));
 }
 
@@ -304,8 +288,8 @@ CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& pa
   if (layout) refuse_two_commas(table, *layout, path);
   if (layout && is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
     throw ReadError(path, layout->names_line + 1,
-                    "the table begins with numbers; expected a row of names above them, and a column "
-                    "'time' or a line 'Sampling rate: 2000 Hz'");
+                    "the table begins with numbers; expected a row of names above them, and a column 'time' or a line "
+                    "'Sampling rate: 2000 Hz'");
   }
   if (!layout || is_plain(table, *layout)) return parse_csv_series(text, path);
   return channels_of_table(table, *layout, path);

@@ -54,13 +54,12 @@ bool named_as_no_emg(std::string_view name) {
     if (plain.starts_with(side)) without_side.remove_prefix(side.size());
   }
   return std::regex_match(plain, kForce) ||
-         std::any_of(kInstruments.begin(), kInstruments.end(),
-                     [&](std::string_view word) { return without_side.starts_with(word); });
+         std::ranges::any_of(kInstruments, [&](std::string_view word) { return without_side.starts_with(word); });
 }
 
 bool named_as_input(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
-  const auto has = [&](std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
   return (has("analog") || has("analogue") || has("aux") || has("auxiliary")) && !has("emg");
 }
 

@@ -19,12 +19,6 @@ using Cells = std::vector<std::string>;
 
 constexpr std::size_t kHeaderLines = 40;  // more lines than any header has
 
-Cells filled_cells(std::string_view line, char separator) {
-  Cells cells = cells_of(line, separator);
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
-  return cells;
-}
-
 void add_marker(const std::string& name, MarkerLayout& layout) {
   layout.names.push_back(name);
   for (const char* axis : {"X", "Y", "Z"})
@@ -68,8 +62,7 @@ void require_triples(const MarkerLayout& layout, const std::filesystem::path& pa
   for (std::size_t c = 2; c < columns.size(); ++c) {
     if (columns[c].kind == Kind::left_out)
       throw ReadError(path, layout.table.names_line + 1,
-                      fmt::format("column {} ('{}') belongs to no marker: expected NAME X, NAME Y, "
-                                  "NAME Z for each",
+                      fmt::format("column {} ('{}') belongs to no marker: expected NAME X, NAME Y, NAME Z for each",
                                   c + 1, columns[c].name));
   }
 }
@@ -78,8 +71,8 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text, const std:
   const auto section = nexus_section(text, "Trajectories", path);
   if (!section) return std::nullopt;
   MarkerLayout layout;
-  layout.table = layout_of(*section);
-  const std::size_t line = section->labels_line + 1;
+  layout.table = section->layout;
+  const std::size_t line = layout.table.names_line + 1;
   if (layout.table.columns.size() < 2 || layout.table.columns[1].kind != Kind::sub_frame)
     throw ReadError(path, line, "expected 'Sub Frame' in column 2 of the row that begins with Frame");
   layout.table.columns.resize(2);
@@ -90,19 +83,18 @@ std::optional<MarkerLayout> nexus_trajectories(const TableText& text, const std:
       const std::string label = c + a < section->labels.size() ? section->labels[c + a] : "";
       if (lower(label) != std::string(1, "xyz"[a]))
         throw ReadError(path, line,
-                        fmt::format("expected {} in column {}, found '{}': each marker has X, Y "
-                                    "and Z",
-                                    "XYZ"[a], c + a + 1, label));
+                        fmt::format("expected {} in column {}, found '{}': each marker has X, Y and Z", "XYZ"[a],
+                                    c + a + 1, label));
     }
     add_marker(c < section->groups.size() ? section->groups[c] : "", layout);
   }
   for (std::size_t c = 0; c < section->groups.size(); ++c) {
     const bool place = c >= 2 && (c - 2) % 3 == 0 && c < section->labels.size();
     if (!place && !section->groups[c].empty())
-      throw ReadError(path, line - 1,
-                      fmt::format("the name '{}' stands in column {}, where no X is: a cell of this "
-                                  "row is lost or too many",
-                                  section->groups[c], c + 1));
+      throw ReadError(
+          path, line - 1,
+          fmt::format("the name '{}' stands in column {}, where no X is: a cell of this row is lost or too many",
+                      section->groups[c], c + 1));
   }
   if (layout.names.empty()) return std::nullopt;
   for (std::size_t c = 2; c < section->units.size() && layout.unit.empty(); ++c) layout.unit = section->units[c];
@@ -163,9 +155,7 @@ std::optional<MarkerLayout> qualisys_markers(const TableText& text, const std::f
   }
   table.first_row = n;
   table.end_row = text.lines.size();
-  table.rate_hz = stated_number(text, n, '\t', {"frequency"}).value_or(0.0);
-  table.rows_said = stated_number(text, n, '\t', {"no_of_frames"});
-  table.channels_said = stated_number(text, n, '\t', {"no_of_markers"});
+  table.read_header(text, n, {{"frequency"}, {"no_of_frames"}, {"no_of_markers"}});
   // A tab behind the last name is no marker, unless the header counts one more.
   while (!names.empty() && names.back().empty() &&
          !(table.channels_said && static_cast<double>(names.size()) <= *table.channels_said))
@@ -185,15 +175,10 @@ std::optional<MarkerLayout> bts_points(const TableText& text, const std::filesys
     if (cells.empty() || !equal_ignoring_case(cells[0], "Frame")) continue;
     MarkerLayout layout;
     if (!take_triples(cells, layout)) return std::nullopt;
-    layout.table.separator = '\t';
-    layout.table.names_line = n;
-    layout.table.first_row = n + 1;
-    layout.table.end_row = end_of_block(text, n + 1, '\t');
+    layout.table.set_rows_below(text, n, '\t');
     require_triples(layout, path);
     layout.unit = stated_text(text, n, '\t', "Measure unit");
-    layout.table.rate_hz = stated_number(text, n, '\t', {"frequency"}).value_or(0.0);
-    layout.table.rows_said = stated_number(text, n, '\t', {"frames"});
-    layout.table.channels_said = stated_number(text, n, '\t', {"tracks"});
+    layout.table.read_header(text, n, {{"frequency"}, {"frames"}, {"tracks"}});
     layout.table.short_row = ShortRow::gaps;
     return layout;
   }
@@ -212,14 +197,9 @@ std::optional<MarkerLayout> first_principles(const TableText& text, const std::f
       const bool others = std::any_of(layout.table.columns.begin() + 1, layout.table.columns.end(),
                                       [](const TableColumn& c) { return c.kind == Kind::left_out; });
       if (others) return std::nullopt;
-      layout.table.separator = separator;
-      layout.table.names_line = n;
-      layout.table.first_row = n + 1;
-      layout.table.end_row = end_of_block(text, n + 1, separator);
-      layout.table.rate_hz =
-          stated_number(text, n, separator, {"collection frequency", "frequency", "frame rate"}).value_or(0.0);
-      layout.table.rows_said = stated_number(text, n, separator, {"number of frames"});
-      layout.table.channels_said = stated_number(text, n, separator, {"number of markers"});
+      layout.table.set_rows_below(text, n, separator);
+      layout.table.read_header(
+          text, n, {{"collection frequency", "frequency", "frame rate"}, {"number of frames"}, {"number of markers"}});
       layout.unit = stated_text(text, n, separator, "Units");
       layout.table.short_row = ShortRow::gaps;
       return layout;
@@ -238,7 +218,7 @@ bool all_of_words(const Cells& cells, std::initializer_list<std::string_view> wo
   bool any = false;
   for (const std::string& cell : cells) {
     if (cell.empty()) continue;
-    if (std::find(words.begin(), words.end(), cell) == words.end()) return false;
+    if (std::ranges::find(words, cell) == words.end()) return false;
     any = true;
   }
   return any;
@@ -247,7 +227,7 @@ bool all_of_words(const Cells& cells, std::initializer_list<std::string_view> wo
 /// Returns true for a row of column identifiers: decimal numbers or 32 hexadecimal digits.
 bool are_numbers_of_columns(const Cells& cells) {
   constexpr std::size_t kDigits = 32;
-  return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+  return std::ranges::all_of(cells, [](const std::string& cell) {
     return cell.find_first_not_of("0123456789") == std::string::npos || cell == "ID" ||
            (cell.size() >= kDigits && cell.find_first_not_of("0123456789ABCDEFabcdef-") == std::string::npos);
   });
@@ -278,9 +258,9 @@ std::optional<MotiveHeader> motive_header(const TableText& text, const std::file
   if (header.axes.empty()) throw ReadError(path, 1, "there is no row that begins with 'Frame'; export the take again");
   if (header.types.empty() || header.kinds.empty() || between.empty() ||
       (between.size() == 1 && are_numbers_of_columns(between[0].second)))
-    throw ReadError(path, header.frame_line + 1,
-                    "expected rows of types (Marker, Rigid Body), names and quantities (Position) "
-                    "above this row; one is missing");
+    throw ReadError(
+        path, header.frame_line + 1,
+        "expected rows of types (Marker, Rigid Body), names and quantities (Position) above this row; one is missing");
   header.names = std::move(between[0].second);
   return header;
 }
@@ -295,7 +275,7 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
   MarkerLayout layout;
   layout.table.columns = {{Kind::frame, "Frame"}, {Kind::time, "Time"}};
   std::size_t others = 0;
-  const bool seen = std::find(header->types.begin(), header->types.end(), "Marker") != header->types.end();
+  const bool seen = std::ranges::find(header->types, "Marker") != header->types.end();
   for (std::size_t c = 2; c < width;) {
     const bool marker =
         cell(header->types, c) == (seen ? "Marker" : "Rigid Body Marker") && cell(header->kinds, c) == "Position";
@@ -309,10 +289,10 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
     for (std::size_t a = 0; a < 3; ++a) {
       if (cell(header->axes, c + a) != std::string(1, "XYZ"[a]) || cell(header->names, c + a) != name ||
           cell(header->types, c + a) != cell(header->types, c))
-        throw ReadError(path, header->frame_line + 1,
-                        fmt::format("columns {} to {} are not X, Y and Z of one marker: the rows of "
-                                    "the header do not go together",
-                                    c + 1, c + 3));
+        throw ReadError(
+            path, header->frame_line + 1,
+            fmt::format("columns {} to {} are not X, Y and Z of one marker: the rows of the header do not go together",
+                        c + 1, c + 3));
     }
     add_marker(name, layout);
     c += 3;
@@ -321,12 +301,9 @@ std::optional<MarkerLayout> motive_markers(const TableText& text, const std::fil
   if (others > 0)
     layout.table.repairs.push_back(
         {header->frame_line + 1, fmt::format("{} columns of rigid bodies and other quantities are left out", others)});
-  layout.table.names_line = header->frame_line;
-  layout.table.first_row = header->frame_line + 1;
-  layout.table.end_row = end_of_block(text, layout.table.first_row, ',');
+  layout.table.set_rows_below(text, header->frame_line, ',');
   layout.table.first_frame = 0.0;
-  layout.table.rate_hz = stated_number(text, 1, ',', {"export frame rate", "capture frame rate"}).value_or(0.0);
-  layout.table.rows_said = stated_number(text, 1, ',', {"total exported frames"});
+  layout.table.read_header(text, 1, {{"export frame rate", "capture frame rate"}, {"total exported frames"}, {}});
   layout.unit = stated_text(text, 1, ',', "Length Units");
   for (const auto& [word, symbol] :
        {std::pair("meters", "m"), std::pair("centimeters", "cm"), std::pair("millimeters", "mm")}) {

@@ -1,8 +1,6 @@
 #include "myoid/tables/marker_table.h"
 
-#include <algorithm>
 #include <cassert>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/marker_layouts.h"
 #include "myoid/tables/table_clock.h"
@@ -33,9 +32,7 @@ double to_meters(const std::string& stated, const std::filesystem::path& path, M
 }
 
 void require_clock(const TableLayout& table, const std::filesystem::path& path) {
-  const bool timed = std::any_of(table.columns.begin(), table.columns.end(),
-                                 [](const auto& c) { return c.kind == TableColumn::Kind::time; });
-  if (!timed && !(table.rate_hz > 0.0 && table.rate_hz < 1e6))
+  if (table.count(TableColumn::Kind::time) == 0 && !(table.rate_hz > 0.0 && table.rate_hz < 1e6))
     throw ReadError(path, 0, "the frame rate is not stated; add it to the header");
 }
 
@@ -49,7 +46,6 @@ void require_unique(const std::vector<std::string>& names, std::size_t line, con
 
 /// Makes a gap of a marker that lacks a coordinate, and of 0 0 0 in formats where that means "not seen".
 void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& file) {
-  constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd& positions = file.markers.positions_m;
   Eigen::Index zeros = 0, partial = 0;
   std::size_t partial_line = 0;
@@ -59,7 +55,7 @@ void make_gaps(const TableNumbers& numbers, bool zero_is_missing, MarkerFile& fi
       const bool zero = zero_is_missing && p.isZero(0.0);
       if (zero) ++zeros;
       if (!p.allFinite() && !p.array().isNaN().all() && ++partial == 1) partial_line = numbers.lines[at(row)];
-      if (zero || !p.allFinite()) p.setConstant(kUnseen);
+      if (zero || !p.allFinite()) p.setConstant(kNan);
     }
   }
   if (zeros > 0) file.repairs.push_back({0, fmt::format("{} positions are 0 0 0, which is a gap here", zeros)});
@@ -83,8 +79,8 @@ MarkerFile parse_marker_table(std::string_view text, const std::filesystem::path
   const std::optional<MarkerLayout> layout = marker_layout(table, path);
   if (!layout) {
     throw ReadError(path, 0,
-                    "this is no table of markers that is known (Vicon Trajectories, Qualisys 3D, "
-                    "BTS Point 3D tracks, NDI, OptiTrack); export .c3d or .trc");
+                    "this is no table of markers that is known (Vicon Trajectories, Qualisys 3D, BTS Point 3D tracks, "
+                    "NDI, OptiTrack); export .c3d or .trc");
   }
   require_clock(layout->table, path);
   MarkerFile file;

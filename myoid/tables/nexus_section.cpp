@@ -1,7 +1,6 @@
 #include "myoid/tables/nexus_section.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,12 +39,8 @@ char separator_behind_frame(std::string_view line) {
   return line.starts_with(',') || line.starts_with(';') || line.starts_with('\t') ? line.front() : '\0';
 }
 
-void drop_empty_end(std::vector<std::string>& cells) {
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
-}
-
 /// Notes the titles of sections that no reader takes.
-void state_other_sections(const TableText& text, NexusSection& section) {
+void state_other_sections(const TableText& text, std::vector<Repair>& repairs) {
   std::vector<std::string> others;
   for (std::size_t n = 0; n + 1 < text.lines.size(); ++n) {
     const std::string_view title = lone_word(text.lines[n]);
@@ -54,8 +49,7 @@ void state_other_sections(const TableText& text, NexusSection& section) {
       continue;
     others.emplace_back(title);
   }
-  if (!others.empty())
-    section.repairs.push_back({0, fmt::format("sections that are not read: {}", fmt::join(others, ", "))});
+  if (!others.empty()) repairs.push_back({0, fmt::format("sections that are not read: {}", fmt::join(others, ", "))});
 }
 
 }  // namespace
@@ -66,40 +60,43 @@ std::optional<NexusSection> nexus_section(const TableText& text,
   const auto at = title_line(text, title);
   if (!at) return std::nullopt;
   constexpr std::size_t kHeader = 5;
-  NexusSection section;
   std::size_t n = *at + 1;
   const std::size_t last = std::min(text.lines.size(), *at + 1 + kHeader);
   while (n < last && separator_behind_frame(text.lines[n]) == '\0') ++n;
   if (n >= last)
-    throw ReadError(path, *at + 1,
-                    fmt::format("the section '{}' has no row that begins with 'Frame, Sub Frame' "
-                                "below its title; export it again",
-                                title));
-  section.labels_line = n;
-  section.separator = separator_behind_frame(text.lines[n]);
-  section.labels = cells_of(text.lines[n], section.separator);
-  drop_empty_end(section.labels);
+    throw ReadError(
+        path, *at + 1,
+        fmt::format("the section '{}' has no row that begins with 'Frame, Sub Frame' below its title; export it again",
+                    title));
+  NexusSection section;
+  TableLayout& layout = section.layout;
+  layout.separator = separator_behind_frame(text.lines[n]);
+  layout.names_line = n;
+  section.labels = filled_cells(text.lines[n], layout.separator);
   for (std::size_t k = *at + 1; k < n; ++k) {
-    if (const auto rate = lone_number(text.lines[k])) {
-      section.rate_hz = *rate;
-    } else if (!has_no_cell(text.lines[k], section.separator)) {
-      section.groups = cells_of(text.lines[k], section.separator);
-      drop_empty_end(section.groups);
-    }
+    if (const auto rate = lone_number(text.lines[k]))
+      layout.rate_hz = *rate;
+    else if (!has_no_cell(text.lines[k], layout.separator))
+      section.groups = filled_cells(text.lines[k], layout.separator);
   }
-  section.first_row = n + 1;
+  layout.first_row = n + 1;
   if (n + 1 < text.lines.size()) {
-    auto units = cells_of(text.lines[n + 1], section.separator);
+    const auto units = cells_of(text.lines[n + 1], layout.separator);
     if (units.size() > 1 && !parse_number(units[0])) {
-      section.units = std::move(units);
-      drop_empty_end(section.units);
-      ++section.first_row;
+      section.units = filled_cells(text.lines[n + 1], layout.separator);
+      ++layout.first_row;
     } else {
-      section.repairs.push_back({n + 2, "the row of units is missing"});
+      layout.repairs.push_back({n + 2, "the row of units is missing"});
     }
   }
-  section.end_row = end_of_block(text, section.first_row, section.separator);
-  state_other_sections(text, section);
+  layout.end_row = end_of_block(text, layout.first_row, layout.separator);
+  state_other_sections(text, layout.repairs);
+  layout.columns.resize(std::max(section.labels.size(), section.units.size()));
+  layout.columns[0] = {TableColumn::Kind::frame, "Frame"};
+  if (section.labels.size() > 1) {
+    const std::string second = lower(section.labels[1]);
+    if (second == "sub frame" || second == "subframe") layout.columns[1] = {TableColumn::Kind::sub_frame, "Sub Frame"};
+  }
   return section;
 }
 
@@ -107,23 +104,6 @@ double nexus_frame_rate(const TableText& text) {
   const auto at = title_line(text, "Trajectories");
   if (!at || *at + 1 >= text.lines.size()) return 0.0;
   return lone_number(text.lines[*at + 1]).value_or(0.0);
-}
-
-TableLayout layout_of(const NexusSection& section) {
-  TableLayout layout;
-  layout.separator = section.separator;
-  layout.names_line = section.labels_line;
-  layout.first_row = section.first_row;
-  layout.end_row = section.end_row;
-  layout.rate_hz = section.rate_hz;
-  layout.repairs = section.repairs;
-  layout.columns.resize(std::max(section.labels.size(), section.units.size()));
-  layout.columns[0] = {TableColumn::Kind::frame, "Frame"};
-  if (section.labels.size() > 1) {
-    const std::string second = lower(section.labels[1]);
-    if (second == "sub frame" || second == "subframe") layout.columns[1] = {TableColumn::Kind::sub_frame, "Sub Frame"};
-  }
-  return layout;
 }
 
 }  // namespace myoid::recording

@@ -1,21 +1,20 @@
 #include "myoid/tables/orientation_reader.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
 bool holds_quaternions(const Storage& file) {
-  return std::any_of(file.header.begin(), file.header.end(), [](const auto& entry) {
+  return std::ranges::any_of(file.header, [](const auto& entry) {
     return equal_ignoring_case(entry.first, "DataType") && equal_ignoring_case(entry.second, "Quaternion");
   });
 }
@@ -33,16 +32,16 @@ std::vector<std::string> sensors_of(const std::vector<Channel>& channels) {
 
 Mat3 OrientationSeries::rotation(Eigen::Index frame, std::size_t sensor) const {
   const auto q = quaternions.block<1, 4>(frame, 4 * static_cast<Eigen::Index>(sensor));
-  if (!q.allFinite()) return Mat3::Constant(kMissing);
+  if (!q.allFinite()) return Mat3::Constant(kNan);
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
 OrientationSeries read_orientations(const std::filesystem::path& path) {
   Storage file = read_storage(path);
   if (!holds_quaternions(file) || file.data.channel_count() == 0) {
-    throw ReadError(path, 1,
-                    "expected a storage file of orientations: a header with 'DataType=Quaternion', "
-                    "then a column for each sensor");
+    throw ReadError(
+        path, 1,
+        "expected a storage file of orientations: a header with 'DataType=Quaternion', then a column for each sensor");
   }
   OrientationSeries series{file.data.time_s(), sensors_of(file.data.channels()), file.data.values(),
                            std::move(file.repairs)};
@@ -50,13 +49,13 @@ OrientationSeries read_orientations(const std::filesystem::path& path) {
     for (Eigen::Index c = 0; c < series.quaternions.cols(); c += 4) {
       auto q = series.quaternions.block<1, 4>(i, c);
       if (!q.allFinite()) {
-        q.setConstant(kMissing);
+        q.setConstant(kNan);
       } else if (q.norm() > 0.0) {
         q.normalize();
       } else {
-        throw ReadError(path, 0,
-                        fmt::format("sensor '{}' at {} s: a quaternion of length 0",
-                                    series.names[static_cast<std::size_t>(c / 4)], series.time_s[i]));
+        throw ReadError(
+            path, 0,
+            fmt::format("sensor '{}' at {} s: a quaternion of length 0", series.names[at(c / 4)], series.time_s[i]));
       }
     }
   }

@@ -9,7 +9,7 @@ namespace {
 
 bool is_translation(const std::string& coordinate) {
   constexpr std::array<std::string_view, 3> kEnds{"_tx", "_ty", "_tz"};
-  return std::any_of(kEnds.begin(), kEnds.end(), [&](std::string_view end) { return coordinate.ends_with(end); });
+  return std::ranges::any_of(kEnds, [&](std::string_view end) { return coordinate.ends_with(end); });
 }
 
 }  // namespace

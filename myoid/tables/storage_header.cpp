@@ -25,7 +25,7 @@ const std::string* value_of(const std::map<std::string, std::string>& header, st
 }
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return equal_ignoring_case(w, word); });
+  return std::ranges::any_of(words, [&](std::string_view w) { return equal_ignoring_case(w, word); });
 }
 
 /// Splits "key=value", "key = value", and for the keys of the old kind "key value"; empty if the line is free text.
@@ -76,15 +76,14 @@ std::size_t elements_of(const std::map<std::string, std::string>& keys) {
   const std::string other = wrong_kind(path, {FileFormat::storage}, "a time series (.mot, .sto)");
   if (!other.empty()) throw ReadError(path, 0, other);
   throw ReadError(path, 0,
-                  "no line 'endheader': this is not a .mot or .sto file, or it is cut off; for a "
-                  "plain table use .csv");
+                  "no line 'endheader': this is not a .mot or .sto file, or it is cut off; for a plain table use .csv");
 }
 
 }  // namespace
 
 std::optional<double> StorageHeader::count(std::initializer_list<const char*> names) const {
   for (const char* name : names) {
-    if (const std::string* text = value_of(keys, name)) {
+    if (const std::string* text = value_of(file.header, name)) {
       if (const auto value = parse_number(*text)) return value;
     }
   }
@@ -102,21 +101,21 @@ StorageHeader read_storage_header(const std::vector<std::string_view>& lines, co
       break;
     }
     if (auto channel = channel_unit(content); channel && line > 0) {
-      header.units.insert(std::move(*channel));
+      header.file.units.insert(std::move(*channel));
     } else if (const auto pair = key_and_value(content)) {
       const auto& [key, value] = *pair;
-      header.keys[key] = value;
-      if (equal_ignoring_case(key, "inDegrees")) header.in_degrees = yes_or_no(value, path, line + 1);
+      header.file.header[key] = value;
+      if (equal_ignoring_case(key, "inDegrees")) header.file.in_degrees = yes_or_no(value, path, line + 1);
     } else if (line == 0) {
-      header.title = std::string(content);
+      header.file.title = std::string(content);
     }
   }
-  if (value_of(header.keys, "inDegrees") == nullptr && extension_of(path) == ".mot" &&
+  if (value_of(header.file.header, "inDegrees") == nullptr && extension_of(path) == ".mot" &&
       header.count({"version"}).value_or(0.0) < 1.0) {
-    header.in_degrees = true;
-    header.repairs.push_back({0, "no version in the header: taken as SIMM's kind, angles in degrees"});
+    header.file.in_degrees = true;
+    header.file.repairs.push_back({0, "no version in the header: taken as SIMM's kind, angles in degrees"});
   }
-  header.elements = elements_of(header.keys);
+  header.elements = elements_of(header.file.header);
   return header;
 }
 

@@ -3,25 +3,19 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
-#include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "myoid/files/text_file.h"
+#include "myoid/tables/storage_reader.h"
 
 namespace myoid::recording {
 
 /// The lines of a .mot or .sto file up to `endheader`.
 struct StorageHeader {
-  std::string title;                         ///< First line, if it is free text.
-  std::map<std::string, std::string> keys;   ///< key=value pairs.
-  std::map<std::string, std::string> units;  ///< From lines "channel NAME [unit]".
-  bool in_degrees = false;                   ///< `inDegrees=yes`, or a .mot of the old SIMM kind.
-  std::size_t elements = 1;                  ///< Numbers per cell, by DataType: 3 for Vec3.
-  std::size_t end = 0;                       ///< Index of the line `endheader`.
-  std::vector<Repair> repairs;
+  Storage file;              ///< Without its data.
+  std::size_t elements = 1;  ///< Numbers per cell, by DataType: 3 for Vec3.
+  std::size_t end = 0;       ///< Index of the line `endheader`.
 
   /// Returns the number of the first of these keys that the header has, ignoring case.
   [[nodiscard]] std::optional<double> count(std::initializer_list<const char*> names) const;

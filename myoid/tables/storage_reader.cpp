@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/tables/storage_header.h"
 #include "myoid/tables/table_layout.h"
 #include "myoid/tables/text_table.h"
@@ -71,7 +71,7 @@ bool is_comma_row(std::string_view line, std::size_t width) {
   if (line.find('\t') != std::string_view::npos) return false;
   const auto cells = split(line, ',');
   return width > 1 && cells.size() == width &&
-         std::all_of(cells.begin(), cells.end(), [](std::string_view cell) { return parse_number(cell).has_value(); });
+         std::ranges::all_of(cells, [](std::string_view cell) { return parse_number(cell).has_value(); });
 }
 
 std::size_t next_filled(const std::vector<std::string_view>& lines, std::size_t line) {
@@ -183,7 +183,7 @@ class StorageRows {
   void read_row(std::string_view content, std::size_t line) {
     if (columns_.comma_cells || (elements_ == 1 && looks_like_comma_decimals(content))) {
       mended_.assign(content);
-      std::replace(mended_.begin(), mended_.end(), ',', columns_.comma_cells ? '\t' : '.');
+      std::ranges::replace(mended_, ',', columns_.comma_cells ? '\t' : '.');
       content = mended_;
       if (!columns_.comma_cells) mark(comma_line_, line);
     }
@@ -197,7 +197,7 @@ class StorageRows {
       if (!std::isfinite(value)) {
         if (c == 0) throw ReadError(path_, line, "the time is not a number");
         mark(nan_line_, line);
-        value = std::numeric_limits<double>::quiet_NaN();
+        value = kNan;
       }
       row_[c] = value;
     }
@@ -220,14 +220,11 @@ class StorageRows {
   void judge_surplus(bool doubled, std::size_t line) {
     if (columns_.comma_cells)
       throw ReadError(path_, line,
-                      fmt::format("more than {} numbers; decimal commas in a file separated by "
-                                  "commas?",
-                                  width_));
+                      fmt::format("more than {} numbers; decimal commas in a file separated by commas?", width_));
     if (doubled)
-      throw ReadError(path_, line,
-                      fmt::format("a cell is empty and there are more than {} numbers: which "
-                                  "belongs to which column?",
-                                  width_));
+      throw ReadError(
+          path_, line,
+          fmt::format("a cell is empty and there are more than {} numbers: which belongs to which column?", width_));
     mark(extra_line_, line);
   }
 
@@ -285,15 +282,9 @@ Storage parse_storage(std::string_view text, const std::filesystem::path& path) 
   const Columns columns = read_columns(table.lines, header, path);
   StorageRows rows(columns, header, path);
   rows.read(table, text.size());
-  Storage storage;
-  using Repairs = std::vector<Repair>;
-  for (const Repairs* repairs :
-       std::initializer_list<const Repairs*>{&header.repairs, &columns.repairs, &rows.repairs()})
+  Storage storage = std::move(header.file);
+  for (const auto* repairs : {&columns.repairs, &rows.repairs()})
     storage.repairs.insert(storage.repairs.end(), repairs->begin(), repairs->end());
-  storage.title = std::move(header.title);
-  storage.header = std::move(header.keys);
-  storage.units = std::move(header.units);
-  storage.in_degrees = header.in_degrees;
   storage.data = std::move(rows).series();
   return storage;
 }

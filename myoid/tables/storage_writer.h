@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "myoid/core/time_series.h"
+#include "myoid/tables/text_rows.h"
 
 namespace myoid::recording {
 
@@ -22,11 +23,17 @@ struct StorageFormat {
 
 /// Writes this text to a file, completely or not at all.
 void write_storage(const std::filesystem::path& path, const TimeSeries& series, const StorageFormat& format);
+/// Writes such a file of rows that are asked for block by block. Throws InvalidInput, naming channel and time, for the
+/// first row with a value that is not finite.
+void write_storage(const std::filesystem::path& path, const RowSource& source, const StorageFormat& format);
 
 /// Writes a plain table: lines "# remark", a header line "time_s,name [unit],..." (no brackets
 /// without a unit) and the numbers. Gaps become empty cells.
 void write_csv(const std::filesystem::path& path,
                const TimeSeries& series,
+               const std::vector<std::string>& remarks = {});
+void write_csv(const std::filesystem::path& path,
+               const RowSource& source,
                const std::vector<std::string>& remarks = {});
 
 }  // namespace myoid::recording

@@ -21,7 +21,7 @@ std::optional<Eigen::Index> clock_column(const TableLayout& layout, Kind kind) {
   Eigen::Index k = 0;
   for (const TableColumn& column : layout.columns) {
     if (column.kind == kind) return k;
-    if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
+    if (is_clock(column.kind)) ++k;
   }
   return std::nullopt;
 }
@@ -55,8 +55,8 @@ class RowClock {
     if (time_) return of_time_column();
     if (!(layout_.rate_hz > 0.0))
       throw ReadError(path_, layout_.names_line + 1,
-                      "neither a time column nor a sampling rate is in the file; add a column "
-                      "named 'time' in seconds, or a line 'Sampling rate: 2000 Hz' above the names");
+                      "neither a time column nor a sampling rate is in the file; add a column named 'time' in seconds, "
+                      "or a line 'Sampling rate: 2000 Hz' above the names");
     return frame_ ? of_frames() : of_rows();
   }
 
@@ -91,7 +91,7 @@ class RowClock {
       if (numbers_.clock(i, *frame_) != numbers_.clock(i - 1, *frame_)) ++ends[sub[i - 1]];
     }
     const auto usual =
-        std::max_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.second <= b.second; });
+        std::ranges::max_element(ends, [](const auto& a, const auto& b) { return a.second <= b.second; });
     return 1.0 + (usual == ends.end() ? sub.maxCoeff() : usual->first);
   }
 
@@ -162,15 +162,14 @@ class RowClock {
     const double ratio = layout_.rate_hz / frame_rate;
     if (sub_frame_ && (n >= ratio + 1.0 || (n <= ratio - 1.0 && shows_a_whole_frame())))
       throw ReadError(path_, layout_.names_line + 1,
-                      fmt::format("the frames have {} sub-frames, but the rates are {} and {} Hz; "
-                                  "correct the rate",
-                                  n, layout_.rate_hz, frame_rate));
+                      fmt::format("the frames have {} sub-frames, but the rates are {} and {} Hz; correct the rate", n,
+                                  layout_.rate_hz, frame_rate));
     if (sub_frame_ && !(layout_.frame_rate_hz > 0.0) && !shows_a_whole_frame() &&
         numbers_.clock(0, *frame_) != layout_.first_frame)
-      throw ReadError(path_, line(0),
-                      fmt::format("the time of {} is not known: no frame ends in the table and no "
-                                  "rate of the frames is stated",
-                                  name_of(0)));
+      throw ReadError(
+          path_, line(0),
+          fmt::format("the time of {} is not known: no frame ends in the table and no rate of the frames is stated",
+                      name_of(0)));
     Eigen::VectorXd time(rows());
     for (Eigen::Index i = 0; i < rows(); ++i) {
       const double frame = numbers_.clock(i, *frame_) - layout_.first_frame;
@@ -192,10 +191,6 @@ class RowClock {
   std::vector<Repair>& repairs_;
   std::optional<Eigen::Index> time_, frame_, sub_frame_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Returns the last decimal with which the times are written: the power of ten of which all are multiples.
 double last_decimal(const Eigen::VectorXd& time_s) {
@@ -236,9 +231,9 @@ void state_uneven_step(const Eigen::VectorXd& time_s,
   Eigen::Index first = 0;
   while (!(off[first] > most)) ++first;
   repairs.push_back(
-      {lines[at(first + 1)], fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: rows are lost or a time "
-                                         "is wrong ({} such {})",
-                                         name, step[first], usual, odd, odd == 1 ? "step" : "steps")});
+      {lines[at(first + 1)],
+       fmt::format("'{}' steps by {:.6g} s, {:.6g} s elsewhere: rows are lost or a time is wrong ({} such {})", name,
+                   step[first], usual, odd, odd == 1 ? "step" : "steps")});
 }
 
 Eigen::VectorXd row_times(const TableLayout& layout,

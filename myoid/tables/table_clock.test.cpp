@@ -108,8 +108,8 @@ TEST(NexusSection, ATableOfDevicesSharesTheFrameNumbersOfItsTrajectories) {
   EXPECT_EQ(nexus_frame_rate(table), 1000.0);
   const auto section = nexus_section(table, "Devices", "f.csv");
   ASSERT_TRUE(section);
-  EXPECT_EQ(section->end_row - section->first_row, 2U);
-  EXPECT_THAT(test::repair_lines(section->repairs), HasSubstr("not read: Joints"));
+  EXPECT_EQ(section->layout.end_row - section->layout.first_row, 2U);
+  EXPECT_THAT(test::repair_lines(section->layout.repairs), HasSubstr("not read: Joints"));
   EXPECT_FALSE(nexus_section(table, "Model Outputs", "f.csv"));
 }
 

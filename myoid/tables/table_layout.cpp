@@ -32,15 +32,36 @@ bool is_row_of_numbers(std::string_view line, char separator) {
 
 }  // namespace
 
+std::size_t TableLayout::count(TableColumn::Kind kind) const {
+  return static_cast<std::size_t>(std::ranges::count(columns, kind, &TableColumn::kind));
+}
+
+Clocks TableLayout::clocks() const {
+  const std::size_t times = count(TableColumn::Kind::time);
+  const bool rated = std::ranges::any_of(columns, [](const TableColumn& c) { return c.rate_hz > 0.0; });
+  return times > 1 ? Clocks::of_time_columns : times == 0 && rated ? Clocks::of_rates : Clocks::of_rows;
+}
+
+void TableLayout::read_header(const TableText& text, std::size_t end, const HeaderWords& words) {
+  rate_hz = stated_number(text, end, separator, words.rate).value_or(0.0);
+  rows_said = stated_number(text, end, separator, words.rows);
+  channels_said = stated_number(text, end, separator, words.channels);
+}
+
+void TableLayout::set_rows_below(const TableText& text, std::size_t names, char between) {
+  separator = between;
+  names_line = names;
+  first_row = names + 1;
+  end_row = end_of_block(text, first_row, separator);
+}
+
 TableRows rows_of(const TableLayout& layout) {
-  TableRows rows;
-  rows.separator = layout.separator;
-  rows.first = layout.first_row;
-  rows.end = layout.end_row;
-  rows.short_row = layout.short_row;
-  rows.rows_said = layout.rows_said;
-  rows.state_gaps = layout.short_row == ShortRow::refused;
-  bool clocked = false;
+  TableRows rows{.separator = layout.separator,
+                 .first = layout.first_row,
+                 .end = layout.end_row,
+                 .short_row = layout.short_row,
+                 .state_gaps = layout.short_row == ShortRow::refused,
+                 .rows_said = layout.rows_said};
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const TableColumn& column = layout.columns[c];
     rows.names.push_back(column.name);
@@ -53,7 +74,6 @@ TableRows rows_of(const TableLayout& layout) {
       case TableColumn::Kind::frame:
       case TableColumn::Kind::sub_frame:
         rows.clock.push_back(c);
-        clocked = true;
         break;
       case TableColumn::Kind::remark:
         rows.texts.push_back(c);
@@ -62,7 +82,7 @@ TableRows rows_of(const TableLayout& layout) {
         break;
     }
   }
-  rows.empty_row_is_gap = !clocked;
+  rows.empty_row_is_gap = rows.clock.empty();
   return rows;
 }
 
@@ -87,8 +107,8 @@ std::optional<double> stated_number(const TableText& text,
                                     char separator,
                                     const std::vector<std::string_view>& words) {
   const auto is_word = [&](std::string_view cell) {
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return equal_ignoring_case(without_colon(cell), word); });
+    return std::ranges::any_of(words,
+                               [&](std::string_view word) { return equal_ignoring_case(without_colon(cell), word); });
   };
   end = std::min(end, text.lines.size());
   for (std::size_t n = 0; n < end; ++n) {
@@ -144,11 +164,6 @@ std::vector<std::string> unique_names(const std::vector<std::string>& names,
     result.push_back(std::move(name));
   }
   return result;
-}
-
-void compare_count(std::optional<double> said, std::size_t found, std::string_view kind, std::vector<Repair>& repairs) {
-  if (said && *said != static_cast<double>(found))
-    repairs.push_back({0, fmt::format("the header says {} {}, there are {}", *said, kind, found)});
 }
 
 std::string lower(std::string_view text) {

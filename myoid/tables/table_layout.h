@@ -28,6 +28,19 @@ struct TableColumn {
   double rate_hz = 0.0;  ///< The rate of this channel alone if the table states one, else 0.
 };
 
+/// Returns true for a column of the clock.
+[[nodiscard]] constexpr bool is_clock(TableColumn::Kind kind) {
+  return kind == TableColumn::Kind::time || kind == TableColumn::Kind::frame || kind == TableColumn::Kind::sub_frame;
+}
+
+/// The clocks of the channels: one of all rows, or one for each time column or stated rate.
+enum class Clocks { of_rows, of_time_columns, of_rates };
+
+/// The words of a header, in small letters, for the rate and for the numbers of rows and of channels.
+struct HeaderWords {
+  std::vector<std::string_view> rate, rows, channels;
+};
+
 /// The places of a table's rows, the kinds of its columns, and the statements of its header, as its
 /// maker's rules define them.
 struct TableLayout {
@@ -44,6 +57,13 @@ struct TableLayout {
   std::optional<double> length_s;       ///< Length that the header states.
   bool plain = false;                   ///< A header row and numbers in no maker's format: names must be unique.
   std::vector<Repair> repairs;
+
+  [[nodiscard]] std::size_t count(TableColumn::Kind kind) const;
+  [[nodiscard]] Clocks clocks() const;
+  /// Reads rate and counts from the lines before `end`, each by the words for it (`stated_number`).
+  void read_header(const TableText& text, std::size_t end, const HeaderWords& words);
+  /// Sets the line of names, the separator and the block of rows below that line.
+  void set_rows_below(const TableText& text, std::size_t names, char between);
 };
 
 /// Selects the cells that `read_rows` reads.
@@ -69,9 +89,6 @@ struct TableLayout {
                                                     std::string_view kind,
                                                     std::size_t line,
                                                     std::vector<Repair>& repairs);
-
-/// Notes where the header's number of channels or markers differs from the number found.
-void compare_count(std::optional<double> said, std::size_t found, std::string_view kind, std::vector<Repair>& repairs);
 
 /// Turns capital ASCII letters into small ones.
 [[nodiscard]] std::string lower(std::string_view text);

@@ -34,7 +34,6 @@ struct TableClock {
   std::vector<std::size_t> channels;
 };
 
-/// Channels and clocks of one table.
 class TableSeries {
  public:
   TableSeries(const TableText& text, const TableLayout& layout, const std::filesystem::path& path)
@@ -45,16 +44,16 @@ class TableSeries {
 
   CsvSeries read() {
     find_channels();
-    const auto times = std::count_if(layout_.columns.begin(), layout_.columns.end(),
-                                     [](const TableColumn& c) { return c.kind == Kind::time; });
-    const bool rated = std::any_of(layout_.columns.begin(), layout_.columns.end(),
-                                   [](const TableColumn& c) { return c.rate_hz > 0.0; });
-    if (times > 1) {
-      clocks_of_time_columns();
-    } else if (times == 0 && rated) {
-      clocks_of_rates();
-    } else {
-      clock_of_rows();
+    switch (layout_.clocks()) {
+      case Clocks::of_rows:
+        clock_of_rows();
+        break;
+      case Clocks::of_time_columns:
+        clocks_of_time_columns();
+        break;
+      case Clocks::of_rates:
+        clocks_of_rates();
+        break;
     }
     drop_empty_channels();
     for (const std::size_t clock : clocks_in_order()) add_clock(clocks_[clock]);
@@ -92,8 +91,8 @@ class TableSeries {
     for (std::size_t c = 0; c < names.size(); ++c) {
       if (names[c].empty())
         throw ReadError(path_, layout_.names_line + 1, fmt::format("channel {} of the table has no name", c + 1));
-      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c), names[c]) !=
-          names.begin() + static_cast<std::ptrdiff_t>(c))
+      const auto here = names.begin() + static_cast<std::ptrdiff_t>(c);
+      if (std::find(names.begin(), here, names[c]) != here)
         throw ReadError(path_, layout_.names_line + 1, fmt::format("two columns are named '{}'; rename one", names[c]));
     }
   }
@@ -156,7 +155,7 @@ class TableSeries {
         next_clock(column);
         break;
       }
-      if (column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
+      if (is_clock(column.kind)) ++k;
     }
     k = 0;
     for (const TableColumn& column : layout_.columns) {
@@ -164,7 +163,7 @@ class TableSeries {
         next_clock(column);
         state_uneven_step(times_of(column, k), numbers_.lines, column.name, series_.repairs);
       }
-      if (column.kind == Kind::time || column.kind == Kind::frame || column.kind == Kind::sub_frame) ++k;
+      if (is_clock(column.kind)) ++k;
       if (column.kind != Kind::channel) continue;
       TableChannel& c = channels_[channel];
       if (c.samples > end)
@@ -242,7 +241,7 @@ class TableSeries {
       if (!clocks_[k].channels.empty() || clocks_.size() == 1) order.push_back(k);
     }
     const auto best =
-        std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
+        std::ranges::max_element(order, [&](std::size_t a, std::size_t b) { return worth[a] < worth[b]; });
     if (best != order.end()) std::rotate(order.begin(), best, best + 1);
     return order;
   }

@@ -8,6 +8,7 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
+#include "myoid/core/index.h"
 #include "myoid/core/parallel_in_order.h"
 
 namespace myoid::recording {
@@ -25,8 +26,7 @@ struct Block {
 
 RowSource rows_of_columns(const AnalogChannels& channels, std::vector<Eigen::Index> columns) {
   RowSource source{channels.sample_count(), {}, {}};
-  for (const Eigen::Index column : columns)
-    source.channels.push_back(channels.channels()[static_cast<std::size_t>(column)]);
+  for (const Eigen::Index column : columns) source.channels.push_back(channels.channels()[at(column)]);
   source.read = [&channels, columns = std::move(columns)](Eigen::Index first, Eigen::Index count,
                                                           Eigen::VectorXd& time_s, Eigen::MatrixXd& values) {
     time_s = channels.time_s(first, count);

@@ -4,19 +4,17 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/core/parallel.h"
 #include "myoid/files/file_words.h"
 
 namespace myoid::recording {
 namespace {
-
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Copies a row. A matrix without columns is skipped: a row of it would refer to memory behind its data.
 void copy_row(Eigen::Index from, Eigen::Index to, Eigen::MatrixXd& matrix) {
@@ -49,10 +47,9 @@ std::string unquoted(std::string_view cell) {
 
 enum class CellKind : std::uint8_t { number, comma_number, gap, wrong };
 
-/// Reads a cell of a column of numbers.
 CellKind read_cell(std::string_view cell, char separator, double& value) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
-  value = kNoNumber;
+  value = kNan;
   if (cell.empty() || cell == "-" || equal_ignoring_case(cell, "n/a") || equal_ignoring_case(cell, "nan"))
     return CellKind::gap;
   if (const auto number = parse_number(cell)) {
@@ -65,21 +62,18 @@ CellKind read_cell(std::string_view cell, char separator, double& value) {
   return CellKind::comma_number;
 }
 
-/// Summary of one line.
 struct RowScan {
   std::uint32_t cells = 0;   ///< Number of cells.
   std::uint32_t filled = 0;  ///< Cells up to the last filled one.
   bool blank = true;         ///< All cells are empty.
-  bool comma = false;
-  bool gap = false;
-  bool wrong = false;
-  bool remark = false;
+  bool comma = false, gap = false, wrong = false, remark = false;
 };
 
-/// Use of a column.
 struct ColumnUse {
   enum class Kind : std::uint8_t { none, clock, value, remark } kind = Kind::none;
   Eigen::Index target = 0;
+
+  [[nodiscard]] bool is_number() const { return kind == Kind::clock || kind == Kind::value; }
 };
 
 class RowReader {
@@ -147,13 +141,12 @@ class RowReader {
     const char* const end = at + line.size();
     for (std::size_t c = 0;; ++c) {
       const ColumnUse use = c < uses_.size() ? uses_[c] : ColumnUse{};
-      double value = kNoNumber;
-      const bool number = use.kind == ColumnUse::Kind::clock || use.kind == ColumnUse::Kind::value;
+      double value = kNan;
       bool empty = false;
-      if (!number || !plain_number(at, end, value)) {
+      if (!use.is_number() || !plain_number(at, end, value)) {
         const std::string_view cell = raw_cell(at, end, rows_.separator);
         empty = cell.empty() || cell == "\"\"";
-        if (number) {
+        if (use.is_number()) {
           const CellKind kind = read_cell(cell, rows_.separator, value);
           row.comma = row.comma || kind == CellKind::comma_number;
           row.wrong = row.wrong || kind == CellKind::wrong;
@@ -169,7 +162,7 @@ class RowReader {
       ++at;
     }
     row.blank = row.filled == 0;
-    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNoNumber);
+    for (std::size_t c = row.cells; c < uses_.size(); ++c) put(uses_[c], index, kNan);
   }
 
   /// Decides row by row which rows are kept, and moves these together.
@@ -181,8 +174,7 @@ class RowReader {
       if (row.blank && !(rows_.empty_row_is_gap && row.cells > 1)) {
         if (row.cells > 1) {
           throw ReadError(path_, rows_.first + i + 1,
-                          "the row is empty and other rows follow; expected a number in each cell "
-                          "of the clock");
+                          "the row is empty and other rows follow; expected a number in each cell of the clock");
         }
         if (kept > 0 && blank_line_++ == 0) first_blank_ = rows_.first + i + 1;
         continue;
@@ -241,8 +233,8 @@ class RowReader {
   /// Returns true if the file writes separators of empty cells at the end of a row: then no row is
   /// cut off by missing cells.
   [[nodiscard]] bool pads() const {
-    return std::any_of(scans_.begin(), scans_.end(),
-                       [&](const RowScan& row) { return row.cells >= width() && row.filled < width() && !row.blank; });
+    return std::ranges::any_of(
+        scans_, [&](const RowScan& row) { return row.cells >= width() && row.filled < width() && !row.blank; });
   }
 
   /// A channel that has ended does not begin again: throws if a later row has more cells than this one.
@@ -250,10 +242,10 @@ class RowReader {
     if (i < checked_end_) return;
     for (std::size_t k = scans_.size(); k-- > i + 1;) {
       if (scans_[k].cells > scans_[i].cells)
-        throw ReadError(path_, rows_.first + i + 1,
-                        fmt::format("{} cells, expected {} as in the header: a cell is lost, since "
-                                    "line {} below has {}",
-                                    scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
+        throw ReadError(
+            path_, rows_.first + i + 1,
+            fmt::format("{} cells, expected {} as in the header: a cell is lost, since line {} below has {}",
+                        scans_[i].cells, width(), rows_.first + k + 1, scans_[k].cells));
     }
     // Rows below need a check of their own only where they are narrower still.
     checked_end_ = i + 1;
@@ -264,8 +256,7 @@ class RowReader {
     const auto cells = cells_of(line_of(i), rows_.separator);
     for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
       double ignored = 0.0;
-      if ((uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value) &&
-          read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
+      if (uses_[c].is_number() && read_cell(cells[c], rows_.separator, ignored) == CellKind::wrong)
         throw ReadError(
             path_, rows_.first + i + 1,
             fmt::format("column {} ('{}'): expected a number, found '{}'", c + 1, rows_.names[c], cells[c]));
@@ -286,12 +277,12 @@ class RowReader {
       if (line_of(i).find('.') == std::string_view::npos) continue;
       const auto cells = cells_of(line_of(i), rows_.separator);
       for (std::size_t c = 0; c < std::min(cells.size(), uses_.size()); ++c) {
-        const bool number = uses_[c].kind == ColumnUse::Kind::clock || uses_[c].kind == ColumnUse::Kind::value;
-        if (number && cells[c].find('.') != std::string::npos && parse_number(cells[c]))
-          throw ReadError(path_, rows_.first + i + 1,
-                          fmt::format("'{}' has a decimal point, while line {} has decimal commas; "
-                                      "expected one of them in the whole table",
-                                      cells[c], comma_line_));
+        if (uses_[c].is_number() && cells[c].find('.') != std::string::npos && parse_number(cells[c]))
+          throw ReadError(
+              path_, rows_.first + i + 1,
+              fmt::format(
+                  "'{}' has a decimal point, while line {} has decimal commas; expected one of them in the whole table",
+                  cells[c], comma_line_));
       }
     }
   }
@@ -309,9 +300,7 @@ class RowReader {
                             ? "a row ends early; the markers behind its end are taken as missing"
                             : "a row ends early; the channels behind its end have ended");
     if (gap_line_ > 0 && rows_.state_gaps) note(gap_line_, "a value is missing or no number; kept as a gap");
-    const auto count = static_cast<double>(numbers_.lines.size());
-    if (rows_.rows_said && *rows_.rows_said != count)
-      note(0, fmt::format("the header says {} rows, there are {}", *rows_.rows_said, count));
+    compare_count(rows_.rows_said, numbers_.lines.size(), "rows", numbers_.repairs);
   }
 
   const TableText& text_;
@@ -320,10 +309,9 @@ class RowReader {
   std::vector<ColumnUse> uses_;
   std::vector<RowScan> scans_;
   TableNumbers numbers_;
-  std::size_t end_ = 0;
+  std::size_t end_ = 0, checked_end_ = 0;
   std::size_t comma_line_ = 0, gap_line_ = 0, short_line_ = 0, first_blank_ = 0;
   std::size_t blank_line_ = 0;
-  std::size_t checked_end_ = 0;
 };
 
 }  // namespace
@@ -338,9 +326,15 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
   }
 }
 
+std::vector<std::string> filled_cells(std::string_view line, char separator) {
+  std::vector<std::string> cells = cells_of(line, separator);
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return cells;
+}
+
 bool has_no_cell(std::string_view line, char separator) {
-  return std::all_of(line.begin(), line.end(),
-                     [&](char c) { return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"'; });
+  return std::ranges::all_of(line,
+                             [&](char c) { return c == separator || c == ' ' || c == '\t' || c == '\r' || c == '"'; });
 }
 
 LastRow last_row_without_end(const TableText& text, bool counted, bool only_row) {
@@ -348,6 +342,15 @@ LastRow last_row_without_end(const TableText& text, bool counted, bool only_row)
   const bool complete = counted && line > 1 && !looks_cut(text.lines[line - 1], text.lines[line - 2]);
   const bool kept = only_row || complete;
   return {kept, {line, std::string(kept ? kLastRowKept : kLastRowLeftOut)}};
+}
+
+void compare_count(std::optional<double> said,
+                   std::size_t found,
+                   std::string_view kind,
+                   std::vector<Repair>& repairs,
+                   std::size_t line) {
+  if (said && *said != static_cast<double>(found))
+    repairs.push_back({line, fmt::format("the header says {} {}, there are {}", *said, kind, found)});
 }
 
 TableNumbers read_rows(const TableText& text, const TableRows& rows, const std::filesystem::path& path) {

@@ -26,6 +26,9 @@ struct TableText {
 /// one quote, bytes that are no UTF-8 read as Latin-1. Separators inside quotes do not count.
 [[nodiscard]] std::vector<std::string> cells_of(std::string_view line, char separator);
 
+/// Returns the cells of a line without the empty ones at its end.
+[[nodiscard]] std::vector<std::string> filled_cells(std::string_view line, char separator);
+
 /// Returns true for a line that holds only separators and blanks.
 [[nodiscard]] bool has_no_cell(std::string_view line, char separator);
 
@@ -39,6 +42,13 @@ struct LastRow {
 /// header counts it (`counted`) and its last number has as many decimals as the row above. Otherwise it is left out.
 [[nodiscard]] LastRow last_row_without_end(const TableText& text, bool counted, bool only_row);
 
+/// Notes where the header's number of columns, channels, markers or rows differs from the number found.
+void compare_count(std::optional<double> said,
+                   std::size_t found,
+                   std::string_view kind,
+                   std::vector<Repair>& repairs,
+                   std::size_t line = 0);
+
 /// Meaning of a row with fewer cells than the header.
 enum class ShortRow {
   refused,  ///< An error.
@@ -49,16 +59,16 @@ enum class ShortRow {
 /// Places of the rows of numbers in a table, and the columns to read.
 struct TableRows {
   char separator = ',';
-  std::size_t first = 0, end = 0;   ///< Line numbers, counted from 0.
-  std::vector<std::string> names;   ///< Names of all columns: a row has as many cells.
-  std::vector<std::size_t> clock;   ///< Clock columns.
-  std::vector<std::size_t> values;  ///< Sample columns.
-  std::vector<std::size_t> texts;   ///< Remark columns; any row may have a remark.
-  std::size_t first_triple = 0;     ///< Column of the first marker, for ShortRow::gaps.
+  std::size_t first = 0, end = 0;     ///< Line numbers, counted from 0.
+  std::vector<std::string> names{};   ///< Names of all columns: a row has as many cells.
+  std::vector<std::size_t> clock{};   ///< Clock columns.
+  std::vector<std::size_t> values{};  ///< Sample columns.
+  std::vector<std::size_t> texts{};   ///< Remark columns; any row may have a remark.
+  std::size_t first_triple = 0;       ///< Column of the first marker, for ShortRow::gaps.
   ShortRow short_row = ShortRow::refused;
-  bool empty_row_is_gap = false;    ///< A row of separators is a frame without any marker.
-  bool state_gaps = false;          ///< Notes the place of the first gap.
-  std::optional<double> rows_said;  ///< Number of rows that the header states.
+  bool empty_row_is_gap = false;      ///< A row of separators is a frame without any marker.
+  bool state_gaps = false;            ///< Notes the place of the first gap.
+  std::optional<double> rows_said{};  ///< Number of rows that the header states.
 };
 
 struct TableRemark {

@@ -33,7 +33,7 @@ std::string trc_message(const std::string& text) {
 }
 
 TEST(Trc, RoundTripsWithItsGaps) {
-  const TrcFile back = parse_trc(format_trc(two_markers(), "f.trc"), "f.trc");
+  const MarkerFile back = parse_trc(format_trc(two_markers(), "f.trc"), "f.trc");
   EXPECT_TRUE(back.repairs.empty());
   EXPECT_EQ(back.markers.names, two_markers().names);
   EXPECT_TRUE(back.markers.missing(1, 0));
@@ -51,7 +51,7 @@ TEST(Trc, BecomesMetersWhateverTheUnit) {
 TEST(Trc, AMarkerAtExactlyZeroIsMissingAndThisIsSaid) {
   std::string text = format_trc(two_markers(), "f.trc");
   text.replace(text.find("100\t200\t300"), 11, "0\t0\t0");
-  const TrcFile file = parse_trc(text, "f.trc");
+  const MarkerFile file = parse_trc(text, "f.trc");
   EXPECT_TRUE(file.markers.missing(0, 0));
   EXPECT_EQ(file.repairs.at(0).line, 7U);
 }
@@ -63,7 +63,7 @@ TEST(Trc, MendsCarriageReturnsAMissingBlankLineAndWrongCounts) {
       "trc\r\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n100\t100\t7\t3\tmm\r\n"
       "Frame#\tTimes\ta\t\tb\r\n\t\tX0\tY0\tZ0\r\n1\t0\t1\t2\t3\t4\t5\t6\t\t\t\r\n2\t0."
       "01\t1\t2\tNaN\t4\t5\t6\r\n";
-  const TrcFile file = parse_trc(text, "f.trc");
+  const MarkerFile file = parse_trc(text, "f.trc");
   EXPECT_EQ(file.markers.frame_count(), 2);
   EXPECT_EQ(file.markers.names.size(), 2U);
   EXPECT_TRUE(file.markers.missing(1, 0));
@@ -85,7 +85,8 @@ TEST(Trc, MarkersWithoutNamesAreNamedByTheirPlace) {
            Case{"3", "Frame#\tTime\ta\t\t\tb\t\t\t\t\t\n", {"a", "b", "marker_3"}},
        }) {
     for (const std::string& line : {axes, std::string()}) {
-      const TrcFile file = parse_trc(head + "100\t100\t2\t" + one.count + "\tmm\n" + one.labels + line + rows, "f.trc");
+      const MarkerFile file =
+          parse_trc(head + "100\t100\t2\t" + one.count + "\tmm\n" + one.labels + line + rows, "f.trc");
       EXPECT_EQ(file.markers.names, one.names) << one.labels;
       ASSERT_EQ(file.markers.frame_count(), 2) << one.labels;
       EXPECT_DOUBLE_EQ(file.markers.positions_m(1, 8), 0.009) << one.labels;

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
 #include "myoid/tables/table_layout.h"
 #include "myoid/tables/text_table.h"
 
 namespace myoid::recording {
 namespace {
-
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 /// Pairs the keys of one header line with the values of the next. Real files have two tabs between
 /// values, so words are paired if their counts match; otherwise cells are.
@@ -105,9 +103,11 @@ std::vector<std::string> read_names(const std::vector<std::string_view>& lines,
   }
   names = unique_names(names, "marker", kNumber, repairs);
   if (made_up > 0)
-    repairs.push_back({kNumber, fmt::format("{} of {} markers have no name; called 'marker_N' by "
-                                            "their place, marker 1 in the columns behind Time",
-                                            made_up, names.size())});
+    repairs.push_back(
+        {kNumber,
+         fmt::format(
+             "{} of {} markers have no name; called 'marker_N' by their place, marker 1 in the columns behind Time",
+             made_up, names.size())});
   return names;
 }
 
@@ -147,10 +147,7 @@ Header read_header(const std::vector<std::string_view>& lines, const std::filesy
   header.unit = *unit;
   header.names = read_names(lines, header.separator, path, header.repairs);
   if (header.names.empty()) throw ReadError(path, 4, "there are no markers after Frame# and Time");
-  if (const auto said = parse_number(header.field("NumMarkers"));
-      said && *said != static_cast<double>(header.names.size())) {
-    header.repairs.push_back({3, fmt::format("the header says {} markers, there are {}", *said, header.names.size())});
-  }
+  compare_count(parse_number(header.field("NumMarkers")), header.names.size(), "markers", header.repairs, 3);
   if (trim(lines[4]).starts_with("X0")) header.repairs.push_back({5, "coordinates numbered from 0"});
   // Some exporters leave out the line X1 Y1 Z1 ...: then the fifth line is a frame.
   const auto fifth = split(lines[4], header.separator);
@@ -255,7 +252,7 @@ class TrcFrames {
     const auto row = static_cast<Eigen::Index>(time_.size());
     for (std::size_t c = 0; c < width_; ++c) {
       const std::string_view cell = c + 2 < cells.size() ? trim(cells[c + 2]) : std::string_view();
-      double value = kGap;
+      double value = kNan;
       if (!cell.empty()) {
         const auto number = number_of(cell, line);
         if (!number)
@@ -279,7 +276,7 @@ class TrcFrames {
       const bool zero = (position.array() == 0.0).all();
       if (zero) mark(zero_line_, line);
       if (position.hasNaN() && !position.array().isNaN().all()) mark(partial_line_, line);
-      if (zero || !position.allFinite()) position.setConstant(kGap);
+      if (zero || !position.allFinite()) position.setConstant(kNan);
     }
   }
 
@@ -291,8 +288,7 @@ class TrcFrames {
     note(surplus_line_, "a row has more numbers than there are markers; the surplus is ignored");
     note(repeated_line_, "a time stands twice; the first row is kept");
     const std::size_t frames = time_.size();
-    if (frames_said_ && *frames_said_ != static_cast<double>(frames))
-      repairs_.push_back({3, fmt::format("the header says {} frames, there are {}", *frames_said_, frames)});
+    compare_count(frames_said_, frames, "frames", repairs_, 3);
     const double rate = frames < 2 ? 0.0 : static_cast<double>(frames - 1) / (time_.back() - time_[0]);
     const double said = parse_number(header_.field("DataRate")).value_or(0.0);
     if (rate > 0.0 && said > 0.0 && std::abs(rate - said) > 0.05 * said)
@@ -320,20 +316,19 @@ class TrcFrames {
 
 }  // namespace
 
-TrcFile parse_trc(std::string_view text, const std::filesystem::path& path) {
+MarkerFile parse_trc(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
   const Header header = read_header(table.lines, path);
   TrcFrames frames(header, path);
   frames.read(table);
-  TrcFile file;
+  MarkerFile file;
   file.markers = frames.markers();
-  file.rate_hz = parse_number(header.field("DataRate")).value_or(0.0);
   file.unit = header.field("Units");
   for (const auto* repairs : {&header.repairs, &frames.repairs()})
     file.repairs.insert(file.repairs.end(), repairs->begin(), repairs->end());
   return file;
 }
 
-TrcFile read_trc(const std::filesystem::path& path) { return parse_trc(read_text_file(path), path); }
+MarkerFile read_trc(const std::filesystem::path& path) { return parse_trc(read_text_file(path), path); }
 
 }  // namespace myoid::recording

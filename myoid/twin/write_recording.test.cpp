@@ -65,7 +65,7 @@ TEST_F(WriteRecording, FilesReadBackToTheBit) {
   write_virtual_recording(made, directory_);
   for (const VirtualTrial& trial : made.trials) {
     const std::string& name = trial.protocol.name;
-    const recording::TrcFile trc = recording::read_trc(directory_ / (name + ".trc"));
+    const recording::MarkerFile trc = recording::read_trc(directory_ / (name + ".trc"));
     EXPECT_TRUE(trc.repairs.empty());
     EXPECT_EQ(trc.markers.names, trial.markers.names);
     EXPECT_EQ(trc.markers.time_s, trial.markers.time_s);

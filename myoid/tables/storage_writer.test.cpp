@@ -1,4 +1,4 @@
-#include "myoid/tables/table_writer.h"
+#include "myoid/tables/storage_writer.h"
 
 #include <cmath>
 #include <filesystem>
