@@ -77,7 +77,7 @@ void set_texts(C3dGroup& group,
 void set_long_texts(C3dGroup& group, const std::string& name, const std::vector<std::string>& list) {
   std::size_t width = 1;
   for (const std::string& text : list) width = std::max(width, text.size());
-  if (width > 255) throw InvalidInput(fmt::format("C3D {}: a name of {} bytes; at most 255", name, width));
+  if (width > 255) throw InvalidInput("C3D {}: a name of {} bytes; at most 255", name, width);
   const std::size_t most = std::min<std::size_t>(255, 65000 / width);
   for (int block = 1; block < 1000; ++block) erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
   int block = 1;
@@ -148,8 +148,7 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
     units.push_back(channel.unit_text);
     const auto scale = static_cast<float>(channel.scale / divide);
     if (static_cast<double>(scale) * divide != channel.scale && !std::isnan(channel.scale)) {
-      throw InvalidInput(
-          fmt::format("C3D channel '{}': the scale {} does not fit into 32 bits", channel.name, channel.scale));
+      throw InvalidInput("C3D channel '{}': the scale {} does not fit into 32 bits", channel.name, channel.scale);
     }
     scales.push_back(static_cast<double>(scale));
     offsets.push_back(channel.offset);
@@ -177,7 +176,7 @@ void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
   C3dGroup& group = group_named(groups, "EVENT");
   constexpr std::size_t kMost = 65535;  // USED has 16 bits
   if (file.events.size() > kMost)
-    throw InvalidInput(fmt::format("{} events; a C3D file holds at most {}", file.events.size(), kMost));
+    throw InvalidInput("{} events; a C3D file holds at most {}", file.events.size(), kMost);
   std::vector<std::string> labels;
   std::vector<std::string> contexts;
   std::vector<std::string> subjects;

@@ -48,14 +48,13 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   if (columns_.empty() || frames == 0) throw InvalidInput("the C3D file holds no markers");
   const std::optional<ScaledUnit> unit = parse_file_unit(file.point_unit);
   if (!unit || unit->unit != Unit::meter) {
-    throw InvalidInput(
-        fmt::format("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit));
+    throw InvalidInput("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit);
   }
   to_m_ = unit->to_si;
   if (columns_.size() < points_) {
-    repairs_.push_back({0, fmt::format("{} points are angles, forces, moments, powers or scalars "
-                                       "of another program and no markers; left out",
-                                       points_ - columns_.size())});
+    note(repairs_,
+         "{} points are angles, forces, moments, powers or scalars of another program and no markers; left out",
+         points_ - columns_.size());
   }
   markers_.time_s.resize(frames);
   for (Eigen::Index k = 0; k < frames; ++k)
@@ -72,9 +71,9 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   }
   if (prefixed && bare.size() == columns_.size()) {
     for (std::string& name : markers_.names) name.erase(0, bare_begin(name));
-    repairs_.push_back({0, "the subject's prefix ('subject:marker') is left out of the names"});
+    note(repairs_, "the subject's prefix ('subject:marker') is left out of the names");
   } else if (prefixed) {
-    repairs_.push_back({0, "names keep their subject's prefix, since without it some would be the same"});
+    note(repairs_, "names keep their subject's prefix, since without it some would be the same");
   }
   markers_.positions_m.resize(frames, static_cast<Eigen::Index>(3 * columns_.size()));
 }
@@ -105,9 +104,9 @@ void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* 
 MarkerSeries C3dMarkerBuilder::finish(std::vector<Repair>& repairs) {
   repairs.insert(repairs.end(), repairs_.begin(), repairs_.end());
   if (zeros_ > 0) {
-    repairs.push_back({0, fmt::format("{} positions are exactly 0 0 0 though not marked as missing "
-                                      "(the first in frame {}); taken as missing",
-                                      zeros_, first_frame_ + zero_frame_)});
+    note(repairs,
+         "{} positions are exactly 0 0 0 though not marked as missing (the first in frame {}); taken as missing",
+         zeros_, first_frame_ + zero_frame_);
   }
   return std::move(markers_);
 }

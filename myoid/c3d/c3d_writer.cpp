@@ -20,8 +20,7 @@ std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
   const double low = is_unsigned ? 0.0 : -32768.0;
   const double high = is_unsigned ? 65535.0 : 32767.0;
   if (!(value >= low && value <= high) || value != std::nearbyint(value)) {
-    throw InvalidInput(
-        fmt::format("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high));
+    throw InvalidInput("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high);
   }
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(static_cast<int>(value)));
 }
@@ -68,8 +67,7 @@ class SampleWriter {
     at_ += 2;
   }
   void put(float value, const char* what) {
-    if (!number_.put_real(at_, value))
-      throw InvalidInput(fmt::format("{}: {} cannot be written as a DEC number", what, value));
+    if (!number_.put_real(at_, value)) throw InvalidInput("{}: {} cannot be written as a DEC number", what, value);
     at_ += 4;
   }
 
@@ -92,7 +90,7 @@ void put_header(const C3dFile& file,
   };
   const auto real = [&](std::size_t n, double value) {
     if (!number.put_real(&out[2 * (n - 1)], static_cast<float>(value)))
-      throw InvalidInput(fmt::format("C3D header: {} cannot be written", value));
+      throw InvalidInput("C3D header: {} cannot be written", value);
   };
   out[0] = std::byte{2};
   out[1] = std::byte{0x50};
@@ -124,8 +122,7 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   const std::size_t analog = file.channels.size() * static_cast<std::size_t>(file.analog_per_frame);
   const auto frames = static_cast<std::size_t>(file.frame_count());
   if (points > 65535 || analog > 65535)
-    throw InvalidInput(
-        fmt::format("{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog));
+    throw InvalidInput("{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog);
   if (frames == 0 || points + analog == 0)
     throw InvalidInput("a C3D file needs at least one frame of points or analog samples");
   const double scale = static_cast<double>(file.point_scale) * (format.integer ? 1.0 : -1.0);

@@ -17,8 +17,7 @@ namespace myoid::recording {
 enum class Flush { now, later };
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::now);
 
-/// Returns true if a file of this name is the temporary one of `write_file`:
-/// ".ik.mot.myoid-part.a1B2c3".
+/// Returns true if a file of this name is the temporary one of `write_file`: ".ik.mot.myoid-part.a1B2c3".
 [[nodiscard]] bool is_temporary(const std::filesystem::path& name);
 
 /// Removes the temporary files that killed processes left in the folder and below it, and returns

@@ -70,7 +70,7 @@ FileInParts::FileInParts(std::filesystem::path path, Flush flush) : path_(std::m
   const bool is_link = exists && S_ISLNK(existing.st_mode);
   if (is_link) exists = stat(path_.c_str(), &existing) == 0;
   if (exists && S_ISDIR(existing.st_mode)) {
-    throw InvalidInput(fmt::format("{}: is a folder; name a file in it", path_.string()));
+    throw InvalidInput("{}: is a folder; name a file in it", path_.string());
   }
   if (exists && !S_ISREG(existing.st_mode)) {
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -85,8 +85,8 @@ FileInParts::FileInParts(std::filesystem::path path, Flush flush) : path_(std::m
     std::error_code error;
     std::filesystem::create_directories(target_.parent_path(), error);
     if (error) {
-      throw InvalidInput(fmt::format("{}: cannot create the folder {}: {}", path_.string(),
-                                     target_.parent_path().string(), error.message()));
+      throw InvalidInput("{}: cannot create the folder {}: {}", path_.string(), target_.parent_path().string(),
+                         error.message());
     }
     descriptor_ = open_temporary(target_, temporary_);
   }
@@ -100,8 +100,8 @@ FileInParts::~FileInParts() {
 }
 
 void FileInParts::fail(std::string_view what, int cause) {
-  throw InvalidInput(fmt::format("{}: {}: {}{}", path_.string(), what, std::strerror(cause),
-                                 cause == ENOSPC ? "; free some space or choose another folder" : ""));
+  throw InvalidInput("{}: {}: {}{}", path_.string(), what, std::strerror(cause),
+                     cause == ENOSPC ? "; free some space or choose another folder" : "");
 }
 
 void FileInParts::append(std::string_view piece) {

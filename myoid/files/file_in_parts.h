@@ -8,8 +8,7 @@
 
 namespace myoid::recording {
 
-/// The end of a temporary file's name is this mark and six random characters:
-/// ".ik.mot.myoid-part.a1B2c3".
+/// The end of a temporary file's name is this mark and six random characters: ".ik.mot.myoid-part.a1B2c3".
 inline constexpr std::string_view kTemporaryMark = ".myoid-part.";
 inline constexpr std::string_view kTemporaryRandom = "XXXXXX";  ///< For mkostemp.
 

@@ -82,21 +82,20 @@ std::string read_text_file(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
     throw ReadError(path, 0,
-                    "there is no such file; check the path (paths inside a file are relative to "
-                    "that file's folder)");
+                    "there is no such file; check the path (paths inside a file are relative to that file's folder)");
   }
   if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   // A pipe ends; a device may not end.
   if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   if (!error) text.reserve(size);
   char buffer[1 << 16];
   for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
-  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
+  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, "reading failed: {}", std::strerror(errno));
   if (text.empty()) throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     auto decoded = from_utf16(text);

@@ -38,7 +38,7 @@ std::string field_name(const std::string& text, std::set<std::string>& taken) {
 
 std::size_t column_of(const CsvTable& table, const std::string& name, const fs::path& path) {
   const auto it = std::find(table.names.begin(), table.names.end(), name);
-  if (it == table.names.end()) throw ReadError(path, table.header_line, fmt::format("has no column '{}'", name));
+  if (it == table.names.end()) throw ReadError(path, table.header_line, "has no column '{}'", name);
   return static_cast<std::size_t>(it - table.names.begin());
 }
 
@@ -224,7 +224,7 @@ MatStruct matlab_results(const fs::path& folder) {
     try {
       add_run(folder, variables);
     } catch (const json::exception& error) {
-      throw ReadError(folder / "run.json", 0, fmt::format("is no record of a run of this version: {}", error.what()));
+      throw ReadError(folder / "run.json", 0, "is no record of a run of this version: {}", error.what());
     }
   } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
     variables.fields.emplace_back("trials", std::move(trials));
@@ -234,7 +234,7 @@ MatStruct matlab_results(const fs::path& folder) {
 
 void check_mat_file(const fs::path& file) {
   if (file.extension() != ".mat")
-    throw InvalidInput(fmt::format("{}: expected the name of a MATLAB file, which ends in .mat", file.string()));
+    throw InvalidInput("{}: expected the name of a MATLAB file, which ends in .mat", file.string());
   require_matio();
 }
 

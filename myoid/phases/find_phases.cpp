@@ -63,8 +63,7 @@ void require_valid(const PhaseSignals& s) {
       s.activation.rows() != n || (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
       !s.velocity_radps.allFinite() || !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() ||
       !s.activation.allFinite()) {
-    throw InvalidInput(
-        fmt::format("phases of {} samples: rate, torques and activations must be as many and finite", n));
+    throw InvalidInput("phases of {} samples: rate, torques and activations must be as many and finite", n);
   }
 }
 

@@ -78,8 +78,8 @@ std::size_t end_of_warm_up(const std::vector<Block>& blocks,
   if (!found || found->blocks == 0) return 0;
   phase.kind = PhaseKind::warm_up;
   phase.reason = fmt::format(
-      "at first {:+.0f} % effort of the muscles for the same torque, by the EMG or against each "
-      "other, fading (t = {:.1f}; chance reaches {:.1f} in {:.2g} of trials)",
+      "at first {:+.0f} % effort of the muscles for the same torque, by the EMG or against each other, fading (t = "
+      "{:.1f}; chance reaches {:.1f} in {:.2g} of trials)",
       100.0 * std::expm1(-found->change), found->t, found->critical, options.false_alarm);
   return comparable[static_cast<std::size_t>(found->blocks)];
 }

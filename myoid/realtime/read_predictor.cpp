@@ -34,7 +34,7 @@ json read_json(const fs::path& path) {
   try {
     return parse_json(recording::read_text_file(path));
   } catch (const json::exception& error) {
-    throw ReadError(path, 0, fmt::format("is no result of a run: {}", error.what()));
+    throw ReadError(path, 0, "is no result of a run: {}", error.what());
   }
 }
 
@@ -102,8 +102,7 @@ void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
 /// Adds the chains of a label "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
 void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
   const std::size_t point = label.rfind('.');
-  if (point == std::string::npos)
-    throw InvalidInput(fmt::format("found the unknown '{}', expected OWNER.PARAMETER", label));
+  if (point == std::string::npos) throw InvalidInput("found the unknown '{}', expected OWNER.PARAMETER", label);
   const ParameterField& field = parameter_field(label.substr(point + 1));
   std::vector<double*> values;
   for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+'))
@@ -212,8 +211,8 @@ void refuse_unlike(const Study& study, const json& parameters) {
     throw InvalidInput("a study with measured resting torques cannot be predicted");
   if (!study.model.file && !study.model.forearm_length_m)
     throw InvalidInput(
-        "the built-in arm of this study got its length from the markers; state forearm_length_m "
-        "in [model], or give a model file");
+        "the built-in arm of this study got its length from the markers; state forearm_length_m in [model], or give a "
+        "model file");
 }
 
 }  // namespace
@@ -237,11 +236,9 @@ Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
       return predictor;
     }
   } catch (const json::exception& error) {
-    throw ReadError(results / "parameters.json", 0,
-                    fmt::format("is no result of a run of this version: {}", error.what()));
+    throw ReadError(results / "parameters.json", 0, "is no result of a run of this version: {}", error.what());
   }
-  throw InvalidInput(
-      fmt::format("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string()));
+  throw InvalidInput("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string());
 }
 
 }  // namespace myoid

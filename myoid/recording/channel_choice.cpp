@@ -54,10 +54,8 @@ Found find(const std::vector<const AnalogChannels*>& clocks,
     return {*clock_of(clocks, name), name};
   }
   const auto near = nearest_word(wanted, names);
-  throw ReadError(
-      path, 0,
-      fmt::format("no channel '{}'{}; there are: {}", wanted, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                  names.empty() ? "none" : listed(names)));
+  throw ReadError(path, 0, "no channel '{}'{}; there are: {}", wanted,
+                  near ? fmt::format(" (did you mean '{}'?)", *near) : "", names.empty() ? "none" : listed(names));
 }
 
 std::string described(const AnalogChannels& channels) {
@@ -76,11 +74,10 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
   for (const std::string& one : wanted) {
     Found found = find(clocks, one, path);
     if (clock && *clock != found.clock) {
-      throw ReadError(
-          path, 0,
-          fmt::format("channels '{}' and '{}' have different clocks; ask for channels "
-                      "of one clock at a time: either of {} or of {}",
-                      names.front(), found.name, described(*clocks[*clock]), described(*clocks[found.clock])));
+      throw ReadError(path, 0,
+                      "channels '{}' and '{}' have different clocks; ask for channels of one clock at a time: either "
+                      "of {} or of {}",
+                      names.front(), found.name, described(*clocks[*clock]), described(*clocks[found.clock]));
     }
     clock = found.clock;
     if (std::find(names.begin(), names.end(), found.name) == names.end()) names.push_back(std::move(found.name));
@@ -91,8 +88,7 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
 std::string first_clock_alone(const std::vector<std::string>& left_out) {
   constexpr std::size_t kNamed = 6;
   return fmt::format(
-      "only the channels of the first clock are taken, without {}; `emg` and `convert` take others "
-      "by --channel",
+      "only the channels of the first clock are taken, without {}; `emg` and `convert` take others by --channel",
       listed(left_out, kNamed));
 }
 
@@ -114,7 +110,7 @@ TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs) 
     if (gaps.empty()) {
       whole.push_back(name);
     } else {
-      repairs.push_back({0, fmt::format("channel '{}' {}; it is left out", name, gaps)});
+      note(repairs, "channel '{}' {}; it is left out", name, gaps);
     }
   }
   return static_cast<Eigen::Index>(whole.size()) == series.channel_count() ? series : series.select(whole);

@@ -83,16 +83,14 @@ bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
 Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std::vector<Repair>& repairs) {
   const auto stated = parameters.origin_m();
   if (!stated) {
-    repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
-                                      "moments are taken about the surface",
-                                      d.number)});
+    note(repairs, "force plate {}: FORCE_PLATFORM:ORIGIN is missing; the moments are taken about the surface",
+         d.number);
     return Vec3::Zero();
   }
   Vec3 origin_m = *stated;
   if (d.type == 3 && (origin_m[0] < 0.0 || origin_m[1] < 0.0)) {
-    repairs.push_back({0, fmt::format("force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN "
-                                      "are negative; taken as positive",
-                                      d.number)});
+    note(repairs, "force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN are negative; taken as positive",
+         d.number);
     origin_m.head<2>() = origin_m.head<2>().cwiseAbs().eval();
   }
   return origin_m;
@@ -101,7 +99,7 @@ Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std:
 /// Reads the plate's parameters; empty, with a note, if one is missing or impossible.
 std::optional<PlateSetup> describe(const C3dFile& file, std::size_t plate, double to_m, std::vector<Repair>& repairs) {
   const auto refuse = [&](const std::string& why) {
-    repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
+    note(repairs, "force plate {} is left out: {}", plate + 1, why);
     return std::nullopt;
   };
   const PlateParameters parameters(file, plate, to_m);
@@ -149,10 +147,10 @@ void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repai
     }
   }
   if (!assumed.empty())
-    repairs.push_back({0, fmt::format("force plate {}: {} channels, the first {}, do not have the "
-                                      "unit of a force, moment or length; taken as N and N times "
-                                      "the points' unit",
-                                      d.number, assumed.size(), assumed[0])});
+    note(repairs,
+         "force plate {}: {} channels, the first {}, do not have the unit of a force, "
+         "moment or length; taken as N and N times the points' unit",
+         d.number, assumed.size(), assumed[0]);
 }
 
 /// Returns force and moment about the middle of the surface, in the plate's frame.
@@ -219,15 +217,16 @@ void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs) {
   const double out = setup.R_GP.col(2).dot(setup.side.out_L) * setup.origin_m.z();
   if (setup.type == 1 || !(out < 0.0)) return;
   if (setup.type == 3) {
-    repairs.push_back({0, fmt::format("force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN places the "
-                                      "sensors above the surface; its sign is turned",
-                                      setup.number)});
+    note(repairs,
+         "force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN places the sensors above the surface; its sign is turned",
+         setup.number);
     setup.origin_m.z() = -setup.origin_m.z();
     return;
   }
-  repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN points from the surface "
-                                    "to the transducer instead of the other way; turned round",
-                                    setup.number)});
+  note(repairs,
+       "force plate {}: FORCE_PLATFORM:ORIGIN points from the surface to the transducer "
+       "instead of the other way; turned round",
+       setup.number);
   setup.origin_m = -setup.origin_m;
 }
 

@@ -38,8 +38,7 @@ struct ForcePlate {
   /// Point where the line of force cuts the surface: x = −M_y/F_z, y = M_x/F_z in P. NaN where
   /// |F_z| is below the threshold.
   Eigen::MatrixXd pressure_center_m;
-  Eigen::MatrixXd free_moment_nm;  ///< Moment about the normal through that point; 0 without a
-                                   ///< center of pressure.
+  Eigen::MatrixXd free_moment_nm;  ///< Moment about the normal through that point; 0 without a center of pressure.
 };
 
 /// The parameters in FORCE_PLATFORM that turn a plate's channels into a force.

@@ -87,16 +87,12 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
       block.block<1, 3>(i, 6) = (R * action->moment_nm).transpose();
     }
     bridge(block.middleCols(3, 3), R * plate.p_GP_m);
-    if (broken > 0)
-      repairs.push_back(
-          {0, fmt::format("force plate {}: {} samples are no numbers; taken as 0", plate.number, broken)});
+    if (broken > 0) note(repairs, "force plate {}: {} samples are no numbers; taken as 0", plate.number, broken);
     if (unloaded == samples) {
-      repairs.push_back(
-          {0, fmt::format("force plate {} is never loaded with {} N", plate.number, options.least_force_n)});
+      note(repairs, "force plate {} is never loaded with {} N", plate.number, options.least_force_n);
     } else if (unloaded > 0) {
-      repairs.push_back({0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
-                                        "0",
-                                        plate.number, unloaded, samples, options.least_force_n)});
+      note(repairs, "force plate {}: {} of {} samples are below {} N and set to 0", plate.number, unloaded, samples,
+           options.least_force_n);
     }
   }
   return {plates[0].time_s, std::move(channels), std::move(values)};

@@ -97,9 +97,9 @@ class Evidence {
 
   [[noreturn]] void contradict(const std::string& one, const std::string& other) const {
     throw InvalidInput(
-        fmt::format("which way is up cannot be told: {}, but {}; say it (--up x, y or z; in a "
-                    "study [markers] up), or correct the file",
-                    one, other));
+        "which way is up cannot be told: {}, but {}; say it (--up x, y or z; in a study [markers] up), or "
+        "correct the file",
+        one, other);
   }
 
   [[nodiscard]] std::size_t floor_plate(const Vec3& axis) const {
@@ -191,8 +191,8 @@ class Evidence {
     sum.cwiseAbs().maxCoeff(&along);
     contradict(
         fmt::format("by FORCE_PLATFORM:CORNERS the surface of plate {} faces {}", numbers.front(), axis_name(axis)),
-        fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the "
-                    "corners or FORCE_PLATFORM:CHANNEL in another order?)",
+        fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the corners or "
+                    "FORCE_PLATFORM:CHANNEL in another order?)",
                     std::string(1, "xyz"[along]), std::acos(std::min(1.0, normal / sum.norm())) / kDegree));
   }
 

@@ -25,12 +25,12 @@ void stand_floor(Recording& recording, const std::vector<PlateLoad>& loads, cons
     setup.side.out_L = side * loads[k].normal_L;
     setup.side.turn = side * loads[k].along_n < 0.0 ? -1.0 : 1.0;
     if (side > 0.0)
-      add_note(recording, fmt::format("force plate {}: its corners are listed the other way round than the C3D "
-                                      "guide has it, so that z of the plate points up; taken as they are",
+      add_note(recording, fmt::format("force plate {}: its corners are listed the other way round than the C3D guide "
+                                      "has it, so that z of the plate points up; taken as they are",
                                       setup.number));
     if (setup.side.turn < 0.0)
-      add_note(recording, fmt::format("force plate {} pulls down with {:.0f} N: the file holds the "
-                                      "force on the plate; turned round to act on the person",
+      add_note(recording, fmt::format("force plate {} pulls down with {:.0f} N: the file holds the force on the plate; "
+                                      "turned round to act on the person",
                                       setup.number, std::abs(loads[k].along_n)));
   }
 }
@@ -42,8 +42,8 @@ double turn_of_floor(Recording& recording, const std::vector<PlateLoad>& loads) 
     const PlateSetup& setup = recording.plates[k];
     if (!setup.side.is_floor || !loads[k].loaded()) continue;
     if (turn != 0.0 && turn != setup.side.turn) {
-      add_note(recording, fmt::format("force plate {} has the opposite sign of the plates before it; "
-                                      "each is taken to push the person up: is one of them pulled?",
+      add_note(recording, fmt::format("force plate {} has the opposite sign of the plates before it; each is taken to "
+                                      "push the person up: is one of them pulled?",
                                       setup.number));
       return 0.0;
     }
@@ -63,8 +63,8 @@ void stand_walls(Recording& recording, const std::vector<PlateLoad>& loads, cons
     setup.side.out_L = side * loads[k].normal_L;
     setup.side.turn = floor != 0.0 ? floor : side * loads[k].along_n < 0.0 ? -1.0 : 1.0;
     if (loads[k].largest_n < least_force_n) continue;
-    add_note(recording, fmt::format("force plate {} is a wall or a handle, {:.0f} degrees from horizontal: by {} "
-                                    "the person is on its side of {}; its force {} the person, with {}",
+    add_note(recording, fmt::format("force plate {} is a wall or a handle, {:.0f} degrees from horizontal: by {} the "
+                                    "person is on its side of {}; its force {} the person, with {}",
                                     setup.number, std::acos(std::abs(loads[k].normal_L.dot(up_L))) / kDegree,
                                     seen != 0.0 ? "the markers" : "its corners", axis_name(setup.side.out_L),
                                     setup.side.turn * side * loads[k].along_n < 0.0 ? "pulls" : "pushes",
@@ -78,9 +78,11 @@ void leave_out_dead(Recording& recording, const std::vector<PlateLoad>& loads) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!loads[k].constant_n) continue;
     recording.plates[k].side.turn = 0.0;
-    add_note(recording, fmt::format("force plate {} reads {:.0f} N in every sample: unplugged, or never set to "
-                                    "zero; its force is left out",
-                                    recording.plates[k].number, *loads[k].constant_n));
+    add_note(
+        recording,
+        fmt::format(
+            "force plate {} reads {:.0f} N in every sample: unplugged, or never set to zero; its force is left out",
+            recording.plates[k].number, *loads[k].constant_n));
   }
 }
 

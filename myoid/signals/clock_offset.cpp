@@ -268,11 +268,11 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
                     .about = "EMG and motion",
                     .when = Stretch{begin_s, end_s},
                     .value = drift_s,
-                    .says = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
-                                        "first third to the last",
-                                        1000.0 * drift_s, 1000.0 * sd_s),
-                    .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
-                              "cut the trial into shorter ones"});
+                    .says = fmt::format(
+                        "the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the first third to the last",
+                        1000.0 * drift_s, 1000.0 * sd_s),
+                    .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or cut "
+                              "the trial into shorter ones"});
   return faults;
 }
 

@@ -100,9 +100,9 @@ Means moving_means(std::span<const TrialEnvelope> trials, double window_s, Chann
   }
   if (largest < 0.0) {
     throw InvalidInput(
-        fmt::format("EMG normalisation: the window of {} s is longer than every recording (the "
-                    "longest has {:.4g} s); give a shorter one",
-                    window_s, longest_s));
+        "EMG normalisation: the window of {} s is longer than every recording (the longest has {:.4g} s); "
+        "give a shorter one",
+        window_s, longest_s);
   }
   return result;
 }
@@ -144,10 +144,8 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), centered);
   const double rate = raw.mean_rate_hz();
   if (rate < 500.0) {
-    stages.findings.push_back(
-        fmt::format("EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and "
-                    "cannot be mended",
-                    rate));
+    stages.findings.push_back(fmt::format(
+        "EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and cannot be mended", rate));
   }
   stages.filtered = options.as_published
                         ? stages.raw
@@ -184,8 +182,7 @@ void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const White
     const double share = (smooth.values().col(c).array() < 0.0).cast<double>().mean();
     if (share > 0.01) {
       stages.findings.push_back(
-          fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the "
-                      "envelope is 0 there",
+          fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the envelope is 0 there",
                       raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share));
     }
   }
@@ -217,8 +214,8 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     n.unit = channel.unit;
     Means means = moving_means(trials, options.window_s, n);
     if (is_flat(means)) {
-      throw InvalidInput(fmt::format(
-          "EMG channel '{}' never rises above its resting level: was the electrode connected?", channel.name));
+      throw InvalidInput("EMG channel '{}' never rises above its resting level: was the electrode connected?",
+                         channel.name);
     }
     // Rectified Gaussian noise of bandwidth B, averaged over a window T, has this relative spread.
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;

@@ -75,15 +75,16 @@ std::optional<Remark> other_unit(const TrialEnvelope& trial,
     most = std::max(most, here.greatest / mvc.greatest);
   }
   if (trial.is_mvc || !(most > 0.0)) return std::nullopt;
-  return Remark{.code = RemarkCode::emg_over_reference,
-                .severity = Severity::error,
-                .about = trial.trial,
-                .value = most,
-                .says = fmt::format("the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal "
-                                    "contractions in all channels, and is as much larger at rest: is it in "
-                                    "another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
-                                    trial.trial, least, most),
-                .remedy = "correct the unit in the files, or the numbers of that trial"};
+  return Remark{
+      .code = RemarkCode::emg_over_reference,
+      .severity = Severity::error,
+      .about = trial.trial,
+      .value = most,
+      .says = fmt::format(
+          "the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal contractions in all channels, and is as "
+          "much larger at rest: is it in another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
+          trial.trial, least, most),
+      .remedy = "correct the unit in the files, or the numbers of that trial"};
 }
 
 /// Returns the levels of the maximal contractions, each channel's from its greatest one.
@@ -110,12 +111,9 @@ Remark above_reference(const std::string& channel,
       .about = channel,
       .when = Stretch{movement.greatest_s, movement.greatest_s},
       .value = movement.greatest / mvc.greatest,
-      .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
-                          "{} at {:.6g} s",
-                          channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
-      .remedy =
-          "the contraction was not maximal: the larger effort counts as 1, and F_max "
-          "means the force there"};
+      .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in {} at {:.6g} s", channel,
+                          movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
+      .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max means the force there"};
 }
 
 }  // namespace
@@ -161,16 +159,16 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, cons
     }
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
     if (peak < limits.signal_to_rest * rest) {
-      faults.push_back({.code = RemarkCode::emg_low_signal,
-                        .severity = Severity::warning,
-                        .about = channel,
-                        .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
-                        .value = peak / rest,
-                        .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
-                                            "trials together",
-                                            channel, peak / rest),
-                        .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest "
-                                  "and a strong effort, and check the electrode"});
+      faults.push_back(
+          {.code = RemarkCode::emg_low_signal,
+           .severity = Severity::warning,
+           .about = channel,
+           .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
+           .value = peak / rest,
+           .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all trials together",
+                               channel, peak / rest),
+           .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest and a strong "
+                     "effort, and check the electrode"});
     }
     if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest)
       faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));

@@ -77,11 +77,9 @@ class ChannelCheck {
     }
     if (smoothed) {
       add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been "
-                      "rectified and smoothed",
+          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
                       name_),
-          "an envelope that is high-passed and rectified once more is no activation: set [emg] "
-          "kind = \"envelope\"");
+          "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = \"envelope\"");
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
@@ -118,8 +116,8 @@ class ChannelCheck {
     if (most <= limits_.amplitude_v) return;
     const auto beyond = (x_.array().abs() > limits_.amplitude_v).count();
     add(faults, RemarkCode::emg_amplitude, true, at, at, most,
-        fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
-                    "skin gives millivolts, and no amplifier more than {:g} V",
+        fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); skin gives "
+                    "millivolts, and no amplifier more than {:g} V",
                     name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
         2 * beyond > x_.size() ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
                                : "leave out samples that are no measurement: they become the greatest effort");
@@ -149,9 +147,8 @@ class ChannelCheck {
         Eigen::Index last = x_.size() - 1;
         while (x_[last] != extreme) --last;
         add(faults, RemarkCode::emg_clipped, true, first, last, share,
-            fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first "
-                        "at {:.6g} s",
-                        name_, side, 100.0 * share, time_s_[first]),
+            fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first at {:.6g} s", name_,
+                        side, 100.0 * share, time_s_[first]),
             "record with a lower gain; its strongest efforts are too small here");
       }
     }
@@ -166,8 +163,7 @@ class ChannelCheck {
     add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_, 100.0 * found->share,
                     lines),
-        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference "
-        "electrode");
+        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference electrode");
     emg_ = without_hum(emg_, rate_hz_, *found);
   }
 
@@ -207,9 +203,8 @@ class ChannelCheck {
     }
     if (count == 0) return;
     add(faults, RemarkCode::emg_artifact, true, worst, worst + width - 1, value,
-        fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} "
-                    "s{}",
-                    name_, value, time_s_[worst], count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
+        fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} s{}", name_, value,
+                    time_s_[worst], count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
         "fasten the cable; what of it lies above the high-pass becomes activation there");
   }
 
@@ -266,21 +261,21 @@ std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed, const Qua
       const std::string& first = raw.channels()[a].name;
       const std::string& second = raw.channels()[b].name;
       constexpr double kSame = 0.98;
-      faults.push_back({.code = RemarkCode::emg_crosstalk,
-                        .severity = Severity::warning,
-                        .about = fmt::format("{}, {}", first, second),
-                        .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
-                        .value = value,
-                        .says = value > kSame
-                                    ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
-                                                  "{:.3f})",
-                                                  first, second, value)
-                                    : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common "
-                                                  "(correlation {:.2f})",
-                                                  first, second, 100.0 * value * value, value),
-                        .remedy = value > kSame ? "was one of them plugged in twice?"
-                                                : "crosstalk or a common disturbance: the muscles cannot be told "
-                                                  "apart to that extent"});
+      faults.push_back(
+          {.code = RemarkCode::emg_crosstalk,
+           .severity = Severity::warning,
+           .about = fmt::format("{}, {}", first, second),
+           .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
+           .value = value,
+           .says =
+               value > kSame
+                   ? fmt::format("channels '{}' and '{}' are the same signal (correlation {:.3f})", first, second,
+                                 value)
+                   : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common (correlation {:.2f})",
+                                 first, second, 100.0 * value * value, value),
+           .remedy = value > kSame
+                         ? "was one of them plugged in twice?"
+                         : "crosstalk or a common disturbance: the muscles cannot be told apart to that extent"});
     }
   }
   return faults;

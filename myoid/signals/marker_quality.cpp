@@ -111,14 +111,15 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const Quality
          .about = marker,
          .when = Stretch{begin_s, end_s},
          .value = longest_s,
-         .says = never ? fmt::format("marker '{}' is in no frame", marker)
-                       : fmt::format("marker '{}' is missing in {:.1f} % of the frames, {} gap{}{} "
-                                     "from {:.6g} to {:.6g} s",
-                                     marker, 100.0 * share, count, count == 1 ? "" : "s",
-                                     count == 1 ? "" : ", the longest", begin_s, end_s),
-         .remedy = longest_s > limits.gap_s ? "where its segment's other markers do not show it either, that segment's "
-                                              "pose rests on fewer markers"
-                                            : ""});
+         .says =
+             never ? fmt::format("marker '{}' is in no frame", marker)
+                   : fmt::format("marker '{}' is missing in {:.1f} % of the frames, {} gap{}{} from {:.6g} to {:.6g} s",
+                                 marker, 100.0 * share, count, count == 1 ? "" : "s", count == 1 ? "" : ", the longest",
+                                 begin_s, end_s),
+         .remedy =
+             longest_s > limits.gap_s
+                 ? "where its segment's other markers do not show it either, that segment's pose rests on fewer markers"
+                 : ""});
     it = next;
   }
   return faults;
@@ -159,16 +160,16 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
     }
     const std::string& marker = markers.names[static_cast<std::size_t>(m)];
     const double worst_s = markers.time_s[at[static_cast<std::size_t>(worst - away.begin())]];
-    faults.push_back({.code = RemarkCode::marker_jump,
-                      .severity = Severity::warning,
-                      .about = marker,
-                      .when = Stretch{markers.time_s[begin], markers.time_s[last]},
-                      .value = *worst,
-                      .says = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
-                                          count == 1 ? std::string("once") : fmt::format("{} times", count),
-                                          1000.0 * *worst, worst_s),
-                      .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small "
-                                "[markers] weight"});
+    faults.push_back(
+        {.code = RemarkCode::marker_jump,
+         .severity = Severity::warning,
+         .about = marker,
+         .when = Stretch{markers.time_s[begin], markers.time_s[last]},
+         .value = *worst,
+         .says =
+             fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
+                         count == 1 ? std::string("once") : fmt::format("{} times", count), 1000.0 * *worst, worst_s),
+         .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small [markers] weight"});
   }
   return faults;
 }

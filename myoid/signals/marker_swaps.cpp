@@ -141,9 +141,8 @@ std::vector<Remark> swap_faults(const MarkerSeries& markers, const std::vector<M
                       .about = fmt::format("{}, {}", a, b),
                       .when = Stretch{begin_s, end_s},
                       .value = end_s - begin_s,
-                      .says = fmt::format("markers '{}' and '{}' carry each other's label from "
-                                          "{:.6g} to {:.6g} s",
-                                          a, b, begin_s, end_s),
+                      .says = fmt::format("markers '{}' and '{}' carry each other's label from {:.6g} to {:.6g} s", a,
+                                          b, begin_s, end_s),
                       .remedy = "they are exchanged back; correct the file"});
   }
   return faults;

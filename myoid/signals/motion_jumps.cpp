@@ -60,9 +60,8 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
 
 std::string MotionJump::sentence() const {
   return fmt::format(
-      "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its "
-      "acceleration would mean a torque that does not exist; mend the markers or angles there, or "
-      "leave that time out",
+      "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its acceleration would mean a "
+      "torque that does not exist; mend the markers or angles there, or leave that time out",
       channel, unit == Unit::radian ? fmt::format("{:.0f} deg/s", speed / kDegree) : fmt::format("{:.2g} m/s", speed),
       time_s, count > 1 ? fmt::format(" ({} such moments)", count) : "");
 }

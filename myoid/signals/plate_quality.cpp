@@ -79,8 +79,8 @@ void check_pressure(const ForcePlate& plate,
                     .about = channel,
                     .when = Stretch{plate.time_s[worst], plate.time_s[worst]},
                     .value = static_cast<double>(outside) / static_cast<double>(loaded),
-                    .says = fmt::format("{}: the center of pressure lies outside the plate in {:.1f} % of the "
-                                        "loaded time, by up to {:.0f} mm at {:.6g} s",
+                    .says = fmt::format("{}: the center of pressure lies outside the plate in {:.1f} % of the loaded "
+                                        "time, by up to {:.0f} mm at {:.6g} s",
                                         channel, 100.0 * static_cast<double>(outside) / static_cast<double>(loaded),
                                         1000.0 * furthest_m, plate.time_s[worst]),
                     .remedy = "check the corners, the origin and the order of the channels in the file"});
@@ -102,9 +102,9 @@ std::vector<Remark> check_force_plate(const ForcePlate& plate, const QualityLimi
                       .about = channel,
                       .when = Stretch{plate.time_s[at], plate.time_s[at]},
                       .value = -normal_n[at],
-                      .says = fmt::format("{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the "
-                                          "force on the plate",
-                                          channel, normal_n[at], plate.time_s[at]),
+                      .says = fmt::format(
+                          "{} pulls the person down, with {:.0f} N at {:.6g} s: the file holds the force on the plate",
+                          channel, normal_n[at], plate.time_s[at]),
                       .remedy = "`convert` and `run` turn it round"});
   }
   check_pressure(plate, normal_n, channel, limits, faults);

@@ -140,7 +140,7 @@ TimeSeries resample(const TimeSeries& series, const Eigen::VectorXd& time_s) {
 
 Eigen::VectorXd even_clock(double start_s, double end_s, double rate_hz) {
   if (!(end_s > start_s) || !(rate_hz > 0.0)) {
-    throw InvalidInput(fmt::format("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz));
+    throw InvalidInput("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz);
   }
   const auto intervals = static_cast<Eigen::Index>(std::max(1.0, std::round((end_s - start_s) * rate_hz)));
   return Eigen::VectorXd::LinSpaced(intervals + 1, start_s, end_s);

@@ -58,8 +58,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
 
 RigidFit fit_rigid(const Eigen::Matrix3Xd& local_m, const Eigen::Matrix3Xd& seen_m) {
   if (local_m.cols() < 3 || local_m.cols() != seen_m.cols()) {
-    throw InvalidInput(
-        fmt::format("rigid fit: {} and {} points; expected as many, three or more", local_m.cols(), seen_m.cols()));
+    throw InvalidInput("rigid fit: {} and {} points; expected as many, three or more", local_m.cols(), seen_m.cols());
   }
   const Vec3 from = local_m.rowwise().mean();
   const Vec3 to = seen_m.rowwise().mean();
@@ -129,17 +128,18 @@ std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
         end = std::max(end, p.frames.back());
       }
       const Eigen::Index other = worst->first == culprit ? worst->second : worst->first;
-      faults.push_back({.code = RemarkCode::segment_not_rigid,
-                        .severity = Severity::warning,
-                        .about = partners > 1 ? marker(culprit) : fmt::format("{}, {}", marker(culprit), marker(other)),
-                        .when = Stretch{markers.time_s[begin], markers.time_s[end]},
-                        .value = worst->worst_m,
-                        .says = fmt::format("marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by "
-                                            "{:.0f} mm between {:.6g} and {:.6g} s",
-                                            marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m,
-                                            1000.0 * worst->worst_m, markers.time_s[begin], markers.time_s[end]),
-                        .remedy = "a wrong label or a marker that came loose? Give it a small [markers] weight, "
-                                  "or cut that part off"});
+      faults.push_back(
+          {.code = RemarkCode::segment_not_rigid,
+           .severity = Severity::warning,
+           .about = partners > 1 ? marker(culprit) : fmt::format("{}, {}", marker(culprit), marker(other)),
+           .when = Stretch{markers.time_s[begin], markers.time_s[end]},
+           .value = worst->worst_m,
+           .says = fmt::format(
+               "marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by {:.0f} mm between {:.6g} and {:.6g} s",
+               marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m, 1000.0 * worst->worst_m,
+               markers.time_s[begin], markers.time_s[end]),
+           .remedy =
+               "a wrong label or a marker that came loose? Give it a small [markers] weight, or cut that part off"});
       std::erase_if(pairs, [&](const Pair& p) { return p.first == culprit || p.second == culprit; });
     }
   }

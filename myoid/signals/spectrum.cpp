@@ -40,9 +40,9 @@ double part_within(const PowerSpectrum& s, Eigen::Index k, double low_hz, double
 PowerSpectrum power_spectrum(const Eigen::VectorXd& x, double rate_hz, double segment_s) {
   if (x.size() < 8 || !x.allFinite() || !(rate_hz > 0.0) || !(segment_s > 0.0)) {
     throw InvalidInput(
-        fmt::format("power spectrum of {} samples at {} Hz in segments of {} s: at least 8 finite "
-                    "samples and positive numbers are needed",
-                    x.size(), rate_hz, segment_s));
+        "power spectrum of {} samples at {} Hz in segments of {} s: at least 8 finite samples and positive "
+        "numbers are needed",
+        x.size(), rate_hz, segment_s);
   }
   const Eigen::Index wanted =
       std::max<Eigen::Index>(8, static_cast<Eigen::Index>(std::lround(std::min(segment_s * rate_hz, 1e9))));
@@ -109,13 +109,12 @@ double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double 
 TimeSeries median_frequency(const TimeSeries& raw, const MedianFrequencyOptions& options) {
   const double rate = raw.mean_rate_hz();
   if (!raw.is_uniform() || rate < 4.0 * options.low_hz) {
-    throw InvalidInput(
-        fmt::format("median frequency: {:.4g} Hz; raw EMG on an even clock of at least {:.4g} Hz is needed", rate,
-                    4.0 * options.low_hz));
+    throw InvalidInput("median frequency: {:.4g} Hz; raw EMG on an even clock of at least {:.4g} Hz is needed", rate,
+                       4.0 * options.low_hz);
   }
   if (options.resting_rms.size() != 0 && options.resting_rms.size() != raw.channel_count()) {
-    throw InvalidInput(fmt::format("median frequency: {} resting levels for {} channels", options.resting_rms.size(),
-                                   raw.channel_count()));
+    throw InvalidInput("median frequency: {} resting levels for {} channels", options.resting_rms.size(),
+                       raw.channel_count());
   }
   const double high_hz = std::min(options.high_hz, 0.45 * rate);
   const auto length = static_cast<Eigen::Index>(std::lround(options.window_s * rate));

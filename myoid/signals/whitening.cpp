@@ -275,9 +275,9 @@ Whitening decide_whitening(std::span<const TimeSeries* const> trials, double hig
       result.reason = fmt::format("channel '{}': {}", filter->channel, filter->reason);
       if (!wanted) return result;
       throw InvalidInput(
-          fmt::format("whitening is asked for and cannot be done: channel '{}': {}; leave the "
-                      "channel out, or let the recording decide",
-                      filter->channel, filter->reason));
+          "whitening is asked for and cannot be done: channel '{}': {}; leave the channel out, or let the "
+          "recording decide",
+          filter->channel, filter->reason);
     }
     log_gain += std::log(filter->bandwidth_after_hz / filter->bandwidth_before_hz) / static_cast<double>(emg.size());
   }
