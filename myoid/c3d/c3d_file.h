@@ -54,8 +54,7 @@ struct C3dChannel {
   friend bool operator==(const C3dChannel&, const C3dChannel&) = default;
 };
 
-/// A C3D file with the numbers in the file's own 32 bits and every parameter. `c3d_markers`,
-/// `c3d_analog` and `force_plates` convert to SI.
+/// A C3D file with the numbers in the file's own 32 bits and every parameter.
 struct C3dFile {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

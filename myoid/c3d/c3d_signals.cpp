@@ -111,12 +111,6 @@ MarkerSeries C3dMarkerBuilder::finish(std::vector<Repair>& repairs) {
   return std::move(markers_);
 }
 
-MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs) {
-  C3dMarkerBuilder builder(file, file.frame_count());
-  builder.add(0, file.frame_count(), file.points.data());
-  return builder.finish(repairs);
-}
-
 C3dChannelUnits c3d_channel_units(const C3dFile& file) {
   C3dChannelUnits units;
   for (const C3dChannel& channel : file.channels) {
@@ -125,33 +119,6 @@ C3dChannelUnits c3d_channel_units(const C3dFile& file) {
     units.scales.push_back({channel.offset, channel.scale, unit ? unit->to_si : 1.0});
   }
   return units;
-}
-
-TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& columns) {
-  std::vector<Eigen::Index> chosen = columns;
-  if (chosen.empty()) {
-    for (Eigen::Index c = 0; c < file.analog.cols(); ++c) chosen.push_back(c);
-  }
-  if (chosen.empty() || file.analog.rows() == 0) throw InvalidInput("the C3D file holds no analog channels");
-  const Eigen::Index samples = file.analog.rows();
-  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame;
-  Eigen::VectorXd time(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) time[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
-  const C3dChannelUnits units = c3d_channel_units(file);
-  std::vector<Channel> channels;
-  for (const Eigen::Index c : chosen) channels.push_back(units.channels[static_cast<std::size_t>(c)]);
-  Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(chosen.size()));
-  for (Eigen::Index begin = 0; begin < samples; begin += kBlockRows) {
-    const Eigen::Index end = std::min(samples, begin + kBlockRows);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const CountScale& scale = units.scales[static_cast<std::size_t>(chosen[k])];
-      for (Eigen::Index i = begin; i < end; ++i) {
-        values(i, static_cast<Eigen::Index>(k)) =
-            (static_cast<double>(file.analog(i, chosen[k])) - scale.offset) * scale.scale * scale.to_si;
-      }
-    }
-  }
-  return {std::move(time), std::move(channels), std::move(values)};
 }
 
 }  // namespace myoid::recording
