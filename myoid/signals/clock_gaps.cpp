@@ -26,8 +26,8 @@ ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s) {
   return gaps;
 }
 
-std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s) {
-  std::vector<ClockStretch> stretches;
+std::vector<Stretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s) {
+  std::vector<Stretch> stretches;
   for (Eigen::Index i = 0; i < time_s.size(); ++i) {
     if (i == 0 || time_s[i] - time_s[i - 1] > longest_gap_s) stretches.push_back({time_s[i], time_s[i]});
     stretches.back().end_s = time_s[i];

@@ -120,7 +120,7 @@ void take_out_hum(bool notch, EmgStages& stages) {
   Eigen::MatrixXd values = stages.filtered.values();
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto hum = find_hum(values.col(c), rate_hz);
-    if (!hum || hum->share < QualityLimits{}.hum_share) continue;
+    if (!hum || hum->share < kLimits.hum_share) continue;
     std::string lines;
     for (const double line_hz : hum->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
     stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",

@@ -62,14 +62,13 @@ LevelsByChannel levels_of(const TrialEnvelope& trial) {
 /// maximal leaves rest and the other channels as they are; another unit scales everything.
 std::optional<Remark> other_unit(const TrialEnvelope& trial,
                                  const LevelsByChannel& own,
-                                 const LevelsByChannel& maximal,
-                                 const QualityLimits& limits) {
+                                 const LevelsByChannel& maximal) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const auto& [channel, mvc] : maximal) {
     const auto found = own.find(channel);
     if (found == own.end()) continue;
     const Levels& here = found->second;
-    if (!(here.greatest > limits.other_unit * mvc.greatest) || !(here.least > limits.other_unit * mvc.least))
+    if (!(here.greatest > kLimits.other_unit * mvc.greatest) || !(here.least > kLimits.other_unit * mvc.least))
       return std::nullopt;
     least = std::min(least, here.greatest / mvc.greatest);
     most = std::max(most, here.greatest / mvc.greatest);
@@ -123,14 +122,14 @@ double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples, double rat
   return rate_hz > 0.0 ? static_cast<double>(count) / rate_hz : 0.0;
 }
 
-std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, const QualityLimits& limits) {
+std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
   std::vector<Remark> faults;
   std::vector<std::string> names;
   const LevelsByChannel maximal = maximal_levels(trials);
   std::vector<std::pair<const TrialEnvelope*, LevelsByChannel>> of_trials;
   for (const TrialEnvelope& trial : trials) {
     LevelsByChannel own = levels_of(trial);
-    if (auto unit = other_unit(trial, own, maximal, limits)) {
+    if (auto unit = other_unit(trial, own, maximal)) {
       faults.push_back(std::move(*unit));
       continue;
     }
@@ -158,7 +157,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, cons
       (trial->is_mvc ? mvc_trial : movement_trial) = trial->trial;
     }
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
-    if (peak < limits.signal_to_rest * rest) {
+    if (peak < kLimits.signal_to_rest * rest) {
       faults.push_back(
           {.code = RemarkCode::emg_low_signal,
            .severity = Severity::warning,
@@ -170,7 +169,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, cons
            .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest and a strong "
                      "effort, and check the electrode"});
     }
-    if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest)
+    if (!mvc_trial.empty() && movement.greatest > kLimits.over_reference * mvc.greatest)
       faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));
   }
   return faults;

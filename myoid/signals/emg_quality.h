@@ -22,14 +22,10 @@ namespace myoid::signals {
 /// - artifact: rms between 1 and 15 Hz in some quarter second, divided by the largest rms above 20 Hz of any quarter
 ///   second;
 /// - crosstalk: the largest correlation of two channels above 20 Hz, without hum, within 10 ms.
-[[nodiscard]] std::vector<Remark> check_emg(const TimeSeries& raw,
-                                            bool high_passed = true,
-                                            const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed = true);
 
 /// True for rectified and smoothed EMG: the samples are never negative (except for a filter's swing
 /// of 5 %) and go through their median less than `raw_hz` times a second.
-[[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples,
-                               double rate_hz,
-                               const QualityLimits& limits = {});
+[[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples, double rate_hz);
 
 }  // namespace myoid::signals

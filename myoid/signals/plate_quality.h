@@ -14,7 +14,6 @@ namespace myoid::signals {
 ///   (standard deviation below 5 N) and below 80 N; a larger force is a person who never left the plate;
 /// - sign: the file holds the force on the plate (a remark, because readers of plates invert it);
 /// - center of pressure outside the corners under load.
-[[nodiscard]] std::vector<Remark> check_force_plate(const recording::ForcePlate& plate,
-                                                    const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_force_plate(const recording::ForcePlate& plate);
 
 }  // namespace myoid::signals

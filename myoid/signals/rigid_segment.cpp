@@ -33,7 +33,7 @@ struct Pair {
   double median_m = 0.0;
 };
 
-Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const QualityLimits& l) {
+Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b) {
   Pair pair{.first = a, .second = b};
   std::vector<Eigen::Index> frames;
   std::vector<double> distances;
@@ -44,7 +44,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
   }
   if (distances.empty()) return pair;
   pair.median_m = math::upper_median(distances);
-  const double limit = std::max(l.rigid_m, l.rigid_share * pair.median_m);
+  const double limit = std::max(kLimits.rigid_m, kLimits.rigid_share * pair.median_m);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double change = std::abs(distances[i] - pair.median_m);
     if (change <= limit) continue;
@@ -91,16 +91,14 @@ Eigen::Matrix3Xd mean_shape(const MarkerSeries& markers, const RigidSegment& seg
   return first;
 }
 
-std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
-                                         const std::vector<RigidSegment>& segments,
-                                         const QualityLimits& limits) {
+std::vector<Remark> check_rigid_segments(const MarkerSeries& markers, const std::vector<RigidSegment>& segments) {
   std::vector<Remark> faults;
   const auto marker = [&](Eigen::Index m) { return markers.names[static_cast<std::size_t>(m)]; };
   for (const RigidSegment& segment : segments) {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < segment.markers.size(); ++i) {
       for (std::size_t k = i + 1; k < segment.markers.size(); ++k) {
-        Pair pair = compare(markers, segment.markers[i], segment.markers[k], limits);
+        Pair pair = compare(markers, segment.markers[i], segment.markers[k]);
         if (static_cast<Eigen::Index>(pair.frames.size()) >= kLeastFrames) pairs.push_back(std::move(pair));
       }
     }
