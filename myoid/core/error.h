@@ -26,7 +26,11 @@ class InvalidInput : public std::runtime_error {
 class ReadError : public InvalidInput {
  public:
   /// `line` counts from 1; 0 means the file as a whole.
-  ReadError(std::filesystem::path path, std::size_t line, const std::string& message);
+  ReadError(std::filesystem::path path, std::size_t line, const std::string& message)
+      : InvalidInput(line == 0 ? fmt::format("{}: {}", path.string(), message)
+                               : fmt::format("{}:{}: {}", path.string(), line, message)),
+        path_(std::move(path)),
+        line_(line) {}
   template <typename First, typename... Rest>
   ReadError(std::filesystem::path path,
             std::size_t line,

@@ -14,7 +14,7 @@
 
 namespace myoid::recording {
 
-ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
+void require_regular_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -24,6 +24,14 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
   if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   if (!std::filesystem::is_regular_file(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
+}
+
+void throw_empty(const std::filesystem::path& path) {
+  throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+}
+
+ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
+  require_regular_file(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat info {};
   if (descriptor_ < 0 || fstat(descriptor_, &info) != 0) {
@@ -34,13 +42,13 @@ ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
   size_ = static_cast<std::uint64_t>(info.st_size);
   if (size_ == 0) {
     close(descriptor_);
-    throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+    throw_empty(path);
   }
 }
 
 ByteSource::ByteSource(std::span<const std::byte> memory, std::filesystem::path path)
     : path_(std::move(path)), memory_(memory), size_(memory.size()) {
-  if (size_ == 0) throw ReadError(path_, 0, "the file is empty; export it again from the program that made it");
+  if (size_ == 0) throw_empty(path_);
 }
 
 ByteSource::~ByteSource() {

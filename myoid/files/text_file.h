@@ -69,6 +69,10 @@ inline constexpr std::string_view kLastRowKept = "the last row has no line end; 
 [[nodiscard]] char* write_fixed(char* at, double value, int decimals, std::size_t width = 0);
 inline constexpr std::size_t kFixedRoom = 400;
 
+/// Returns a capital letter of ASCII as a small one, and any other character unchanged.
+[[nodiscard]] constexpr char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+[[nodiscard]] std::string small_letters(std::string text);
+
 /// Compares texts ignoring the case of ASCII letters.
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
 

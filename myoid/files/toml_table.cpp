@@ -12,6 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 
@@ -127,20 +128,6 @@ std::string TomlTable::choice(std::string_view key,
     fail(key,
          fmt::format("found \"{}\", expected {}{}", value, named.size() > 1 ? "one of " : "", fmt::join(named, ", ")));
   }
-  return value;
-}
-
-double TomlTable::number_within(
-    std::string_view key, double otherwise, double lower, double upper, std::string_view unit) {
-  const double value = number(key).value_or(otherwise);
-  if (!(value >= lower && value <= upper))
-    fail(key, fmt::format("found {} {}, expected {} to {} {}", value, unit, lower, upper, unit));
-  return value;
-}
-
-double TomlTable::positive_number(std::string_view key, double otherwise) {
-  const double value = number(key).value_or(otherwise);
-  if (!(value > 0.0)) fail(key, fmt::format("found {}, expected a positive number", value));
   return value;
 }
 
@@ -296,12 +283,11 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
     // Levenshtein distance, ignoring case, one row at a time.
     std::vector<std::size_t> row(candidate.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
     for (std::size_t i = 0; i < word.size(); ++i) {
       std::size_t diagonal = row[0];
       row[0] = i + 1;
       for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t replace = diagonal + (lower(word[i]) == lower(candidate[j]) ? 0U : 1U);
+        const std::size_t replace = diagonal + (small_letter(word[i]) == small_letter(candidate[j]) ? 0U : 1U);
         diagonal = row[j + 1];
         row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
       }

@@ -40,7 +40,7 @@ std::vector<Vec3> axes_of(std::string_view text) {
   std::vector<Vec3> axes;
   double sign = 1.0;
   for (const char c : text) {
-    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    const char small = small_letter(c);
     if (small >= 'x' && small <= 'z') {
       axes.emplace_back(sign * Vec3::Unit(small - 'x'));
       sign = 1.0;
