@@ -16,10 +16,10 @@
 #include "myoid/files/byte_source.h"
 #include "myoid/files/file_words.h"
 
-#include "tests/support/whole_c3d.h"
 #include "tests/support/c3d_texts.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

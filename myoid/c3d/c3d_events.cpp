@@ -20,7 +20,7 @@ constexpr unsigned kPresent = 12345;  ///< Header word that says: this section i
 std::vector<const C3dParameter*> blocks_of(const C3dGroup& group, std::string_view name) {
   std::vector<const C3dParameter*> list;
   for (int block = 1;; ++block) {
-    const std::string wanted = block == 1 ? std::string(name) : fmt::format("{}{}", name, block);
+    const std::string wanted = block_name(name, block);
     const auto it = std::find_if(group.parameters.begin(), group.parameters.end(),
                                  [&](const C3dParameter& p) { return equal_ignoring_case(trim(p.name), wanted); });
     if (it == group.parameters.end()) return list;

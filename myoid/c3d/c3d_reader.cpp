@@ -21,26 +21,6 @@
 namespace myoid::recording {
 namespace {
 
-/// Joins the texts of NAME, NAME2, NAME3, ....
-std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
-  std::vector<std::string> list;
-  for (int block = 1;; ++block) {
-    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
-    if (p == nullptr) return list;
-    for (std::string& text : texts(*p)) list.push_back(std::move(text));
-  }
-}
-
-/// Joins the numbers of NAME, NAME2, ....
-std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string name) {
-  std::vector<double> list;
-  for (int block = 1;; ++block) {
-    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
-    if (p == nullptr) return list;
-    list.insert(list.end(), p->numbers.begin(), p->numbers.end());
-  }
-}
-
 /// Returns `count` names, none empty, all unique.
 std::vector<std::string> unique_names(std::vector<std::string> names,
                                       std::size_t count,
@@ -83,11 +63,6 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
   return names;
 }
 
-bool is_unsigned(const C3dFile& file) {
-  const C3dParameter* format = file.find("ANALOG", "FORMAT");
-  return format != nullptr && !texts(*format).empty() && equal_ignoring_case(texts(*format)[0], "UNSIGNED");
-}
-
 void read_channels(C3dFile& file, const C3dLayout& layout) {
   const std::size_t count = layout.channels;
   if (count == 0) return;
@@ -107,7 +82,7 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
     note(file.repairs, "ANALOG:GEN_SCALE is missing; 1 is assumed");
     general = 1.0;
   }
-  if (is_unsigned(file)) {
+  if (file.says_unsigned()) {
     for (double& offset : offsets) offset += offset < 0.0 ? 65536.0 : 0.0;
   }
   for (std::size_t c = 0; c < count; ++c) {
@@ -196,26 +171,25 @@ void read_point_unit(C3dFile& file, const C3dFrames& frames, const C3dLayout& la
 }
 
 void read_rates(C3dFile& file, const C3dHeader& header, const C3dLayout& layout, const std::filesystem::path& path) {
-  const auto good = [](double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; };
   const double said = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
   const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
   const auto in_header = static_cast<double>(header.rate_hz);
   const auto ratio = static_cast<double>(layout.analog_per_frame);
-  file.point_rate_hz = good(said) ? said : in_header;
-  if (!good(file.point_rate_hz)) {
-    if (layout.channels == 0 || !good(analog)) {
+  file.point_rate_hz = is_c3d_rate(said) ? said : in_header;
+  if (!is_c3d_rate(file.point_rate_hz)) {
+    if (layout.channels == 0 || !is_c3d_rate(analog)) {
       throw ReadError(path, 0, "the frame rate is {} in the header and {} in POINT:RATE; correct one of them",
                       in_header, said);
     }
     file.point_rate_hz = analog / ratio;
     note(file.repairs, "no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz);
-  } else if (good(said) && good(in_header) && std::abs(said - in_header) > 1e-3 * said) {
+  } else if (is_c3d_rate(said) && is_c3d_rate(in_header) && std::abs(said - in_header) > 1e-3 * said) {
     note(file.repairs, "the frame rate is {} Hz in POINT:RATE and {} Hz in the header; the parameter is taken", said,
          in_header);
-  } else if (!good(said)) {
+  } else if (!is_c3d_rate(said)) {
     note(file.repairs, "POINT:RATE is missing; {} Hz from the header", in_header);
   }
-  if (layout.channels > 0 && good(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
+  if (layout.channels > 0 && is_c3d_rate(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
     note(file.repairs, "ANALOG:RATE says {} Hz, but {} samples stand in each frame: {} Hz is taken", analog,
          layout.analog_per_frame, file.point_rate_hz * ratio);
   }
@@ -307,7 +281,7 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   read_rates(file, header, layout, path);
   file.point_labels =
       unique_names(all_texts(file, "POINT", "LABELS"), layout.points, "POINT:LABELS", "point", file.repairs);
-  const bool no_sign = is_unsigned(file);
+  const bool no_sign = file.says_unsigned();
   read_point_unit(file, C3dFrames(layout, file.processor, no_sign), layout, source);
   read_channels(file, layout);
   read_c3d_events(file, source, head, number);

@@ -29,12 +29,7 @@ std::size_t bare_begin(const std::string& name) {
 std::vector<Eigen::Index> marker_columns(const C3dFile& file) {
   std::set<std::string> derived;
   for (const char* kind : {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"}) {
-    for (int block = 1; block <= 20; ++block) {
-      const std::string name = block == 1 ? kind : fmt::format("{}{}", kind, block);
-      const C3dParameter* parameter = file.find("POINT", name);
-      if (parameter == nullptr) break;
-      for (const std::string& label : texts(*parameter)) derived.insert(label);
-    }
+    for (std::string& label : all_texts(file, "POINT", kind)) derived.insert(std::move(label));
   }
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < file.point_labels.size(); ++i) {

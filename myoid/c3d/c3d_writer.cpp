@@ -109,8 +109,7 @@ void put_header(const C3dFile& file,
 
 /// Returns true if integer samples are written without sign.
 bool writes_unsigned(const C3dFile& file) {
-  const C3dParameter* said = file.find("ANALOG", "FORMAT");
-  if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))
+  if (file.says_unsigned())
     return std::none_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset < 0.0; });
   return std::any_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset > 32767; });
 }

@@ -12,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/toml_table.h"
+#include "myoid/tables/instrument_names.h"
 
 namespace myoid::recording {
 namespace {
@@ -114,6 +115,22 @@ TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs) 
     }
   }
   return static_cast<Eigen::Index>(whole.size()) == series.channel_count() ? series : series.select(whole);
+}
+
+std::vector<std::string> emg_channels(const std::vector<Channel>& channels, const std::vector<PlateSetup>& plates) {
+  std::vector<bool> of_plate(channels.size(), false);
+  for (const PlateSetup& plate : plates) {
+    for (const Eigen::Index column : plate.channels) {
+      if (column >= 0 && static_cast<std::size_t>(column) < of_plate.size())
+        of_plate[static_cast<std::size_t>(column)] = true;
+    }
+  }
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].unit == Unit::volt && !of_plate[c] && !named_as_no_emg(channels[c].name))
+      names.push_back(channels[c].name);
+  }
+  return names;
 }
 
 }  // namespace myoid::recording

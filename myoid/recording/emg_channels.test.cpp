@@ -1,4 +1,4 @@
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/channel_choice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
