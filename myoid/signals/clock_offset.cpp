@@ -170,6 +170,11 @@ Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx, double reach_s
   return peak;
 }
 
+Stretch common_time(const TimeSeries& a, const TimeSeries& b) {
+  return {std::max(a.time_s()[0], b.time_s()[0]),
+          std::min(a.time_s()[a.sample_count() - 1], b.time_s()[b.sample_count() - 1])};
+}
+
 TimeSeries third(const TimeSeries& series, int which, double begin_s, double end_s) {
   const double length_s = (end_s - begin_s) / 3.0;
   return series.slice(begin_s + which * length_s, begin_s + (which + 1) * length_s);
@@ -182,9 +187,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                                                  double reach_s) {
   if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
   if (envelopes.channel_count() == 0 || motion.channel_count() == 0) return std::nullopt;
-  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s =
-      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
+  const auto [begin_s, end_s] = common_time(envelopes, motion);
   if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz) return std::nullopt;
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
   const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), kMostEmg, true);
@@ -232,9 +235,7 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSe
   std::vector<Remark> faults;
   const std::optional<ClockOffset> offset = estimate_clock_offset(envelopes, motion);
   if (!offset) return faults;
-  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s =
-      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
+  const auto [begin_s, end_s] = common_time(envelopes, motion);
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
   const bool grave =
       offset->lead_s - unsure_s > kLimits.latest_offset_s || offset->lead_s + unsure_s < kLimits.earliest_offset_s;

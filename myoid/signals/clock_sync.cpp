@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::signals {
@@ -146,15 +146,15 @@ ClockMap match_instants(const Instants& file, const Instants& study) {
   }
   std::optional<Line> best;
   int fits = 0;
-  double least_rms_s = std::numeric_limits<double>::infinity();
+  double least_rms_s = kInfinity;
   for (std::size_t way = 0; way < ways; ++way) {
-    const Line line = fit_line(part(file.time_s, file_longer ? way : 0, count),
-                               part(study.time_s, file_longer ? 0 : way, count), sd_s, false);
+    const std::vector<double> file_s = part(file.time_s, file_longer ? way : 0, count);
+    const std::vector<double> study_s = part(study.time_s, file_longer ? 0 : way, count);
+    const Line line = fit_line(file_s, study_s, sd_s, false);
     if (std::abs(line.clock.drift_ppm) > kMostDrift_ppm) continue;
     if (line.rms_s < least_rms_s) {
       least_rms_s = line.rms_s;
-      best = fit_line(part(file.time_s, file_longer ? way : 0, count), part(study.time_s, file_longer ? 0 : way, count),
-                      sd_s, true);
+      best = fit_line(file_s, study_s, sd_s, true);
     }
     if (line.rms_s <= kMostSigmas * sd_s) ++fits;
   }

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/moving_mean.h"
 #include "myoid/signals/filter.h"
@@ -26,11 +28,6 @@ constexpr double kQuieter = 3.0;
 /// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
 /// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
-
-Eigen::Index window_samples(const TimeSeries& series, double window_s) {
-  const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
-  return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
-}
 
 /// Mean and number of the windows at one extreme.
 struct Extreme {
@@ -121,20 +118,23 @@ void take_out_hum(bool notch, EmgStages& stages) {
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto hum = find_hum(values.col(c), rate_hz);
     if (!hum || hum->share < kLimits.hum_share) continue;
-    std::string lines;
-    for (const double line_hz : hum->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
-    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
-                                          stages.filtered.channels()[static_cast<std::size_t>(c)].name,
-                                          100.0 * hum->share, lines,
+    const std::string& name = stages.filtered.channels()[at(c)].name;
+    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz; {}", name,
+                                          100.0 * hum->share, fmt::join(hum->lines_hz, ", "),
                                           notch ? "taken out by notches" : "check the reference electrode"));
     if (!notch) continue;
     values.col(c) = without_hum(values.col(c), rate_hz, *hum);
-    stages.notches.push_back({stages.filtered.channels()[static_cast<std::size_t>(c)].name, hum->lines_hz});
+    stages.notches.push_back({name, hum->lines_hz});
   }
   stages.filtered = TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
 
 }  // namespace
+
+Eigen::Index window_samples(const TimeSeries& series, double window_s) {
+  const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
+  return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
+}
 
 EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_unit(raw, Unit::volt, "EMG");

@@ -1,8 +1,6 @@
 #include "myoid/signals/emg_levels.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,12 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/numbers.h"
+#include "myoid/math/moving_mean.h"
+
 namespace myoid::signals {
 namespace {
 
 /// Extreme means of an envelope: smallest and largest over a pause, and largest over 0.5 s.
 struct Levels {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   double peak = 0.0;
   double greatest = 0.0;
   double greatest_s = 0.0;
@@ -26,24 +27,15 @@ constexpr double kEffort_s = 0.5;
 Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   Levels result;
   const Eigen::VectorXd x = envelope.values().col(c);
-  Eigen::VectorXd sum(x.size() + 1);
-  sum[0] = 0.0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
-  const auto width = [&](double seconds) {
-    return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1,
-                                    x.size());
-  };
-  const Eigen::Index narrow = width(kPause_s);
-  for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
-    const double mean = (sum[i + narrow] - sum[i]) / static_cast<double>(narrow);
+  for (const double mean : math::moving_mean(x, window_samples(envelope, kPause_s))) {
     result.least = std::min(result.least, mean);
     result.peak = std::max(result.peak, mean);
   }
-  const Eigen::Index wide = width(kEffort_s);
-  for (Eigen::Index i = 0; i + wide <= x.size(); ++i) {
-    const double mean = (sum[i + wide] - sum[i]) / static_cast<double>(wide);
-    if (mean <= result.greatest) continue;
-    result.greatest = mean;
+  const Eigen::Index wide = window_samples(envelope, kEffort_s);
+  const Eigen::VectorXd efforts = math::moving_mean(x, wide);
+  for (Eigen::Index i = 0; i < efforts.size(); ++i) {
+    if (efforts[i] <= result.greatest) continue;
+    result.greatest = efforts[i];
     result.greatest_s = envelope.time_s()[i + wide / 2];
   }
   return result;
@@ -63,7 +55,7 @@ LevelsByChannel levels_of(const TrialEnvelope& trial) {
 std::optional<Remark> other_unit(const TrialEnvelope& trial,
                                  const LevelsByChannel& own,
                                  const LevelsByChannel& maximal) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  double least = kInfinity, most = 0.0;
   for (const auto& [channel, mvc] : maximal) {
     const auto found = own.find(channel);
     if (found == own.end()) continue;
@@ -139,7 +131,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
     }
   }
   for (const std::string& channel : names) {
-    double rest = std::numeric_limits<double>::infinity();
+    double rest = kInfinity;
     double peak = 0.0;
     Levels mvc;
     Levels movement;

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/math/butterworth.h"
+#include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/mains_hum.h"
 
@@ -157,11 +159,9 @@ class ChannelCheck {
   void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
     if (!found || found->share < kLimits.hum_share) return;
-    std::string lines;
-    for (const double line : found->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
     add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
-        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_, 100.0 * found->share,
-                    lines),
+        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
+                    fmt::join(found->lines_hz, ", ")),
         "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference electrode");
     emg_ = without_hum(emg_, rate_hz_, *found);
   }
@@ -283,9 +283,7 @@ bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
   constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
   const Eigen::Index n = x.size();
   if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff())) return false;
-  std::vector<double> sorted(x.begin(), x.end());
-  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  const double median = math::upper_median({x.begin(), x.end()});
   // With few different values the median may be the highest or the lowest of all.
   Eigen::Index above = 0;
   Eigen::Index not_below = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -84,10 +83,10 @@ double band_power(const PowerSpectrum& spectrum, double low_hz, double high_hz) 
 }
 
 double statistical_bandwidth_hz(const PowerSpectrum& spectrum) {
-  if (spectrum.density.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (spectrum.density.size() < 2) return kNan;
   const double sum = spectrum.density.sum();
   const double width_hz = spectrum.frequency_hz[1] - spectrum.frequency_hz[0];
-  return sum > 0.0 ? width_hz * sum * sum / spectrum.density.squaredNorm() : std::numeric_limits<double>::quiet_NaN();
+  return sum > 0.0 ? width_hz * sum * sum / spectrum.density.squaredNorm() : kNan;
 }
 
 double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double high_hz) {
