@@ -16,13 +16,14 @@
 namespace myoid::recording {
 namespace {
 
-std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
+/// Returns the 16 bits of a whole number.
+std::uint16_t whole(double value, bool is_unsigned, const std::string& what) {
   const double low = is_unsigned ? 0.0 : -32768.0;
   const double high = is_unsigned ? 65535.0 : 32767.0;
   if (!(value >= low && value <= high) || value != std::nearbyint(value)) {
     throw InvalidInput("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high);
   }
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(static_cast<int>(value)));
+  return static_cast<std::uint16_t>(static_cast<int>(value));
 }
 
 /// Writes the data of a frame in sequence.
@@ -40,35 +41,22 @@ class SampleWriter {
     const float fourth = !measured || std::isnan(p[3]) ? -1.0F : p[3];
     for (int axis = 0; axis < 3; ++axis) {
       const float value = measured ? p[axis] : 0.0F;
-      if (integer_) {
-        put(whole(std::nearbyint(static_cast<double>(value) / scale_), false, "C3D coordinate"));
-      } else {
-        put(value, "C3D coordinate");
-      }
+      put(value, std::nearbyint(static_cast<double>(value) / scale_), false, "C3D coordinate");
     }
-    if (integer_) {
-      put(whole(static_cast<double>(fourth), false, "C3D residual"));
-    } else {
-      put(fourth, "C3D residual");
-    }
+    put(fourth, static_cast<double>(fourth), false, "C3D residual");
   }
 
-  void sample(float value) {
-    if (integer_) {
-      put(whole(static_cast<double>(value), is_unsigned_, "C3D analog sample"));
-    } else {
-      put(value, "C3D analog sample");
-    }
-  }
+  void sample(float value) { put(value, static_cast<double>(value), is_unsigned_, "C3D analog sample"); }
 
  private:
-  void put(std::int16_t value) {
-    number_.put_u16(at_, static_cast<std::uint16_t>(value));
-    at_ += 2;
-  }
-  void put(float value, const char* what) {
-    if (!number_.put_real(at_, value)) throw InvalidInput("{}: {} cannot be written as a DEC number", what, value);
-    at_ += 4;
+  /// Writes `count` in a file of integers, else `value`.
+  void put(float value, double count, bool is_unsigned, const char* what) {
+    if (integer_) {
+      number_.put_u16(at_, whole(count, is_unsigned, what));
+    } else if (!number_.put_real(at_, value)) {
+      throw InvalidInput("{}: {} cannot be written as a DEC number", what, value);
+    }
+    at_ += integer_ ? 2 : 4;
   }
 
   std::byte* at_;

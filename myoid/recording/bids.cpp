@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/text_table.h"
 
@@ -155,8 +155,7 @@ MarkerSeries markers_of(const std::vector<Point>& points,
   markers.positions_m = positions.leftCols(width);
   for (Eigen::Index k = 0; k < values.rows(); ++k) {
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-      if (markers.missing(k, m))
-        markers.positions_m.block<1, 3>(k, 3 * m).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (markers.missing(k, m)) markers.positions_m.block<1, 3>(k, 3 * m).setConstant(kNan);
     }
   }
   return markers;

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/files/event.h"
 #include "myoid/files/file_words.h"
@@ -323,8 +324,8 @@ class RecordTimes {
   const Header& header_;
   double interval_s_;
   const std::filesystem::path& path_;
-  double zero_s_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first stamp.
-  double end_s_ = std::numeric_limits<double>::quiet_NaN();   ///< End of the previous record.
+  double zero_s_ = kNan;  ///< NaN before the first stamp.
+  double end_s_ = kNan;   ///< End of the previous record.
   bool stamps_agree_ = true;
 };
 

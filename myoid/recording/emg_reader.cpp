@@ -33,7 +33,7 @@ std::optional<double> voltage_in(std::string_view text) {
   std::string word;
   for (std::size_t i = 0; i <= text.size(); ++i) {
     const char c = i < text.size() ? text[i] : ' ';
-    if (c == ' ' || c == ',' || c == '(' || c == ')' || c == '[' || c == ']' || c == '\t' || c == ';' || c == '=') {
+    if (std::string_view(" ,()[]\t;=").find(c) != std::string_view::npos) {
       for (const std::string& candidate : {word, word + "s"}) {
         const auto unit = parse_unit(candidate);
         if (unit && unit->unit == Unit::volt) return unit->to_si;
@@ -80,12 +80,6 @@ TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   return {series.time_s(), std::move(channels), factor * series.values()};
 }
 
-/// Notes the columns that are left out because their unit is another than volt.
-void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit, std::vector<Repair>& repairs) {
-  for (const auto& [unit, names] : by_unit)
-    note(repairs, "no EMG since in {}, left out: {}", unit, fmt::join(names, ", "));
-}
-
 /// Returns columns in volts unchanged and columns without a unit times `to_volt`; columns in
 /// another unit are no EMG and are left out. Empty if a factor is needed and there is none.
 std::optional<TimeSeries> volts_of(const CsvSeries& series,
@@ -94,12 +88,12 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   std::vector<std::string> kept;
   std::vector<double> factors;
   bool stated = false;
-  std::string other_instruments;
+  std::vector<std::string> other_instruments;
   std::map<std::string, std::vector<std::string>> other_units;
   for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
     const Channel& channel = series.data.channels()[c];
     if (named_as_no_emg(channel.name)) {
-      other_instruments += (other_instruments.empty() ? "" : ", ") + channel.name;
+      other_instruments.push_back(channel.name);
       continue;
     }
     if (series.has_unit[c] && channel.unit != Unit::volt) {
@@ -111,8 +105,10 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
     kept.push_back(channel.name);
     factors.push_back(series.has_unit[c] ? 1.0 : *to_volt);
   }
-  state_other_units(other_units, repairs);
-  if (!other_instruments.empty()) note(repairs, "left out, because their names are no EMG's: {}", other_instruments);
+  for (const auto& [unit, names] : other_units)
+    note(repairs, "no EMG since in {}, left out: {}", unit, fmt::join(names, ", "));
+  if (!other_instruments.empty())
+    note(repairs, "left out, because their names are no EMG's: {}", fmt::join(other_instruments, ", "));
   if (stated && to_volt) note(repairs, "columns that name their unit keep it; the unit given is for the others");
   TimeSeries chosen = with_unit(series.data.select(kept), Unit::volt, 1.0);
   Eigen::MatrixXd values = chosen.values();
@@ -218,7 +214,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   std::vector<bool> has_unit;
   std::vector<Channel> renewed;
   std::vector<double> factors;
-  std::string bad;
+  std::vector<std::string> bad;
   std::size_t others = 0;
   for (const BidsChannel& channel : *channels) {
     const auto column = series.data.find(channel.name);
@@ -231,7 +227,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
       continue;
     }
     if (channel.bad) {
-      bad += (bad.empty() ? "" : ", ") + channel.name;
+      bad.push_back(channel.name);
       continue;
     }
     const auto c = static_cast<std::size_t>(*column);
@@ -245,7 +241,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   }
   if (kept.empty()) throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
   if (others > 0) note(series.repairs, "{} channels are no EMG by the _channels.tsv; left out", others);
-  if (!bad.empty()) note(series.repairs, "channels marked as bad are left out: {}", bad);
+  if (!bad.empty()) note(series.repairs, "channels marked as bad are left out: {}", fmt::join(bad, ", "));
   Eigen::MatrixXd values = series.data.select(kept).values();
   for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];
   series.data = TimeSeries(series.data.time_s(), std::move(renewed), std::move(values));

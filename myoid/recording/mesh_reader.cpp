@@ -37,8 +37,8 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
 
-  double number() {
-    const std::string_view word = next();
+  double number() { return number_of(next()); }
+  [[nodiscard]] double number_of(std::string_view word) const {
     const auto value = parse_number(word);
     if (!value || !std::isfinite(*value)) fail(fmt::format("expected a number, found '{}'", word));
     return *value;
@@ -118,11 +118,8 @@ std::vector<double> data_array(std::string_view whole,
                       array.attribute("format"));
     }
     Words words(array.content, path, line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      const auto value = parse_number(word);
-      if (!value || !std::isfinite(*value)) words.fail(fmt::format("expected a number, found '{}'", word));
-      numbers.push_back(*value);
-    }
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      numbers.push_back(words.number_of(word));
     break;
   }
   return numbers;
