@@ -288,4 +288,26 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   return {std::move(file), layout, no_sign};
 }
 
+C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
+  C3dHead head = read_c3d_head(source, path);
+  C3dFile& file = head.file;
+  const C3dLayout& layout = head.layout;
+  const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
+  file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
+  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio, static_cast<Eigen::Index>(layout.channels));
+  const C3dFrames frames = head.frames();
+  frames.each_part(source, [&](std::int64_t first, std::int64_t count, const std::byte* p) {
+    for (std::int64_t k = first; k < first + count; ++k, p += layout.frame_bytes()) {
+      if (layout.points > 0) frames.points(p, file.points.row(k).data());
+      if (layout.channels > 0) frames.analog(p, file.analog.row(k * ratio).data());
+    }
+  });
+  return std::move(head.file);
+}
+
+C3dFile read_c3d(const std::filesystem::path& path) {
+  ByteSource source(path);
+  return read_c3d_source(source, path);
+}
+
 }  // namespace myoid::recording

@@ -29,4 +29,8 @@ struct C3dHead {
 /// rate or no whole frame.
 [[nodiscard]] C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path);
 
+/// Reads a file whole, its samples as stored: a frame of reals is copied bit by bit. Throws like `read_c3d_head`.
+[[nodiscard]] C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path);
+[[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
+
 }  // namespace myoid::recording

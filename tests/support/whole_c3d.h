@@ -15,29 +15,6 @@
 /// Whole C3D files in memory: the program itself converts the samples part by part.
 namespace myoid::recording {
 
-/// Reads a file whole, its samples as stored. A frame of reals is copied bit by bit.
-inline C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
-  C3dHead head = read_c3d_head(source, path);
-  C3dFile& file = head.file;
-  const C3dLayout& layout = head.layout;
-  const auto ratio = static_cast<Eigen::Index>(layout.analog_per_frame);
-  file.points.resize(layout.frames, static_cast<Eigen::Index>(4 * layout.points));
-  file.analog.resize(layout.channels == 0 ? 0 : layout.frames * ratio, static_cast<Eigen::Index>(layout.channels));
-  const C3dFrames frames = head.frames();
-  frames.each_part(source, [&](std::int64_t first, std::int64_t count, const std::byte* p) {
-    for (std::int64_t k = first; k < first + count; ++k, p += layout.frame_bytes()) {
-      if (layout.points > 0) frames.points(p, file.points.row(k).data());
-      if (layout.channels > 0) frames.analog(p, file.analog.row(k * ratio).data());
-    }
-  });
-  return std::move(head.file);
-}
-
-inline C3dFile read_c3d(const std::filesystem::path& path) {
-  ByteSource source(path);
-  return read_c3d_source(source, path);
-}
-
 inline C3dFile parse_c3d(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   ByteSource source(bytes, path);
   return read_c3d_source(source, path);
