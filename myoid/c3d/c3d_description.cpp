@@ -77,20 +77,19 @@ void set_texts(C3dGroup& group,
 void set_long_texts(C3dGroup& group, const std::string& name, const std::vector<std::string>& list) {
   std::size_t width = 1;
   for (const std::string& text : list) width = std::max(width, text.size());
-  if (width > 255) throw InvalidInput(fmt::format("C3D {}: a name of {} bytes; at most 255", name, width));
+  if (width > 255) throw InvalidInput("C3D {}: a name of {} bytes; at most 255", name, width);
   const std::size_t most = std::min<std::size_t>(255, 65000 / width);
-  for (int block = 1; block < 1000; ++block) erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
+  for (int block = 1; block < 1000; ++block) erase(group, block_name(name, block));
   int block = 1;
   for (std::size_t first = 0; first < list.size() || block == 1; first += most, ++block) {
-    set_texts(group, block == 1 ? name : fmt::format("{}{}", name, block), list, first,
-              std::min(most, list.size() - first), width);
+    set_texts(group, block_name(name, block), list, first, std::min(most, list.size() - first), width);
   }
 }
 
 /// Splits numbers over NAME, NAME2, ... likewise; each element has `rows` numbers.
 void set_long_numbers(
     C3dGroup& group, const std::string& name, C3dType type, const std::vector<double>& numbers, std::uint8_t rows = 1) {
-  for (int block = 1; block < 1000; ++block) erase(group, block == 1 ? name : fmt::format("{}{}", name, block));
+  for (int block = 1; block < 1000; ++block) erase(group, block_name(name, block));
   int block = 1;
   const std::size_t elements = numbers.size() / rows;
   for (std::size_t first = 0; first < elements || block == 1; first += 255, ++block) {
@@ -98,8 +97,8 @@ void set_long_numbers(
     const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first * rows);
     std::vector<std::uint8_t> dimensions{static_cast<std::uint8_t>(count)};
     if (rows > 1) dimensions.insert(dimensions.begin(), rows);
-    set_numbers(group, block == 1 ? name : fmt::format("{}{}", name, block), type,
-                {begin, begin + static_cast<std::ptrdiff_t>(count * rows)}, std::move(dimensions));
+    set_numbers(group, block_name(name, block), type, {begin, begin + static_cast<std::ptrdiff_t>(count * rows)},
+                std::move(dimensions));
   }
 }
 
@@ -148,19 +147,16 @@ void describe_channels(std::vector<C3dGroup>& groups, const C3dFile& file) {
     units.push_back(channel.unit_text);
     const auto scale = static_cast<float>(channel.scale / divide);
     if (static_cast<double>(scale) * divide != channel.scale && !std::isnan(channel.scale)) {
-      throw InvalidInput(
-          fmt::format("C3D channel '{}': the scale {} does not fit into 32 bits", channel.name, channel.scale));
+      throw InvalidInput("C3D channel '{}': the scale {} does not fit into 32 bits", channel.name, channel.scale);
     }
     scales.push_back(static_cast<double>(scale));
     offsets.push_back(channel.offset);
     if (channel.offset > 32767.0) is_unsigned = true;
   }
   erase(group, "OFFSETS");
-  const C3dParameter* said = file.find("ANALOG", "FORMAT");
   if (is_unsigned) {
     set_texts(group, "FORMAT", {"UNSIGNED"}, 0, 1, 8);
-  } else if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED") &&
-             std::any_of(offsets.begin(), offsets.end(), [](double o) { return o < 0.0; })) {
+  } else if (file.says_unsigned() && std::any_of(offsets.begin(), offsets.end(), [](double o) { return o < 0.0; })) {
     set_texts(group, "FORMAT", {"SIGNED"}, 0, 1, 6);
   }
   set_number(group, "GEN_SCALE", C3dType::real, divide);
@@ -177,7 +173,7 @@ void describe_events(std::vector<C3dGroup>& groups, const C3dFile& file) {
   C3dGroup& group = group_named(groups, "EVENT");
   constexpr std::size_t kMost = 65535;  // USED has 16 bits
   if (file.events.size() > kMost)
-    throw InvalidInput(fmt::format("{} events; a C3D file holds at most {}", file.events.size(), kMost));
+    throw InvalidInput("{} events; a C3D file holds at most {}", file.events.size(), kMost);
   std::vector<std::string> labels;
   std::vector<std::string> contexts;
   std::vector<std::string> subjects;

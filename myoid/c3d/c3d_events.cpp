@@ -20,7 +20,7 @@ constexpr unsigned kPresent = 12345;  ///< Header word that says: this section i
 std::vector<const C3dParameter*> blocks_of(const C3dGroup& group, std::string_view name) {
   std::vector<const C3dParameter*> list;
   for (int block = 1;; ++block) {
-    const std::string wanted = block == 1 ? std::string(name) : fmt::format("{}{}", name, block);
+    const std::string wanted = block_name(name, block);
     const auto it = std::find_if(group.parameters.begin(), group.parameters.end(),
                                  [&](const C3dParameter& p) { return equal_ignoring_case(trim(p.name), wanted); });
     if (it == group.parameters.end()) return list;
@@ -51,8 +51,7 @@ class EventList {
     if (std::isfinite(event.time_s) && std::abs(event.time_s) <= 1e7) {
       events_.push_back(std::move(event));
     } else {
-      file_.repairs.push_back(
-          {0, fmt::format("{}: event {} is at {} s, which is no time; left out", place_, count_, event.time_s)});
+      note(file_.repairs, "{}: event {} is at {} s, which is no time; left out", place_, count_, event.time_s);
     }
   }
 
@@ -90,9 +89,8 @@ void read_group(C3dFile& file, const C3dGroup& group, bool of_kinarm) {
   if (count == 0) return;
   const bool pairs = times.size() >= 2 * count;
   if (!pairs)
-    file.repairs.push_back({0, fmt::format("{}:TIMES has {} numbers for {} events instead of two "
-                                           "for each; taken as seconds",
-                                           group.name, times.size(), count)});
+    note(file.repairs, "{}:TIMES has {} numbers for {} events instead of two for each; taken as seconds", group.name,
+         times.size(), count);
   const auto labels = texts_of(group, "LABELS");
   const auto contexts = texts_of(group, "CONTEXTS");
   const auto subjects = texts_of(group, "SUBJECTS");
@@ -125,9 +123,7 @@ void read_new_events(C3dFile& file, ByteSource& source, std::span<const std::byt
   const std::size_t record = width + kBehindLabel;
   const std::uint64_t fit = (source.size() - at - kSectionHead) / record;
   if (fit < events)
-    file.repairs.push_back({0, fmt::format("the event section at byte {} says {} events; {} are in "
-                                           "the file",
-                                           at, events, fit)});
+    note(file.repairs, "the event section at byte {} says {} events; {} are in the file", at, events, fit);
   EventList list(file, "the event section");
   for (std::size_t i = 0; i < std::min<std::uint64_t>(events, fit); ++i) {
     const auto bytes = source.view(at + kSectionHead + i * record, record);

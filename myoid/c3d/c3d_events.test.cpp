@@ -10,6 +10,7 @@
 #include "myoid/c3d/c3d_writer.h"
 
 #include "tests/support/c3d_texts.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_words.h"
@@ -33,6 +36,30 @@ const C3dParameter* C3dFile::find(std::string_view group, std::string_view name)
     if (other_spelling != nullptr) return other_spelling;
   }
   return nullptr;
+}
+
+bool C3dFile::says_unsigned() const {
+  const C3dParameter* format = find("ANALOG", "FORMAT");
+  return format != nullptr && !texts(*format).empty() && equal_ignoring_case(texts(*format)[0], "UNSIGNED");
+}
+
+std::string block_name(std::string_view name, int block) {
+  return block == 1 ? std::string(name) : fmt::format("{}{}", name, block);
+}
+
+std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string_view name) {
+  std::vector<std::string> list;
+  for (int block = 1; const C3dParameter* p = file.find(group, block_name(name, block)); ++block) {
+    for (std::string& text : texts(*p)) list.push_back(std::move(text));
+  }
+  return list;
+}
+
+std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string_view name) {
+  std::vector<double> list;
+  for (int block = 1; const C3dParameter* p = file.find(group, block_name(name, block)); ++block)
+    list.insert(list.end(), p->numbers.begin(), p->numbers.end());
+  return list;
 }
 
 std::vector<std::string> texts(const C3dParameter& parameter) {

@@ -54,8 +54,7 @@ struct C3dChannel {
   friend bool operator==(const C3dChannel&, const C3dChannel&) = default;
 };
 
-/// A C3D file with the numbers in the file's own 32 bits and every parameter. `c3d_markers`,
-/// `c3d_analog` and `force_plates` convert to SI.
+/// A C3D file with the numbers in the file's own 32 bits and every parameter.
 struct C3dFile {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -87,10 +86,20 @@ struct C3dFile {
   /// Finds the parameter of this group and name, ignoring case and known misspellings of old
   /// programs (FORCE_PLATEFORM, OFFSETS); nullptr if there is none.
   [[nodiscard]] const C3dParameter* find(std::string_view group, std::string_view name) const;
+
+  /// Returns true if ANALOG:FORMAT says that the samples have no sign.
+  [[nodiscard]] bool says_unsigned() const;
 };
+
+/// Returns NAME, NAME2, NAME3, ...: a list of more than 255 elements is split over parameters of these names.
+[[nodiscard]] std::string block_name(std::string_view name, int block);
 
 /// Splits a text parameter into its texts, as UTF-8 and without blanks and zero bytes at their ends.
 [[nodiscard]] std::vector<std::string> texts(const C3dParameter& parameter);
+
+/// Joins the texts, or the numbers, of NAME, NAME2, NAME3, ... in the order of the blocks.
+[[nodiscard]] std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string_view name);
+[[nodiscard]] std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string_view name);
 
 /// Returns the number at `index` if the parameter exists and this number is finite.
 [[nodiscard]] std::optional<double> number_at(const C3dParameter* parameter, std::size_t index);

@@ -108,18 +108,17 @@ void say_other_frame_counts(const C3dHeader& header,
                             std::vector<Repair>& repairs) {
   const std::int64_t in_header = header.last_frame - header.first_frame + 1;
   if (in_header <= 0) {
-    repairs.push_back({0, fmt::format("the header says frames {} to {}, which is no range; {} says "
-                                      "{} frames. If the first one is wrong, so is the time of all",
-                                      header.first_frame, header.last_frame, chosen.source, chosen.count)});
+    note(repairs,
+         "the header says frames {} to {}, which is no range; {} says {} frames. If the "
+         "first one is wrong, so is the time of all",
+         header.first_frame, header.last_frame, chosen.source, chosen.count);
   } else if (&chosen != frames.data()) {
-    repairs.push_back({0, fmt::format("{} says {} frames, {} says {}; the file's size confirms the "
-                                      "latter",
-                                      frames[0].source, frames[0].count, chosen.source, chosen.count)});
+    note(repairs, "{} says {} frames, {} says {}; the file's size confirms the latter", frames[0].source,
+         frames[0].count, chosen.source, chosen.count);
   } else if (const auto said = count_in(file.find("POINT", "FRAMES"));
              said && *said > 0 && *said < 65535 && static_cast<std::int64_t>(*said) != chosen.count % 65536) {
-    repairs.push_back({0, fmt::format("POINT:FRAMES says {} frames, the header {} ({} to {}); the "
-                                      "header is taken",
-                                      *said, in_header, header.first_frame, header.last_frame)});
+    note(repairs, "POINT:FRAMES says {} frames, the header {} ({} to {}); the header is taken", *said, in_header,
+         header.first_frame, header.last_frame);
   }
 }
 
@@ -132,10 +131,8 @@ std::string rotations_text(const C3dFile& file, std::size_t count) {
     for (std::size_t i = 0; i < std::min(list.size(), kMost); ++i) names += (i == 0 ? ": " : ", ") + list[i];
     if (list.size() > kMost) names += ", ...";
   }
-  return fmt::format(
-      "the poses of {} segments (group ROTATION{}), as Theia3D and Visual3D write "
-      "them, are not read",
-      count, names);
+  return fmt::format("the poses of {} segments (group ROTATION{}), as Theia3D and Visual3D write them, are not read",
+                     count, names);
 }
 
 /// Throws ReadError, with the remedy, for a file that holds only segment poses.
@@ -148,10 +145,9 @@ void refuse_poses_alone(const C3dHeader& header,
                             count_in(file.find("ANALOG", "USED")).value_or(0) == 0;
   if (rotations == 0 || !nothing_else) return;
   throw ReadError(path, 0,
-                  fmt::format("{}, and the file holds neither markers nor analog channels. In "
-                              "Visual3D make landmarks of the segments and export them as .trc "
-                              "or C3D, or export the joint angles as .mot or .csv",
-                              rotations_text(file, rotations)));
+                  "{}, and the file holds neither markers nor analog channels. In Visual3D make landmarks of the "
+                  "segments and export them as .trc or C3D, or export the joint angles as .mot or .csv",
+                  rotations_text(file, rotations));
 }
 
 bool is_block_inside(std::size_t block, std::uint64_t file_size) {
@@ -168,20 +164,18 @@ std::size_t data_block(const C3dHeader& header,
   const std::size_t block = header.data_block;
   if (is_block_inside(block, file_size)) {
     if (data_start && *data_start != block)
-      repairs.push_back({0, fmt::format("POINT:DATA_START says block {}, the header block {}; the "
-                                        "header is taken",
-                                        *data_start, block)});
+      note(repairs, "POINT:DATA_START says block {}, the header block {}; the header is taken", *data_start, block);
     return block;
   }
   if (!data_start || !is_block_inside(*data_start, file_size)) {
     throw ReadError(path, 0,
-                    fmt::format("the data should begin at block {}, which the file of {} bytes "
-                                "does not have; it is cut off: copy or export it again",
-                                block, file_size));
+                    "the data should begin at block {}, which the file of {} bytes does not have; it is "
+                    "cut off: copy or export it again",
+                    block, file_size);
   }
-  repairs.push_back({0, fmt::format("the header says the data begin at block {}, which the file "
-                                    "does not have; taken from POINT:DATA_START = {}",
-                                    block, *data_start)});
+  note(repairs,
+       "the header says the data begin at block {}, which the file does not have; taken from POINT:DATA_START = {}",
+       block, *data_start);
   return *data_start;
 }
 
@@ -203,12 +197,10 @@ Scale point_scale(const C3dHeader& header,
   if (scale.header_is_good || (header.points == 0 && header.analog_total == 0)) return scale;
   if (scale.taken == 0.0)
     throw ReadError(path, 0,
-                    fmt::format("the scale of the points is {} in the header and not in "
-                                "POINT:SCALE either: neither the kind nor the size of the "
-                                "samples is known",
-                                header.scale));
-  repairs.push_back(
-      {0, fmt::format("the header's scale is {}; taken from POINT:SCALE = {}", header.scale, scale.in_parameters)});
+                    "the scale of the points is {} in the header and not in POINT:SCALE either: neither "
+                    "the kind nor the size of the samples is known",
+                    header.scale);
+  note(repairs, "the header's scale is {}; taken from POINT:SCALE = {}", header.scale, scale.in_parameters);
   return scale;
 }
 
@@ -277,12 +269,10 @@ Story unconfirmed_story(const Claims& claims,
   const bool one_story = claims.points.size() == 1 && claims.integer.size() == 1 &&
                          used.value_or(claims.shapes[0].channels) == claims.shapes[0].channels;
   if (!one_story) {
-    throw ReadError(
-        path, 0,
-        fmt::format("header and parameters disagree ({} or {} points, {} analog samples a frame "
-                    "or {} channels) and the file's size of {} bytes confirms neither; export "
-                    "the file again",
-                    claims.points.front(), claims.points.back(), header.analog_total, used.value_or(0), file_size));
+    throw ReadError(path, 0,
+                    "header and parameters disagree ({} or {} points, {} analog samples a frame or {} channels) and "
+                    "the file's size of {} bytes confirms neither; export the file again",
+                    claims.points.front(), claims.points.back(), header.analog_total, used.value_or(0), file_size);
   }
   Story best{claims.integer[0], claims.points[0], claims.shapes[0], claims.frames.data()};
   // A count that wrapped at 65536 is too small by a multiple of 65536; a count that fits into the file is preferred.
@@ -308,24 +298,20 @@ void say_other_claims(const C3dHeader& header,
                          channels * analog_per_frame == header.analog_total;
   const auto used = count_in(file.find("ANALOG", "USED"));
   if (!as_header) {
-    repairs.push_back({0, fmt::format("the header says {} points and {} analog samples in a frame; "
-                                      "the file's size confirms {} points, {} channels, {} samples "
-                                      "a frame, as the parameters say",
-                                      header.points, header.analog_total, story.points, channels, analog_per_frame)});
+    note(repairs,
+         "the header says {} points and {} analog samples in a frame; the file's size "
+         "confirms {} points, {} channels, {} samples a frame, as the parameters say",
+         header.points, header.analog_total, story.points, channels, analog_per_frame);
   } else if (claims.points.size() > 1) {
-    repairs.push_back({0, fmt::format("POINT:USED says {} points, the header {}; the file's size "
-                                      "confirms the header",
-                                      claims.points[1], claims.points[0])});
+    note(repairs, "POINT:USED says {} points, the header {}; the file's size confirms the header", claims.points[1],
+         claims.points[0]);
   } else if (used && *used != channels) {
-    repairs.push_back({0, fmt::format("ANALOG:USED says {} channels, the header {}; the file's "
-                                      "size confirms the header",
-                                      *used, channels)});
+    note(repairs, "ANALOG:USED says {} channels, the header {}; the file's size confirms the header", *used, channels);
   }
   if (story.integer != claims.integer[0])
-    repairs.push_back(
-        {0, fmt::format("the header's scale {} says the samples are {}, the file's "
-                        "size that they are {}, as POINT:SCALE does",
-                        header.scale, claims.integer[0] ? "integers" : "reals", story.integer ? "integers" : "reals")});
+    note(repairs,
+         "the header's scale {} says the samples are {}, the file's size that they are {}, as POINT:SCALE does",
+         header.scale, claims.integer[0] ? "integers" : "reals", story.integer ? "integers" : "reals");
 }
 
 /// Returns the number of frames that the bytes hold, at most `said`.
@@ -340,13 +326,9 @@ std::int64_t whole_frames(std::int64_t said,
       static_cast<std::int64_t>(std::min<std::uint64_t>(available / frame_bytes, std::uint64_t{1} << 40U));
   if (whole >= said) return said;
   if (whole == 0)
-    throw ReadError(path, 0,
-                    fmt::format("the file is cut off at byte {}, inside its first frame; copy or "
-                                "export it again",
-                                file_size));
-  repairs.push_back({0, fmt::format("the file is cut off at byte {}: {} of {} frames are there "
-                                    "and taken",
-                                    file_size, whole, said)});
+    throw ReadError(path, 0, "the file is cut off at byte {}, inside its first frame; copy or export it again",
+                    file_size);
+  note(repairs, "the file is cut off at byte {}: {} of {} frames are there and taken", file_size, whole, said);
   return whole;
 }
 
@@ -382,14 +364,13 @@ C3dLayout find_c3d_layout(const C3dHeader& header,
   layout.scale = std::abs(static_cast<float>(scale.taken));
   if (layout.integer && scale.header_is_good && scale.in_parameters != 0.0 &&
       std::abs(std::abs(scale.in_parameters) - std::abs(scale.taken)) > 1e-6 * std::abs(scale.taken)) {
-    repairs.push_back({0, fmt::format("POINT:SCALE = {:.6g}, the header says {:.6g}; the header is "
-                                      "taken: compare a known distance",
-                                      scale.in_parameters, scale.taken)});
+    note(repairs, "POINT:SCALE = {:.6g}, the header says {:.6g}; the header is taken: compare a known distance",
+         scale.in_parameters, scale.taken);
   }
   layout.frames = whole_frames(story.frames->count, layout.frame_bytes(), available, file_size, path, repairs);
   if (layout.frames == story.frames->count && !confirmed && rotations == 0) {
-    repairs.push_back({0, fmt::format("{} bytes behind the last frame are not understood and left out",
-                                      available - static_cast<std::uint64_t>(layout.frames) * layout.frame_bytes())});
+    note(repairs, "{} bytes behind the last frame are not understood and left out",
+         available - static_cast<std::uint64_t>(layout.frames) * layout.frame_bytes());
   }
   return layout;
 }

@@ -26,7 +26,7 @@ struct C3dLayout {
   }
 };
 
-/// Finds the layout on which header, parameters and file size agree, by the rules of `read_c3d`.
+/// Finds the layout on which header, parameters and file size agree, by the rules of `read_c3d_head`.
 /// Throws ReadError where they cannot be reconciled.
 [[nodiscard]] C3dLayout find_c3d_layout(const C3dHeader& header,
                                         const C3dFile& parameters,

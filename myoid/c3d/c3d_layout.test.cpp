@@ -6,6 +6,8 @@
 #include "myoid/c3d/c3d_reader.h"
 #include "myoid/c3d/c3d_writer.h"
 
+#include "tests/support/whole_c3d.h"
+
 namespace myoid::recording {
 namespace {
 

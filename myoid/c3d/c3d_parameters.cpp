@@ -81,7 +81,7 @@ void put_text(std::vector<std::byte>& out, std::string_view text) {
 /// Writes the head of a record and returns the index of its distance, which is filled in at the record's end.
 std::size_t put_head(std::vector<std::byte>& out, std::string_view name, bool locked, int id) {
   if (name.empty() || name.size() > 127) {
-    throw InvalidInput(fmt::format("C3D name '{}': found {} bytes, expected 1 to 127", name, name.size()));
+    throw InvalidInput("C3D name '{}': found {} bytes, expected 1 to 127", name, name.size());
   }
   const int length = static_cast<int>(name.size());
   out.push_back(static_cast<std::byte>(static_cast<std::int8_t>(locked ? -length : length)));
@@ -93,7 +93,7 @@ std::size_t put_head(std::vector<std::byte>& out, std::string_view name, bool lo
 
 void put_description(std::vector<std::byte>& out, std::string_view name, std::string_view text) {
   if (text.size() > 255) {
-    throw InvalidInput(fmt::format("description of C3D parameter '{}': {} bytes; at most 255", name, text.size()));
+    throw InvalidInput("description of C3D parameter '{}': {} bytes; at most 255", name, text.size());
   }
   out.push_back(static_cast<std::byte>(text.size()));
   put_text(out, text);
@@ -102,7 +102,7 @@ void put_description(std::vector<std::byte>& out, std::string_view name, std::st
 void close_record(std::vector<std::byte>& out, std::size_t distance_at, std::string_view name, const C3dBytes& number) {
   const std::size_t distance = out.size() - distance_at;
   if (distance > 65535) {
-    throw InvalidInput(fmt::format("C3D parameter '{}': {} bytes; at most 65535", name, distance));
+    throw InvalidInput("C3D parameter '{}': {} bytes; at most 65535", name, distance);
   }
   number.put_u16(&out[distance_at], static_cast<std::uint16_t>(distance));
 }
@@ -200,10 +200,10 @@ class ParameterReader {
         own != 0 && own != next &&
         (!inside || (surely_begins(own) ? !surely_begins(next) : may_begin(own) && !may_begin(next)));
     if (own_is_better) {
-      repairs_.push_back({0, fmt::format("the parameter section is damaged at byte {}: '{}' says "
-                                         "that the next record begins at byte {}; by its own "
-                                         "length, which is taken, at byte {}",
-                                         at, head.name, next, own)});
+      note(repairs_,
+           "the parameter section is damaged at byte {}: '{}' says that the next record "
+           "begins at byte {}; by its own length, which is taken, at byte {}",
+           at, head.name, next, own);
       next = own;
     }
     const auto body = bytes_.subspan(head.body, next - head.body);
@@ -219,13 +219,13 @@ class ParameterReader {
   std::size_t behind_damage(std::size_t at, const std::string& reason) {
     std::size_t next = at + 1;
     while (next < limit_ && !surely_begins(next)) ++next;
-    repairs_.push_back({0, next < limit_
-                               ? fmt::format("the parameter section is damaged at byte {} ({}); {} bytes of it "
-                                             "are left out, up to the next record that can be read",
-                                             at, reason, next - at)
-                               : fmt::format("the parameter section is damaged at byte {} ({}); what follows in "
-                                             "it is left out",
-                                             at, reason)});
+    repairs_.push_back(
+        {0, next < limit_
+                ? fmt::format("the parameter section is damaged at byte {} ({}); {} bytes of it are left out, up to "
+                              "the next record that can be read",
+                              at, reason, next - at)
+                : fmt::format("the parameter section is damaged at byte {} ({}); what follows in it is left out", at,
+                              reason)});
     return next;
   }
 
@@ -241,8 +241,8 @@ class ParameterReader {
   void take_group(std::size_t at, const RecordHead& head, std::span<const std::byte> body) {
     C3dGroup& group = group_of(head.id == -128 ? 128 : -head.id);
     if (!group.name.empty())
-      repairs_.push_back({0, fmt::format("two groups have the number {}: '{}' and '{}' (byte {}); read as one",
-                                         -head.id, group.name, head.name, at)});
+      note(repairs_, "two groups have the number {}: '{}' and '{}' (byte {}); read as one", -head.id, group.name,
+           head.name, at);
     if (group.name.empty()) group.name = head.name;
     group.locked = head.locked;
     read_description(body, group.description);
@@ -253,18 +253,14 @@ class ParameterReader {
     parameter.name = head.name;
     parameter.locked = head.locked;
     if (read_value(body, number_, parameter) == 0) {
-      repairs_.push_back({0, fmt::format("parameter '{}' at byte {}: its size or kind cannot be "
-                                         "right; left out",
-                                         head.name, at)});
+      note(repairs_, "parameter '{}' at byte {}: its size or kind cannot be right; left out", head.name, at);
       return;
     }
     C3dGroup& group = group_of(head.id);
     const bool twice = std::any_of(group.parameters.begin(), group.parameters.end(),
                                    [&](const C3dParameter& p) { return equal_ignoring_case(p.name, parameter.name); });
     if (twice) {
-      repairs_.push_back({0, fmt::format("parameter '{}:{}' stands twice (byte {}); the first is "
-                                         "taken",
-                                         group.name, head.name, at)});
+      note(repairs_, "parameter '{}:{}' stands twice (byte {}); the first is taken", group.name, head.name, at);
     } else {
       group.parameters.push_back(std::move(parameter));
     }
@@ -277,8 +273,7 @@ class ParameterReader {
       C3dGroup& group = groups_[id];
       if (group.name.empty()) {
         group.name = fmt::format("GROUP_{}", id);
-        repairs_.push_back(
-            {0, fmt::format("{} parameters belong to group {}, which has no name", group.parameters.size(), id)});
+        note(repairs_, "{} parameters belong to group {}, which has no name", group.parameters.size(), id);
       }
       list.push_back(std::move(group));
     }
@@ -313,20 +308,18 @@ bool put_number(std::vector<std::byte>& out, double value, C3dType type, const C
 void put_parameter(std::vector<std::byte>& out, const C3dGroup& group, const C3dParameter& p, const C3dBytes& number) {
   const std::size_t distance_at = put_head(out, p.name, p.locked, group.id);
   out.push_back(static_cast<std::byte>(p.type));
-  if (p.dimensions.size() > 7) throw InvalidInput(fmt::format("C3D parameter '{}': more than 7 dimensions", p.name));
+  if (p.dimensions.size() > 7) throw InvalidInput("C3D parameter '{}': more than 7 dimensions", p.name);
   out.push_back(static_cast<std::byte>(p.dimensions.size()));
   for (const std::uint8_t d : p.dimensions) out.push_back(static_cast<std::byte>(d));
   const std::size_t count = element_count(p.dimensions);
   const std::size_t have = p.type == C3dType::text ? p.text.size() : p.numbers.size();
   if (have != count) {
-    throw InvalidInput(
-        fmt::format("C3D parameter '{}:{}': {} elements, its dimensions say {}", group.name, p.name, have, count));
+    throw InvalidInput("C3D parameter '{}:{}': {} elements, its dimensions say {}", group.name, p.name, have, count);
   }
   if (p.type == C3dType::text) put_text(out, p.text);
   for (std::size_t i = 0; p.type != C3dType::text && i < count; ++i) {
     if (!put_number(out, p.numbers[i], p.type, number))
-      throw InvalidInput(
-          fmt::format("C3D parameter '{}:{}': {} does not fit its kind", group.name, p.name, p.numbers[i]));
+      throw InvalidInput("C3D parameter '{}:{}': {} does not fit its kind", group.name, p.name, p.numbers[i]);
   }
   put_description(out, p.name, p.description);
   close_record(out, distance_at, p.name, number);
@@ -349,7 +342,7 @@ std::vector<std::byte> format_c3d_parameters(const std::vector<C3dGroup>& groups
   out[3] = static_cast<std::byte>(number.processor);
   for (const C3dGroup& group : groups) {
     if (group.id < 1 || group.id > 127)
-      throw InvalidInput(fmt::format("C3D group '{}': number {}, expected 1 to 127", group.name, group.id));
+      throw InvalidInput("C3D group '{}': number {}, expected 1 to 127", group.name, group.id);
     const std::size_t at = put_head(out, group.name, group.locked, -group.id);
     put_description(out, group.name, group.description);
     close_record(out, at, group.name, number);

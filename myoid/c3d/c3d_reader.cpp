@@ -21,26 +21,6 @@
 namespace myoid::recording {
 namespace {
 
-/// Joins the texts of NAME, NAME2, NAME3, ....
-std::vector<std::string> all_texts(const C3dFile& file, std::string_view group, std::string name) {
-  std::vector<std::string> list;
-  for (int block = 1;; ++block) {
-    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
-    if (p == nullptr) return list;
-    for (std::string& text : texts(*p)) list.push_back(std::move(text));
-  }
-}
-
-/// Joins the numbers of NAME, NAME2, ....
-std::vector<double> all_numbers(const C3dFile& file, std::string_view group, std::string name) {
-  std::vector<double> list;
-  for (int block = 1;; ++block) {
-    const C3dParameter* p = file.find(group, block == 1 ? name : fmt::format("{}{}", name, block));
-    if (p == nullptr) return list;
-    list.insert(list.end(), p->numbers.begin(), p->numbers.end());
-  }
-}
-
 /// Returns `count` names, none empty, all unique.
 std::vector<std::string> unique_names(std::vector<std::string> names,
                                       std::size_t count,
@@ -69,25 +49,18 @@ std::vector<std::string> unique_names(std::vector<std::string> names,
     names[i] = std::move(name);
   }
   if (given < count) {
-    repairs.push_back({0, fmt::format("{} has {} names for {} columns; the others are called "
-                                      "'{}_{}' and so on",
-                                      parameter, given, count, stem, given + 1)});
+    note(repairs, "{} has {} names for {} columns; the others are called '{}_{}' and so on", parameter, given, count,
+         stem, given + 1);
   } else if (empty > 0) {
-    repairs.push_back({0, fmt::format("{}: {} names are empty; called '{}_N' by their place", parameter, empty, stem)});
+    note(repairs, "{}: {} names are empty; called '{}_N' by their place", parameter, empty, stem);
   }
   if (!renamed.empty()) {
     const std::size_t shown = std::min<std::size_t>(renamed.size(), 8);
-    repairs.push_back(
-        {0, fmt::format("{}: {} names stand twice; the later ones are called {}{}", parameter, renamed.size(),
-                        fmt::join(renamed.begin(), renamed.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                        shown < renamed.size() ? ", ..." : "")});
+    note(repairs, "{}: {} names stand twice; the later ones are called {}{}", parameter, renamed.size(),
+         fmt::join(renamed.begin(), renamed.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+         shown < renamed.size() ? ", ..." : "");
   }
   return names;
-}
-
-bool is_unsigned(const C3dFile& file) {
-  const C3dParameter* format = file.find("ANALOG", "FORMAT");
-  return format != nullptr && !texts(*format).empty() && equal_ignoring_case(texts(*format)[0], "UNSIGNED");
 }
 
 void read_channels(C3dFile& file, const C3dLayout& layout) {
@@ -100,18 +73,16 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
   auto general = number_at(file.find("ANALOG", "GEN_SCALE"), 0);
   const auto few = [&](std::string_view name, std::size_t have, std::string_view instead) {
     if (have < count)
-      file.repairs.push_back({0, fmt::format("ANALOG:{} has {} values for {} channels; {} for the "
-                                             "others",
-                                             name, have, count, instead)});
+      note(file.repairs, "ANALOG:{} has {} values for {} channels; {} for the others", name, have, count, instead);
   };
   few("UNITS", units.size(), "no unit is assumed");
   few("SCALE", scales.size(), "1 is assumed");
   few("OFFSET", offsets.size(), "0 is assumed");
   if (!general) {
-    file.repairs.push_back({0, "ANALOG:GEN_SCALE is missing; 1 is assumed"});
+    note(file.repairs, "ANALOG:GEN_SCALE is missing; 1 is assumed");
     general = 1.0;
   }
-  if (is_unsigned(file)) {
+  if (file.says_unsigned()) {
     for (double& offset : offsets) offset += offset < 0.0 ? 65536.0 : 0.0;
   }
   for (std::size_t c = 0; c < count; ++c) {
@@ -121,9 +92,7 @@ void read_channels(C3dFile& file, const C3dLayout& layout) {
     if (c < offsets.size()) channel.offset = offsets[c];
     channel.scale = *general * (c < scales.size() ? scales[c] : 1.0);
     if (!std::isfinite(channel.scale) || !std::isfinite(channel.offset)) {
-      file.repairs.push_back({0, fmt::format("channel '{}': scale or offset is not a number; its "
-                                             "samples are left as gaps",
-                                             channel.name)});
+      note(file.repairs, "channel '{}': scale or offset is not a number; its samples are left as gaps", channel.name);
       channel.scale = std::nan("");
       channel.offset = 0.0;
     }
@@ -195,55 +164,46 @@ void read_point_unit(C3dFile& file, const C3dFrames& frames, const C3dLayout& la
   } else if (equal_ignoring_case(file.point_unit, "m")) {
     const double extent = usual_extent(frames, layout, source);
     if (extent > kLongest_m)
-      take("mm", fmt::format("POINT:UNITS says m, and the points of a frame would lie {:.4g} m "
-                             "apart; read as mm, cut short: compare a known distance",
+      take("mm", fmt::format("POINT:UNITS says m, and the points of a frame would lie {:.4g} m apart; read as mm, cut "
+                             "short: compare a known distance",
                              extent));
   }
 }
 
 void read_rates(C3dFile& file, const C3dHeader& header, const C3dLayout& layout, const std::filesystem::path& path) {
-  const auto good = [](double rate) { return std::isfinite(rate) && rate > 1e-3 && rate < 1e7; };
   const double said = number_at(file.find("POINT", "RATE"), 0).value_or(0.0);
   const double analog = number_at(file.find("ANALOG", "RATE"), 0).value_or(0.0);
   const auto in_header = static_cast<double>(header.rate_hz);
   const auto ratio = static_cast<double>(layout.analog_per_frame);
-  file.point_rate_hz = good(said) ? said : in_header;
-  if (!good(file.point_rate_hz)) {
-    if (layout.channels == 0 || !good(analog)) {
-      throw ReadError(path, 0,
-                      fmt::format("the frame rate is {} in the header and {} in POINT:RATE; correct "
-                                  "one of them",
-                                  in_header, said));
+  file.point_rate_hz = is_c3d_rate(said) ? said : in_header;
+  if (!is_c3d_rate(file.point_rate_hz)) {
+    if (layout.channels == 0 || !is_c3d_rate(analog)) {
+      throw ReadError(path, 0, "the frame rate is {} in the header and {} in POINT:RATE; correct one of them",
+                      in_header, said);
     }
     file.point_rate_hz = analog / ratio;
-    file.repairs.push_back({0, fmt::format("no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz)});
-  } else if (good(said) && good(in_header) && std::abs(said - in_header) > 1e-3 * said) {
-    file.repairs.push_back({0, fmt::format("the frame rate is {} Hz in POINT:RATE and {} Hz in the "
-                                           "header; the parameter is taken",
-                                           said, in_header)});
-  } else if (!good(said)) {
-    file.repairs.push_back({0, fmt::format("POINT:RATE is missing; {} Hz from the header", in_header)});
+    note(file.repairs, "no frame rate; taken as {} Hz from ANALOG:RATE", file.point_rate_hz);
+  } else if (is_c3d_rate(said) && is_c3d_rate(in_header) && std::abs(said - in_header) > 1e-3 * said) {
+    note(file.repairs, "the frame rate is {} Hz in POINT:RATE and {} Hz in the header; the parameter is taken", said,
+         in_header);
+  } else if (!is_c3d_rate(said)) {
+    note(file.repairs, "POINT:RATE is missing; {} Hz from the header", in_header);
   }
-  if (layout.channels > 0 && good(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
-    file.repairs.push_back({0, fmt::format("ANALOG:RATE says {} Hz, but {} samples stand in each "
-                                           "frame: {} Hz is taken",
-                                           analog, layout.analog_per_frame, file.point_rate_hz * ratio)});
+  if (layout.channels > 0 && is_c3d_rate(analog) && std::abs(analog - file.point_rate_hz * ratio) > 1e-3 * analog) {
+    note(file.repairs, "ANALOG:RATE says {} Hz, but {} samples stand in each frame: {} Hz is taken", analog,
+         layout.analog_per_frame, file.point_rate_hz * ratio);
   }
 }
 
 /// Reads the first 512 bytes. Throws ReadError if they do not belong to a C3D file.
 std::vector<std::byte> read_head_block(ByteSource& source, const std::filesystem::path& path) {
   if (source.size() < kC3dBlock)
-    throw ReadError(path, 0,
-                    fmt::format("the file has {} bytes; a C3D file begins with a header of 512: it "
-                                "is cut off or none",
-                                source.size()));
+    throw ReadError(path, 0, "the file has {} bytes; a C3D file begins with a header of 512: it is cut off or none",
+                    source.size());
   const auto first = source.view(0, kC3dBlock);
   if (first[1] != std::byte{0x50}) {
-    throw ReadError(path, 0,
-                    fmt::format("the second byte is 0x{:02x}, in a C3D file it is 0x50; this is "
-                                "another format",
-                                static_cast<unsigned>(first[1])));
+    throw ReadError(path, 0, "the second byte is 0x{:02x}, in a C3D file it is 0x50; this is another format",
+                    static_cast<unsigned>(first[1]));
   }
   return {first.begin(), first.end()};
 }
@@ -261,10 +221,7 @@ std::optional<ParameterSection> find_parameters(std::size_t block, ByteSource& s
     if (begin < kC3dBlock || begin + 4 > source.size()) continue;
     const auto code = static_cast<std::uint8_t>(source.view(begin, 4)[3]);
     if (code < 84 || code > 86) continue;
-    if (begin != named)
-      repairs.push_back({0, fmt::format("no parameters at block {}, where the header says; "
-                                        "found at block 2",
-                                        block)});
+    if (begin != named) note(repairs, "no parameters at block {}, where the header says; found at block 2", block);
     return ParameterSection{begin, static_cast<C3dProcessor>(code)};
   }
   return std::nullopt;
@@ -279,15 +236,16 @@ C3dProcessor processor_of_header(std::span<const std::byte> head,
   const auto guess = guess_processor(head, file_size);
   if (!guess)
     throw ReadError(path, 0,
-                    fmt::format("no parameter section at block {}, and the header makes no sense "
-                                "for any of the three processors; the file is damaged",
-                                block));
-  repairs.push_back({0, fmt::format("there is no parameter section (byte 1 says block {}); the header is read "
-                                    "as {}'s, and points and channels have no names, units or scales",
-                                    block,
-                                    *guess == C3dProcessor::intel ? "Intel"
-                                    : *guess == C3dProcessor::sgi ? "SGI"
-                                                                  : "DEC")});
+                    "no parameter section at block {}, and the header makes no sense for any of the three "
+                    "processors; the file is damaged",
+                    block);
+  note(repairs,
+       "there is no parameter section (byte 1 says block {}); the header is read as {}'s, "
+       "and points and channels have no names, units or scales",
+       block,
+       *guess == C3dProcessor::intel ? "Intel"
+       : *guess == C3dProcessor::sgi ? "SGI"
+                                     : "DEC");
   return *guess;
 }
 
@@ -323,14 +281,12 @@ C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path) {
   read_rates(file, header, layout, path);
   file.point_labels =
       unique_names(all_texts(file, "POINT", "LABELS"), layout.points, "POINT:LABELS", "point", file.repairs);
-  const bool no_sign = is_unsigned(file);
+  const bool no_sign = file.says_unsigned();
   read_point_unit(file, C3dFrames(layout, file.processor, no_sign), layout, source);
   read_channels(file, layout);
   read_c3d_events(file, source, head, number);
   return {std::move(file), layout, no_sign};
 }
-
-namespace {
 
 C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
   C3dHead head = read_c3d_head(source, path);
@@ -349,15 +305,8 @@ C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path) {
   return std::move(head.file);
 }
 
-}  // namespace
-
 C3dFile read_c3d(const std::filesystem::path& path) {
   ByteSource source(path);
-  return read_c3d_source(source, path);
-}
-
-C3dFile parse_c3d(std::span<const std::byte> bytes, const std::filesystem::path& path) {
-  ByteSource source(bytes, path);
   return read_c3d_source(source, path);
 }
 

@@ -20,19 +20,17 @@ struct C3dHead {
   [[nodiscard]] C3dFrames frames() const { return {layout, file.processor, is_unsigned}; }
 };
 
-/// Throws like `read_c3d`.
+/// Reads all of a .c3d file but its samples: Intel, DEC and SGI, integers and reals, parameters and data at any block,
+/// LABELS2 and so on, unsigned samples, more than 65535 frames (POINT:LONG_FRAMES, TRIAL:ACTUAL_START_FIELD). Where
+/// header and parameters disagree, the size of the file decides. Repairs are noted with the parameter, byte or frame:
+/// counts, rates and scales that disagree, a damaged end of the parameter section, a missing section (the header then
+/// tells the processor), missing or repeated labels, a last frame that is cut off. Data of a ROTATION group are left
+/// out, with a note. Throws ReadError if the file is no C3D file, if the counts cannot be reconciled, or if there is no
+/// rate or no whole frame.
 [[nodiscard]] C3dHead read_c3d_head(ByteSource& source, const std::filesystem::path& path);
 
-/// Reads a .c3d file: Intel, DEC and SGI, integers and reals, parameters and data at any block, LABELS2 and so on,
-/// unsigned samples, more than 65535 frames (POINT:LONG_FRAMES, TRIAL:ACTUAL_START_FIELD). Where header and parameters
-/// disagree, the size of the file decides. Repairs are noted with the parameter, byte or frame: counts, rates and
-/// scales that disagree, a damaged end of the parameter section, a missing section (the header then tells the
-/// processor), missing or repeated labels, a last frame that is cut off. Data of a ROTATION group are left out, with a
-/// note. A frame of reals is copied bit by bit. Throws ReadError if the file is no C3D file, if the counts cannot be
-/// reconciled, or if there is no rate or no whole frame.
+/// Reads a file whole, its samples as stored: a frame of reals is copied bit by bit. Throws like `read_c3d_head`.
+[[nodiscard]] C3dFile read_c3d_source(ByteSource& source, const std::filesystem::path& path);
 [[nodiscard]] C3dFile read_c3d(const std::filesystem::path& path);
-
-/// Reads a file from memory; `path` stands in the messages.
-[[nodiscard]] C3dFile parse_c3d(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
 }  // namespace myoid::recording

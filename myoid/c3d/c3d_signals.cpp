@@ -29,12 +29,7 @@ std::size_t bare_begin(const std::string& name) {
 std::vector<Eigen::Index> marker_columns(const C3dFile& file) {
   std::set<std::string> derived;
   for (const char* kind : {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"}) {
-    for (int block = 1; block <= 20; ++block) {
-      const std::string name = block == 1 ? kind : fmt::format("{}{}", kind, block);
-      const C3dParameter* parameter = file.find("POINT", name);
-      if (parameter == nullptr) break;
-      for (const std::string& label : texts(*parameter)) derived.insert(label);
-    }
+    for (std::string& label : all_texts(file, "POINT", kind)) derived.insert(std::move(label));
   }
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < file.point_labels.size(); ++i) {
@@ -48,14 +43,13 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   if (columns_.empty() || frames == 0) throw InvalidInput("the C3D file holds no markers");
   const std::optional<ScaledUnit> unit = parse_file_unit(file.point_unit);
   if (!unit || unit->unit != Unit::meter) {
-    throw InvalidInput(
-        fmt::format("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit));
+    throw InvalidInput("POINT:UNITS: found '{}', expected mm, cm or m; correct the file's parameter", file.point_unit);
   }
   to_m_ = unit->to_si;
   if (columns_.size() < points_) {
-    repairs_.push_back({0, fmt::format("{} points are angles, forces, moments, powers or scalars "
-                                       "of another program and no markers; left out",
-                                       points_ - columns_.size())});
+    note(repairs_,
+         "{} points are angles, forces, moments, powers or scalars of another program and no markers; left out",
+         points_ - columns_.size());
   }
   markers_.time_s.resize(frames);
   for (Eigen::Index k = 0; k < frames; ++k)
@@ -72,9 +66,9 @@ C3dMarkerBuilder::C3dMarkerBuilder(const C3dFile& file, Eigen::Index frames)
   }
   if (prefixed && bare.size() == columns_.size()) {
     for (std::string& name : markers_.names) name.erase(0, bare_begin(name));
-    repairs_.push_back({0, "the subject's prefix ('subject:marker') is left out of the names"});
+    note(repairs_, "the subject's prefix ('subject:marker') is left out of the names");
   } else if (prefixed) {
-    repairs_.push_back({0, "names keep their subject's prefix, since without it some would be the same"});
+    note(repairs_, "names keep their subject's prefix, since without it some would be the same");
   }
   markers_.positions_m.resize(frames, static_cast<Eigen::Index>(3 * columns_.size()));
 }
@@ -105,17 +99,11 @@ void C3dMarkerBuilder::add(Eigen::Index first, Eigen::Index count, const float* 
 MarkerSeries C3dMarkerBuilder::finish(std::vector<Repair>& repairs) {
   repairs.insert(repairs.end(), repairs_.begin(), repairs_.end());
   if (zeros_ > 0) {
-    repairs.push_back({0, fmt::format("{} positions are exactly 0 0 0 though not marked as missing "
-                                      "(the first in frame {}); taken as missing",
-                                      zeros_, first_frame_ + zero_frame_)});
+    note(repairs,
+         "{} positions are exactly 0 0 0 though not marked as missing (the first in frame {}); taken as missing",
+         zeros_, first_frame_ + zero_frame_);
   }
   return std::move(markers_);
-}
-
-MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs) {
-  C3dMarkerBuilder builder(file, file.frame_count());
-  builder.add(0, file.frame_count(), file.points.data());
-  return builder.finish(repairs);
 }
 
 C3dChannelUnits c3d_channel_units(const C3dFile& file) {
@@ -126,33 +114,6 @@ C3dChannelUnits c3d_channel_units(const C3dFile& file) {
     units.scales.push_back({channel.offset, channel.scale, unit ? unit->to_si : 1.0});
   }
   return units;
-}
-
-TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& columns) {
-  std::vector<Eigen::Index> chosen = columns;
-  if (chosen.empty()) {
-    for (Eigen::Index c = 0; c < file.analog.cols(); ++c) chosen.push_back(c);
-  }
-  if (chosen.empty() || file.analog.rows() == 0) throw InvalidInput("the C3D file holds no analog channels");
-  const Eigen::Index samples = file.analog.rows();
-  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame;
-  Eigen::VectorXd time(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) time[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
-  const C3dChannelUnits units = c3d_channel_units(file);
-  std::vector<Channel> channels;
-  for (const Eigen::Index c : chosen) channels.push_back(units.channels[static_cast<std::size_t>(c)]);
-  Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(chosen.size()));
-  for (Eigen::Index begin = 0; begin < samples; begin += kBlockRows) {
-    const Eigen::Index end = std::min(samples, begin + kBlockRows);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const CountScale& scale = units.scales[static_cast<std::size_t>(chosen[k])];
-      for (Eigen::Index i = begin; i < end; ++i) {
-        values(i, static_cast<Eigen::Index>(k)) =
-            (static_cast<double>(file.analog(i, chosen[k])) - scale.offset) * scale.scale * scale.to_si;
-      }
-    }
-  }
-  return {std::move(time), std::move(channels), std::move(values)};
 }
 
 }  // namespace myoid::recording

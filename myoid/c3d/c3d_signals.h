@@ -40,17 +40,11 @@ class C3dMarkerBuilder {
   Eigen::Index zero_frame_ = 0;
 };
 
-/// Returns all markers of a file. Throws like `C3dMarkerBuilder`.
-[[nodiscard]] MarkerSeries c3d_markers(const C3dFile& file, std::vector<Repair>& repairs);
-
 /// The factors to SI of the channels; a channel of unknown unit keeps its numbers and is dimensionless.
 struct C3dChannelUnits {
   std::vector<Channel> channels;
   std::vector<CountScale> scales;
 };
 [[nodiscard]] C3dChannelUnits c3d_channel_units(const C3dFile& file);
-
-/// Returns the analog channels `columns` in SI, or all if `columns` is empty. Throws InvalidInput if there are none.
-[[nodiscard]] TimeSeries c3d_analog(const C3dFile& file, const std::vector<Eigen::Index>& columns = {});
 
 }  // namespace myoid::recording

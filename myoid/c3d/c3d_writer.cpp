@@ -16,14 +16,14 @@
 namespace myoid::recording {
 namespace {
 
-std::int16_t whole(double value, bool is_unsigned, const std::string& what) {
+/// Returns the 16 bits of a whole number.
+std::uint16_t whole(double value, bool is_unsigned, const std::string& what) {
   const double low = is_unsigned ? 0.0 : -32768.0;
   const double high = is_unsigned ? 65535.0 : 32767.0;
   if (!(value >= low && value <= high) || value != std::nearbyint(value)) {
-    throw InvalidInput(
-        fmt::format("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high));
+    throw InvalidInput("{}: {} is not a whole number from {} to {}; write reals instead", what, value, low, high);
   }
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(static_cast<int>(value)));
+  return static_cast<std::uint16_t>(static_cast<int>(value));
 }
 
 /// Writes the data of a frame in sequence.
@@ -41,36 +41,22 @@ class SampleWriter {
     const float fourth = !measured || std::isnan(p[3]) ? -1.0F : p[3];
     for (int axis = 0; axis < 3; ++axis) {
       const float value = measured ? p[axis] : 0.0F;
-      if (integer_) {
-        put(whole(std::nearbyint(static_cast<double>(value) / scale_), false, "C3D coordinate"));
-      } else {
-        put(value, "C3D coordinate");
-      }
+      put(value, std::nearbyint(static_cast<double>(value) / scale_), false, "C3D coordinate");
     }
-    if (integer_) {
-      put(whole(static_cast<double>(fourth), false, "C3D residual"));
-    } else {
-      put(fourth, "C3D residual");
-    }
+    put(fourth, static_cast<double>(fourth), false, "C3D residual");
   }
 
-  void sample(float value) {
-    if (integer_) {
-      put(whole(static_cast<double>(value), is_unsigned_, "C3D analog sample"));
-    } else {
-      put(value, "C3D analog sample");
-    }
-  }
+  void sample(float value) { put(value, static_cast<double>(value), is_unsigned_, "C3D analog sample"); }
 
  private:
-  void put(std::int16_t value) {
-    number_.put_u16(at_, static_cast<std::uint16_t>(value));
-    at_ += 2;
-  }
-  void put(float value, const char* what) {
-    if (!number_.put_real(at_, value))
-      throw InvalidInput(fmt::format("{}: {} cannot be written as a DEC number", what, value));
-    at_ += 4;
+  /// Writes `count` in a file of integers, else `value`.
+  void put(float value, double count, bool is_unsigned, const char* what) {
+    if (integer_) {
+      number_.put_u16(at_, whole(count, is_unsigned, what));
+    } else if (!number_.put_real(at_, value)) {
+      throw InvalidInput("{}: {} cannot be written as a DEC number", what, value);
+    }
+    at_ += integer_ ? 2 : 4;
   }
 
   std::byte* at_;
@@ -92,7 +78,7 @@ void put_header(const C3dFile& file,
   };
   const auto real = [&](std::size_t n, double value) {
     if (!number.put_real(&out[2 * (n - 1)], static_cast<float>(value)))
-      throw InvalidInput(fmt::format("C3D header: {} cannot be written", value));
+      throw InvalidInput("C3D header: {} cannot be written", value);
   };
   out[0] = std::byte{2};
   out[1] = std::byte{0x50};
@@ -111,8 +97,7 @@ void put_header(const C3dFile& file,
 
 /// Returns true if integer samples are written without sign.
 bool writes_unsigned(const C3dFile& file) {
-  const C3dParameter* said = file.find("ANALOG", "FORMAT");
-  if (said != nullptr && !texts(*said).empty() && equal_ignoring_case(texts(*said)[0], "UNSIGNED"))
+  if (file.says_unsigned())
     return std::none_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset < 0.0; });
   return std::any_of(file.channels.begin(), file.channels.end(), [](const C3dChannel& c) { return c.offset > 32767; });
 }
@@ -124,8 +109,7 @@ std::vector<std::byte> format_c3d(const C3dFile& file, const C3dFormat& format) 
   const std::size_t analog = file.channels.size() * static_cast<std::size_t>(file.analog_per_frame);
   const auto frames = static_cast<std::size_t>(file.frame_count());
   if (points > 65535 || analog > 65535)
-    throw InvalidInput(
-        fmt::format("{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog));
+    throw InvalidInput("{} points and {} analog samples a frame; a C3D file holds at most 65535", points, analog);
   if (frames == 0 || points + analog == 0)
     throw InvalidInput("a C3D file needs at least one frame of points or analog samples");
   const double scale = static_cast<double>(file.point_scale) * (format.integer ? 1.0 : -1.0);

@@ -15,14 +15,13 @@ namespace {
 /// Returns the rate of an even clock. Throws InvalidInput for an uneven one.
 double rate_of(const Eigen::VectorXd& time_s, const char* what) {
   const Eigen::Index n = time_s.size();
-  if (n < 2) throw InvalidInput(fmt::format("{}: a C3D file needs at least two samples", what));
+  if (n < 2) throw InvalidInput("{}: a C3D file needs at least two samples", what);
   const double dt = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
   for (Eigen::Index i = 1; i < n; ++i) {
     if (std::abs(time_s[i] - time_s[0] - static_cast<double>(i) * dt) > 0.05 * dt)
       throw InvalidInput(
-          fmt::format("{}: the samples are not evenly spaced ({} s to {} s), as a C3D file needs "
-                      "them; resample first",
-                      what, time_s[i - 1], time_s[i]));
+          "{}: the samples are not evenly spaced ({} s to {} s), as a C3D file needs them; resample first", what,
+          time_s[i - 1], time_s[i]);
   }
   // Rates are whole or have few decimals; the times are rounded.
   const double rate = 1.0 / dt;
@@ -37,16 +36,15 @@ int samples_per_frame(const Eigen::VectorXd& analog_s, const Eigen::VectorXd& fr
   const auto whole = static_cast<int>(std::lround(ratio));
   if (whole < 1 || std::abs(ratio - whole) > 1e-3 * ratio) {
     throw InvalidInput(
-        fmt::format("{} analog samples for each frame: a C3D file needs a whole number; resample "
-                    "the analog channels to a multiple of {} Hz",
-                    ratio, frame_rate_hz));
+        "{} analog samples for each frame: a C3D file needs a whole number; resample the analog channels "
+        "to a multiple of {} Hz",
+        ratio, frame_rate_hz);
   }
   const double lag_s = analog_s[0] - frames_s[0];
   if (std::abs(lag_s) * ratio * frame_rate_hz > 0.5) {
     throw InvalidInput(
-        fmt::format("markers begin at {} s, analog channels at {} s; a C3D file "
-                    "needs one beginning: cut the longer one",
-                    frames_s[0], analog_s[0]));
+        "markers begin at {} s, analog channels at {} s; a C3D file needs one beginning: cut the longer one",
+        frames_s[0], analog_s[0]);
   }
   return whole;
 }

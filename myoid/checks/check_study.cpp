@@ -21,7 +21,7 @@
 #include "myoid/intake/study_activation.h"
 #include "myoid/intake/trial_markers.h"
 #include "myoid/kinematics/inverse_kinematics.h"
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/plate_standing.h"
 #include "myoid/recording/recording.h"

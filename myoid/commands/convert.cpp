@@ -17,7 +17,6 @@
 #include "myoid/recording/bids_derivative.h"
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/channel_writer.h"
-#include "myoid/recording/emg_channels.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/ground_reaction.h"
 #include "myoid/recording/plate_standing.h"

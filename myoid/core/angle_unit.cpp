@@ -25,16 +25,15 @@ std::string check_angle_unit(const std::filesystem::path& path, bool says_degree
   }
   if (!says_degrees && largest_rad > 4.0 * kPi) {
     throw ReadError(path, 0,
-                    fmt::format("column '{}' reaches {:.4g} although the header says inDegrees=no: "
-                                "these are degrees, not radians; write inDegrees=yes into the "
-                                "header",
-                                largest_name, largest_rad));
+                    "column '{}' reaches {:.4g} although the header says inDegrees=no: these are degrees, "
+                    "not radians; write inDegrees=yes into the header",
+                    largest_name, largest_rad);
   }
   // A small joint may move little, but over a whole motion some joint exceeds 3.5 degrees.
   if (says_degrees && largest_rad < 3.5 * kDegree && widest_rad > 0.2 * kDegree) {
     return fmt::format(
-        "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says "
-        "inDegrees=yes; if these are radians, write inDegrees=no",
+        "{}: no angle reaches 3.5 degrees (the largest is '{}') although the header says inDegrees=yes; if these are "
+        "radians, write inDegrees=no",
         path.filename().string(), largest_name);
   }
   return {};

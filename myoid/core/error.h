@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace myoid {
 
@@ -12,6 +15,10 @@ namespace myoid {
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  /// The message is a format and its arguments, as of `fmt::format`.
+  template <typename First, typename... Rest>
+  InvalidInput(fmt::format_string<First, Rest...> message, First&& first, Rest&&... rest)
+      : InvalidInput(fmt::format(message, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
 };
 
 /// A file cannot be read as its kind. `what()` begins with the path and, if there is one, the line:
@@ -19,7 +26,19 @@ class InvalidInput : public std::runtime_error {
 class ReadError : public InvalidInput {
  public:
   /// `line` counts from 1; 0 means the file as a whole.
-  ReadError(std::filesystem::path path, std::size_t line, const std::string& message);
+  ReadError(std::filesystem::path path, std::size_t line, const std::string& message)
+      : InvalidInput(line == 0 ? fmt::format("{}: {}", path.string(), message)
+                               : fmt::format("{}:{}: {}", path.string(), line, message)),
+        path_(std::move(path)),
+        line_(line) {}
+  template <typename First, typename... Rest>
+  ReadError(std::filesystem::path path,
+            std::size_t line,
+            fmt::format_string<First, Rest...> message,
+            First&& first,
+            Rest&&... rest)
+      : ReadError(
+            std::move(path), line, fmt::format(message, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::size_t line() const { return line_; }

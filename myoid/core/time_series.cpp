@@ -13,23 +13,23 @@ namespace myoid {
 TimeSeries::TimeSeries(Eigen::VectorXd time_s, std::vector<Channel> channels, Eigen::MatrixXd values)
     : time_s_(std::move(time_s)), channels_(std::move(channels)), values_(std::move(values)) {
   if (values_.rows() != time_s_.size() || values_.cols() != static_cast<Eigen::Index>(channels_.size())) {
-    throw InvalidInput(fmt::format("time series: {} x {} values for {} times and {} channels", values_.rows(),
-                                   values_.cols(), time_s_.size(), channels_.size()));
+    throw InvalidInput("time series: {} x {} values for {} times and {} channels", values_.rows(), values_.cols(),
+                       time_s_.size(), channels_.size());
   }
   std::unordered_set<std::string_view> seen;
   for (const Channel& channel : channels_) {
     if (channel.name.empty()) throw InvalidInput("time series: a channel has no name");
     if (!seen.insert(channel.name).second) {
-      throw InvalidInput(fmt::format("time series: two channels are named '{}'; names must be unique", channel.name));
+      throw InvalidInput("time series: two channels are named '{}'; names must be unique", channel.name);
     }
   }
   for (Eigen::Index i = 0; i < time_s_.size(); ++i) {
     if (!std::isfinite(time_s_[i])) {
-      throw InvalidInput(fmt::format("time series: the time of sample {} is not a number", i + 1));
+      throw InvalidInput("time series: the time of sample {} is not a number", i + 1);
     }
     if (i > 0 && time_s_[i] <= time_s_[i - 1]) {
-      throw InvalidInput(fmt::format("time series: time does not increase at sample {}: {} s after {} s", i + 1,
-                                     time_s_[i], time_s_[i - 1]));
+      throw InvalidInput("time series: time does not increase at sample {}: {} s after {} s", i + 1, time_s_[i],
+                         time_s_[i - 1]);
     }
   }
 }
@@ -43,7 +43,7 @@ std::optional<Eigen::Index> TimeSeries::find(std::string_view name) const {
 
 Eigen::Index TimeSeries::index(std::string_view name) const {
   if (const auto found = find(name)) return *found;
-  throw InvalidInput(fmt::format("no channel named '{}'; there are: {}", name, channel_names(*this)));
+  throw InvalidInput("no channel named '{}'; there are: {}", name, channel_names(*this));
 }
 
 Eigen::VectorXd TimeSeries::column(std::string_view name) const { return values_.col(index(name)); }
@@ -98,8 +98,8 @@ std::string channel_names(const TimeSeries& series, std::size_t most) {
 void require_unit(const TimeSeries& series, Unit unit, std::string_view what) {
   for (const Channel& channel : series.channels()) {
     if (channel.unit != unit) {
-      throw InvalidInput(fmt::format("{}: channel '{}' is in [{}], expected [{}]", what, channel.name,
-                                     symbol(channel.unit), symbol(unit)));
+      throw InvalidInput("{}: channel '{}' is in [{}], expected [{}]", what, channel.name, symbol(channel.unit),
+                         symbol(unit));
     }
   }
 }
@@ -108,8 +108,8 @@ void require_finite(const TimeSeries& series, std::string_view what) {
   for (Eigen::Index column = 0; column < series.channel_count(); ++column) {
     for (Eigen::Index row = 0; row < series.sample_count(); ++row) {
       if (!std::isfinite(series.values()(row, column))) {
-        throw InvalidInput(fmt::format("{}: channel '{}' is not a number at {} s; fill the gaps first", what,
-                                       series.channels()[static_cast<std::size_t>(column)].name, series.time_s()[row]));
+        throw InvalidInput("{}: channel '{}' is not a number at {} s; fill the gaps first", what,
+                           series.channels()[static_cast<std::size_t>(column)].name, series.time_s()[row]);
       }
     }
   }

@@ -73,64 +73,26 @@ constexpr std::array kLongWords = {
 }  // namespace
 
 std::string_view symbol(Unit unit) {
-  switch (unit) {
-    case Unit::dimensionless:
-      return "1";
-    case Unit::second:
-      return "s";
-    case Unit::hertz:
-      return "Hz";
-    case Unit::meter:
-      return "m";
-    case Unit::meter_per_second:
-      return "m/s";
-    case Unit::meter_per_second2:
-      return "m/s^2";
-    case Unit::radian:
-      return "rad";
-    case Unit::radian_per_second:
-      return "rad/s";
-    case Unit::radian_per_second2:
-      return "rad/s^2";
-    case Unit::newton:
-      return "N";
-    case Unit::newton_meter:
-      return "N m";
-    case Unit::newton_per_meter:
-      return "N/m";
-    case Unit::newton_second_per_meter:
-      return "N s/m";
-    case Unit::newton_meter_second:
-      return "N m s";
-    case Unit::kilogram:
-      return "kg";
-    case Unit::kilogram_meter2:
-      return "kg m^2";
-    case Unit::volt:
-      return "V";
-  }
-  return "?";
+  // In the order of Unit.
+  constexpr std::array<std::string_view, 17> kSymbols{"1",     "s",     "Hz",      "m",      "m/s", "m/s^2",
+                                                      "rad",   "rad/s", "rad/s^2", "N",      "N m", "N/m",
+                                                      "N s/m", "N m s", "kg",      "kg m^2", "V"};
+  static_assert(kSymbols.size() == static_cast<std::size_t>(Unit::volt) + 1);
+  return kSymbols.at(static_cast<std::size_t>(unit));
 }
 
 std::optional<ScaledUnit> parse_unit(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) {
-    text.remove_prefix(1);
-  }
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
-    text.remove_suffix(1);
-  }
-  const auto matches = [&](const UnitWord& entry) { return entry.word == text; };
-  if (const auto* it = std::find_if(kExactWords.begin(), kExactWords.end(), matches); it != kExactWords.end()) {
-    return it->unit;
-  }
+  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  const auto found = [](const auto& words, std::string_view word) -> std::optional<ScaledUnit> {
+    const auto it = std::ranges::find(words, word, &UnitWord::word);
+    return it == words.end() ? std::nullopt : std::optional(it->unit);
+  };
+  if (const auto unit = found(kExactWords, text)) return unit;
   std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto matches_lower = [&](const UnitWord& entry) { return entry.word == lower; };
-  if (const auto* it = std::find_if(kLongWords.begin(), kLongWords.end(), matches_lower); it != kLongWords.end()) {
-    return it->unit;
-  }
-  return std::nullopt;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return found(kLongWords, lower);
 }
 
 }  // namespace myoid

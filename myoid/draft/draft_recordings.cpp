@@ -10,7 +10,7 @@
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/model/kinematic_tree.h"
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"

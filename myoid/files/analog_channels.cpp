@@ -40,12 +40,10 @@ double time_of(const RecordClock& clock, Eigen::Index sample) {
 
 void require_times(const RecordClock& clock, Eigen::Index samples) {
   if (static_cast<Eigen::Index>(clock.begin_s.size()) * clock.per_record != samples)
-    throw InvalidInput(
-        fmt::format("{} records of {} samples for {} samples", clock.begin_s.size(), clock.per_record, samples));
+    throw InvalidInput("{} records of {} samples for {} samples", clock.begin_s.size(), clock.per_record, samples);
   for (Eigen::Index i = 1; i < samples; ++i) {
     if (!(time_of(clock, i) > time_of(clock, i - 1)))
-      throw InvalidInput(
-          fmt::format("time does not increase: {} s after {} s", time_of(clock, i), time_of(clock, i - 1)));
+      throw InvalidInput("time does not increase: {} s after {} s", time_of(clock, i), time_of(clock, i - 1));
   }
 }
 
@@ -58,8 +56,8 @@ AnalogChannels::AnalogChannels(std::vector<Channel> channels, AnalogCounts count
   const auto columns =
       static_cast<std::size_t>(std::visit([](const auto& values) { return values.cols(); }, counts_->values));
   if (columns != channels_.size() || columns != counts_->scales.size() || !(counts_->rate_hz > 0.0)) {
-    throw InvalidInput(fmt::format("{} columns of counts, {} channels, {} scales, {} Hz", columns, channels_.size(),
-                                   counts_->scales.size(), counts_->rate_hz));
+    throw InvalidInput("{} columns of counts, {} channels, {} scales, {} Hz", columns, channels_.size(),
+                       counts_->scales.size(), counts_->rate_hz);
   }
   if (counts_->records) require_times(*counts_->records, rows_of(*counts_));
   // Names follow the rules of a TimeSeries.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -136,6 +137,38 @@ TEST(WriteFile, TakesTheLongestNamesOfTheSystem) {
   const std::string name(255, 'n');
   write_file(folder / name, "one");
   EXPECT_EQ(read_text_file(folder / name), "one");
+}
+
+TEST(FileInParts, IsThereWhenItIsFinishedAndNotBefore) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.txt", "old");
+  FileInParts file(folder / "a.txt");
+  file.append("one ");
+  file.append("two");
+  EXPECT_EQ(read_text_file(folder / "a.txt"), "old");
+  file.finish();
+  EXPECT_EQ(read_text_file(folder / "a.txt"), "one two");
+}
+
+TEST(FileInParts, LeavesNothingBehindUnlessItIsFinished) {
+  const test::TemporaryFolder folder;
+  {
+    FileInParts file(folder / "a.txt");
+    file.append("half of it");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(FileInParts, AFullDiskIsToldAtThePartThatDoesNotFit) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  FileInParts file("/dev/full");
+  try {
+    file.append("content");
+    FAIL() << "was written";
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("No space left"));
+  }
 }
 
 }  // namespace

@@ -14,34 +14,41 @@
 
 namespace myoid::recording {
 
-ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
+void require_regular_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
     throw ReadError(path, 0,
-                    "there is no such file; check the path (paths inside a file are relative to "
-                    "that file's folder)");
+                    "there is no such file; check the path (paths inside a file are relative to that file's folder)");
   }
   if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   if (!std::filesystem::is_regular_file(status))
     throw ReadError(path, 0, "this is no regular file; save it to the disk first");
+}
+
+void throw_empty(const std::filesystem::path& path) {
+  throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+}
+
+ByteSource::ByteSource(const std::filesystem::path& path) : path_(path) {
+  require_regular_file(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat info {};
   if (descriptor_ < 0 || fstat(descriptor_, &info) != 0) {
     const int cause = errno;
     if (descriptor_ >= 0) close(descriptor_);
-    throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(cause)));
+    throw ReadError(path, 0, "cannot be opened: {}", std::strerror(cause));
   }
   size_ = static_cast<std::uint64_t>(info.st_size);
   if (size_ == 0) {
     close(descriptor_);
-    throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+    throw_empty(path);
   }
 }
 
 ByteSource::ByteSource(std::span<const std::byte> memory, std::filesystem::path path)
     : path_(std::move(path)), memory_(memory), size_(memory.size()) {
-  if (size_ == 0) throw ReadError(path_, 0, "the file is empty; export it again from the program that made it");
+  if (size_ == 0) throw_empty(path_);
 }
 
 ByteSource::~ByteSource() {
@@ -54,7 +61,7 @@ std::span<const std::byte> ByteSource::view(std::uint64_t offset, std::size_t co
   for (std::size_t done = 0; done < count;) {
     const ssize_t got = pread(descriptor_, buffer_.data() + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw ReadError(path_, 0, fmt::format("reading failed: {}", std::strerror(errno)));
+    if (got < 0) throw ReadError(path_, 0, "reading failed: {}", std::strerror(errno));
     if (got == 0) throw ReadError(path_, 0, "the file became shorter while it was read; copy it again");
     done += static_cast<std::size_t>(got);
   }

@@ -9,6 +9,10 @@
 
 namespace myoid::recording {
 
+/// Throws ReadError with the remedy unless there is a file of the disk at this path.
+void require_regular_file(const std::filesystem::path& path);
+[[noreturn]] void throw_empty(const std::filesystem::path& path);
+
 /// Reads the bytes of a file, or of memory, part by part, so that large recordings need not be in memory twice.
 class ByteSource {
  public:

@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "myoid/files/text_file.h"
+
 namespace myoid::recording {
 namespace {
-
-std::string small_letters(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return text;
-}
 
 std::string listed(const std::vector<std::string_view>& endings) {
   if (endings.size() < 2) return fmt::format("{}", fmt::join(endings, ""));
@@ -185,20 +182,6 @@ std::string wrong_kind(const std::filesystem::path& path,
   if (entry == nullptr || std::find(wanted.begin(), wanted.end(), entry->format) != wanted.end()) return {};
   return fmt::format("this is a {} file ({}), but {} is expected here: were two options mixed up?", ending, entry->kind,
                      expected);
-}
-
-std::string file_formats_markdown() {
-  const auto code = [](const std::vector<std::string_view>& words) {
-    std::string text;
-    for (const std::string_view word : words) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", word);
-    return text.empty() ? std::string("–") : text;
-  };
-  const auto unit = [&](std::string_view name) { return name.empty() ? code({}) : code({name}); };
-  std::string text = "| ending | holds | written as | reader | writer |\n| --- | --- | --- | --- | --- |\n";
-  for (const FormatEntry& entry : file_formats())
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", code(entry.endings), entry.holds, code(entry.written),
-                        unit(entry.reader), unit(entry.writer));
-  return text;
 }
 
 }  // namespace myoid::recording

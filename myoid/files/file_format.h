@@ -74,7 +74,4 @@ struct FormatEntry {
                                      const std::vector<FileFormat>& wanted,
                                      std::string_view expected);
 
-/// Returns the table in Markdown, for docs/guide/file-formats.md.
-[[nodiscard]] std::string file_formats_markdown();
-
 }  // namespace myoid::recording

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +19,21 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+/// Returns the table in Markdown, for docs/guide/file-formats.md.
+std::string file_formats_markdown() {
+  const auto code = [](const std::vector<std::string_view>& words) {
+    std::string text;
+    for (const std::string_view word : words) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", word);
+    return text.empty() ? std::string("–") : text;
+  };
+  const auto unit = [&](std::string_view name) { return name.empty() ? code({}) : code({name}); };
+  std::string text = "| ending | holds | written as | reader | writer |\n| --- | --- | --- | --- | --- |\n";
+  for (const FormatEntry& entry : file_formats())
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", code(entry.endings), entry.holds, code(entry.written),
+                        unit(entry.reader), unit(entry.writer));
+  return text;
+}
 
 TEST(FileFormat, TheTableIsTheOneThatThePagePrints) {
   test::expect_printed("docs/guide/file-formats.md", "file formats", file_formats_markdown());

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "myoid/files/text_file.h"
+
 namespace myoid::recording {
 namespace {
 
@@ -53,7 +55,7 @@ std::string to_utf8(std::string_view bytes) {
 std::optional<ScaledUnit> parse_file_unit(std::string_view text) {
   std::string word;
   for (const char c : text) {
-    if (c != ' ' && c != '\0') word += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    if (c != ' ' && c != '\0') word += small_letter(c);
   }
   struct Word {
     std::string_view text;

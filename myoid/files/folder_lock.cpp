@@ -75,9 +75,8 @@ std::optional<FolderOwner> await_owner(int descriptor) {
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::optional<FolderOwner>& owner) {
-  throw InvalidInput(
-      fmt::format("another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
-                  folder.string(), owner ? " (" + owner->sentence() + ")" : ""));
+  throw InvalidInput("another myoid is writing into the folder {}{}; wait until it ends, or give another --out",
+                     folder.string(), owner ? " (" + owner->sentence() + ")" : "");
 }
 
 /// Returns true if the owner is on another host or still runs; for file systems without locks.
@@ -107,7 +106,7 @@ FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
   for (int i = 0; i < kTries; ++i) {
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor < 0) {
-      throw InvalidInput(fmt::format("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno)));
+      throw InvalidInput("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno));
     }
     const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     const int cause = locked ? 0 : errno;
@@ -142,7 +141,7 @@ void FolderLock::sign(std::string_view command, bool from_empty) {
   from_empty_ = from_empty;
   if (ftruncate(descriptor_, 0) != 0 ||
       pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
-    throw InvalidInput(fmt::format("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno)));
+    throw InvalidInput("cannot write into the folder {}: {}", folder_.string(), std::strerror(errno));
 }
 
 bool holds_content(const fs::path& folder, std::string_view unless_only) {

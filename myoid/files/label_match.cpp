@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 
 namespace myoid::recording {
@@ -11,8 +12,7 @@ std::string plain_label(std::string_view label) {
   if (const auto colon = label.rfind(':'); colon != std::string_view::npos) label.remove_prefix(colon + 1);
   std::string plain;
   for (const char c : label) {
-    if (c == ' ' || c == '\t' || c == '_' || c == '-' || c == '.') continue;
-    plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    if (std::string_view(" \t_-.").find(c) == std::string_view::npos) plain += small_letter(c);
   }
   return plain;
 }

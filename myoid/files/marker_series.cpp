@@ -22,7 +22,7 @@ Mat3 rotation_to_y_up(char up) {
   } else if (up == 'x') {
     R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   } else if (up != 'y') {
-    throw InvalidInput(fmt::format("vertical axis: found '{}', expected x, y or z", up));
+    throw InvalidInput("vertical axis: found '{}', expected x, y or z", up);
   }
   return R;
 }

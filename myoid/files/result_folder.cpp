@@ -34,14 +34,14 @@ void ResultFolder::make() {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw InvalidInput(fmt::format("{} is a file; --out must name a folder", path_.string()));
+    throw InvalidInput("{} is a file; --out must name a folder", path_.string());
   }
   for (fs::path part = path_; !part.empty() && !fs::exists(part, error); part = part.parent_path())
     made_.push_back(part);
   fs::create_directories(path_, error);
   if (error) {
     remove_empty(made_);
-    throw InvalidInput(fmt::format("cannot create the folder {}: {}", path_.string(), error.message()));
+    throw InvalidInput("cannot create the folder {}: {}", path_.string(), error.message());
   }
 }
 
@@ -58,8 +58,8 @@ ResultFolder::ResultFolder(fs::path folder, const std::string& command, bool ove
   const bool empty = !holds_content(path_, unless_only);
   const bool unfinished = dead && dead->from_empty && command_word(dead->command) == command_word(command);
   if (!overwrite && !empty && !unfinished) {
-    throw InvalidInput(
-        fmt::format("the folder {} is not empty; give --overwrite to write into it, or another --out", path_.string()));
+    throw InvalidInput("the folder {} is not empty; give --overwrite to write into it, or another --out",
+                       path_.string());
   }
   const std::size_t swept = sweep_temporaries(path_);
   if (dead) {

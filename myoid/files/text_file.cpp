@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/byte_source.h"
 
 namespace myoid::recording {
 namespace {
@@ -33,8 +34,6 @@ inline void put_eight(char* at, std::uint32_t number) {
   static_assert(std::endian::native == std::endian::little);
   std::memcpy(at, &v, 8);
 }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Converts a UTF-16 text with a byte-order mark to UTF-8; empty if the bytes are invalid.
 std::optional<std::string> from_utf16(std::string_view bytes) {
@@ -78,26 +77,18 @@ std::optional<std::string> from_utf16(std::string_view bytes) {
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw ReadError(path, 0,
-                    "there is no such file; check the path (paths inside a file are relative to "
-                    "that file's folder)");
-  }
-  if (std::filesystem::is_directory(status)) throw ReadError(path, 0, "this is a folder; name a file inside it");
   // A pipe ends; a device may not end.
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-    throw ReadError(path, 0, "this is no regular file; save it to the disk first");
+  std::error_code error;
+  if (!std::filesystem::is_fifo(path, error)) require_regular_file(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw ReadError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (!file) throw ReadError(path, 0, "cannot be opened: {}", std::strerror(errno));
   std::string text;
   const auto size = std::filesystem::file_size(path, error);
   if (!error) text.reserve(size);
   char buffer[1 << 16];
   for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) text.append(buffer, got);
-  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, fmt::format("reading failed: {}", std::strerror(errno)));
-  if (text.empty()) throw ReadError(path, 0, "the file is empty; export it again from the program that made it");
+  if (std::ferror(file.get()) != 0) throw ReadError(path, 0, "reading failed: {}", std::strerror(errno));
+  if (text.empty()) throw_empty(path);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     auto decoded = from_utf16(text);
     if (!decoded) throw ReadError(path, 0, "the text is in UTF-16 ('Unicode text') and damaged; save it as UTF-8");
@@ -251,8 +242,13 @@ char* write_fixed(char* at, double value, int decimals, std::size_t width) {
   return at + width;
 }
 
+std::string small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), small_letter);
+  return text;
+}
+
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+  return std::ranges::equal(a, b, {}, small_letter, small_letter);
 }
 
 }  // namespace myoid::recording

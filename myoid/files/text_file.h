@@ -5,7 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace myoid::recording {
 
@@ -14,6 +17,12 @@ struct Repair {
   std::size_t line = 0;  ///< Counted from 1; 0: the whole file.
   std::string message;
 };
+
+/// Notes a repair of the whole file; the message is a format and its arguments, as of `fmt::format`.
+template <typename... Args>
+void note(std::vector<Repair>& repairs, fmt::format_string<Args...> message, Args&&... args) {
+  repairs.push_back({0, fmt::format(message, std::forward<Args>(args)...)});
+}
 
 /// Reads the whole file. UTF-16 with a byte-order mark becomes UTF-8. Throws ReadError with the
 /// remedy if the file is missing, a folder, unreadable, empty or no text.
@@ -59,6 +68,10 @@ inline constexpr std::string_view kLastRowKept = "the last row has no line end; 
 /// "-inf" for numbers that are not finite. Returns the place behind it.
 [[nodiscard]] char* write_fixed(char* at, double value, int decimals, std::size_t width = 0);
 inline constexpr std::size_t kFixedRoom = 400;
+
+/// Returns a capital letter of ASCII as a small one, and any other character unchanged.
+[[nodiscard]] constexpr char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+[[nodiscard]] std::string small_letters(std::string text);
 
 /// Compares texts ignoring the case of ASCII letters.
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);

@@ -12,6 +12,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid::recording {
 
@@ -26,7 +27,7 @@ const toml::node* TomlTable::find(std::string_view key) {
 void TomlTable::fail(std::string_view key, const std::string& message) const {
   const toml::node* node = table_->get(key);
   const auto line = node != nullptr ? node->source().begin.line : table_->source().begin.line;
-  throw ReadError(file_, static_cast<std::size_t>(line), fmt::format("{} {}: {}", where_, key, message));
+  throw ReadError(file_, static_cast<std::size_t>(line), "{} {}: {}", where_, key, message);
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
@@ -112,8 +113,8 @@ std::vector<std::string> TomlTable::keys() const {
 
 std::string TomlTable::require_text(std::string_view key, std::string_view what) {
   if (auto value = text(key)) return *value;
-  throw ReadError(file_, static_cast<std::size_t>(table_->source().begin.line),
-                  fmt::format("{}: '{}' is missing; write {}", where_, key, what));
+  throw ReadError(file_, static_cast<std::size_t>(table_->source().begin.line), "{}: '{}' is missing; write {}", where_,
+                  key, what);
 }
 
 std::string TomlTable::choice(std::string_view key,
@@ -127,20 +128,6 @@ std::string TomlTable::choice(std::string_view key,
     fail(key,
          fmt::format("found \"{}\", expected {}{}", value, named.size() > 1 ? "one of " : "", fmt::join(named, ", ")));
   }
-  return value;
-}
-
-double TomlTable::number_within(
-    std::string_view key, double otherwise, double lower, double upper, std::string_view unit) {
-  const double value = number(key).value_or(otherwise);
-  if (!(value >= lower && value <= upper))
-    fail(key, fmt::format("found {} {}, expected {} to {} {}", value, unit, lower, upper, unit));
-  return value;
-}
-
-double TomlTable::positive_number(std::string_view key, double otherwise) {
-  const double value = number(key).value_or(otherwise);
-  if (!(value > 0.0)) fail(key, fmt::format("found {}, expected a positive number", value));
   return value;
 }
 
@@ -250,17 +237,15 @@ void refuse_letters_outside_quotes(std::string_view text, const std::filesystem:
     } else if (in == In::plain) {
       if (!ascii) {
         throw ReadError(file, line,
-                        "not valid TOML: a letter beyond ASCII outside of quotes; put the name or "
-                        "text in quotes");
+                        "not valid TOML: a letter beyond ASCII outside of quotes; put the name or text in quotes");
       }
       if (c != '\t' && c != '\n' && c != '\r' && (static_cast<unsigned char>(c) < 0x20U || c == 0x7f))
-        throw ReadError(file, line,
-                        fmt::format("not valid TOML: a byte {:#04x}, which is no text", static_cast<unsigned>(c)));
+        throw ReadError(file, line, "not valid TOML: a byte {:#04x}, which is no text", static_cast<unsigned>(c));
       if (c == '#') in = In::remark;
       // toml++ looks through a number to its end; these characters are no numbers.
       const bool opens = std::string_view("\n=[,{").find(before) != std::string_view::npos;
       if (place.in_value && (c == '=' || ((c == '[' || c == '{') && !opens)))
-        throw ReadError(file, line, fmt::format("not valid TOML: a '{}' in the middle of a value", c));
+        throw ReadError(file, line, "not valid TOML: a '{}' in the middle of a value", c);
       // Elsewhere a quote is a mistake and opens no text; after a point it opens one only in a dotted key.
       const bool begins = opens || (before == '.' && !place.in_value);
       place.pass(c);
@@ -286,8 +271,8 @@ toml::table parse_toml(std::string_view text, const std::filesystem::path& file)
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw ReadError(file, static_cast<std::size_t>(error.source().begin.line),
-                    fmt::format("not valid TOML: {}", error.description()));
+    throw ReadError(file, static_cast<std::size_t>(error.source().begin.line), "not valid TOML: {}",
+                    error.description());
   }
 }
 
@@ -298,12 +283,11 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
     // Levenshtein distance, ignoring case, one row at a time.
     std::vector<std::size_t> row(candidate.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
     for (std::size_t i = 0; i < word.size(); ++i) {
       std::size_t diagonal = row[0];
       row[0] = i + 1;
       for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t replace = diagonal + (lower(word[i]) == lower(candidate[j]) ? 0U : 1U);
+        const std::size_t replace = diagonal + (small_letter(word[i]) == small_letter(candidate[j]) ? 0U : 1U);
         diagonal = row[j + 1];
         row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
       }

@@ -51,13 +51,6 @@ class TomlTable {
     return *choice_named<Enumeration>(choice(key, choice_name(otherwise), allowed));
   }
 
-  /// Returns a number, or `otherwise` without the key; throws unless it is within `lower` to `upper` [unit].
-  [[nodiscard]] double number_within(
-      std::string_view key, double otherwise, double lower, double upper, std::string_view unit);
-
-  /// Returns a number, or `otherwise` without the key; throws unless it is positive.
-  [[nodiscard]] double positive_number(std::string_view key, double otherwise);
-
   /// Returns true if the key holds a string.
   [[nodiscard]] bool is_text(std::string_view key) const;
   [[nodiscard]] bool is_table(std::string_view key) const;

@@ -45,16 +45,6 @@ TEST(TomlTable, AChoiceListsWhatIsAllowed) {
             std::string::npos);
 }
 
-TEST(TomlTable, ANumberOutsideItsRangeIsRefusedWithTheRangeAndItsLimitsAreTaken) {
-  const toml::table root = parse_toml("low = 10\nhigh = 2000\nbeyond = 2000.5\n", "s.toml");
-  TomlTable table(root, "s.toml", "[motion]");
-  EXPECT_EQ(table.number_within("low", 1.0, 10.0, 2000.0, "Hz"), 10.0);
-  EXPECT_EQ(table.number_within("high", 1.0, 10.0, 2000.0, "Hz"), 2000.0);
-  EXPECT_EQ(table.number_within("absent", 100.0, 10.0, 2000.0, "Hz"), 100.0);
-  EXPECT_EQ(message_of([&] { (void)table.number_within("beyond", 1.0, 10.0, 2000.0, "Hz"); }),
-            "s.toml:3: [motion] beyond: found 2000.5 Hz, expected 10 to 2000 Hz");
-}
-
 TEST(TomlTable, AnUnknownKeyNamesTheNearestBesideUnderscoresAndUnits) {
   for (const auto& [written, meant] : {std::pair{"high_pass", "highpass_hz"},
                                        {"lowpass", "lowpass_hz"},
@@ -66,14 +56,6 @@ TEST(TomlTable, AnUnknownKeyNamesTheNearestBesideUnderscoresAndUnits) {
     EXPECT_NE(message_of([&] { table.finish(); }).find(std::string("did you mean '") + meant + "'"), std::string::npos)
         << written;
   }
-}
-
-TEST(TomlTable, ZeroIsNoPositiveNumber) {
-  const toml::table root = parse_toml("mass = 0\n", "s.toml");
-  TomlTable table(root, "s.toml", "[subject]");
-  EXPECT_EQ(table.positive_number("absent", 2.5), 2.5);
-  EXPECT_EQ(message_of([&] { (void)table.positive_number("mass", 1.0); }),
-            "s.toml:1: [subject] mass: found 0, expected a positive number");
 }
 
 TEST(NearestWord, ForgivesCaseAndOneSlipButNotAnotherWord) {

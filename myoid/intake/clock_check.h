@@ -22,13 +22,13 @@ class ClockPause : public ReadError {
  public:
   ClockPause(const std::filesystem::path& path,
              const std::string& message,
-             std::vector<signals::ClockStretch> stretches)
+             std::vector<Stretch> stretches)
       : ReadError(path, 0, message), stretches_(std::move(stretches)) {}
   /// Returns the parts of the clock between the pauses.
-  [[nodiscard]] const std::vector<signals::ClockStretch>& stretches() const { return stretches_; }
+  [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
 
  private:
-  std::vector<signals::ClockStretch> stretches_;
+  std::vector<Stretch> stretches_;
 };
 
 /// Returns a warning about the shorter pauses of a file's clock, empty if there are none. Throws

@@ -68,7 +68,7 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
 }
 
 void add_motion(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) {
-  constexpr signals::MotionJumpLimits kJump;
+  constexpr const auto& kJump = signals::kJumpLimits;
   rows.push_back(
       {"external torque beyond any joint", "error",
        "more than 2.5 × 1.5 × the torque of all muscles of the model at F_max (the strongest persons of calibrations; "

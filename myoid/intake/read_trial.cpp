@@ -158,7 +158,7 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
   } catch (const ClockPause& pause) {
     if (study.ik.calibrate) throw;
     int number = 0;
-    for (const signals::ClockStretch& stretch : pause.stretches()) {
+    for (const Stretch& stretch : pause.stretches()) {
       TrialSpec spec = trial;
       spec.name = fmt::format("{}.{}", trial.name, ++number);
       spec.start_s = std::max(trial.start_s.value_or(stretch.begin_s), stretch.begin_s);

@@ -40,7 +40,7 @@ struct Matio {
 template <typename Function>
 void find(void* library, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(library, name));
-  if (function == nullptr) throw InvalidInput(fmt::format("{} has no function {}", MYOID_MATIO_SONAME, name));
+  if (function == nullptr) throw InvalidInput("{} has no function {}", MYOID_MATIO_SONAME, name);
 }
 
 /// Loads libmatio once.
@@ -49,9 +49,9 @@ const Matio& matio() {
     void* library = dlopen(MYOID_MATIO_SONAME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
       throw InvalidInput(
-          fmt::format("a MATLAB file needs the library {0}, which is not there ({1}); install it (Debian 12: "
-                      "apt install libmatio11)",
-                      MYOID_MATIO_SONAME, dlerror()));
+          "a MATLAB file needs the library {0}, which is not there ({1}); install it (Debian 12: apt "
+          "install libmatio11)",
+          MYOID_MATIO_SONAME, dlerror());
     Matio m;
     find(library, "Mat_CreateVer", m.create);
     find(library, "Mat_Close", m.close);
@@ -151,8 +151,8 @@ class Scratch {
   Scratch() {
     std::string pattern = (fs::temp_directory_path() / "myoid.XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
-      throw InvalidInput(fmt::format("cannot make a temporary folder in {}: {}", fs::temp_directory_path().string(),
-                                     std::generic_category().message(errno)));
+      throw InvalidInput("cannot make a temporary folder in {}: {}", fs::temp_directory_path().string(),
+                         std::generic_category().message(errno));
     folder_ = pattern;
   }
   ~Scratch() {
@@ -185,8 +185,7 @@ void write_mat_file(const fs::path& path, const MatStruct& variables) {
   }
   if (written) written = m.close(file.release()) == 0;
   if (!written)
-    throw InvalidInput(
-        fmt::format("{}: libmatio cannot write it by way of {}; is that disk full?", path.string(), scratch.file()));
+    throw InvalidInput("{}: libmatio cannot write it by way of {}; is that disk full?", path.string(), scratch.file());
   recording::write_file(path, recording::read_bytes(scratch.file()));
 }
 
@@ -198,8 +197,7 @@ namespace myoid {
 
 void require_matio() {
   throw InvalidInput(
-      "this program was built without libmatio and writes no MATLAB file; install libmatio-dev and "
-      "build it again");
+      "this program was built without libmatio and writes no MATLAB file; install libmatio-dev and build it again");
 }
 
 void write_mat_file(const std::filesystem::path& /*path*/, const MatStruct& /*variables*/) { require_matio(); }

@@ -31,9 +31,8 @@ struct MatStruct {
 /// without libmatio, or the system has no such library.
 void require_matio();
 
-/// Writes variables in MATLAB's format (version 5, compressed), completely or not at all. The same
-/// variables give the same bytes. Throws InvalidInput as `require_matio` and
-/// `recording::write_file` do.
+/// Writes variables in MATLAB's format (version 5, compressed), completely or not at all. The same variables give the
+/// same bytes. Throws InvalidInput as `require_matio` and `recording::write_file` do.
 void write_mat_file(const std::filesystem::path& path, const MatStruct& variables);
 
 }  // namespace myoid

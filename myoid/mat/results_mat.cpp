@@ -38,7 +38,7 @@ std::string field_name(const std::string& text, std::set<std::string>& taken) {
 
 std::size_t column_of(const CsvTable& table, const std::string& name, const fs::path& path) {
   const auto it = std::find(table.names.begin(), table.names.end(), name);
-  if (it == table.names.end()) throw ReadError(path, table.header_line, fmt::format("has no column '{}'", name));
+  if (it == table.names.end()) throw ReadError(path, table.header_line, "has no column '{}'", name);
   return static_cast<std::size_t>(it - table.names.begin());
 }
 
@@ -145,65 +145,55 @@ std::vector<MatStruct> trials_by_folder(const fs::path& folder) {
   return trials;
 }
 
-/// The remarks of a run as columns.
-class Remarks {
- public:
-  void add_faults(const std::string& trial, const json& faults) {
-    for (const json& fault : faults)
-      add(trial, fault.at("fault").get<std::string>(), fault.at("level").get<std::string>(),
-          fault.at("channel").get<std::string>(), fault.at("begin_s").get<double>(), fault.at("end_s").get<double>(),
-          fault.at("message").get<std::string>());
-  }
-  void add_note(const std::string& trial, const std::string& text) { add(trial, "", "note", "", kNan, kNan, text); }
-  [[nodiscard]] MatStruct columns() const {
-    const auto vector = [](const std::vector<double>& values) {
-      return Eigen::MatrixXd(
-          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-    };
-    return {{{"trial", trials_},
-             {"code", codes_},
-             {"level", levels_},
-             {"channel", channels_},
-             {"begin_s", vector(begin_s_)},
-             {"end_s", vector(end_s_)},
-             {"text", texts_}}};
-  }
-
- private:
-  void add(const std::string& trial,
-           const std::string& code,
-           const std::string& level,
-           const std::string& channel,
-           double begin_s,
-           double end_s,
-           const std::string& text) {
-    trials_.texts.push_back(trial);
-    codes_.texts.push_back(code);
-    levels_.texts.push_back(level);
-    channels_.texts.push_back(channel);
-    begin_s_.push_back(begin_s);
-    end_s_.push_back(end_s);
-    texts_.texts.push_back(text);
-  }
-
-  MatTexts trials_, codes_, levels_, channels_, texts_;
-  std::vector<double> begin_s_, end_s_;
+/// A remark of a run; `begin_s` and `end_s` are NaN where it has no time.
+struct RemarkRow {
+  std::string trial, code, level, channel;
+  double begin_s = kNan, end_s = kNan;
+  std::string text;
 };
+
+void add_faults(const std::string& trial, const json& faults, std::vector<RemarkRow>& rows) {
+  for (const json& fault : faults)
+    rows.push_back({trial, fault.at("fault").get<std::string>(), fault.at("level").get<std::string>(),
+                    fault.at("channel").get<std::string>(), fault.at("begin_s").get<double>(),
+                    fault.at("end_s").get<double>(), fault.at("message").get<std::string>()});
+}
+
+MatStruct remark_columns(const std::vector<RemarkRow>& rows) {
+  const auto texts = [&](std::string RemarkRow::*field) {
+    MatTexts column;
+    for (const RemarkRow& row : rows) column.texts.push_back(row.*field);
+    return column;
+  };
+  const auto numbers = [&](double RemarkRow::*field) {
+    Eigen::MatrixXd column(std::ssize(rows), 1);
+    for (std::size_t i = 0; i < rows.size(); ++i) column(static_cast<Eigen::Index>(i), 0) = rows[i].*field;
+    return column;
+  };
+  return {{{"trial", texts(&RemarkRow::trial)},
+           {"code", texts(&RemarkRow::code)},
+           {"level", texts(&RemarkRow::level)},
+           {"channel", texts(&RemarkRow::channel)},
+           {"begin_s", numbers(&RemarkRow::begin_s)},
+           {"end_s", numbers(&RemarkRow::end_s)},
+           {"text", texts(&RemarkRow::text)}}};
+}
 
 /// Trials, remarks and the run itself, of run.json.
 void add_run(const fs::path& folder, MatStruct& variables) {
   const json run = parse_json(recording::read_text_file(folder / "run.json"));
   std::vector<MatStruct> trials;
-  Remarks remarks;
-  remarks.add_faults("", run.at("faults"));
+  std::vector<RemarkRow> remarks;
+  add_faults("", run.at("faults"), remarks);
   for (const json& t : run.at("trials")) {
     const auto name = t.at("name").get<std::string>();
     trials.push_back(trial(folder, name, t.at("use").get<std::string>(), t.at("failure").get<std::string>()));
-    remarks.add_faults(name, t.at("faults"));
-    for (const json& note : t.at("notes")) remarks.add_note(name, note.get<std::string>());
+    add_faults(name, t.at("faults"), remarks);
+    for (const json& note : t.at("notes"))
+      remarks.push_back({.trial = name, .code = {}, .level = "note", .channel = {}, .text = note.get<std::string>()});
   }
   if (!trials.empty()) variables.fields.emplace_back("trials", std::move(trials));
-  variables.fields.emplace_back("remarks", std::vector<MatStruct>{remarks.columns()});
+  variables.fields.emplace_back("remarks", std::vector<MatStruct>{remark_columns(remarks)});
   MatStruct about;
   for (const char* key : {"program", "version", "command", "study"})
     about.fields.emplace_back(key, run.at(key).get<std::string>());
@@ -224,7 +214,7 @@ MatStruct matlab_results(const fs::path& folder) {
     try {
       add_run(folder, variables);
     } catch (const json::exception& error) {
-      throw ReadError(folder / "run.json", 0, fmt::format("is no record of a run of this version: {}", error.what()));
+      throw ReadError(folder / "run.json", 0, "is no record of a run of this version: {}", error.what());
     }
   } else if (std::vector<MatStruct> trials = trials_by_folder(folder); !trials.empty()) {
     variables.fields.emplace_back("trials", std::move(trials));
@@ -234,7 +224,7 @@ MatStruct matlab_results(const fs::path& folder) {
 
 void check_mat_file(const fs::path& file) {
   if (file.extension() != ".mat")
-    throw InvalidInput(fmt::format("{}: expected the name of a MATLAB file, which ends in .mat", file.string()));
+    throw InvalidInput("{}: expected the name of a MATLAB file, which ends in .mat", file.string());
   require_matio();
 }
 

@@ -10,6 +10,8 @@
 namespace myoid {
 namespace {
 
+using namespace phase_limits;
+
 /// Returns the robust spread of one block about its neighbors, at least one percent, because people vary more.
 double block_sd(const Eigen::VectorXd& x) {
   std::vector<double> differences;
@@ -100,7 +102,7 @@ bool alike(double speed, double torque, double other_speed, double other_torque,
   return within(speed, other_speed) && within(torque, other_torque);
 }
 
-std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options) {
+std::size_t regular_segment(const BlockChanges& changes) {
   constexpr double kSurely = 3.0;  // standard errors, of either
   const std::vector<Segment>& all = changes.segments;
   const auto longest = std::max_element(all.begin(), all.end(),
@@ -113,7 +115,7 @@ std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& opt
     const double frequency = segment->frequency - longest->frequency;
     if (segment->count() >= static_cast<double>(kBatch) && gain > kSurely * changes.gain_sd * share &&
         frequency > kSurely * changes.frequency_sd * share &&
-        alike(segment->speed, segment->torque, longest->speed, longest->torque, options.alike) &&
+        alike(segment->speed, segment->torque, longest->speed, longest->torque, kAlike) &&
         segment->gain > all[regular].gain) {
       regular = static_cast<std::size_t>(segment - all.begin());
     }

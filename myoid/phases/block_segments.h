@@ -41,6 +41,6 @@ struct BlockChanges {
 
 /// Chooses the longest segment. If torque per EMG and frequency were both higher in earlier segments, the muscles tired
 /// in the longest one: the earlier segment with the most torque per EMG is chosen.
-[[nodiscard]] std::size_t regular_segment(const BlockChanges& changes, const PhaseOptions& options);
+[[nodiscard]] std::size_t regular_segment(const BlockChanges& changes);
 
 }  // namespace myoid

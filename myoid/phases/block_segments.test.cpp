@@ -49,21 +49,20 @@ TEST(FindChanges, UpToAFifthOfTheFrequenciesMayBeUnknown) {
 }
 
 TEST(RegularSegment, IsTheLongestUnlessAnEarlierOneWasFresher) {
-  const PhaseOptions options;
-  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 80, 100}, {20, 100, 100}})), options), 1U);
-  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 110}, {20, 100, 100}})), options), 0U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 80, 100}, {20, 100, 100}}))), 1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 110}, {20, 100, 100}}))), 0U);
   // More torque alone is no fresher muscle, nor is what comes later, nor a few blocks.
-  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 100}, {20, 100, 100}})), options), 1U);
-  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{20, 100, 100}, {8, 125, 110}})), options), 0U);
-  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{3, 125, 110}, {20, 100, 100}})), options), 1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{8, 125, 100}, {20, 100, 100}}))), 1U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{20, 100, 100}, {8, 125, 110}}))), 0U);
+  EXPECT_EQ(regular_segment(find_changes(gain_blocks({{3, 125, 110}, {20, 100, 100}}))), 1U);
   // Another movement is not compared.
   std::vector<Block> faster = gain_blocks({{8, 125, 110}, {20, 100, 100}});
   for (std::size_t b = 0; b < 8; ++b) faster[b].speed = 4.0;
-  EXPECT_EQ(regular_segment(find_changes(faster), options), 1U);
+  EXPECT_EQ(regular_segment(find_changes(faster)), 1U);
   // Without frequencies the longest.
   std::vector<Block> torque_alone = gain_blocks({{8, 125, 110}, {20, 100, 100}});
   for (Block& b : torque_alone) b.frequency = kNan;
-  EXPECT_EQ(regular_segment(find_changes(torque_alone), options), 1U);
+  EXPECT_EQ(regular_segment(find_changes(torque_alone)), 1U);
 }
 
 TEST(Alike, IsWithinAFactorOfSpeedAndOfTorque) {

@@ -13,22 +13,20 @@
 namespace myoid {
 namespace {
 
+using namespace phase_limits;
+
 /// Divides a contraction without movement into isometric and fatigued phases: fatigue lowers torque
 /// per EMG and frequency. A contraction with a varying torque stays one phase.
-std::vector<Phase> isometric_phases(const PhaseSignals& signals,
-                                    const TrialStretch& stretch,
-                                    const PhaseOptions& options,
-                                    const Phase& whole) {
-  const std::vector<Block> blocks = blocks_of(signals, stretch, options);
+std::vector<Phase> isometric_phases(const PhaseSignals& signals, const TrialStretch& stretch, const Phase& whole) {
+  const std::vector<Block> blocks = blocks_of(signals, stretch);
   std::vector<double> torques;
   for (const Block& b : blocks) torques.push_back(b.torque);
   const double middle = math::median(torques);
-  const bool even = std::all_of(blocks.begin(), blocks.end(), [&](const Block& b) {
-    return alike(b.speed, b.torque, b.speed, middle, options.alike);
-  });
+  const bool even = std::all_of(blocks.begin(), blocks.end(),
+                                [&](const Block& b) { return alike(b.speed, b.torque, b.speed, middle, kAlike); });
   std::vector<Phase> phases{whole};
   if (!even) return phases;
-  for (const BlockPhase& found : moving_phases(blocks, options)) {
+  for (const BlockPhase& found : moving_phases(blocks)) {
     const bool tired = found.phase.kind == PhaseKind::fatigued && found.phase.frequency;
     if (tired == (phases.back().kind == PhaseKind::fatigued)) continue;
     Phase next = tired ? found.phase : whole;
@@ -63,25 +61,23 @@ void require_valid(const PhaseSignals& s) {
       s.activation.rows() != n || (s.effort_nm.size() != 0 && (s.effort_nm.size() != n || !s.effort_nm.allFinite())) ||
       !s.velocity_radps.allFinite() || !s.torque_nm.allFinite() || !s.predicted_nm.allFinite() ||
       !s.activation.allFinite()) {
-    throw InvalidInput(
-        fmt::format("phases of {} samples: rate, torques and activations must be as many and finite", n));
+    throw InvalidInput("phases of {} samples: rate, torques and activations must be as many and finite", n);
   }
 }
 
 /// Returns rest, or an isometric contraction with its parts.
 std::vector<Phase> still_phases(const PhaseSignals& signals,
                                 const TrialStretch& stretch,
-                                const PhaseOptions& options,
                                 double begin_s,
                                 double end_s) {
   const double activation =
       signals.activation.middleRows(stretch.first, stretch.last - stretch.first).colwise().mean().maxCoeff();
-  const bool rest = activation < options.rest_activation;
+  const bool rest = activation < kRestActivation;
   const Phase whole{.kind = rest ? PhaseKind::rest : PhaseKind::isometric,
                     .begin_s = begin_s,
                     .end_s = end_s,
                     .reason = fmt::format("the joint stands still, mean activation {:.3f}", activation)};
-  return rest ? std::vector{whole} : isometric_phases(signals, stretch, options, whole);
+  return rest ? std::vector{whole} : isometric_phases(signals, stretch, whole);
 }
 
 /// Joins two phases; the means of gain and frequency are weighted by duration.
@@ -115,24 +111,24 @@ std::vector<Phase> merge_alike(std::vector<Phase> phases) {
 
 }  // namespace
 
-std::vector<Phase> find_phases(const PhaseSignals& signals, const PhaseOptions& options) {
+std::vector<Phase> find_phases(const PhaseSignals& signals) {
   require_valid(signals);
-  const std::vector<TrialStretch> stretches = still_and_moving(signals, options);
+  const std::vector<TrialStretch> stretches = still_and_moving(signals);
   std::vector<Block> blocks;
   for (const TrialStretch& stretch : stretches) {
     if (stretch.still) continue;
-    const std::vector<Block> some = blocks_of(signals, stretch, options);
+    const std::vector<Block> some = blocks_of(signals, stretch);
     blocks.insert(blocks.end(), some.begin(), some.end());
   }
-  const std::vector<BlockPhase> moving = moving_phases(blocks, options);
+  const std::vector<BlockPhase> moving = moving_phases(blocks);
   const Eigen::VectorXd& t = signals.time_s;
 
   std::vector<Phase> phases;
   for (const TrialStretch& stretch : stretches) {
     const double begin_s = t[stretch.first];
     const double end_s = stretch.last < t.size() ? t[stretch.last] : t[t.size() - 1];
-    std::vector<Phase> parts = stretch.still ? still_phases(signals, stretch, options, begin_s, end_s)
-                                             : phases_within(stretch, blocks, moving, t);
+    std::vector<Phase> parts =
+        stretch.still ? still_phases(signals, stretch, begin_s, end_s) : phases_within(stretch, blocks, moving, t);
     if (!stretch.still) {
       parts.front().begin_s = begin_s;
       for (std::size_t i = 0; i < parts.size(); ++i)

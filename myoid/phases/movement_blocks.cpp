@@ -9,6 +9,8 @@
 namespace myoid {
 namespace {
 
+using namespace phase_limits;
+
 double mean_interval(const Eigen::VectorXd& time_s) {
   return (time_s[time_s.size() - 1] - time_s[0]) / static_cast<double>(time_s.size() - 1);
 }
@@ -56,7 +58,7 @@ std::vector<Eigen::Index> lower_turns(const PhaseSignals& s, const TrialStretch&
 
 }  // namespace
 
-std::vector<TrialStretch> still_and_moving(const PhaseSignals& s, const PhaseOptions& options) {
+std::vector<TrialStretch> still_and_moving(const PhaseSignals& s) {
   const Eigen::Index n = s.time_s.size();
   const auto half = static_cast<Eigen::Index>(std::lround(0.5 / mean_interval(s.time_s)));
   Eigen::VectorXd squares(n + 1);
@@ -69,7 +71,7 @@ std::vector<TrialStretch> still_and_moving(const PhaseSignals& s, const PhaseOpt
     const Eigen::Index a = std::max<Eigen::Index>(0, i - half);
     const Eigen::Index b = std::min(n, i + half + 1);
     const double rms = std::sqrt((squares[b] - squares[a]) / static_cast<double>(b - a));
-    const bool still = rms < options.still_radps;
+    const bool still = rms < kStill_radps;
     if (all.empty() || all.back().still != still) all.push_back({i, i, still});
     all.back().last = i + 1;
   }
@@ -77,7 +79,7 @@ std::vector<TrialStretch> still_and_moving(const PhaseSignals& s, const PhaseOpt
   std::vector<TrialStretch> merged;
   for (TrialStretch stretch : all) {
     const double long_s = s.time_s[stretch.last - 1] - s.time_s[stretch.first];
-    if (stretch.still && long_s < options.shortest_s) stretch.still = false;
+    if (stretch.still && long_s < kShortest_s) stretch.still = false;
     if (!merged.empty() && merged.back().still == stretch.still) {
       merged.back().last = stretch.last;
     } else {
@@ -87,9 +89,9 @@ std::vector<TrialStretch> still_and_moving(const PhaseSignals& s, const PhaseOpt
   return merged;
 }
 
-std::vector<Block> blocks_of(const PhaseSignals& s, const TrialStretch& stretch, const PhaseOptions& options) {
+std::vector<Block> blocks_of(const PhaseSignals& s, const TrialStretch& stretch) {
   const double dt = mean_interval(s.time_s);
-  const auto shortest = std::max<Eigen::Index>(2, std::lround(options.block_s / dt));
+  const auto shortest = std::max<Eigen::Index>(2, std::lround(kBlock_s / dt));
   const std::vector<Eigen::Index> turns = stretch.still ? std::vector<Eigen::Index>() : lower_turns(s, stretch);
   std::vector<Block> blocks;
   Eigen::Index begin = stretch.first;
@@ -109,8 +111,7 @@ std::vector<Block> blocks_of(const PhaseSignals& s, const TrialStretch& stretch,
       if (std::isfinite(economy) && economy > 0.0) block.economy = std::log(economy);
     }
     block.frequency = mean_log_frequency(s.median_frequency_hz, s.time_s[block.first], s.time_s[block.last - 1]);
-    block.speed =
-        std::max(options.still_radps, std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
+    block.speed = std::max(kStill_radps, std::sqrt(s.velocity_radps.segment(block.first, m).squaredNorm() / count));
     block.torque = measured.norm() / std::sqrt(count);
     blocks.push_back(block);
     begin = block.last;

@@ -14,8 +14,8 @@ struct TrialStretch {
 };
 
 /// Stretches of standing still and of movement, in turn: still where the root mean square of the
-/// rate over 1 s is below `still_radps`; a stop shorter than `shortest_s` is part of the movement.
-[[nodiscard]] std::vector<TrialStretch> still_and_moving(const PhaseSignals& signals, const PhaseOptions& options);
+/// rate over 1 s is below `kStill_radps`; a stop shorter than `kShortest_s` is part of the movement.
+[[nodiscard]] std::vector<TrialStretch> still_and_moving(const PhaseSignals& signals);
 
 /// The unit of the search: whole cycles of a movement, or a window of fixed length where the joint stands still.
 struct Block {
@@ -27,15 +27,13 @@ struct Block {
   double economy = std::numeric_limits<double>::quiet_NaN();
   /// Mean over channels and windows of ln(median frequency / the channel's median).
   double frequency = std::numeric_limits<double>::quiet_NaN();
-  double speed = 0.0;   ///< Root mean square, at least `still_radps`.
+  double speed = 0.0;   ///< Root mean square, at least `kStill_radps`.
   double torque = 0.0;  ///< Root mean square.
 };
 
-/// Blocks of `block_s` or more, one after another from the beginning of the stretch. A block ends where the joint turns
-/// at the lower end of its cycle; where it does not within twice `block_s`, a block has that length.
-[[nodiscard]] std::vector<Block> blocks_of(const PhaseSignals& signals,
-                                           const TrialStretch& stretch,
-                                           const PhaseOptions& options);
+/// Blocks of `kBlock_s` or more, one after another from the beginning of the stretch. A block ends where the joint
+/// turns at the lower end of its cycle; where it does not within twice `kBlock_s`, a block has that length.
+[[nodiscard]] std::vector<Block> blocks_of(const PhaseSignals& signals, const TrialStretch& stretch);
 
 /// Returns the standard deviation of the mean of `batch` neighbors times sqrt(batch): one block's
 /// contribution to a mean, with the correlation between neighbors (batch means). Second differences

@@ -27,7 +27,7 @@ PhaseSignals swing(double frequency_hz) {
 TEST(Blocks, AreWholeCyclesOfTwoSecondsOrMore) {
   // Of 0.7 Hz, 1.43 s: two cycles each; the lower turn is at three quarters of a cycle.
   const PhaseSignals s = swing(0.7);
-  const auto blocks = blocks_of(s, {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(s, {.first = 0, .last = 3001});
   ASSERT_GE(blocks.size(), 9u);
   for (std::size_t b = 1; b < 9; ++b) {
     EXPECT_EQ(blocks[b].first, blocks[b - 1].last);
@@ -39,7 +39,7 @@ TEST(Blocks, AreWholeCyclesOfTwoSecondsOrMore) {
 }
 
 TEST(Blocks, OfASlowMovementAreWindows) {
-  const auto blocks = blocks_of(swing(0.01), {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(swing(0.01), {.first = 0, .last = 3001});
   ASSERT_EQ(blocks.size(), 15u);
   EXPECT_EQ(blocks[7].first, 1400);
 }
@@ -47,7 +47,7 @@ TEST(Blocks, OfASlowMovementAreWindows) {
 TEST(Blocks, AreACycleThatIsATenthTooShortAndWindowsWhereTurnsAreFarApart) {
   const auto begins = [](double period_s) {
     std::vector<double> result;
-    for (const Block& b : blocks_of(swing(1.0 / period_s), {.first = 0, .last = 3001}, {}))
+    for (const Block& b : blocks_of(swing(1.0 / period_s), {.first = 0, .last = 3001}))
       result.push_back(0.01 * static_cast<double>(b.first));
     return result;
   };
@@ -69,7 +69,7 @@ TEST(Blocks, SmallCyclesTurnToo) {
     const double cycles = 0.4 * s.time_s[i] + 0.25;  // from one lower turn to the next
     if (static_cast<int>(cycles) % 2 == 1) s.velocity_radps[i] *= 0.45;
   }
-  const auto blocks = blocks_of(s, {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(s, {.first = 0, .last = 3001});
   ASSERT_GE(blocks.size(), 10U);
   for (std::size_t b = 1; b < 10; ++b)
     EXPECT_NEAR(0.01 * static_cast<double>(blocks[b].last - blocks[b].first), 2.5, 0.05);
@@ -78,14 +78,14 @@ TEST(Blocks, SmallCyclesTurnToo) {
 TEST(Blocks, OfAStillJointAreWindowsAndNoSlowerThanStill) {
   PhaseSignals s = swing(0.7);
   s.velocity_radps *= 0.05;
-  const auto blocks = blocks_of(s, {.first = 0, .last = 3001, .still = true}, {});
+  const auto blocks = blocks_of(s, {.first = 0, .last = 3001, .still = true});
   ASSERT_EQ(blocks.size(), 15U);
   EXPECT_EQ(blocks[3].first, 600);
-  EXPECT_DOUBLE_EQ(blocks[3].speed, PhaseOptions{}.still_radps);
+  EXPECT_DOUBLE_EQ(blocks[3].speed, phase_limits::kStill_radps);
 }
 
 TEST(Blocks, HaveTheRootMeanSquareOfSpeedAndTorque) {
-  const auto blocks = blocks_of(swing(0.7), {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(swing(0.7), {.first = 0, .last = 3001});
   // Whole cycles: 1 / sqrt(2), and half of sqrt(10^2 + 4^2 / 2).
   EXPECT_NEAR(blocks[3].speed, std::sqrt(0.5), 0.01);
   EXPECT_NEAR(blocks[3].torque, 0.5 * std::sqrt(108.0), 0.05);
@@ -94,7 +94,7 @@ TEST(Blocks, HaveTheRootMeanSquareOfSpeedAndTorque) {
 TEST(Blocks, WithoutATorqueThatGoesWithThePredictedThereIsNoGain) {
   PhaseSignals s = swing(0.7);
   s.torque_nm = -s.torque_nm;
-  const auto blocks = blocks_of(s, {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(s, {.first = 0, .last = 3001});
   EXPECT_TRUE(std::isnan(blocks[2].gain));
 }
 
@@ -104,13 +104,13 @@ TEST(Blocks, FrequenciesOfChannelsThatAreKnownAtTimesAreComparable) {
   Eigen::MatrixXd f(30, 2);
   for (Eigen::Index w = 0; w < 30; ++w) f.row(w) << 80.0, w < 15 ? 120.0 : std::numeric_limits<double>::quiet_NaN();
   s.median_frequency_hz = {Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
-  const auto blocks = blocks_of(s, {.first = 0, .last = 3001}, {});
+  const auto blocks = blocks_of(s, {.first = 0, .last = 3001});
   for (const Block& b : blocks) EXPECT_NEAR(b.frequency, 0.0, 1e-12);
   // A block has the windows within it.
   f.col(0).tail(15).setConstant(40.0);
   f.col(1).setConstant(120.0);
   s.median_frequency_hz = {Eigen::VectorXd::LinSpaced(30, 0.5, 29.5), {{"a", Unit::hertz}, {"b", Unit::hertz}}, f};
-  const auto fallen = blocks_of(s, {.first = 0, .last = 3001}, {});
+  const auto fallen = blocks_of(s, {.first = 0, .last = 3001});
   EXPECT_NEAR(fallen.front().frequency - fallen.back().frequency, 0.5 * std::log(2.0), 1e-12);
 }
 
@@ -120,7 +120,7 @@ TEST(StillAndMoving, AShortStopIsPartOfTheMovement) {
     const double t = s.time_s[i];
     if ((t > 8.0 && t < 10.0) || (t > 20.0 && t < 25.0)) s.velocity_radps[i] = 0.0;
   }
-  const auto found = still_and_moving(s, {});
+  const auto found = still_and_moving(s);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_FALSE(found[0].still);
   EXPECT_TRUE(found[1].still);

@@ -13,10 +13,12 @@
 namespace myoid {
 namespace {
 
+using namespace phase_limits;
+
 constexpr std::size_t kFewestBlocks = 8;
 
 /// Compares a segment with the regular one.
-Phase judge(const Segment& segment, const Segment& regular, const BlockChanges& changes, const PhaseOptions& options) {
+Phase judge(const Segment& segment, const Segment& regular, const BlockChanges& changes) {
   Phase phase;
   const double gain = segment.gain - regular.gain;
   const double frequency = segment.frequency - regular.frequency;
@@ -25,12 +27,12 @@ Phase judge(const Segment& segment, const Segment& regular, const BlockChanges& 
   const bool frequency_known = std::isfinite(frequency);
   if (frequency_known) phase.frequency = std::exp(frequency);
   const bool before = segment.first < regular.first;
-  const double least = before && gain < 0.0 ? options.warm_up_change : options.gain_change;
+  const double least = before && gain < 0.0 ? kWarmUpChange : kGainChange;
   const bool gain_differs =
-      std::abs(gain) > -std::log1p(-least) && std::abs(gain) > options.significance * changes.gain_sd * share;
-  const bool frequency_fell = frequency_known && -frequency > -std::log1p(-options.frequency_fall) &&
-                              -frequency > options.significance * changes.frequency_sd * share;
-  const bool same_movement = alike(segment.speed, segment.torque, regular.speed, regular.torque, options.alike);
+      std::abs(gain) > -std::log1p(-least) && std::abs(gain) > kSignificance * changes.gain_sd * share;
+  const bool frequency_fell = frequency_known && -frequency > -std::log1p(-kFrequencyFall) &&
+                              -frequency > kSignificance * changes.frequency_sd * share;
+  const bool same_movement = alike(segment.speed, segment.torque, regular.speed, regular.torque, kAlike);
   const std::string numbers = fmt::format(
       "torque per EMG {:+.0f} %{}", 100.0 * std::expm1(gain),
       frequency_known ? fmt::format(", median frequency {:+.0f} %", 100.0 * std::expm1(frequency)) : std::string());
@@ -60,10 +62,7 @@ Phase judge(const Segment& segment, const Segment& regular, const BlockChanges& 
 /// Returns the first block after a warm-up; 0: there is none. In a warm-up the EMG or the effort of
 /// the muscles against each other differs from the later one at the same torque. Blocks of another
 /// movement, such as a start from rest, do not count.
-std::size_t end_of_warm_up(const std::vector<Block>& blocks,
-                           const Segment& regular,
-                           const PhaseOptions& options,
-                           Phase& phase) {
+std::size_t end_of_warm_up(const std::vector<Block>& blocks, const Segment& regular, Phase& phase) {
   std::vector<std::size_t> comparable;
   std::vector<double> economy;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -74,23 +73,22 @@ std::size_t end_of_warm_up(const std::vector<Block>& blocks,
   }
   const auto found =
       find_warm_up(Eigen::Map<const Eigen::VectorXd>(economy.data(), static_cast<Eigen::Index>(economy.size())),
-                   -std::log1p(-options.warm_up_change), options.false_alarm);
+                   -std::log1p(-kWarmUpChange), kFalseAlarm);
   if (!found || found->blocks == 0) return 0;
   phase.kind = PhaseKind::warm_up;
   phase.reason = fmt::format(
-      "at first {:+.0f} % effort of the muscles for the same torque, by the EMG or against each "
-      "other, fading (t = {:.1f}; chance reaches {:.1f} in {:.2g} of trials)",
-      100.0 * std::expm1(-found->change), found->t, found->critical, options.false_alarm);
+      "at first {:+.0f} % effort of the muscles for the same torque, by the EMG or against each other, fading (t = "
+      "{:.1f}; chance reaches {:.1f} in {:.2g} of trials)",
+      100.0 * std::expm1(-found->change), found->t, found->critical, kFalseAlarm);
   return comparable[static_cast<std::size_t>(found->blocks)];
 }
 
 /// Returns the first block of fatigue. Where a line through both segments fits torque per EMG
-/// better than a step, fatigue begins where the line is `gain_change` below the regular phase.
+/// better than a step, fatigue begins where the line is `kGainChange` below the regular phase.
 std::size_t begin_of_fatigue(const Segment& before,
                              const Segment& after,
                              const Segment& regular,
-                             const BlockChanges& changes,
-                             const PhaseOptions& options) {
+                             const BlockChanges& changes) {
   const auto first = static_cast<Eigen::Index>(before.first);
   const auto n = static_cast<Eigen::Index>(after.last) - first;
   const Eigen::VectorXd y = changes.gain.segment(first, n);
@@ -102,18 +100,18 @@ std::size_t begin_of_fatigue(const Segment& before,
   const double step =
       (y.head(split).array() - before.gain).square().sum() + (y.tail(n - split).array() - after.gain).square().sum();
   if (line >= step || slope >= 0.0) return after.first;
-  const double fallen = regular.gain + std::log1p(-options.gain_change);
+  const double fallen = regular.gain + std::log1p(-kGainChange);
   const double place = t.mean() + (fallen - y.mean()) / slope;
   return static_cast<std::size_t>(std::clamp(std::lround(place), 1L, static_cast<long>(n) - 1) + first);
 }
 
 }  // namespace
 
-std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks, const PhaseOptions& options) {
+std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks) {
   const bool known = std::all_of(blocks.begin(), blocks.end(), [](const Block& b) { return std::isfinite(b.gain); });
   if (blocks.size() < kFewestBlocks || !known) return {};
   const BlockChanges changes = find_changes(blocks);
-  const std::size_t regular = regular_segment(changes, options);
+  const std::size_t regular = regular_segment(changes);
   const Segment& reference = changes.segments[regular];
   std::vector<BlockPhase> phases;
   bool tired = false;
@@ -122,9 +120,9 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks, const Ph
     Phase phase =
         i == regular
             ? Phase{.kind = PhaseKind::regular, .gain = 1.0, .reason = "the phase that the others are compared with"}
-            : judge(segment, reference, changes, options);
+            : judge(segment, reference, changes);
     // Fatigue lasts until torque per EMG has recovered.
-    if (tired && phase.kind != PhaseKind::fatigued && *phase.gain < 1.0 - 0.5 * options.gain_change) {
+    if (tired && phase.kind != PhaseKind::fatigued && *phase.gain < 1.0 - 0.5 * kGainChange) {
       phase.kind = PhaseKind::fatigued;
       phase.reason = "after the muscles have tired, before their torque is back";
     }
@@ -142,11 +140,11 @@ std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks, const Ph
     }
     if (next.kind == PhaseKind::fatigued && here.kind == PhaseKind::regular) {
       phases[i].last = phases[i + 1].first =
-          begin_of_fatigue(changes.segments[i], changes.segments[i + 1], reference, changes, options);
+          begin_of_fatigue(changes.segments[i], changes.segments[i + 1], reference, changes);
     }
   }
   Phase warm_up;
-  const std::size_t warm = end_of_warm_up(blocks, reference, options, warm_up);
+  const std::size_t warm = end_of_warm_up(blocks, reference, warm_up);
   const bool known_already = phases.front().phase.kind == PhaseKind::warm_up && phases.front().last >= warm;
   if (warm > 0 && warm < reference.last && !known_already) {
     const auto count = static_cast<Eigen::Index>(warm);

@@ -16,6 +16,6 @@ struct BlockPhase {
 /// Divides the blocks of one trial's movement into regular, warm-up, fatigued and changed phases, in order. Each
 /// segment between two changes is compared with the regular one (block_segments.h), the beginning with the effort later
 /// on (warm_up.h). Empty with fewer than 8 blocks, or where torque per EMG is not known. Times are the caller's.
-[[nodiscard]] std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks, const PhaseOptions& options);
+[[nodiscard]] std::vector<BlockPhase> moving_phases(const std::vector<Block>& blocks);
 
 }  // namespace myoid

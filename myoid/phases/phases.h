@@ -53,19 +53,21 @@ struct TrialPhases {
   std::vector<Phase> phases;
 };
 
-struct PhaseOptions {
-  double still_radps = 0.1;       ///< Root mean square of the rate over 1 s below which nothing moves.
-  double rest_activation = 0.03;  ///< Mean activation below which a still muscle rests.
-  double shortest_s = 1.5;        ///< Shortest rest and isometric phase.
-  double block_s = 2.0;           ///< Torque per EMG is measured per block: a cycle or more.
-  double gain_change = 0.10;      ///< Least relevant change of torque per EMG.
-  double warm_up_change = 0.06;   ///< Least relevant change before the regular phase: a change that
-                                  ///< fades is small on average, and leaving it out costs little.
-  double frequency_fall = 0.08;   ///< Smaller falls of the median frequency are none (8-10 %).
-  double significance = 4.0;      ///< Standard errors by which a phase differs from the regular one.
-  double false_alarm = 0.001;     ///< Chance that a trial begins with a warm-up that is none.
-  double alike = 1.6;             ///< Phases whose speed or torque differ by a larger factor are not
-                                  ///< compared: the law, not the muscle, may explain them.
-};
+/// Mean activation, rate, length and change from which a stretch counts as rest, movement or another phase.
+namespace phase_limits {
+inline constexpr double kStill_radps = 0.1;      ///< Root mean square of the rate over 1 s below which nothing moves.
+inline constexpr double kRestActivation = 0.03;  ///< Mean activation below which a still muscle rests.
+inline constexpr double kShortest_s = 1.5;       ///< Shortest rest and isometric phase.
+inline constexpr double kBlock_s = 2.0;          ///< Torque per EMG is measured per block: a cycle or more.
+inline constexpr double kGainChange = 0.10;      ///< Least relevant change of torque per EMG.
+/// Least relevant change before the regular phase: a change that fades is small on average, and leaving it out costs
+/// little.
+inline constexpr double kWarmUpChange = 0.06;
+inline constexpr double kFrequencyFall = 0.08;  ///< Smaller falls of the median frequency are none (8-10 %).
+inline constexpr double kSignificance = 4.0;    ///< Standard errors by which a phase differs from the regular one.
+inline constexpr double kFalseAlarm = 0.001;    ///< Chance that a trial begins with a warm-up that is none.
+/// Phases whose speed or torque differ by a larger factor are not compared: the law, not the muscle, may explain them.
+inline constexpr double kAlike = 1.6;
+}  // namespace phase_limits
 
 }  // namespace myoid

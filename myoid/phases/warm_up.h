@@ -20,7 +20,7 @@ struct WarmUp {
 /// Generalized least squares finds the change, filtered backwards in time so that no block of the beginning is lost.
 /// The fading is the most significant of 1.5, 3, 6, ... blocks up to a sixth of them. Empty if the change is smaller
 /// than `least` in the mean over `fading`, or if its t is below 1.25 times the critical value for the probability
-/// `false_alarm` (Bonferroni's bound over the fadings). The factor 1.25 allows for the estimated autoregression: with
+/// `kFalseAlarm` (Bonferroni's bound over the fadings). The factor 1.25 allows for the estimated autoregression: with
 /// 0.001, up to 0.6 % of simulated series without a warm-up are taken for one, 2 % under a strong regular beat. Also
 /// empty with fewer than 24 blocks, too few to separate 3 + 1 coefficients from an autoregression. Throws InvalidInput
 /// if x is not finite.

@@ -61,21 +61,10 @@ constexpr SharedWithLater kBest = &shared_by_any<kJoints>;
 
 constexpr Index kJointsAtOnce = 6;
 
+/// Returns the way for 1 to kJointsAtOnce joints.
 SharedWithLater shared_with_later(Index joints) {
-  switch (joints) {
-    case 1:
-      return kBest<1>;
-    case 2:
-      return kBest<2>;
-    case 3:
-      return kBest<3>;
-    case 4:
-      return kBest<4>;
-    case 5:
-      return kBest<5>;
-    default:
-      return kBest<6>;
-  }
+  static const SharedWithLater ways[] = {kBest<1>, kBest<2>, kBest<3>, kBest<4>, kBest<5>, kBest<kJointsAtOnce>};
+  return ways[joints - 1];
 }
 
 }  // namespace

@@ -34,29 +34,38 @@ json read_json(const fs::path& path) {
   try {
     return parse_json(recording::read_text_file(path));
   } catch (const json::exception& error) {
-    throw ReadError(path, 0, fmt::format("is no result of a run: {}", error.what()));
+    throw ReadError(path, 0, "is no result of a run: {}", error.what());
   }
 }
+
+using Chains = std::vector<Predictor::Chain>;
+
+/// A number of the model and the chains of its owner.
+struct Place {
+  double* value;
+  Chains* chains;
+};
 
 /// The numbers of the model under way: values by owner, and ratios of the eccentric slopes.
 struct Numbers {
   Predictor* predictor;
   std::vector<double> slope_ratio;  ///< By muscle; 0: the product is the parameter.
 
-  /// Returns the numbers of an owner; null if the owner has none of this scope.
-  [[nodiscard]] std::vector<double*> of(const ParameterField& field, std::string_view owner) {
-    std::vector<double*> found;
+  /// Returns the numbers of an owner; none if the owner has none of this scope.
+  [[nodiscard]] std::vector<Place> of(const ParameterField& field, std::string_view owner) {
+    std::vector<Place> found;
     const auto f = static_cast<std::size_t>(field.field);
     const auto is = [&](const std::string& name) { return owner == name || owner == "subject"; };
     for (std::size_t k = 0; field.scope == Scope::muscle && k < predictor->muscles.size(); ++k) {
-      if (!is(predictor->muscles[k].name)) continue;
-      found.push_back(field.field == kSlopeRatio ? &slope_ratio[k] : &predictor->muscles[k].values[f]);
+      Predictor::Muscle& muscle = predictor->muscles[k];
+      if (!is(muscle.name)) continue;
+      found.push_back({field.field == kSlopeRatio ? &slope_ratio[k] : &muscle.values[f], &muscle.chains});
     }
     for (Predictor::Channel& channel : predictor->channels) {
-      if (field.scope == Scope::channel && is(channel.name)) found.push_back(&channel.values[f]);
+      if (field.scope == Scope::channel && is(channel.name)) found.push_back({&channel.values[f], &channel.chains});
     }
     for (Predictor::Joint& joint : predictor->joints) {
-      if (field.scope == Scope::joint && is(joint.name)) found.push_back(&joint.values[f]);
+      if (field.scope == Scope::joint && is(joint.name)) found.push_back({&joint.values[f], &joint.chains});
     }
     return found;
   }
@@ -67,13 +76,13 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
     if (!rule.value) continue;
     const std::vector<std::string> all{"subject"};
     for (const std::string& owner : rule.owners.empty() ? all : rule.owners)
-      for (double* value : numbers.of(parameter_field(rule.parameter), owner)) *value = *rule.value;
+      for (const Place& place : numbers.of(parameter_field(rule.parameter), owner)) *place.value = *rule.value;
   }
   for (const json& row : method.at("estimates")) {
     if (!row.at("estimate").is_number()) continue;
     const auto name = row.at("parameter").get<std::string>();
-    for (double* value : numbers.of(parameter_field(name), row.at("muscle").get<std::string>()))
-      *value = row.at("estimate").get<double>();
+    for (const Place& place : numbers.of(parameter_field(name), row.at("muscle").get<std::string>()))
+      *place.value = row.at("estimate").get<double>();
   }
   for (std::size_t k = 0; k < numbers.slope_ratio.size(); ++k) {
     MuscleValues& m = numbers.predictor->muscles[k].values;
@@ -82,8 +91,6 @@ void set_values(const Study& study, const json& method, Numbers& numbers) {
           muscle::curvature_product_from_slope_ratio(numbers.slope_ratio[k], m[kCurvature], m[kPlateau]), 1e-12);
   }
 }
-
-using Chains = std::vector<Predictor::Chain>;
 
 /// Adds the chains of the product of a muscle whose slope ratio S is the unknown:
 ///   P = (V_ml - 1) V_sh / (S (1 + V_sh)).
@@ -102,28 +109,17 @@ void add_product_chains(const MuscleValues& m, double ratio, Chains& chains) {
 /// Adds the chains of a label "BIC+BRA.optimal_fiber_length": the owners, and the parameter.
 void add_chains(const std::string& label, Eigen::Index variable, Numbers& numbers) {
   const std::size_t point = label.rfind('.');
-  if (point == std::string::npos)
-    throw InvalidInput(fmt::format("found the unknown '{}', expected OWNER.PARAMETER", label));
+  if (point == std::string::npos) throw InvalidInput("found the unknown '{}', expected OWNER.PARAMETER", label);
   const ParameterField& field = parameter_field(label.substr(point + 1));
-  std::vector<double*> values;
-  for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+'))
-    for (double* value : numbers.of(field, owner)) values.push_back(value);
-  Predictor& p = *numbers.predictor;
-  for (double* value : values) {
-    const double first = *values.front();
+  std::vector<Place> places;
+  for (const std::string_view owner : recording::split(std::string_view(label).substr(0, point), '+')) {
+    const std::vector<Place> of_owner = numbers.of(field, owner);
+    places.insert(places.end(), of_owner.begin(), of_owner.end());
+  }
+  for (const auto& [value, chains] : places) {
+    const double first = *places.front().value;
     const double slope = field.logarithmic ? *value : first != 0.0 ? *value / first : 1.0;
-    const Predictor::Chain chain{field.field, variable, slope};
-    for (std::size_t k = 0; k < p.muscles.size(); ++k) {
-      const auto& own = p.muscles[k].values;
-      if (value == &numbers.slope_ratio[k] || (value >= own.data() && value < own.data() + own.size()))
-        p.muscles[k].chains.push_back(chain);
-    }
-    for (Predictor::Channel& c : p.channels) {
-      if (value >= c.values.data() && value < c.values.data() + c.values.size()) c.chains.push_back(chain);
-    }
-    for (Predictor::Joint& j : p.joints) {
-      if (value >= j.values.data() && value < j.values.data() + j.values.size()) j.chains.push_back(chain);
-    }
+    chains->push_back({field.field, variable, slope});
   }
 }
 
@@ -212,8 +208,8 @@ void refuse_unlike(const Study& study, const json& parameters) {
     throw InvalidInput("a study with measured resting torques cannot be predicted");
   if (!study.model.file && !study.model.forearm_length_m)
     throw InvalidInput(
-        "the built-in arm of this study got its length from the markers; state forearm_length_m "
-        "in [model], or give a model file");
+        "the built-in arm of this study got its length from the markers; state forearm_length_m in [model], or give a "
+        "model file");
 }
 
 }  // namespace
@@ -237,11 +233,9 @@ Predictor read_predictor(const fs::path& results, const fs::path& study_file) {
       return predictor;
     }
   } catch (const json::exception& error) {
-    throw ReadError(results / "parameters.json", 0,
-                    fmt::format("is no result of a run of this version: {}", error.what()));
+    throw ReadError(results / "parameters.json", 0, "is no result of a run of this version: {}", error.what());
   }
-  throw InvalidInput(
-      fmt::format("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string()));
+  throw InvalidInput("{} has no method torque; add it to method in [identify]", (results / "parameters.json").string());
 }
 
 }  // namespace myoid

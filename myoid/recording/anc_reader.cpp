@@ -55,8 +55,7 @@ std::size_t find_names(const std::vector<std::string_view>& lines, const std::fi
   while (at < lines.size() && !begins_with(at, "Name")) ++at;
   if (at + 2 >= lines.size() || !begins_with(at + 1, "Rate") || !begins_with(at + 2, "Range")) {
     throw ReadError(path, 0,
-                    "expected the rows Name, Rate and Range behind each other; this is no .anc "
-                    "file, or it is cut off");
+                    "expected the rows Name, Rate and Range behind each other; this is no .anc file, or it is cut off");
   }
   return at;
 }
@@ -76,7 +75,7 @@ std::vector<Channel> read_channels(const std::vector<std::string_view>& lines,
     channels.push_back({name, Unit::volt});
   if (const auto said = header_number(lines, names_at, "#Channels:");
       said && *said != static_cast<double>(channels.size())) {
-    repairs.push_back({0, fmt::format("the header says {} channels, there are {} names", *said, channels.size())});
+    note(repairs, "the header says {} channels, there are {} names", *said, channels.size());
   }
   return channels;
 }
@@ -92,8 +91,8 @@ std::vector<double> volts_per_count(const std::vector<std::string_view>& lines,
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto range = c < ranges.size() ? parse_number(ranges[c]) : std::nullopt;
     if (!range || !(*range > 0.0))
-      throw ReadError(path, names_at + 3,
-                      fmt::format("channel '{}' has no range in mV, so its counts cannot be scaled", channels[c].name));
+      throw ReadError(path, names_at + 3, "channel '{}' has no range in mV, so its counts cannot be scaled",
+                      channels[c].name);
     to_volt.push_back(2e-3 * *range / (std::exp2(bits) - 1.0));
   }
   return to_volt;
@@ -107,12 +106,12 @@ void compare_clock(const std::vector<std::string_view>& lines,
   const Eigen::Index count = time_s.size();
   const double rate = static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]);
   if (const auto said = header_number(lines, names_at, "PreciseRate:"); said && std::abs(*said - rate) > 1e-3 * rate) {
-    repairs.push_back({0, fmt::format("the header says {} Hz, the times {:.6g} Hz; the times are taken", *said, rate)});
+    note(repairs, "the header says {} Hz, the times {:.6g} Hz; the times are taken", *said, rate);
   }
   if (const auto said = header_number(lines, names_at, "Duration(Sec.):");
       said && std::abs(*said - static_cast<double>(count) / rate) > 2.0 / rate) {
-    repairs.push_back({0, fmt::format("the header says {} s, the rows cover {:.6g} s: the file may be cut off", *said,
-                                      static_cast<double>(count) / rate)});
+    note(repairs, "the header says {} s, the rows cover {:.6g} s: the file may be cut off", *said,
+         static_cast<double>(count) / rate);
   }
 }
 
@@ -124,9 +123,8 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
   const std::size_t names_at = find_names(lines, path);
   const auto bits = header_number(lines, names_at, "BitDepth:");
   if (!bits || !(*bits >= 1.0 && *bits <= 64.0)) {
-    throw ReadError(path, 0,
-                    "the header has no BitDepth: the counts cannot be scaled; export the file "
-                    "again or use its C3D file");
+    throw ReadError(
+        path, 0, "the header has no BitDepth: the counts cannot be scaled; export the file again or use its C3D file");
   }
   AncFile file;
   std::vector<Channel> channels = read_channels(lines, names_at, path, file.repairs);
@@ -138,7 +136,7 @@ AncFile parse_anc(std::string_view text, const std::filesystem::path& path) {
   if (time.size() < 2) throw ReadError(path, 0, "there are fewer than two rows of numbers");
   for (std::size_t c = 0; c < channels.size(); ++c) numbers.values.col(static_cast<Eigen::Index>(c)) *= to_volt[c];
   compare_clock(lines, names_at, time, file.repairs);
-  file.repairs.push_back({0, "volts at the board's input: the amplifier's gain is not in the file"});
+  note(file.repairs, "volts at the board's input: the amplifier's gain is not in the file");
   file.data = TimeSeries(time, std::move(channels), std::move(numbers.values));
   return file;
 }

@@ -7,6 +7,7 @@
 #include "myoid/core/error.h"
 
 #include "tests/support/data_folder.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
 #include "myoid/tables/text_table.h"
 
@@ -37,7 +37,7 @@ std::vector<BidsChannel> read_channels(const std::filesystem::path& path) {
   for (std::size_t c = 0; c < head.size(); ++c) column.try_emplace(cell_text(head[c]), c);
   for (const char* required : {"name", "type", "units"}) {
     if (!column.contains(required))
-      throw ReadError(path, 1, fmt::format("there is no column '{}', which every _channels.tsv has", required));
+      throw ReadError(path, 1, "there is no column '{}', which every _channels.tsv has", required);
   }
   std::vector<BidsChannel> channels;
   for (std::size_t n = 1; n < lines.size(); ++n) {
@@ -91,9 +91,8 @@ double rate_of(const std::filesystem::path& path) {
 double to_si(const BidsChannel& channel, Unit expected, const std::filesystem::path& path) {
   const auto unit = parse_file_unit(channel.unit);
   if (!unit || unit->unit != expected)
-    throw ReadError(path, 0,
-                    fmt::format("channel '{}' of type {}: its unit '{}' is not one of [{}]", channel.name, channel.type,
-                                channel.unit, symbol(expected)));
+    throw ReadError(path, 0, "channel '{}' of type {}: its unit '{}' is not one of [{}]", channel.name, channel.type,
+                    channel.unit, symbol(expected));
   return unit->to_si;
 }
 
@@ -145,7 +144,7 @@ MarkerSeries markers_of(const std::vector<Point>& points,
   Eigen::Index width = 0;
   for (const Point& point : points) {
     if (!point.columns[0] || !point.columns[1] || !point.columns[2]) {
-      repairs.push_back({0, fmt::format("point '{}' does not have x, y and z; left out", point.name)});
+      note(repairs, "point '{}' does not have x, y and z; left out", point.name);
       continue;
     }
     markers.names.push_back(point.name);
@@ -156,8 +155,7 @@ MarkerSeries markers_of(const std::vector<Point>& points,
   markers.positions_m = positions.leftCols(width);
   for (Eigen::Index k = 0; k < values.rows(); ++k) {
     for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
-      if (markers.missing(k, m))
-        markers.positions_m.block<1, 3>(k, 3 * m).setConstant(std::numeric_limits<double>::quiet_NaN());
+      if (markers.missing(k, m)) markers.positions_m.block<1, 3>(k, 3 * m).setConstant(kNan);
     }
   }
   return markers;
@@ -196,10 +194,8 @@ std::optional<std::vector<BidsChannel>> bids_channels_of(const std::filesystem::
 BidsMotion read_bids_motion(const std::filesystem::path& path) {
   const auto channels = bids_channels_of(path);
   if (!channels) {
-    throw ReadError(path, 0,
-                    fmt::format("motion data need '{}_channels.tsv' beside them: it names the "
-                                "columns",
-                                stem_without_suffix(path)));
+    throw ReadError(path, 0, "motion data need '{}_channels.tsv' beside them: it names the columns",
+                    stem_without_suffix(path));
   }
   const double rate = rate_of(std::filesystem::path(path).replace_extension(".json"));
   TableNumbers numbers = motion_rows(path, *channels);
@@ -211,8 +207,7 @@ BidsMotion read_bids_motion(const std::filesystem::path& path) {
   motion.repairs = std::move(numbers.repairs);
   const MotionColumns columns = motion_columns(*channels);
   if (columns.others > 0)
-    motion.repairs.push_back(
-        {0, fmt::format("{} channels are neither positions nor joint angles; left out", columns.others)});
+    note(motion.repairs, "{} channels are neither positions nor joint angles; left out", columns.others);
   motion.angles = angles_of(columns.angles, *channels, time, numbers.values, path);
   motion.markers = markers_of(columns.points, *channels, time, numbers.values, path, motion.repairs);
   if (motion.markers.names.empty()) {

@@ -24,7 +24,7 @@ std::string label(const std::string& text) {
   for (const char c : text) {
     if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) result += c;
   }
-  if (result.empty()) throw InvalidInput(fmt::format("'{}': a BIDS label needs at least one letter or digit", text));
+  if (result.empty()) throw InvalidInput("'{}': a BIDS label needs at least one letter or digit", text);
   return result;
 }
 
@@ -98,8 +98,7 @@ std::vector<fs::path> write_bids_derivative(const fs::path& results, const fs::p
   std::set<std::string> tasks;
   for (const fs::path& trial : trials) {
     const std::string task = label(trial.filename().string());
-    if (!tasks.insert(task).second)
-      throw InvalidInput(fmt::format("two trials become the BIDS task '{}'; rename one", task));
+    if (!tasks.insert(task).second) throw InvalidInput("two trials become the BIDS task '{}'; rename one", task);
     const Storage motion = read_storage(trial / "ik.mot");
     const auto base = out / sub / "motion";
     const std::string name = fmt::format("{}_task-{}_tracksys-model", sub, task);

@@ -22,7 +22,7 @@ struct C3dSurvey {
 };
 
 /// Looks through all samples, some frames at a time, with little memory and in one pass over the
-/// file. Throws like `read_c3d`.
+/// file. Throws like `read_c3d_head`.
 [[nodiscard]] C3dSurvey survey_c3d(const std::filesystem::path& path);
 
 }  // namespace myoid::recording

@@ -12,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/label_match.h"
 #include "myoid/files/toml_table.h"
+#include "myoid/tables/instrument_names.h"
 
 namespace myoid::recording {
 namespace {
@@ -54,10 +55,8 @@ Found find(const std::vector<const AnalogChannels*>& clocks,
     return {*clock_of(clocks, name), name};
   }
   const auto near = nearest_word(wanted, names);
-  throw ReadError(
-      path, 0,
-      fmt::format("no channel '{}'{}; there are: {}", wanted, near ? fmt::format(" (did you mean '{}'?)", *near) : "",
-                  names.empty() ? "none" : listed(names)));
+  throw ReadError(path, 0, "no channel '{}'{}; there are: {}", wanted,
+                  near ? fmt::format(" (did you mean '{}'?)", *near) : "", names.empty() ? "none" : listed(names));
 }
 
 std::string described(const AnalogChannels& channels) {
@@ -76,11 +75,10 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
   for (const std::string& one : wanted) {
     Found found = find(clocks, one, path);
     if (clock && *clock != found.clock) {
-      throw ReadError(
-          path, 0,
-          fmt::format("channels '{}' and '{}' have different clocks; ask for channels "
-                      "of one clock at a time: either of {} or of {}",
-                      names.front(), found.name, described(*clocks[*clock]), described(*clocks[found.clock])));
+      throw ReadError(path, 0,
+                      "channels '{}' and '{}' have different clocks; ask for channels of one clock at a time: either "
+                      "of {} or of {}",
+                      names.front(), found.name, described(*clocks[*clock]), described(*clocks[found.clock]));
     }
     clock = found.clock;
     if (std::find(names.begin(), names.end(), found.name) == names.end()) names.push_back(std::move(found.name));
@@ -91,8 +89,7 @@ TimeSeries choose_channels(const std::vector<const AnalogChannels*>& clocks,
 std::string first_clock_alone(const std::vector<std::string>& left_out) {
   constexpr std::size_t kNamed = 6;
   return fmt::format(
-      "only the channels of the first clock are taken, without {}; `emg` and `convert` take others "
-      "by --channel",
+      "only the channels of the first clock are taken, without {}; `emg` and `convert` take others by --channel",
       listed(left_out, kNamed));
 }
 
@@ -114,10 +111,26 @@ TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs) 
     if (gaps.empty()) {
       whole.push_back(name);
     } else {
-      repairs.push_back({0, fmt::format("channel '{}' {}; it is left out", name, gaps)});
+      note(repairs, "channel '{}' {}; it is left out", name, gaps);
     }
   }
   return static_cast<Eigen::Index>(whole.size()) == series.channel_count() ? series : series.select(whole);
+}
+
+std::vector<std::string> emg_channels(const std::vector<Channel>& channels, const std::vector<PlateSetup>& plates) {
+  std::vector<bool> of_plate(channels.size(), false);
+  for (const PlateSetup& plate : plates) {
+    for (const Eigen::Index column : plate.channels) {
+      if (column >= 0 && static_cast<std::size_t>(column) < of_plate.size())
+        of_plate[static_cast<std::size_t>(column)] = true;
+    }
+  }
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].unit == Unit::volt && !of_plate[c] && !named_as_no_emg(channels[c].name))
+      names.push_back(channels[c].name);
+  }
+  return names;
 }
 
 }  // namespace myoid::recording

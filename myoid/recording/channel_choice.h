@@ -6,6 +6,7 @@
 
 #include "myoid/files/analog_channels.h"
 #include "myoid/files/text_file.h"
+#include "myoid/recording/force_plate.h"
 
 namespace myoid::recording {
 
@@ -28,5 +29,10 @@ namespace myoid::recording {
 /// Returns the channels without gaps; each other channel is left out, with a note. Filters and .sto
 /// files can neither hold nor bridge a gap.
 [[nodiscard]] TimeSeries without_gaps(const TimeSeries& series, std::vector<Repair>& repairs);
+
+/// Returns the channels that may be EMG: in volts, not in a column that FORCE_PLATFORM:CHANNEL
+/// names (`plates`), and not named like another instrument's.
+[[nodiscard]] std::vector<std::string> emg_channels(const std::vector<Channel>& channels,
+                                                    const std::vector<PlateSetup>& plates);
 
 }  // namespace myoid::recording

@@ -23,6 +23,7 @@
 #include "myoid/tables/trc_reader.h"
 
 #include "tests/support/repair_lines.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

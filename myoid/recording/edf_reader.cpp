@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/files/event.h"
 #include "myoid/files/file_words.h"
@@ -52,7 +53,7 @@ std::string field(std::span<const std::byte> bytes, std::size_t at, std::size_t 
 std::optional<double> number(const std::string& text, std::vector<Repair>& repairs) {
   if (const auto value = parse_number(text)) return value;
   const auto value = parse_comma_number(text);
-  if (value) repairs.push_back({0, fmt::format("'{}' in the header read with a decimal comma", text)});
+  if (value) note(repairs, "'{}' in the header read with a decimal comma", text);
   return value;
 }
 
@@ -65,7 +66,7 @@ double required_number(std::span<const std::byte> head,
                        std::vector<Repair>& repairs) {
   const std::string text = field(head, at, length);
   const auto value = number(text, repairs);
-  if (!value) throw ReadError(path, 0, fmt::format("byte {}: {}: expected a number, found '{}'", at, what, text));
+  if (!value) throw ReadError(path, 0, "byte {}: {}: expected a number, found '{}'", at, what, text);
   return *value;
 }
 
@@ -86,7 +87,7 @@ Signal read_signal(std::span<const std::byte> head,
     const std::string text = of(before, 8);
     const auto v = number(text, repairs);
     if (!v || !std::isfinite(*v))
-      throw ReadError(path, 0, fmt::format("signal '{}': {}: expected a number, found '{}'", signal.label, what, text));
+      throw ReadError(path, 0, "signal '{}': {}: expected a number, found '{}'", signal.label, what, text);
     return *v;
   };
   signal.physical_min = value(104, "physical minimum");
@@ -95,27 +96,25 @@ Signal read_signal(std::span<const std::byte> head,
   signal.digital_max = value(128, "digital maximum");
   const double per_record = value(216, "samples in a record");
   if (!(per_record >= 0.0 && per_record <= 1e7) || per_record != std::floor(per_record))
-    throw ReadError(path, 0, fmt::format("signal '{}': {} samples in a record", signal.label, per_record));
+    throw ReadError(path, 0, "signal '{}': {} samples in a record", signal.label, per_record);
   signal.per_record = static_cast<std::size_t>(per_record);
   return signal;
 }
 
 Header read_header(ByteSource& source, const std::filesystem::path& path, std::vector<Repair>& repairs) {
   if (source.size() < 2 * kHead)
-    throw ReadError(path, 0,
-                    fmt::format("the file has {} bytes, less than the header of one signal: it is "
-                                "cut off, or no EDF file",
-                                source.size()));
+    throw ReadError(path, 0, "the file has {} bytes, less than the header of one signal: it is cut off, or no EDF file",
+                    source.size());
   Header header;
   const auto view = source.view(0, kHead);
   const std::vector<std::byte> head(view.begin(), view.end());
   header.bdf = head[0] == std::byte{0xFF};
   const std::string version = field(head, header.bdf ? 1 : 0, header.bdf ? 7 : 8);
   if (header.bdf ? version != "BIOSEMI" : version != "0") {
-    throw ReadError(path, 0,
-                    fmt::format("expected '0' (EDF) or 0xFF 'BIOSEMI' (BDF) in the first 8 bytes, "
-                                "found '{}'; this is another format",
-                                version));
+    throw ReadError(
+        path, 0,
+
+        "expected '0' (EDF) or 0xFF 'BIOSEMI' (BDF) in the first 8 bytes, found '{}'; this is another format", version);
   }
   header.sample_bytes = header.bdf ? 3 : 2;
   const std::string kind = field(head, 192, 44);
@@ -126,18 +125,15 @@ Header read_header(ByteSource& source, const std::filesystem::path& path, std::v
   const double records = number(field(head, 236, 8), repairs).value_or(-1.0);
   header.records = std::abs(records) < 1e15 ? static_cast<std::int64_t>(records) : -1;
   if (!(count >= 1.0 && count <= 4096.0) || count != std::floor(count))
-    throw ReadError(path, 0, fmt::format("byte 252: {} signals; expected 1 to 4096", count));
+    throw ReadError(path, 0, "byte 252: {} signals; expected 1 to 4096", count);
   const auto signals = static_cast<std::size_t>(count);
   header.bytes = kHead * (signals + 1);
   if (source.size() < header.bytes)
-    throw ReadError(path, 0,
-                    fmt::format("{} signals need a header of {} bytes, the file has {}: it is cut "
-                                "off",
-                                signals, header.bytes, source.size()));
+    throw ReadError(path, 0, "{} signals need a header of {} bytes, the file has {}: it is cut off", signals,
+                    header.bytes, source.size());
   if (const double said = required_number(head, 184, 8, "bytes of the header", path, repairs);
       said != static_cast<double>(header.bytes))
-    repairs.push_back(
-        {0, fmt::format("the header says it has {} bytes; with {} signals it has {}", said, signals, header.bytes)});
+    note(repairs, "the header says it has {} bytes; with {} signals it has {}", said, signals, header.bytes);
   const auto rest = source.view(0, header.bytes);
   for (std::size_t s = 0; s < signals; ++s) {
     Signal signal = read_signal(rest, signals, s, path, repairs);
@@ -205,15 +201,13 @@ std::vector<std::size_t> choose(const Header& header, std::vector<Repair>& repai
     }
   }
   if (!broken.empty())
-    repairs.push_back({0, fmt::format("signals left out, since their least and largest values are "
-                                      "the same in the header: {}",
-                                      fmt::join(broken, ", "))});
+    note(repairs, "signals left out, since their least and largest values are the same in the header: {}",
+         fmt::join(broken, ", "));
   for (const auto& [per_record, list] : by_rate) {
     if (per_record == best) continue;
-    repairs.push_back({0, fmt::format("{} signals at {:.6g} Hz are left out, the first '{}'; those "
-                                      "at {:.6g} Hz are taken",
-                                      list.size(), static_cast<double>(per_record) / header.record_s,
-                                      header.signals[list[0]].label, static_cast<double>(best) / header.record_s)});
+    note(repairs, "{} signals at {:.6g} Hz are left out, the first '{}'; those at {:.6g} Hz are taken", list.size(),
+         static_cast<double>(per_record) / header.record_s, header.signals[list[0]].label,
+         static_cast<double>(best) / header.record_s);
   }
   return by_rate[best];
 }
@@ -253,13 +247,10 @@ std::int64_t record_count(const Header& header,
   const std::uint64_t available = file_bytes - header.bytes;
   auto records = static_cast<std::int64_t>(available / header.record_bytes);
   if (header.records >= 0 && header.records < records) {
-    repairs.push_back({0, fmt::format("the header says {} records, the file has {}; {} are taken", header.records,
-                                      records, header.records)});
+    note(repairs, "the header says {} records, the file has {}; {} are taken", header.records, records, header.records);
     records = header.records;
   } else if (header.records != records || available % header.record_bytes != 0) {
-    repairs.push_back({0, fmt::format("the header says {} records, the file has {} whole ones, "
-                                      "which are taken",
-                                      header.records, records)});
+    note(repairs, "the header says {} records, the file has {} whole ones, which are taken", header.records, records);
   }
   if (records <= 0) throw ReadError(path, 0, "the file holds no whole record of samples");
   return records;
@@ -306,10 +297,10 @@ class RecordTimes {
     if (header_.gaps) return stamped(r, onset, repairs);
     if (onset && stamps_agree_ && std::abs(*onset - zero_s_ - counted) > 0.5 * interval_s_ + 1e-6) {
       stamps_agree_ = false;
-      repairs.push_back({0, fmt::format("record {} says it begins {:.6g} s after the first, by the header's {} s "
-                                        "for a record it is {:.6g} s, which is taken: compare the length of the "
-                                        "recording",
-                                        r + 1, *onset - zero_s_, header_.record_s, counted)});
+      note(repairs,
+           "record {} says it begins {:.6g} s after the first, by the header's {} s for a "
+           "record it is {:.6g} s, which is taken: compare the length of the recording",
+           r + 1, *onset - zero_s_, header_.record_s, counted);
     }
     return counted;
   }
@@ -319,13 +310,13 @@ class RecordTimes {
 
  private:
   double stamped(std::int64_t r, const std::optional<double>& onset, std::vector<Repair>& repairs) {
-    if (!onset) throw ReadError(path_, 0, fmt::format("record {} does not say its time, as EDF+D must", r + 1));
+    if (!onset) throw ReadError(path_, 0, "record {} does not say its time, as EDF+D must", r + 1);
     const double begin = *onset - zero_s_;
     const double expected = std::isnan(end_s_) ? begin : end_s_;
     if (begin < expected - 0.5 * interval_s_)
-      throw ReadError(path_, 0, fmt::format("record {} begins at {} s, before the one before it ends", r + 1, begin));
+      throw ReadError(path_, 0, "record {} begins at {} s, before the one before it ends", r + 1, begin);
     if (begin > expected + 0.5 * interval_s_)
-      repairs.push_back({0, fmt::format("the recording pauses from {:.6g} s to {:.6g} s", expected, begin)});
+      note(repairs, "the recording pauses from {:.6g} s to {:.6g} s", expected, begin);
     end_s_ = begin + header_.record_s;
     return begin;
   }
@@ -333,8 +324,8 @@ class RecordTimes {
   const Header& header_;
   double interval_s_;
   const std::filesystem::path& path_;
-  double zero_s_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first stamp.
-  double end_s_ = std::numeric_limits<double>::quiet_NaN();   ///< End of the previous record.
+  double zero_s_ = kNan;  ///< NaN before the first stamp.
+  double end_s_ = kNan;   ///< End of the previous record.
   bool stamps_agree_ = true;
 };
 
@@ -359,7 +350,7 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   const std::vector<std::size_t> chosen = choose(header, file.repairs);
   if (chosen.empty()) throw ReadError(path, 0, "the file holds no signals with samples");
   if (!(header.record_s > 0.0))
-    throw ReadError(path, 0, fmt::format("byte 244: a record lasts {} s, so there is no rate", header.record_s));
+    throw ReadError(path, 0, "byte 244: a record lasts {} s, so there is no rate", header.record_s);
   Scaled scaled = scaled_channels(header, chosen, file.repairs);
   file.has_unit = std::move(scaled.has_unit);
 
@@ -379,9 +370,10 @@ EdfFile read_edf_source(ByteSource& source, const std::filesystem::path& path) {
   }
   if (const double zero_s = times.zero_s(); zero_s != 0.0) {
     for (Event& event : file.events) event.time_s -= zero_s;
-    file.repairs.push_back({0, fmt::format("the first record begins {:.6g} s after the header's start of the "
-                                           "recording; here its first sample is at 0 s, and so count the events",
-                                           zero_s)});
+    note(file.repairs,
+         "the first record begins {:.6g} s after the header's start of the "
+         "recording; here its first sample is at 0 s, and so count the events",
+         zero_s);
   }
   try {
     file.data = AnalogChannels(std::move(scaled.channels), std::move(counts));

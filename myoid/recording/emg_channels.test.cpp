@@ -1,8 +1,7 @@
-#include "myoid/recording/emg_channels.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "myoid/recording/channel_choice.h"
 #include "myoid/tables/instrument_names.h"
 
 namespace myoid::recording {

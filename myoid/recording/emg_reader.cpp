@@ -33,7 +33,7 @@ std::optional<double> voltage_in(std::string_view text) {
   std::string word;
   for (std::size_t i = 0; i <= text.size(); ++i) {
     const char c = i < text.size() ? text[i] : ' ';
-    if (c == ' ' || c == ',' || c == '(' || c == ')' || c == '[' || c == ']' || c == '\t' || c == ';' || c == '=') {
+    if (std::string_view(" ,()[]\t;=").find(c) != std::string_view::npos) {
       for (const std::string& candidate : {word, word + "s"}) {
         const auto unit = parse_unit(candidate);
         if (unit && unit->unit == Unit::volt) return unit->to_si;
@@ -69,21 +69,15 @@ std::string unknown_unit(const CsvSeries& series, const std::map<std::string, st
 
 [[noreturn]] void throw_without_unit(const std::filesystem::path& path, const std::string& unknown) {
   throw ReadError(path, 0,
-                  fmt::format("{}; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or "
-                              "kind = \"envelope\" if this is no raw EMG",
-                              unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown));
+                  "{}; give it as --unit uV (or mV, V), in a study as [emg] unit = \"uV\", or kind = "
+                  "\"envelope\" if this is no raw EMG",
+                  unknown.empty() ? "the unit of the EMG is not stated in the file" : unknown);
 }
 
 TimeSeries with_unit(const TimeSeries& series, Unit unit, double factor) {
   std::vector<Channel> channels = series.channels();
   for (Channel& channel : channels) channel.unit = unit;
   return {series.time_s(), std::move(channels), factor * series.values()};
-}
-
-/// Notes the columns that are left out because their unit is another than volt.
-void state_other_units(const std::map<std::string, std::vector<std::string>>& by_unit, std::vector<Repair>& repairs) {
-  for (const auto& [unit, names] : by_unit)
-    repairs.push_back({0, fmt::format("no EMG since in {}, left out: {}", unit, fmt::join(names, ", "))});
 }
 
 /// Returns columns in volts unchanged and columns without a unit times `to_volt`; columns in
@@ -94,12 +88,12 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
   std::vector<std::string> kept;
   std::vector<double> factors;
   bool stated = false;
-  std::string other_instruments;
+  std::vector<std::string> other_instruments;
   std::map<std::string, std::vector<std::string>> other_units;
   for (std::size_t c = 0; c < series.has_unit.size(); ++c) {
     const Channel& channel = series.data.channels()[c];
     if (named_as_no_emg(channel.name)) {
-      other_instruments += (other_instruments.empty() ? "" : ", ") + channel.name;
+      other_instruments.push_back(channel.name);
       continue;
     }
     if (series.has_unit[c] && channel.unit != Unit::volt) {
@@ -111,11 +105,11 @@ std::optional<TimeSeries> volts_of(const CsvSeries& series,
     kept.push_back(channel.name);
     factors.push_back(series.has_unit[c] ? 1.0 : *to_volt);
   }
-  state_other_units(other_units, repairs);
+  for (const auto& [unit, names] : other_units)
+    note(repairs, "no EMG since in {}, left out: {}", unit, fmt::join(names, ", "));
   if (!other_instruments.empty())
-    repairs.push_back({0, fmt::format("left out, because their names are no EMG's: {}", other_instruments)});
-  if (stated && to_volt)
-    repairs.push_back({0, "columns that name their unit keep it; the unit given is for the others"});
+    note(repairs, "left out, because their names are no EMG's: {}", fmt::join(other_instruments, ", "));
+  if (stated && to_volt) note(repairs, "columns that name their unit keep it; the unit given is for the others");
   TimeSeries chosen = with_unit(series.data.select(kept), Unit::volt, 1.0);
   Eigen::MatrixXd values = chosen.values();
   for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];
@@ -142,9 +136,9 @@ CsvSeries with_named_units(Storage storage) {
 CsvSeries channels_of_table(const std::filesystem::path& path) {
   const std::string text = read_text_file(path);
   if (is_marker_table(text) && !nexus_section(TableText(text), "Devices", path))
-    throw ReadError(path, 0,
-                    "this is a table of markers and holds no EMG; give the export of the analog "
-                    "channels (of Nexus the devices)");
+    throw ReadError(
+        path, 0,
+        "this is a table of markers and holds no EMG; give the export of the analog channels (of Nexus the devices)");
   return parse_emg_table(text, path);
 }
 
@@ -170,12 +164,8 @@ CsvSeries channels_of_c3d(const std::filesystem::path& path, bool voltages_only)
     series.has_unit.push_back(has_unit[c]);
   }
   if (names.empty())
-    throw ReadError(path, 0,
-                    "none of the analog channels is a voltage beside the force plates', so "
-                    "there is no EMG");
-  if (others > 0)
-    file.repairs.push_back(
-        {0, fmt::format("{} analog channels are no voltages or belong to force plates; left out", others)});
+    throw ReadError(path, 0, "none of the analog channels is a voltage beside the force plates', so there is no EMG");
+  if (others > 0) note(file.repairs, "{} analog channels are no voltages or belong to force plates; left out", others);
   series.data = file.analog.select(names);
   series.repairs = std::move(file.repairs);
   return series;
@@ -224,14 +214,12 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
   std::vector<bool> has_unit;
   std::vector<Channel> renewed;
   std::vector<double> factors;
-  std::string bad;
+  std::vector<std::string> bad;
   std::size_t others = 0;
   for (const BidsChannel& channel : *channels) {
     const auto column = series.data.find(channel.name);
     if (!column) {
-      series.repairs.push_back({0, fmt::format("channel '{}' of the _channels.tsv is not in the "
-                                               "file",
-                                               channel.name)});
+      note(series.repairs, "channel '{}' of the _channels.tsv is not in the file", channel.name);
       continue;
     }
     if (!equal_ignoring_case(channel.type, "EMG")) {
@@ -239,7 +227,7 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
       continue;
     }
     if (channel.bad) {
-      bad += (bad.empty() ? "" : ", ") + channel.name;
+      bad.push_back(channel.name);
       continue;
     }
     const auto c = static_cast<std::size_t>(*column);
@@ -252,9 +240,8 @@ void apply_bids(const std::filesystem::path& path, CsvSeries& series, EmgFile& f
     if (!channel.target_muscle.empty()) file.target_muscle[channel.name] = channel.target_muscle;
   }
   if (kept.empty()) throw ReadError(path, 0, "none of the channels of its _channels.tsv is EMG and good");
-  if (others > 0)
-    series.repairs.push_back({0, fmt::format("{} channels are no EMG by the _channels.tsv; left out", others)});
-  if (!bad.empty()) series.repairs.push_back({0, fmt::format("channels marked as bad are left out: {}", bad)});
+  if (others > 0) note(series.repairs, "{} channels are no EMG by the _channels.tsv; left out", others);
+  if (!bad.empty()) note(series.repairs, "channels marked as bad are left out: {}", fmt::join(bad, ", "));
   Eigen::MatrixXd values = series.data.select(kept).values();
   for (std::size_t c = 0; c < factors.size(); ++c) values.col(static_cast<Eigen::Index>(c)) *= factors[c];
   series.data = TimeSeries(series.data.time_s(), std::move(renewed), std::move(values));
@@ -317,7 +304,7 @@ EmgFile read_emg(const std::filesystem::path& path,
   if (!unit.empty()) {
     const auto parsed = parse_unit(unit);
     if (!parsed || parsed->unit != Unit::volt) {
-      throw InvalidInput(fmt::format("EMG unit: found '{}', expected V, mV or uV", unit));
+      throw InvalidInput("EMG unit: found '{}', expected V, mV or uV", unit);
     }
     to_volt = parsed->to_si;
   }
@@ -341,8 +328,7 @@ EmgFile read_emg(const std::filesystem::path& path,
     const std::optional<double> stated = stated_voltage(storage);
     if (stated && to_volt && *stated != *to_volt && !dimensionless) {
       file.unit_conflict = fmt::format(
-          "the file says that it is in {}, so the unit given ({}) is not used; if the file is "
-          "wrong, correct its title",
+          "the file says that it is in {}, so the unit given ({}) is not used; if the file is wrong, correct its title",
           voltage_name(*stated), unit);
     }
     if (stated) to_volt = stated;

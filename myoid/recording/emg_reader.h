@@ -25,13 +25,11 @@ struct EmgFile {
 /// Returns "uV" for 1e-6.
 [[nodiscard]] std::string voltage_name(double to_volt);
 
-/// Reads EMG of the formats that `file_formats` marks. Raw EMG must have a unit: of its channel
-/// ("name [mV]"), of the file
-/// (`stated_voltage`), or else `unit` ("uV"). Without one, ReadError says how to give it. Left out
-/// with a note are channels in newtons or the like, channels of force plates
-/// (FORCE_PLATFORM:CHANNEL) and channels named like another instrument's (`named_as_no_emg`). With
-/// `dimensionless` (envelopes, activations) no unit is needed. With `wanted`, only the channels
-/// that `choose_channels` finds are read: the others need no unit.
+/// Reads EMG of the formats that `file_formats` marks. Raw EMG must have a unit: of its channel ("name [mV]"), of the
+/// file (`stated_voltage`), or else `unit` ("uV"). Without one, ReadError says how to give it. Left out with a note are
+/// channels in newtons or the like, channels of force plates (FORCE_PLATFORM:CHANNEL) and channels named like another
+/// instrument's (`named_as_no_emg`). With `dimensionless` (envelopes, activations) no unit is needed. With `wanted`,
+/// only the channels that `choose_channels` finds are read: the others need no unit.
 [[nodiscard]] EmgFile read_emg(const std::filesystem::path& path,
                                const std::string& unit,
                                bool dimensionless,

@@ -1,13 +1,13 @@
 #include "myoid/recording/force_plate.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "myoid/core/error.h"
+#include "myoid/core/index.h"
+#include "myoid/core/numbers.h"
 #include "myoid/files/file_words.h"
 
 namespace myoid::recording {
@@ -20,41 +20,23 @@ std::size_t channels_of_type(int type) { return type == 3 ? 8 : 6; }
 /// One plate of the group FORCE_PLATFORM.
 class PlateParameters {
  public:
-  PlateParameters(const C3dFile& file, std::size_t plate, double to_m) : file_(file), plate_(plate), to_m_(to_m) {}
+  PlateParameters(const C3dFile& file, std::size_t plate) : file_(file), plate_(plate) {}
 
   [[nodiscard]] std::optional<double> number(const char* name, std::size_t index) const {
     return number_at(file_.find("FORCE_PLATFORM", name), index);
   }
   [[nodiscard]] int type() const { return static_cast<int>(number("TYPE", plate_).value_or(0.0)); }
 
-  [[nodiscard]] std::optional<Eigen::Matrix<double, 3, 4>> corners_m() const {
-    Eigen::Matrix<double, 3, 4> corners_m;
-    for (Eigen::Index i = 0; i < 12; ++i) {
-      const auto value = number("CORNERS", 12 * plate_ + static_cast<std::size_t>(i));
+  /// Returns the plate's part of a parameter whose numbers run down the columns; empty if one of them is missing.
+  template <int kRows, int kColumns>
+  [[nodiscard]] std::optional<Eigen::Matrix<double, kRows, kColumns>> matrix(const char* name) const {
+    Eigen::Matrix<double, kRows, kColumns> values;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const auto value = number(name, at(values.size()) * plate_ + at(i));
       if (!value) return std::nullopt;
-      corners_m(i % 3, i / 3) = to_m_ * *value;
+      values(i % kRows, i / kRows) = *value;
     }
-    return corners_m;
-  }
-
-  [[nodiscard]] std::optional<Vec3> origin_m() const {
-    Vec3 origin_m;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto value = number("ORIGIN", 3 * plate_ + static_cast<std::size_t>(axis));
-      if (!value) return std::nullopt;
-      origin_m[axis] = to_m_ * *value;
-    }
-    return origin_m;
-  }
-
-  [[nodiscard]] std::optional<Eigen::Matrix<double, 6, 6>> calibration() const {
-    Eigen::Matrix<double, 6, 6> matrix;
-    for (Eigen::Index i = 0; i < 36; ++i) {
-      const auto value = number("CAL_MATRIX", 36 * plate_ + static_cast<std::size_t>(i));
-      if (!value) return std::nullopt;
-      matrix(i % 6, i / 6) = *value;
-    }
-    return matrix;
+    return values;
   }
 
   /// Returns the channels of a plate as numbers from 1; 0 where the file names none.
@@ -70,7 +52,6 @@ class PlateParameters {
  private:
   const C3dFile& file_;
   std::size_t plate_;
-  double to_m_;
 };
 
 bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
@@ -81,18 +62,16 @@ bool is_quadrangle(const Eigen::Matrix<double, 3, 4>& corners_m) {
 
 /// Returns the origin of a plate; type 3 has the distances a, b in its first two numbers.
 Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std::vector<Repair>& repairs) {
-  const auto stated = parameters.origin_m();
+  const auto stated = parameters.matrix<3, 1>("ORIGIN");
   if (!stated) {
-    repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN is missing; the "
-                                      "moments are taken about the surface",
-                                      d.number)});
+    note(repairs, "force plate {}: FORCE_PLATFORM:ORIGIN is missing; the moments are taken about the surface",
+         d.number);
     return Vec3::Zero();
   }
-  Vec3 origin_m = *stated;
+  Vec3 origin_m = d.to_m * *stated;
   if (d.type == 3 && (origin_m[0] < 0.0 || origin_m[1] < 0.0)) {
-    repairs.push_back({0, fmt::format("force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN "
-                                      "are negative; taken as positive",
-                                      d.number)});
+    note(repairs, "force plate {}: the distances a, b of FORCE_PLATFORM:ORIGIN are negative; taken as positive",
+         d.number);
     origin_m.head<2>() = origin_m.head<2>().cwiseAbs().eval();
   }
   return origin_m;
@@ -101,19 +80,19 @@ Vec3 plate_origin_m(const PlateParameters& parameters, const PlateSetup& d, std:
 /// Reads the plate's parameters; empty, with a note, if one is missing or impossible.
 std::optional<PlateSetup> describe(const C3dFile& file, std::size_t plate, double to_m, std::vector<Repair>& repairs) {
   const auto refuse = [&](const std::string& why) {
-    repairs.push_back({0, fmt::format("force plate {} is left out: {}", plate + 1, why)});
+    note(repairs, "force plate {} is left out: {}", plate + 1, why);
     return std::nullopt;
   };
-  const PlateParameters parameters(file, plate, to_m);
+  const PlateParameters parameters(file, plate);
   PlateSetup d;
   d.number = static_cast<int>(plate) + 1;
   d.to_m = to_m;
   d.type = parameters.type();
   if (d.type < 1 || d.type > 4)
     return refuse(fmt::format("FORCE_PLATFORM:TYPE is {}, types 1 to 4 are understood", d.type));
-  const auto corners_m = parameters.corners_m();
-  if (!corners_m) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
-  d.corners_m = *corners_m;
+  const auto corners = parameters.matrix<3, 4>("CORNERS");
+  if (!corners) return refuse("FORCE_PLATFORM:CORNERS is missing or too short");
+  d.corners_m = to_m * *corners;
   if (!is_quadrangle(d.corners_m)) return refuse("FORCE_PLATFORM:CORNERS are no quadrangle");
   d.origin_m = plate_origin_m(parameters, d, repairs);
   for (const double channel : parameters.channels(channels_of_type(d.type))) {
@@ -123,7 +102,7 @@ std::optional<PlateSetup> describe(const C3dFile& file, std::size_t plate, doubl
     d.channels.push_back(static_cast<Eigen::Index>(channel) - 1);
   }
   if (d.type == 4) {
-    const auto calibration = parameters.calibration();
+    const auto calibration = parameters.matrix<6, 6>("CAL_MATRIX");
     if (!calibration) return refuse("FORCE_PLATFORM:CAL_MATRIX is missing or too short");
     d.calibration = *calibration;
   }
@@ -149,10 +128,10 @@ void find_factors(const C3dFile& file, PlateSetup& d, std::vector<Repair>& repai
     }
   }
   if (!assumed.empty())
-    repairs.push_back({0, fmt::format("force plate {}: {} channels, the first {}, do not have the "
-                                      "unit of a force, moment or length; taken as N and N times "
-                                      "the points' unit",
-                                      d.number, assumed.size(), assumed[0])});
+    note(repairs,
+         "force plate {}: {} channels, the first {}, do not have the unit of a force, "
+         "moment or length; taken as N and N times the points' unit",
+         d.number, assumed.size(), assumed[0]);
 }
 
 /// Returns force and moment about the middle of the surface, in the plate's frame.
@@ -219,32 +198,23 @@ void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs) {
   const double out = setup.R_GP.col(2).dot(setup.side.out_L) * setup.origin_m.z();
   if (setup.type == 1 || !(out < 0.0)) return;
   if (setup.type == 3) {
-    repairs.push_back({0, fmt::format("force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN places the "
-                                      "sensors above the surface; its sign is turned",
-                                      setup.number)});
+    note(repairs,
+         "force plate {}: a_z0 in FORCE_PLATFORM:ORIGIN places the sensors above the surface; its sign is turned",
+         setup.number);
     setup.origin_m.z() = -setup.origin_m.z();
     return;
   }
-  repairs.push_back({0, fmt::format("force plate {}: FORCE_PLATFORM:ORIGIN points from the surface "
-                                    "to the transducer instead of the other way; turned round",
-                                    setup.number)});
+  note(repairs,
+       "force plate {}: FORCE_PLATFORM:ORIGIN points from the surface to the transducer "
+       "instead of the other way; turned round",
+       setup.number);
   setup.origin_m = -setup.origin_m;
 }
 
-ForcePlate force_plate(const PlateSetup& setup,
-                       Eigen::VectorXd time_s,
-                       Eigen::MatrixXd channel_values,
-                       double least_force_n) {
+ForcePlate force_plate(const PlateSetup& setup, Eigen::VectorXd time_s, Eigen::MatrixXd channel_values) {
   for (std::size_t c = 0; c < setup.factors.size(); ++c)
     channel_values.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
-  ForcePlate plate;
-  plate.number = setup.number;
-  plate.type = setup.type;
-  plate.side = setup.side;
-  plate.corners_m = setup.corners_m;
-  plate.channels = setup.channels;
-  plate.p_GP_m = setup.p_GP_m;
-  plate.R_GP = setup.R_GP;
+  ForcePlate plate{setup};
   plate.time_s = std::move(time_s);
   const Wrench w = setup.side.turn * surface_wrench(setup, channel_values);
   const Eigen::Index samples = w.rows();
@@ -253,8 +223,8 @@ ForcePlate force_plate(const PlateSetup& setup,
   plate.pressure_center_m.resize(samples, 3);
   plate.free_moment_nm.resize(samples, 3);
   for (Eigen::Index i = 0; i < samples; ++i) {
-    if (!(std::abs(w(i, 2)) >= least_force_n)) {
-      plate.pressure_center_m.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (!(std::abs(w(i, 2)) >= kLeastForce_n)) {
+      plate.pressure_center_m.row(i).setConstant(kNan);
       plate.free_moment_nm.row(i).setZero();
       continue;
     }
@@ -267,21 +237,6 @@ ForcePlate force_plate(const PlateSetup& setup,
   return plate;
 }
 
-ForcePlate force_plate(
-    const PlateSetup& setup, const C3dFile& file, Eigen::Index first, Eigen::Index count, double least_force_n) {
-  Eigen::VectorXd time_s(count);
-  const double start = static_cast<double>(file.first_frame - 1) * file.analog_per_frame + static_cast<double>(first);
-  for (Eigen::Index i = 0; i < count; ++i) time_s[i] = (start + static_cast<double>(i)) / file.analog_rate_hz();
-  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(setup.channels.size()));
-  for (std::size_t c = 0; c < setup.channels.size(); ++c) {
-    const C3dChannel& channel = file.channels[static_cast<std::size_t>(setup.channels[c])];
-    for (Eigen::Index i = 0; i < count; ++i)
-      values(i, static_cast<Eigen::Index>(c)) =
-          channel.scale * (static_cast<double>(file.analog(first + i, setup.channels[c])) - channel.offset);
-  }
-  return force_plate(setup, std::move(time_s), std::move(values), least_force_n);
-}
-
 Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values) {
   Eigen::MatrixXd& v = channel_values;
   for (std::size_t c = 0; c < setup.factors.size(); ++c) v.col(static_cast<Eigen::Index>(c)) *= setup.factors[c];
@@ -292,15 +247,6 @@ Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel
     v.col(2) = v.col(4) + v.col(5) + v.col(6) + v.col(7);
   }
   return v.leftCols<3>() * setup.R_GP.transpose();
-}
-
-std::vector<ForcePlate> force_plates(const C3dFile& file, std::vector<Repair>& repairs, double least_force_n) {
-  std::vector<ForcePlate> plates;
-  for (PlateSetup& setup : plate_setups(file, repairs)) {
-    turn_origin(setup, repairs);
-    plates.push_back(force_plate(setup, file, 0, file.analog.rows(), least_force_n));
-  }
-  return plates;
 }
 
 std::optional<PlateAction> action_on_person(const ForcePlate& plate, Eigen::Index sample, double least_force_n) {

@@ -19,12 +19,11 @@ struct PlateSide {
                                ///< 0: they never change, and the plate is not used.
 };
 
-/// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force
-/// and moment are the plate's action on the person: the channels times `side.turn`.
+/// A plate as its file places it.
 ///
 /// The plate's own frame P has its origin in the middle of the surface (mean of the corners), x
 /// from corner 2 to 1, z = x × (corner 1 − corner 4), which points down in most laboratories.
-struct ForcePlate {
+struct PlateFrame {
   int number = 0;  ///< Counted from 1, as in the file.
   int type = 0;
   PlateSide side;
@@ -32,26 +31,23 @@ struct ForcePlate {
   Mat3 R_GP = Mat3::Identity();
   Vec3 p_GP_m = Vec3::Zero();  ///< Middle of the surface.
   std::vector<Eigen::Index> channels;
+};
+
+/// One force plate over time, in the laboratory's frame, at the rate of the analog channels. Force
+/// and moment are the plate's action on the person: the channels times `side.turn`.
+struct ForcePlate : PlateFrame {
   Eigen::VectorXd time_s;
   Eigen::MatrixXd force_n;    ///< Samples x 3.
   Eigen::MatrixXd moment_nm;  ///< Moment about the middle of the surface.
   /// Point where the line of force cuts the surface: x = −M_y/F_z, y = M_x/F_z in P. NaN where
-  /// |F_z| is below the threshold.
+  /// |F_z| is below `kLeastForce_n`.
   Eigen::MatrixXd pressure_center_m;
-  Eigen::MatrixXd free_moment_nm;  ///< Moment about the normal through that point; 0 without a
-                                   ///< center of pressure.
+  Eigen::MatrixXd free_moment_nm;  ///< Moment about the normal through that point; 0 without a center of pressure.
 };
 
 /// The parameters in FORCE_PLATFORM that turn a plate's channels into a force.
-struct PlateSetup {
-  int number = 0;
-  int type = 0;
-  PlateSide side;
-  Eigen::Matrix<double, 3, 4> corners_m;
-  Mat3 R_GP = Mat3::Identity();
-  Vec3 p_GP_m = Vec3::Zero();
+struct PlateSetup : PlateFrame {
   Vec3 origin_m = Vec3::Zero();
-  std::vector<Eigen::Index> channels;
   std::vector<double> factors;  ///< For each channel: the factor from the unit as written to SI.
   Eigen::Matrix<double, 6, 6> calibration = Eigen::Matrix<double, 6, 6>::Identity();
   double to_m = 1.0;  ///< Factor of POINT:UNITS to meters.
@@ -79,22 +75,7 @@ void turn_origin(PlateSetup& setup, std::vector<Repair>& repairs);
 [[nodiscard]] Eigen::MatrixX3d channel_forces(const PlateSetup& setup, Eigen::MatrixXd channel_values);
 
 /// Returns the plate over time from its channels (samples x channels) in the unit as written.
-/// `least_force_n` is the threshold of the center of pressure.
-[[nodiscard]] ForcePlate force_plate(const PlateSetup& setup,
-                                     Eigen::VectorXd time_s,
-                                     Eigen::MatrixXd channel_values,
-                                     double least_force_n = kLeastForce_n);
-/// Returns the plate over the samples [first, first + count) of its file.
-[[nodiscard]] ForcePlate force_plate(const PlateSetup& setup,
-                                     const C3dFile& file,
-                                     Eigen::Index first,
-                                     Eigen::Index count,
-                                     double least_force_n = kLeastForce_n);
-
-/// Returns all plates of a file over its whole time, each facing the person as the C3D guide defines.
-[[nodiscard]] std::vector<ForcePlate> force_plates(const C3dFile& file,
-                                                   std::vector<Repair>& repairs,
-                                                   double least_force_n = kLeastForce_n);
+[[nodiscard]] ForcePlate force_plate(const PlateSetup& setup, Eigen::VectorXd time_s, Eigen::MatrixXd channel_values);
 
 /// A plate's action on the person in one sample: force, a point on its line, and the moment about the point.
 struct PlateAction {

@@ -9,7 +9,9 @@
 
 #include "myoid/c3d/c3d_reader.h"
 
+#include "tests/support/c3d_plates.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

@@ -19,6 +19,7 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/repair_lines.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_c3d.h"
 
 namespace myoid::recording {
 namespace {

@@ -1,6 +1,8 @@
 #include "myoid/recording/ground_reaction.h"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +11,14 @@
 
 namespace myoid::recording {
 namespace {
+
+/// The columns of one plate, three axes each.
+struct Column {
+  std::string_view kind, letter;
+  Unit unit;
+};
+constexpr std::array kColumns = {Column{"force", "v", Unit::newton}, Column{"force", "p", Unit::meter},
+                                 Column{"torque", "", Unit::newton_meter}};
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -63,13 +73,10 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
   Eigen::MatrixXd values(samples, static_cast<Eigen::Index>(9 * plates.size()));
   for (std::size_t k = 0; k < plates.size(); ++k) {
     const ForcePlate& plate = plates[k];
-    const char* const axes = "xyz";
-    for (int a = 0; a < 3; ++a)
-      channels.push_back({fmt::format("ground_force_{}_v{}", plate.number, axes[a]), Unit::newton});
-    for (int a = 0; a < 3; ++a)
-      channels.push_back({fmt::format("ground_force_{}_p{}", plate.number, axes[a]), Unit::meter});
-    for (int a = 0; a < 3; ++a)
-      channels.push_back({fmt::format("ground_torque_{}_{}", plate.number, axes[a]), Unit::newton_meter});
+    for (const auto& [kind, letter, unit] : kColumns) {
+      for (const char axis : {'x', 'y', 'z'})
+        channels.push_back({fmt::format("ground_{}_{}_{}{}", kind, plate.number, letter, axis), unit});
+    }
     auto block = values.middleCols(static_cast<Eigen::Index>(9 * k), 9);
     Eigen::Index unloaded = 0;
     Eigen::Index broken = 0;
@@ -87,16 +94,12 @@ TimeSeries ground_reaction(const std::vector<ForcePlate>& plates,
       block.block<1, 3>(i, 6) = (R * action->moment_nm).transpose();
     }
     bridge(block.middleCols(3, 3), R * plate.p_GP_m);
-    if (broken > 0)
-      repairs.push_back(
-          {0, fmt::format("force plate {}: {} samples are no numbers; taken as 0", plate.number, broken)});
+    if (broken > 0) note(repairs, "force plate {}: {} samples are no numbers; taken as 0", plate.number, broken);
     if (unloaded == samples) {
-      repairs.push_back(
-          {0, fmt::format("force plate {} is never loaded with {} N", plate.number, options.least_force_n)});
+      note(repairs, "force plate {} is never loaded with {} N", plate.number, options.least_force_n);
     } else if (unloaded > 0) {
-      repairs.push_back({0, fmt::format("force plate {}: {} of {} samples are below {} N and set to "
-                                        "0",
-                                        plate.number, unloaded, samples, options.least_force_n)});
+      note(repairs, "force plate {}: {} of {} samples are below {} N and set to 0", plate.number, unloaded, samples,
+           options.least_force_n);
     }
   }
   return {plates[0].time_s, std::move(channels), std::move(values)};

@@ -35,12 +35,19 @@ std::vector<double> heights(const MarkerSeries& markers, const Vec3& from_m, con
   return found;
 }
 
+/// Returns the axis along which a vector is longest.
+Eigen::Index longest_axis(const Vec3& v) {
+  Eigen::Index axis = 0;
+  v.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
 /// Splits a text into the axes it names: "+X", "-Z" of "+X-Z".
 std::vector<Vec3> axes_of(std::string_view text) {
   std::vector<Vec3> axes;
   double sign = 1.0;
   for (const char c : text) {
-    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    const char small = small_letter(c);
     if (small >= 'x' && small <= 'z') {
       axes.emplace_back(sign * Vec3::Unit(small - 'x'));
       sign = 1.0;
@@ -90,16 +97,14 @@ class Evidence {
   }
   [[nodiscard]] int number(std::size_t plate) const { return recording_.plates[plate].number; }
   [[nodiscard]] std::string facing(std::size_t plate) const {
-    Eigen::Index axis = 0;
-    loads_[plate].normal_L.cwiseAbs().maxCoeff(&axis);
-    return std::string(1, "xyz"[axis]);
+    return std::string(1, "xyz"[longest_axis(loads_[plate].normal_L)]);
   }
 
   [[noreturn]] void contradict(const std::string& one, const std::string& other) const {
     throw InvalidInput(
-        fmt::format("which way is up cannot be told: {}, but {}; say it (--up x, y or z; in a "
-                    "study [markers] up), or correct the file",
-                    one, other));
+        "which way is up cannot be told: {}, but {}; say it (--up x, y or z; in a study [markers] up), or "
+        "correct the file",
+        one, other);
   }
 
   [[nodiscard]] std::size_t floor_plate(const Vec3& axis) const {
@@ -148,11 +153,7 @@ class Evidence {
   [[nodiscard]] Vec3 axis_without_loads() const {
     Vec3 pushed = Vec3::Zero();
     for (const PlateLoad& load : loads_) pushed += load.push_n.cwiseAbs();
-    const Eigen::Index steepest = pushed.isZero() ? 0 : [&] {
-      Eigen::Index axis = 0;
-      pushed.maxCoeff(&axis);
-      return axis;
-    }();
+    const Eigen::Index steepest = longest_axis(pushed);
     if (!pushed.isZero() && pushed[steepest] >= kFaces * pushed.norm()) return Vec3::Unit(steepest);
     const std::string first = facing(0);
     for (std::size_t k = 0; k < loads_.size(); ++k) {
@@ -187,13 +188,11 @@ class Evidence {
       numbers.push_back(number(k));
     }
     if (numbers.empty() || normal >= kAlong * sum.norm()) return;
-    Eigen::Index along = 0;
-    sum.cwiseAbs().maxCoeff(&along);
     contradict(
         fmt::format("by FORCE_PLATFORM:CORNERS the surface of plate {} faces {}", numbers.front(), axis_name(axis)),
-        fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the "
-                    "corners or FORCE_PLATFORM:CHANNEL in another order?)",
-                    std::string(1, "xyz"[along]), std::acos(std::min(1.0, normal / sum.norm())) / kDegree));
+        fmt::format("its mean force runs along {}, {:.0f} degrees from the normal (are the corners or "
+                    "FORCE_PLATFORM:CHANNEL in another order?)",
+                    "xyz"[longest_axis(sum)], std::acos(std::min(1.0, normal / sum.norm())) / kDegree));
   }
 
   [[nodiscard]] std::string plates_text(const Vec3& axis) const {
@@ -222,8 +221,7 @@ class Evidence {
 }  // namespace
 
 std::string axis_name(const Vec3& axis) {
-  Eigen::Index along = 0;
-  axis.cwiseAbs().maxCoeff(&along);
+  const Eigen::Index along = longest_axis(axis);
   return fmt::format("{}{}", axis[along] < 0.0 ? "-" : "", "xyz"[along]);
 }
 

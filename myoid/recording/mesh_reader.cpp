@@ -37,8 +37,8 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
 
-  double number() {
-    const std::string_view word = next();
+  double number() { return number_of(next()); }
+  [[nodiscard]] double number_of(std::string_view word) const {
     const auto value = parse_number(word);
     if (!value || !std::isfinite(*value)) fail(fmt::format("expected a number, found '{}'", word));
     return *value;
@@ -114,16 +114,12 @@ std::vector<double> data_array(std::string_view whole,
     if (!name.empty() && array.attribute("Name") != name) continue;
     const std::size_t line = line_of(whole, static_cast<std::size_t>(array.tag.data() - whole.data()));
     if (array.attribute("format") != "ascii") {
-      throw ReadError(
-          path, line,
-          fmt::format("the data are '{}', expected 'ascii': save the mesh as ASCII", array.attribute("format")));
+      throw ReadError(path, line, "the data are '{}', expected 'ascii': save the mesh as ASCII",
+                      array.attribute("format"));
     }
     Words words(array.content, path, line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      const auto value = parse_number(word);
-      if (!value || !std::isfinite(*value)) words.fail(fmt::format("expected a number, found '{}'", word));
-      numbers.push_back(*value);
-    }
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      numbers.push_back(words.number_of(word));
     break;
   }
   return numbers;
@@ -144,11 +140,10 @@ TriangleMesh parse_vtp(std::string_view text, const std::filesystem::path& path)
     for (const double offset : data_array(text, cells.content, "offsets", path)) {
       const bool there = offset >= static_cast<double>(begin) && offset <= static_cast<double>(corners.size());
       const std::size_t end = there ? static_cast<std::size_t>(offset) : 0;
-      if (!there) throw ReadError(path, 0, fmt::format("<{}>: offset {} is beyond its corners", kind, offset));
+      if (!there) throw ReadError(path, 0, "<{}>: offset {} is beyond its corners", kind, offset);
       std::vector<int> polygon;
       for (std::size_t k = begin; k < end; ++k) {
-        if (!(std::abs(corners[k]) < 2e9))
-          throw ReadError(path, 0, fmt::format("<{}>: {} is no vertex", kind, corners[k]));
+        if (!(std::abs(corners[k]) < 2e9)) throw ReadError(path, 0, "<{}>: {} is no vertex", kind, corners[k]);
         polygon.push_back(static_cast<int>(corners[k]));
       }
       begin = end;
@@ -264,14 +259,13 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::filesystem::path& pat
   } else if (format == FileFormat::mesh_obj) {
     mesh = parse_obj(bytes, path);
   } else {
-    throw ReadError(path, 0,
-                    fmt::format("expected a mesh in .vtp, .stl or .obj, found '{}'", path.extension().string()));
+    throw ReadError(path, 0, "expected a mesh in .vtp, .stl or .obj, found '{}'", path.extension().string());
   }
   const auto count = static_cast<int>(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles) {
     for (const int corner : triangle) {
       if (corner < 0 || corner >= count)
-        throw ReadError(path, 0, fmt::format("a triangle has the vertex {} of {}", corner + 1, count));
+        throw ReadError(path, 0, "a triangle has the vertex {} of {}", corner + 1, count);
     }
   }
   for (const Vec3& p : mesh.vertices)

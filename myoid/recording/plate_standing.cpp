@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,8 +13,6 @@
 namespace myoid::recording {
 namespace {
 
-void add_note(Recording& recording, std::string text) { recording.repairs.push_back({0, std::move(text)}); }
-
 void stand_floor(Recording& recording, const std::vector<PlateLoad>& loads, const Vec3& up_L) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     PlateSetup& setup = recording.plates[k];
@@ -25,13 +22,15 @@ void stand_floor(Recording& recording, const std::vector<PlateLoad>& loads, cons
     setup.side.out_L = side * loads[k].normal_L;
     setup.side.turn = side * loads[k].along_n < 0.0 ? -1.0 : 1.0;
     if (side > 0.0)
-      add_note(recording, fmt::format("force plate {}: its corners are listed the other way round than the C3D "
-                                      "guide has it, so that z of the plate points up; taken as they are",
-                                      setup.number));
+      note(recording.repairs,
+           "force plate {}: its corners are listed the other way round than the C3D guide "
+           "has it, so that z of the plate points up; taken as they are",
+           setup.number);
     if (setup.side.turn < 0.0)
-      add_note(recording, fmt::format("force plate {} pulls down with {:.0f} N: the file holds the "
-                                      "force on the plate; turned round to act on the person",
-                                      setup.number, std::abs(loads[k].along_n)));
+      note(recording.repairs,
+           "force plate {} pulls down with {:.0f} N: the file holds the force on the plate; "
+           "turned round to act on the person",
+           setup.number, std::abs(loads[k].along_n));
   }
 }
 
@@ -42,9 +41,10 @@ double turn_of_floor(Recording& recording, const std::vector<PlateLoad>& loads) 
     const PlateSetup& setup = recording.plates[k];
     if (!setup.side.is_floor || !loads[k].loaded()) continue;
     if (turn != 0.0 && turn != setup.side.turn) {
-      add_note(recording, fmt::format("force plate {} has the opposite sign of the plates before it; "
-                                      "each is taken to push the person up: is one of them pulled?",
-                                      setup.number));
+      note(recording.repairs,
+           "force plate {} has the opposite sign of the plates before it; each is taken to "
+           "push the person up: is one of them pulled?",
+           setup.number);
       return 0.0;
     }
     turn = setup.side.turn;
@@ -63,13 +63,13 @@ void stand_walls(Recording& recording, const std::vector<PlateLoad>& loads, cons
     setup.side.out_L = side * loads[k].normal_L;
     setup.side.turn = floor != 0.0 ? floor : side * loads[k].along_n < 0.0 ? -1.0 : 1.0;
     if (loads[k].largest_n < least_force_n) continue;
-    add_note(recording, fmt::format("force plate {} is a wall or a handle, {:.0f} degrees from horizontal: by {} "
-                                    "the person is on its side of {}; its force {} the person, with {}",
-                                    setup.number, std::acos(std::abs(loads[k].normal_L.dot(up_L))) / kDegree,
-                                    seen != 0.0 ? "the markers" : "its corners", axis_name(setup.side.out_L),
-                                    setup.side.turn * side * loads[k].along_n < 0.0 ? "pulls" : "pushes",
-                                    floor != 0.0 ? "the sign of the floor's plates"
-                                                 : "a sign that no loaded plate of the floor confirms"));
+    note(recording.repairs,
+         "force plate {} is a wall or a handle, {:.0f} degrees from horizontal: by {} the "
+         "person is on its side of {}; its force {} the person, with {}",
+         setup.number, std::acos(std::abs(loads[k].normal_L.dot(up_L))) / kDegree,
+         seen != 0.0 ? "the markers" : "its corners", axis_name(setup.side.out_L),
+         setup.side.turn * side * loads[k].along_n < 0.0 ? "pulls" : "pushes",
+         floor != 0.0 ? "the sign of the floor's plates" : "a sign that no loaded plate of the floor confirms");
   }
 }
 
@@ -78,9 +78,9 @@ void leave_out_dead(Recording& recording, const std::vector<PlateLoad>& loads) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!loads[k].constant_n) continue;
     recording.plates[k].side.turn = 0.0;
-    add_note(recording, fmt::format("force plate {} reads {:.0f} N in every sample: unplugged, or never set to "
-                                    "zero; its force is left out",
-                                    recording.plates[k].number, *loads[k].constant_n));
+    note(recording.repairs,
+         "force plate {} reads {:.0f} N in every sample: unplugged, or never set to zero; its force is left out",
+         recording.plates[k].number, *loads[k].constant_n);
   }
 }
 
@@ -89,8 +89,8 @@ LaboratoryUp as_told(Recording& recording, const std::vector<PlateLoad>& loads, 
   try {
     const LaboratoryUp own = laboratory_up(recording, loads);
     if (own.up_L && *own.up_L != stated_up_L)
-      add_note(recording, fmt::format("up is taken as {}, as told; by the file it is {}: {}", axis_name(stated_up_L),
-                                      axis_name(*own.up_L), own.because));
+      note(recording.repairs, "up is taken as {}, as told; by the file it is {}: {}", axis_name(stated_up_L),
+           axis_name(*own.up_L), own.because);
   } catch (const InvalidInput&) {
     // A stated axis overrides a file that contradicts itself.
   }

@@ -110,10 +110,8 @@ MarkerFile read_markers(const std::filesystem::path& path) {
         break;
     }
   }
-  throw ReadError(
-      path, 0,
-      fmt::format("markers are read from {}, not from '{}'; export the recording as one of these",
-                  endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path)));
+  throw ReadError(path, 0, "markers are read from {}, not from '{}'; export the recording as one of these",
+                  endings_text([](const FormatEntry& entry) { return entry.markers; }), extension_of(path));
 }
 
 std::vector<const AnalogChannels*> Recording::clocks() const {
@@ -170,9 +168,8 @@ Recording read_recording(const std::filesystem::path& path) {
         break;
     }
   }
-  throw ReadError(path, 0,
-                  fmt::format("recordings of kind '{}' are not known; known are {}", extension_of(path),
-                              endings_text([](const FormatEntry& entry) { return is_recording(entry.format); })));
+  throw ReadError(path, 0, "recordings of kind '{}' are not known; known are {}", extension_of(path),
+                  endings_text([](const FormatEntry& entry) { return is_recording(entry.format); }));
 }
 
 }  // namespace myoid::recording

@@ -107,7 +107,6 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
     options.progress.report = nullptr;
     fit = identification::identify_torque(data, options);
   }
-  const PhaseOptions how;
   std::vector<TrialPhases> all;
   for (const identification::TrialData& trial : data.trials) {
     PhaseSignals signals{.time_s = trial.time_s, .velocity_radps = trial.velocity_radps, .torque_nm = trial.torque_nm};
@@ -117,12 +116,12 @@ std::vector<TrialPhases> study_phases(const FitSource& source,
       signals.effort_nm = prediction.force_n.cwiseProduct(trial.moment_arm_m).cwiseAbs().rowwise().sum();
       signals.activation = std::move(prediction.activation);
       if (const TrialResult* found = result_of(source.trials, trial.name))
-        signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * how.block_s);
+        signals.median_frequency_hz = frequency_of(source.scale, *found, 0.5 * phase_limits::kBlock_s);
     } else {
       signals.predicted_nm = trial.torque_nm;
       signals.activation = identification::muscle_activation(data, trial, trial.time_s, 0.0);
     }
-    all.push_back({trial.name, find_phases(signals, how)});
+    all.push_back({trial.name, find_phases(signals)});
   }
   return all;
 }

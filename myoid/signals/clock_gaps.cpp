@@ -1,8 +1,8 @@
 #include "myoid/signals/clock_gaps.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include "myoid/math/statistics.h"
 
 namespace myoid::signals {
 
@@ -11,9 +11,7 @@ ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s) {
   const Eigen::Index n = time_s.size();
   if (n < 3) return gaps;
   const Eigen::VectorXd intervals = time_s.tail(n - 1) - time_s.head(n - 1);
-  Eigen::VectorXd sorted = intervals;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  gaps.usual_interval_s = sorted[sorted.size() / 2];
+  gaps.usual_interval_s = math::upper_median({intervals.begin(), intervals.end()});
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
     if (intervals[i] <= 2.5 * gaps.usual_interval_s) continue;
     ++gaps.count;
@@ -26,8 +24,8 @@ ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s) {
   return gaps;
 }
 
-std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s) {
-  std::vector<ClockStretch> stretches;
+std::vector<Stretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s, double longest_gap_s) {
+  std::vector<Stretch> stretches;
   for (Eigen::Index i = 0; i < time_s.size(); ++i) {
     if (i == 0 || time_s[i] - time_s[i - 1] > longest_gap_s) stretches.push_back({time_s[i], time_s[i]});
     stretches.back().end_s = time_s[i];

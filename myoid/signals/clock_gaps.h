@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "myoid/core/stretch.h"
+
 namespace myoid::signals {
 
 /// Pauses of a clock: intervals longer than 2.5 times the median, where two or more samples are
@@ -21,15 +23,9 @@ struct ClockGaps {
   [[nodiscard]] std::string text() const;
 };
 
-/// A part of a clock, with both ends.
-struct ClockStretch {
-  double begin_s = 0.0;
-  double end_s = 0.0;
-};
-
 /// Returns the parts between pauses longer than `longest_gap_s`, in order; one if there is no such pause.
-[[nodiscard]] std::vector<ClockStretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                                        double longest_gap_s);
+[[nodiscard]] std::vector<Stretch> clock_stretches(const Eigen::Ref<const Eigen::VectorXd>& time_s,
+                                                   double longest_gap_s);
 
 /// Finds the gaps of an increasing clock. A clock of fewer than three samples has none.
 [[nodiscard]] ClockGaps find_clock_gaps(const Eigen::Ref<const Eigen::VectorXd>& time_s);

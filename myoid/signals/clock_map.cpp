@@ -12,7 +12,7 @@ namespace myoid::signals {
 TimeSeries on_study_clock(TimeSeries series, const ClockMap& clock) {
   constexpr double kMost_ppm = 2e5;
   if (!(std::abs(clock.drift_ppm) < kMost_ppm)) {
-    throw InvalidInput(fmt::format("clock: a drift of {} ppm; expected less than {}", clock.drift_ppm, kMost_ppm));
+    throw InvalidInput("clock: a drift of {} ppm; expected less than {}", clock.drift_ppm, kMost_ppm);
   }
   Eigen::VectorXd time_s = series.time_s();
   for (double& t : time_s) t = clock.study_time_s(t);

@@ -170,6 +170,11 @@ Peak peak_of(const std::vector<Moments>& by_lag, Eigen::Index nx, double reach_s
   return peak;
 }
 
+Stretch common_time(const TimeSeries& a, const TimeSeries& b) {
+  return {std::max(a.time_s()[0], b.time_s()[0]),
+          std::min(a.time_s()[a.sample_count() - 1], b.time_s()[b.sample_count() - 1])};
+}
+
 TimeSeries third(const TimeSeries& series, int which, double begin_s, double end_s) {
   const double length_s = (end_s - begin_s) / 3.0;
   return series.slice(begin_s + which * length_s, begin_s + (which + 1) * length_s);
@@ -182,9 +187,7 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                                                  double reach_s) {
   if (envelopes.sample_count() < 10 || motion.sample_count() < 10) return std::nullopt;
   if (envelopes.channel_count() == 0 || motion.channel_count() == 0) return std::nullopt;
-  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s =
-      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
+  const auto [begin_s, end_s] = common_time(envelopes, motion);
   if (end_s - begin_s < kLeastLength_s || motion.mean_rate_hz() < 2.5 * kMotionBelow_hz) return std::nullopt;
   const Eigen::VectorXd clock = even_clock(begin_s, end_s, kRate_hz);
   const Eigen::MatrixXd x = principal(resample(envelopes, clock).values(), kMostEmg, true);
@@ -228,20 +231,16 @@ std::optional<ClockOffset> estimate_clock_offset(const TimeSeries& envelopes,
                      .correlation = peak.correlation};
 }
 
-std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
-                                       const TimeSeries& motion,
-                                       const QualityLimits& limits) {
+std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSeries& motion) {
   std::vector<Remark> faults;
   const std::optional<ClockOffset> offset = estimate_clock_offset(envelopes, motion);
   if (!offset) return faults;
-  const double begin_s = std::max(envelopes.time_s()[0], motion.time_s()[0]);
-  const double end_s =
-      std::min(envelopes.time_s()[envelopes.sample_count() - 1], motion.time_s()[motion.sample_count() - 1]);
+  const auto [begin_s, end_s] = common_time(envelopes, motion);
   const double unsure_s = offset->phase_s + 2.0 * offset->scatter_s;
   const bool grave =
-      offset->lead_s - unsure_s > limits.latest_offset_s || offset->lead_s + unsure_s < limits.earliest_offset_s;
+      offset->lead_s - unsure_s > kLimits.latest_offset_s || offset->lead_s + unsure_s < kLimits.earliest_offset_s;
   // An offset as uncertain as the expected range says nothing.
-  const bool tells = 2.0 * offset->sd_s < limits.latest_offset_s - limits.earliest_offset_s;
+  const bool tells = 2.0 * offset->sd_s < kLimits.latest_offset_s - kLimits.earliest_offset_s;
   if (grave || tells)
     faults.push_back({.code = RemarkCode::clock_offset,
                       .severity = grave ? Severity::warning : Severity::note,
@@ -251,10 +250,11 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
                       .says = fmt::format("the EMG is {:.0f} ± {:.0f} ms {} the motion that it drives",
                                           1000.0 * std::abs(offset->lead_s), 1000.0 * offset->sd_s,
                                           offset->lead_s < 0.0 ? "behind" : "ahead of"),
-                      .remedy = grave ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
-                                                    "started together? Shift the clock of one of them",
-                                                    1000.0 * limits.earliest_offset_s, 1000.0 * limits.latest_offset_s)
-                                      : ""});
+                      .remedy = grave
+                                    ? fmt::format("expected {:.0f} to {:.0f} ms ahead: were the two recordings "
+                                                  "started together? Shift the clock of one of them",
+                                                  1000.0 * kLimits.earliest_offset_s, 1000.0 * kLimits.latest_offset_s)
+                                    : ""});
   constexpr double kLongEnough_s = 30.0;
   if (end_s - begin_s < kLongEnough_s) return faults;
   const auto first = estimate_clock_offset(third(envelopes, 0, begin_s, end_s), third(motion, 0, begin_s, end_s));
@@ -262,29 +262,27 @@ std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
   if (!first || !last) return faults;
   const double drift_s = last->lead_s - first->lead_s;
   const double sd_s = std::hypot(first->scatter_s, last->scatter_s);
-  if (std::abs(drift_s) < limits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
+  if (std::abs(drift_s) < kLimits.drift_s || std::abs(drift_s) < 3.0 * sd_s) return faults;
   faults.push_back({.code = RemarkCode::clock_drift,
                     .severity = Severity::warning,
                     .about = "EMG and motion",
                     .when = Stretch{begin_s, end_s},
                     .value = drift_s,
-                    .says = fmt::format("the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the "
-                                        "first third to the last",
-                                        1000.0 * drift_s, 1000.0 * sd_s),
-                    .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or "
-                              "cut the trial into shorter ones"});
+                    .says = fmt::format(
+                        "the EMG's lead over the motion changes by {:.0f} ± {:.0f} ms from the first third to the last",
+                        1000.0 * drift_s, 1000.0 * sd_s),
+                    .remedy = "do the two clocks run at the same rate? Check the rates that the files state, or cut "
+                              "the trial into shorter ones"});
   return faults;
 }
 
-std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                           const std::string& what,
-                                           const QualityLimits& limits) {
+std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s, const std::string& what) {
   const Eigen::Index n = time_s.size();
   if (n < 10) return std::nullopt;
   const Eigen::VectorXd intervals = time_s.tail(n - 1) - time_s.head(n - 1);
   const double mean = intervals.mean();
   const double sd = std::sqrt((intervals.array() - mean).square().mean());
-  if (sd <= limits.uneven_share * mean) return std::nullopt;
+  if (sd <= kLimits.uneven_share * mean) return std::nullopt;
   return Remark{.code = RemarkCode::clock_uneven,
                 .severity = Severity::note,
                 .about = what,

@@ -37,13 +37,10 @@ struct ClockOffset {
 /// Reports the offset as a remark, or as a warning if it is outside the limits by more than
 /// `phase_s` plus two standard deviations of the scatter. Recordings of 30 s or more are also
 /// tested for a drift between the first and the last third.
-[[nodiscard]] std::vector<Remark> check_clock_offset(const TimeSeries& envelopes,
-                                                     const TimeSeries& motion,
-                                                     const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_clock_offset(const TimeSeries& envelopes, const TimeSeries& motion);
 
 /// Reports intervals that vary; `what` names the file or the channels.
 [[nodiscard]] std::optional<Remark> check_clock_evenness(const Eigen::Ref<const Eigen::VectorXd>& time_s,
-                                                         const std::string& what,
-                                                         const QualityLimits& limits = {});
+                                                         const std::string& what);
 
 }  // namespace myoid::signals

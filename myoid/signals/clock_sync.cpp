@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid::signals {
@@ -140,36 +140,33 @@ ClockMap match_instants(const Instants& file, const Instants& study) {
   const std::size_t ways = std::max(file.time_s.size(), study.time_s.size()) - count + 1;
   if (ways > 1 && count < 3) {
     throw InvalidInput(
-        fmt::format("{} instants in the one recording and {} in the other: too few to tell which belong "
-                    "together; expected as many in both, or three or more in each",
-                    file.time_s.size(), study.time_s.size()));
+        "{} instants in the one recording and {} in the other: too few to tell which belong together; "
+        "expected as many in both, or three or more in each",
+        file.time_s.size(), study.time_s.size());
   }
   std::optional<Line> best;
   int fits = 0;
-  double least_rms_s = std::numeric_limits<double>::infinity();
+  double least_rms_s = kInfinity;
   for (std::size_t way = 0; way < ways; ++way) {
-    const Line line = fit_line(part(file.time_s, file_longer ? way : 0, count),
-                               part(study.time_s, file_longer ? 0 : way, count), sd_s, false);
+    const std::vector<double> file_s = part(file.time_s, file_longer ? way : 0, count);
+    const std::vector<double> study_s = part(study.time_s, file_longer ? 0 : way, count);
+    const Line line = fit_line(file_s, study_s, sd_s, false);
     if (std::abs(line.clock.drift_ppm) > kMostDrift_ppm) continue;
     if (line.rms_s < least_rms_s) {
       least_rms_s = line.rms_s;
-      best = fit_line(part(file.time_s, file_longer ? way : 0, count), part(study.time_s, file_longer ? 0 : way, count),
-                      sd_s, true);
+      best = fit_line(file_s, study_s, sd_s, true);
     }
     if (line.rms_s <= kMostSigmas * sd_s) ++fits;
   }
   if (!best || (fits == 0 && count > 2)) {
     throw InvalidInput(
-        fmt::format("the {} instants of the one recording and the {} of the other do not have the same "
-                    "intervals{}; are they the same signal?",
-                    file.time_s.size(), study.time_s.size(),
-                    best ? fmt::format(" (off by {:.3g} ms rms)", 1e3 * least_rms_s) : ""));
+        "the {} instants of the one recording and the {} of the other do not have the same intervals{}; "
+        "are they the same signal?",
+        file.time_s.size(), study.time_s.size(), best ? fmt::format(" (off by {:.3g} ms rms)", 1e3 * least_rms_s) : "");
   }
   if (fits > 1)
-    throw InvalidInput(
-        fmt::format("{} and {} instants can be paired in {} ways; cut the recordings so that both "
-                    "hold the same",
-                    file.time_s.size(), study.time_s.size(), fits));
+    throw InvalidInput("{} and {} instants can be paired in {} ways; cut the recordings so that both hold the same",
+                       file.time_s.size(), study.time_s.size(), fits);
   return best->clock;
 }
 
@@ -184,7 +181,7 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
   const double end_s =
       std::min(file.time_s()[file.sample_count() - 1] + search_s, study.time_s()[study.sample_count() - 1]);
   if (!(end_s - begin_s >= kLeastCommon_s))
-    throw InvalidInput(fmt::format("the recordings have less than {} s in common", kLeastCommon_s));
+    throw InvalidInput("the recordings have less than {} s in common", kLeastCommon_s);
   const auto sampled = [](const TimeSeries& s, double from_s, double to_s, double rate_hz) {
     const auto n = static_cast<Eigen::Index>(std::floor((to_s - from_s) * rate_hz)) + 1;
     const Eigen::VectorXd clock = Eigen::VectorXd::LinSpaced(n, from_s, from_s + static_cast<double>(n - 1) / rate_hz);
@@ -211,16 +208,13 @@ ClockMap match_shape(const TimeSeries& file, const TimeSeries& study, double sea
   const auto [from_s, to_s] = keep(coarse_hz, 0.0, search_s);
   const Shift coarse = search(coarse_hz, from_s, to_s, 0.0, search_s);
   if (!coarse.inside || coarse.correlation < kLeastCorrelation) {
-    throw InvalidInput(
-        fmt::format("the two signals are not alike within {} s: their correlation is {:.2f}, "
-                    "expected {} or more",
-                    search_s, std::max(coarse.correlation, 0.0), kLeastCorrelation));
+    throw InvalidInput("the two signals are not alike within {} s: their correlation is {:.2f}, expected {} or more",
+                       search_s, std::max(coarse.correlation, 0.0), kLeastCorrelation);
   }
   if (coarse.second > kUnique * coarse.correlation) {
     throw InvalidInput(
-        fmt::format("the two signals repeat themselves: another shift correlates as well "
-                    "({:.3f} and {:.3f}); search less far",
-                    coarse.correlation, coarse.second));
+        "the two signals repeat themselves: another shift correlates as well ({:.3f} and {:.3f}); search less far",
+        coarse.correlation, coarse.second);
   }
   const double fine_hz = std::min({kFine_hz, file.mean_rate_hz(), study.mean_rate_hz()});
   constexpr double kReach_s = 0.05;

@@ -35,18 +35,17 @@ void add_highpass(std::span<const EmgStages* const> trials, const EnvelopeOption
   chain.steps.push_back(
       fmt::format("high-pass filter {:g} Hz, -3 dB of both passes together; {}", options.highpass_hz, kTwoPasses));
   const std::string lines = lines_of(trials);
-  chain.steps.push_back(!options.notch  ? "no notch filter: switched off"
-                        : lines.empty() ? "no notch filter: mains hum below a tenth of every channel's power"
-                                        : fmt::format("notch filters against mains hum, 2nd order, 4 Hz wide, "
-                                                      "forwards and backwards: {}",
-                                                      lines));
-  chain.methods.push_back(
-      fmt::format("Raw EMG was high-pass filtered (zero-lag fourth-order Butterworth filter, cut-off "
-                  "frequency {:g} Hz){}.",
-                  options.highpass_hz,
-                  options.notch && !lines.empty()
-                      ? fmt::format(" and notch filtered at the mains frequency and its harmonics ({})", lines)
-                      : ""));
+  chain.steps.push_back(
+      !options.notch ? "no notch filter: switched off"
+      : lines.empty()
+          ? "no notch filter: mains hum below a tenth of every channel's power"
+          : fmt::format("notch filters against mains hum, 2nd order, 4 Hz wide, forwards and backwards: {}", lines));
+  chain.methods.push_back(fmt::format(
+      "Raw EMG was high-pass filtered (zero-lag fourth-order Butterworth filter, cut-off frequency {:g} Hz){}.",
+      options.highpass_hz,
+      options.notch && !lines.empty()
+          ? fmt::format(" and notch filtered at the mains frequency and its harmonics ({})", lines)
+          : ""));
 }
 
 void add_rectification(const EnvelopeOptions& options, const Whitening& whitening, EmgChain& chain) {
@@ -60,10 +59,10 @@ void add_rectification(const EnvelopeOptions& options, const Whitening& whitenin
                                     options.as_published ? "-3 dB of one pass" : "-3 dB of both passes together",
                                     kTwoPasses));
   chain.methods.push_back(
-      fmt::format("The EMG {}{}low-pass filtered (zero-lag fourth-order Butterworth filter, cut-off frequency "
-                  "{:g} Hz{}) to obtain the EMG envelope.",
-                  whitening.applied ? "of all muscles was whitened (zero-lag filter of each channel, designed "
-                                      "from the spectra of EMG and baseline noise), "
+      fmt::format("The EMG {}{}low-pass filtered (zero-lag fourth-order Butterworth filter, cut-off frequency {:g} "
+                  "Hz{}) to obtain the EMG envelope.",
+                  whitening.applied ? "of all muscles was whitened (zero-lag filter of each channel, designed from the "
+                                      "spectra of EMG and baseline noise), "
                                     : "was ",
                   options.rectify ? "full-wave rectified and " : "", options.lowpass_hz,
                   options.as_published ? " of a single pass" : ""));
@@ -84,9 +83,9 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
                        const NormalisationOptions& options,
                        EmgChain& chain) {
   chain.steps.push_back(
-      fmt::format("amplitude normalization over all trials and maximal contractions together: root of "
-                  "(envelope squared less rest squared) over the reference; rest is the mean of the quiet "
-                  "seconds, the reference that of the greatest moving means of {:g} s, less rest likewise",
+      fmt::format("amplitude normalization over all trials and maximal contractions together: root of (envelope "
+                  "squared less rest squared) over the reference; rest is the mean of the quiet seconds, the reference "
+                  "that of the greatest moving means of {:g} s, less rest likewise",
                   options.window_s));
   const auto level = [](const ChannelNormalisation& n, double value) {
     const bool volts = n.unit != Unit::dimensionless;
@@ -104,8 +103,8 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
   const bool task = std::none_of(normalisation.begin(), normalisation.end(),
                                  [](const ChannelNormalisation& n) { return n.from_mvc; });
   chain.methods.push_back(fmt::format(
-      "The baseline noise was subtracted in quadrature, and the EMG amplitude of each muscle was "
-      "normalized to {} ({:g} s moving mean) recorded in {}.",
+      "The baseline noise was subtracted in quadrature, and the EMG amplitude of each muscle was normalized to {} "
+      "({:g} s moving mean) recorded in {}.",
       mvc    ? "its greatest amplitude during maximal voluntary contractions (MVC)"
       : task ? "its greatest amplitude"
              : "its greatest amplitude during maximal voluntary contractions (MVC) and tasks",

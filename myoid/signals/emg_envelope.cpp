@@ -5,8 +5,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
 #include "myoid/signals/filter.h"
@@ -26,11 +28,6 @@ constexpr double kQuieter = 3.0;
 /// Least ratio of the greatest level to the quietest second for that second to be rest. Sustained
 /// efforts vary by less, and EMG that rises no higher above noise is useless.
 constexpr double kRises = 1.5;
-
-Eigen::Index window_samples(const TimeSeries& series, double window_s) {
-  const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
-  return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
-}
 
 /// Mean and number of the windows at one extreme.
 struct Extreme {
@@ -100,9 +97,9 @@ Means moving_means(std::span<const TrialEnvelope> trials, double window_s, Chann
   }
   if (largest < 0.0) {
     throw InvalidInput(
-        fmt::format("EMG normalisation: the window of {} s is longer than every recording (the "
-                    "longest has {:.4g} s); give a shorter one",
-                    window_s, longest_s));
+        "EMG normalisation: the window of {} s is longer than every recording (the longest has {:.4g} s); "
+        "give a shorter one",
+        window_s, longest_s);
   }
   return result;
 }
@@ -120,21 +117,24 @@ void take_out_hum(bool notch, EmgStages& stages) {
   Eigen::MatrixXd values = stages.filtered.values();
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto hum = find_hum(values.col(c), rate_hz);
-    if (!hum || hum->share < QualityLimits{}.hum_share) continue;
-    std::string lines;
-    for (const double line_hz : hum->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line_hz);
-    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz; {}",
-                                          stages.filtered.channels()[static_cast<std::size_t>(c)].name,
-                                          100.0 * hum->share, lines,
+    if (!hum || hum->share < kLimits.hum_share) continue;
+    const std::string& name = stages.filtered.channels()[at(c)].name;
+    stages.findings.push_back(fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz; {}", name,
+                                          100.0 * hum->share, fmt::join(hum->lines_hz, ", "),
                                           notch ? "taken out by notches" : "check the reference electrode"));
     if (!notch) continue;
     values.col(c) = without_hum(values.col(c), rate_hz, *hum);
-    stages.notches.push_back({stages.filtered.channels()[static_cast<std::size_t>(c)].name, hum->lines_hz});
+    stages.notches.push_back({name, hum->lines_hz});
   }
   stages.filtered = TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
 
 }  // namespace
+
+Eigen::Index window_samples(const TimeSeries& series, double window_s) {
+  const auto wanted = static_cast<Eigen::Index>(std::lround(window_s * series.mean_rate_hz()));
+  return std::clamp<Eigen::Index>(wanted, 1, series.sample_count());
+}
 
 EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_unit(raw, Unit::volt, "EMG");
@@ -144,10 +144,8 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   stages.raw = TimeSeries(raw.time_s(), raw.channels(), centered);
   const double rate = raw.mean_rate_hz();
   if (rate < 500.0) {
-    stages.findings.push_back(
-        fmt::format("EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and "
-                    "cannot be mended",
-                    rate));
+    stages.findings.push_back(fmt::format(
+        "EMG sampled at {:.0f} Hz: below 1000 Hz part of its power is folded back and cannot be mended", rate));
   }
   stages.filtered = options.as_published
                         ? stages.raw
@@ -184,8 +182,7 @@ void add_envelope(EmgStages& stages, const EnvelopeOptions& options, const White
     const double share = (smooth.values().col(c).array() < 0.0).cast<double>().mean();
     if (share > 0.01) {
       stages.findings.push_back(
-          fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the "
-                      "envelope is 0 there",
+          fmt::format("channel '{}': the filter undershoots in {:.1f} % of the samples; the envelope is 0 there",
                       raw.channels()[static_cast<std::size_t>(c)].name, 100.0 * share));
     }
   }
@@ -217,8 +214,8 @@ std::vector<ChannelNormalisation> find_normalisation(std::span<const TrialEnvelo
     n.unit = channel.unit;
     Means means = moving_means(trials, options.window_s, n);
     if (is_flat(means)) {
-      throw InvalidInput(fmt::format(
-          "EMG channel '{}' never rises above its resting level: was the electrode connected?", channel.name));
+      throw InvalidInput("EMG channel '{}' never rises above its resting level: was the electrode connected?",
+                         channel.name);
     }
     // Rectified Gaussian noise of bandwidth B, averaged over a window T, has this relative spread.
     const double bandwidth_hz = n.bandwidth_hz > 0.0 ? n.bandwidth_hz : kUsualBandwidth_hz;

@@ -69,6 +69,9 @@ struct TrialEnvelope {
 /// A pause between the bursts of a cyclic movement; shorter than a burst of walking.
 inline constexpr double kPause_s = 0.2;
 
+/// Returns the number of samples in a window, at least one and at most all.
+[[nodiscard]] Eigen::Index window_samples(const TimeSeries& series, double window_s);
+
 /// Resting level and reference of one EMG channel.
 struct ChannelNormalisation {
   std::string channel;

@@ -1,8 +1,6 @@
 #include "myoid/signals/emg_levels.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,12 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/numbers.h"
+#include "myoid/math/statistics.h"
+
 namespace myoid::signals {
 namespace {
 
 /// Extreme means of an envelope: smallest and largest over a pause, and largest over 0.5 s.
 struct Levels {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   double peak = 0.0;
   double greatest = 0.0;
   double greatest_s = 0.0;
@@ -26,24 +27,15 @@ constexpr double kEffort_s = 0.5;
 Levels levels(const TimeSeries& envelope, Eigen::Index c) {
   Levels result;
   const Eigen::VectorXd x = envelope.values().col(c);
-  Eigen::VectorXd sum(x.size() + 1);
-  sum[0] = 0.0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
-  const auto width = [&](double seconds) {
-    return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::lround(seconds * envelope.mean_rate_hz())), 1,
-                                    x.size());
-  };
-  const Eigen::Index narrow = width(kPause_s);
-  for (Eigen::Index i = 0; i + narrow <= x.size(); ++i) {
-    const double mean = (sum[i + narrow] - sum[i]) / static_cast<double>(narrow);
+  for (const double mean : math::moving_mean(x, window_samples(envelope, kPause_s))) {
     result.least = std::min(result.least, mean);
     result.peak = std::max(result.peak, mean);
   }
-  const Eigen::Index wide = width(kEffort_s);
-  for (Eigen::Index i = 0; i + wide <= x.size(); ++i) {
-    const double mean = (sum[i + wide] - sum[i]) / static_cast<double>(wide);
-    if (mean <= result.greatest) continue;
-    result.greatest = mean;
+  const Eigen::Index wide = window_samples(envelope, kEffort_s);
+  const Eigen::VectorXd efforts = math::moving_mean(x, wide);
+  for (Eigen::Index i = 0; i < efforts.size(); ++i) {
+    if (efforts[i] <= result.greatest) continue;
+    result.greatest = efforts[i];
     result.greatest_s = envelope.time_s()[i + wide / 2];
   }
   return result;
@@ -62,28 +54,28 @@ LevelsByChannel levels_of(const TrialEnvelope& trial) {
 /// maximal leaves rest and the other channels as they are; another unit scales everything.
 std::optional<Remark> other_unit(const TrialEnvelope& trial,
                                  const LevelsByChannel& own,
-                                 const LevelsByChannel& maximal,
-                                 const QualityLimits& limits) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+                                 const LevelsByChannel& maximal) {
+  double least = kInfinity, most = 0.0;
   for (const auto& [channel, mvc] : maximal) {
     const auto found = own.find(channel);
     if (found == own.end()) continue;
     const Levels& here = found->second;
-    if (!(here.greatest > limits.other_unit * mvc.greatest) || !(here.least > limits.other_unit * mvc.least))
+    if (!(here.greatest > kLimits.other_unit * mvc.greatest) || !(here.least > kLimits.other_unit * mvc.least))
       return std::nullopt;
     least = std::min(least, here.greatest / mvc.greatest);
     most = std::max(most, here.greatest / mvc.greatest);
   }
   if (trial.is_mvc || !(most > 0.0)) return std::nullopt;
-  return Remark{.code = RemarkCode::emg_over_reference,
-                .severity = Severity::error,
-                .about = trial.trial,
-                .value = most,
-                .says = fmt::format("the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal "
-                                    "contractions in all channels, and is as much larger at rest: is it in "
-                                    "another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
-                                    trial.trial, least, most),
-                .remedy = "correct the unit in the files, or the numbers of that trial"};
+  return Remark{
+      .code = RemarkCode::emg_over_reference,
+      .severity = Severity::error,
+      .about = trial.trial,
+      .value = most,
+      .says = fmt::format(
+          "the EMG of trial '{}' reaches {:.3g} to {:.3g} times the maximal contractions in all channels, and is as "
+          "much larger at rest: is it in another unit than theirs (a factor of 1000: mV for V, or uV for mV)?",
+          trial.trial, least, most),
+      .remedy = "correct the unit in the files, or the numbers of that trial"};
 }
 
 /// Returns the levels of the maximal contractions, each channel's from its greatest one.
@@ -110,12 +102,9 @@ Remark above_reference(const std::string& channel,
       .about = channel,
       .when = Stretch{movement.greatest_s, movement.greatest_s},
       .value = movement.greatest / mvc.greatest,
-      .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in "
-                          "{} at {:.6g} s",
-                          channel, movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
-      .remedy =
-          "the contraction was not maximal: the larger effort counts as 1, and F_max "
-          "means the force there"};
+      .says = fmt::format("channel '{}' reaches {:.2f} times its maximal contraction ({}) in {} at {:.6g} s", channel,
+                          movement.greatest / mvc.greatest, mvc_trial, movement_trial, movement.greatest_s),
+      .remedy = "the contraction was not maximal: the larger effort counts as 1, and F_max means the force there"};
 }
 
 }  // namespace
@@ -125,14 +114,14 @@ double time_above_s(const Eigen::Ref<const Eigen::VectorXd>& samples, double rat
   return rate_hz > 0.0 ? static_cast<double>(count) / rate_hz : 0.0;
 }
 
-std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, const QualityLimits& limits) {
+std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials) {
   std::vector<Remark> faults;
   std::vector<std::string> names;
   const LevelsByChannel maximal = maximal_levels(trials);
   std::vector<std::pair<const TrialEnvelope*, LevelsByChannel>> of_trials;
   for (const TrialEnvelope& trial : trials) {
     LevelsByChannel own = levels_of(trial);
-    if (auto unit = other_unit(trial, own, maximal, limits)) {
+    if (auto unit = other_unit(trial, own, maximal)) {
       faults.push_back(std::move(*unit));
       continue;
     }
@@ -142,7 +131,7 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, cons
     }
   }
   for (const std::string& channel : names) {
-    double rest = std::numeric_limits<double>::infinity();
+    double rest = kInfinity;
     double peak = 0.0;
     Levels mvc;
     Levels movement;
@@ -160,19 +149,19 @@ std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials, cons
       (trial->is_mvc ? mvc_trial : movement_trial) = trial->trial;
     }
     const Levels& most = movement.greatest >= mvc.greatest ? movement : mvc;
-    if (peak < limits.signal_to_rest * rest) {
-      faults.push_back({.code = RemarkCode::emg_low_signal,
-                        .severity = Severity::warning,
-                        .about = channel,
-                        .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
-                        .value = peak / rest,
-                        .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all "
-                                            "trials together",
-                                            channel, peak / rest),
-                        .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest "
-                                  "and a strong effort, and check the electrode"});
+    if (peak < kLimits.signal_to_rest * rest) {
+      faults.push_back(
+          {.code = RemarkCode::emg_low_signal,
+           .severity = Severity::warning,
+           .about = channel,
+           .when = Stretch{most.greatest_s - 0.5 * kEffort_s, most.greatest_s + 0.5 * kEffort_s},
+           .value = peak / rest,
+           .says = fmt::format("channel '{}' rises to only {:.2g} times its lowest level, in all trials together",
+                               channel, peak / rest),
+           .remedy = "noise, or a muscle that neither rests nor works here: record a second of rest and a strong "
+                     "effort, and check the electrode"});
     }
-    if (!mvc_trial.empty() && movement.greatest > limits.over_reference * mvc.greatest)
+    if (!mvc_trial.empty() && movement.greatest > kLimits.over_reference * mvc.greatest)
       faults.push_back(above_reference(channel, movement, movement_trial, mvc, mvc_trial));
   }
   return faults;

@@ -17,7 +17,6 @@ namespace myoid::signals {
 /// mean of `kPause_s`), and no movement may exceed the maximal contractions. A channel that some
 /// trials lack is checked in the others. A trial whose channels all exceed the maximal contractions
 /// tenfold, at rest too, is in another unit: an error, and it takes no part in the other checks.
-[[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials,
-                                                   const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_emg_levels(std::span<const TrialEnvelope> trials);
 
 }  // namespace myoid::signals

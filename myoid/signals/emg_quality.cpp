@@ -6,8 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "myoid/math/butterworth.h"
+#include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/mains_hum.h"
 
@@ -48,20 +50,19 @@ Run longest_run(const Eigen::VectorXd& x, std::optional<double> value = std::nul
 /// Runs all checks of one channel and keeps the filtered signal for the pairs.
 class ChannelCheck {
  public:
-  ChannelCheck(const TimeSeries& raw, Eigen::Index c, bool high_passed, const QualityLimits& limits)
+  ChannelCheck(const TimeSeries& raw, Eigen::Index c, bool high_passed)
       : time_s_(raw.time_s()),
         x_(raw.values().col(c)),
         name_(raw.channels()[static_cast<std::size_t>(c)].name),
         rate_hz_(raw.mean_rate_hz()),
-        high_passed_(high_passed),
-        limits_(limits) {}
+        high_passed_(high_passed) {}
 
   /// Returns the signal for the pair checks; empty if the channel has none.
   Eigen::VectorXd run(std::vector<Remark>& faults) {
     amplitude(faults);
-    const bool smoothed = is_envelope(x_, rate_hz_, limits_);
+    const bool smoothed = is_envelope(x_, rate_hz_);
     x_.array() -= x_.mean();
-    if (rms(x_) < limits_.flat_v) {
+    if (rms(x_) < kLimits.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
           fmt::format("channel '{}' shows nothing: {:.2g} uV rms", name_, 1e6 * rms(x_)),
           "was the electrode connected? Leave its muscle out, or give it emg = { same_as = ... }");
@@ -69,7 +70,7 @@ class ChannelCheck {
     }
     const bool railed = clipping(faults);
     const Run flat = longest_run(x_);
-    if (!railed && seconds(flat.length) >= limits_.flat_s) {
+    if (!railed && seconds(flat.length) >= kLimits.flat_s) {
       add(faults, RemarkCode::emg_flat, true, flat.begin, flat.begin + flat.length - 1, seconds(flat.length),
           fmt::format("channel '{}' does not change at all from {:.6g} to {:.6g} s", name_, time_s_[flat.begin],
                       time_s_[flat.begin + flat.length - 1]),
@@ -77,11 +78,9 @@ class ChannelCheck {
     }
     if (smoothed) {
       add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
-          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been "
-                      "rectified and smoothed",
+          fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
                       name_),
-          "an envelope that is high-passed and rectified once more is no activation: set [emg] "
-          "kind = \"envelope\"");
+          "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = \"envelope\"");
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
@@ -115,12 +114,12 @@ class ChannelCheck {
   void amplitude(std::vector<Remark>& faults) const {
     Eigen::Index at = 0;
     const double most = x_.cwiseAbs().maxCoeff(&at);
-    if (most <= limits_.amplitude_v) return;
-    const auto beyond = (x_.array().abs() > limits_.amplitude_v).count();
+    if (most <= kLimits.amplitude_v) return;
+    const auto beyond = (x_.array().abs() > kLimits.amplitude_v).count();
     add(faults, RemarkCode::emg_amplitude, true, at, at, most,
-        fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); "
-                    "skin gives millivolts, and no amplifier more than {:g} V",
-                    name_, most, time_s_[at], beyond, x_.size(), limits_.amplitude_v, limits_.amplitude_v),
+        fmt::format("channel '{}' reaches {:.3g} V at {:.6g} s ({} of {} samples lie beyond {:g} V); skin gives "
+                    "millivolts, and no amplifier more than {:g} V",
+                    name_, most, time_s_[at], beyond, x_.size(), kLimits.amplitude_v, kLimits.amplitude_v),
         2 * beyond > x_.size() ? "is the unit wrong (an activation does not depend on it), or is it no EMG?"
                                : "leave out samples that are no measurement: they become the greatest effort");
   }
@@ -134,10 +133,10 @@ class ChannelCheck {
       const auto on = (x_.array() == extreme).count();
       const auto near = ((x_.array() - extreme).abs() <= 0.05 * range).count() - on;
       const double share = static_cast<double>(on) / static_cast<double>(x_.size());
-      if (longest.length < 3 || on < near || share < limits_.clipped_share) continue;
+      if (longest.length < 3 || on < near || share < kLimits.clipped_share) continue;
       railed = true;
       const char* side = top ? "largest" : "smallest";
-      if (seconds(longest.length) >= limits_.saturated_s) {
+      if (seconds(longest.length) >= kLimits.saturated_s) {
         add(faults, RemarkCode::emg_saturated, true, longest.begin, longest.begin + longest.length - 1,
             seconds(longest.length),
             fmt::format("channel '{}' stays at its {} value for {:.3g} s at {:.6g} s", name_, side,
@@ -149,9 +148,8 @@ class ChannelCheck {
         Eigen::Index last = x_.size() - 1;
         while (x_[last] != extreme) --last;
         add(faults, RemarkCode::emg_clipped, true, first, last, share,
-            fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first "
-                        "at {:.6g} s",
-                        name_, side, 100.0 * share, time_s_[first]),
+            fmt::format("channel '{}' is cut off at its {} value in {:.2g} % of the samples, first at {:.6g} s", name_,
+                        side, 100.0 * share, time_s_[first]),
             "record with a lower gain; its strongest efforts are too small here");
       }
     }
@@ -160,14 +158,11 @@ class ChannelCheck {
 
   void hum(std::vector<Remark>& faults) {
     const auto found = find_hum(emg_, rate_hz_);
-    if (!found || found->share < limits_.hum_share) return;
-    std::string lines;
-    for (const double line : found->lines_hz) lines += fmt::format("{}{:.0f}", lines.empty() ? "" : ", ", line);
+    if (!found || found->share < kLimits.hum_share) return;
     add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
-        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {} Hz", name_, 100.0 * found->share,
-                    lines),
-        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference "
-        "electrode");
+        fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
+                    fmt::join(found->lines_hz, ", ")),
+        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference electrode");
     emg_ = without_hum(emg_, rate_hz_, *found);
   }
 
@@ -179,7 +174,7 @@ class ChannelCheck {
     for (Eigen::Index i = 0; i < count; ++i) means[i] = x_.segment(i * width, width).mean();
     means.array() -= means.mean();
     const double value = rms(means) / rms(emg_);
-    if (value < limits_.drift_over_rms) return;
+    if (value < kLimits.drift_over_rms) return;
     add(faults, RemarkCode::emg_drift, !high_passed_, 0, x_.size() - 1, value,
         fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_, 1e6 * rms(means),
                     value),
@@ -199,7 +194,7 @@ class ChannelCheck {
     double value = 0.0;
     for (Eigen::Index i = 0; i + width <= x_.size(); i += width) {
       const double here = rms(slow.segment(i, width)) / loudest;
-      count += here >= limits_.artifact_over_rms ? 1 : 0;
+      count += here >= kLimits.artifact_over_rms ? 1 : 0;
       if (here > value) {
         value = here;
         worst = i;
@@ -207,9 +202,8 @@ class ChannelCheck {
     }
     if (count == 0) return;
     add(faults, RemarkCode::emg_artifact, true, worst, worst + width - 1, value,
-        fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} "
-                    "s{}",
-                    name_, value, time_s_[worst], count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
+        fmt::format("channel '{}' has a movement artifact, {:.2g} times its largest EMG, at {:.6g} s{}", name_, value,
+                    time_s_[worst], count > 1 ? fmt::format(" ({} quarter seconds in all)", count) : ""),
         "fasten the cable; what of it lies above the high-pass becomes activation there");
   }
 
@@ -219,7 +213,6 @@ class ChannelCheck {
   std::string name_;
   double rate_hz_;
   bool high_passed_;
-  const QualityLimits& limits_;
 };
 
 /// Returns the largest correlation within 10 ms to either side, over at most 20 one-second blocks.
@@ -250,49 +243,47 @@ double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double r
 
 }  // namespace
 
-std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed, const QualityLimits& limits) {
+std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
   std::vector<Remark> faults;
   if (raw.sample_count() < 10) return faults;
   std::vector<Eigen::VectorXd> signals;
   for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
-    signals.push_back(ChannelCheck(raw, c, high_passed, limits).run(faults));
+    signals.push_back(ChannelCheck(raw, c, high_passed).run(faults));
   for (std::size_t a = 0; a < signals.size(); ++a) {
     for (std::size_t b = a + 1; b < signals.size(); ++b) {
       if (signals[a].size() == 0 || signals[b].size() == 0) continue;
       const double value = common_share(signals[a], signals[b], raw.mean_rate_hz());
-      if (value < limits.crosstalk) continue;
+      if (value < kLimits.crosstalk) continue;
       const std::string& first = raw.channels()[a].name;
       const std::string& second = raw.channels()[b].name;
       constexpr double kSame = 0.98;
-      faults.push_back({.code = RemarkCode::emg_crosstalk,
-                        .severity = Severity::warning,
-                        .about = fmt::format("{}, {}", first, second),
-                        .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
-                        .value = value,
-                        .says = value > kSame
-                                    ? fmt::format("channels '{}' and '{}' are the same signal (correlation "
-                                                  "{:.3f})",
-                                                  first, second, value)
-                                    : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common "
-                                                  "(correlation {:.2f})",
-                                                  first, second, 100.0 * value * value, value),
-                        .remedy = value > kSame ? "was one of them plugged in twice?"
-                                                : "crosstalk or a common disturbance: the muscles cannot be told "
-                                                  "apart to that extent"});
+      faults.push_back(
+          {.code = RemarkCode::emg_crosstalk,
+           .severity = Severity::warning,
+           .about = fmt::format("{}, {}", first, second),
+           .when = Stretch{raw.time_s()[0], raw.time_s()[raw.sample_count() - 1]},
+           .value = value,
+           .says =
+               value > kSame
+                   ? fmt::format("channels '{}' and '{}' are the same signal (correlation {:.3f})", first, second,
+                                 value)
+                   : fmt::format("channels '{}' and '{}' have {:.0f} % of their power in common (correlation {:.2f})",
+                                 first, second, 100.0 * value * value, value),
+           .remedy = value > kSame
+                         ? "was one of them plugged in twice?"
+                         : "crosstalk or a common disturbance: the muscles cannot be told apart to that extent"});
     }
   }
   return faults;
 }
 
-bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, const QualityLimits& limits) {
+bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
   constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
   const Eigen::Index n = x.size();
   if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff())) return false;
-  std::vector<double> sorted(x.begin(), x.end());
-  std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.end());
-  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  const double median = math::upper_median({x.begin(), x.end()});
   // With few different values the median may be the highest or the lowest of all.
   Eigen::Index above = 0;
   Eigen::Index not_below = 0;
@@ -300,7 +291,7 @@ bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz, con
     above += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
     not_below += (x[i] >= median) != (x[i - 1] >= median) ? 1 : 0;
   }
-  return static_cast<double>(std::max(above, not_below)) * rate_hz <= limits.raw_hz * static_cast<double>(n);
+  return static_cast<double>(std::max(above, not_below)) * rate_hz <= kLimits.raw_hz * static_cast<double>(n);
 }
 
 }  // namespace myoid::signals

@@ -11,10 +11,7 @@
 namespace myoid::signals {
 TimeSeries load_cell_wrench(const TimeSeries& recorded, const LoadCell& cell) {
   if (cell.channels.size() != 6) {
-    throw InvalidInput(
-        fmt::format("a load cell has 6 channels (three forces, three moments), {} "
-                    "are named",
-                    cell.channels.size()));
+    throw InvalidInput("a load cell has 6 channels (three forces, three moments), {} are named", cell.channels.size());
   }
   if (!cell.calibration.allFinite())
     throw InvalidInput("the calibration matrix of the load cell has values that are no numbers");
@@ -22,10 +19,8 @@ TimeSeries load_cell_wrench(const TimeSeries& recorded, const LoadCell& cell) {
   require_finite(channels, "load cell");
   const TimeSeries rest = channels.slice(cell.zero_start_s, cell.zero_end_s);
   if (rest.sample_count() < 10) {
-    throw InvalidInput(
-        fmt::format("the load cell has {} samples from {} to {} s, where its zero is "
-                    "taken; 10 or more are needed",
-                    rest.sample_count(), cell.zero_start_s, cell.zero_end_s));
+    throw InvalidInput("the load cell has {} samples from {} to {} s, where its zero is taken; 10 or more are needed",
+                       rest.sample_count(), cell.zero_start_s, cell.zero_end_s);
   }
   Eigen::RowVectorXd zero(6);
   for (Eigen::Index c = 0; c < 6; ++c) {

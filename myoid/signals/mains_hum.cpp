@@ -6,6 +6,7 @@
 
 #include "myoid/core/units.h"
 #include "myoid/math/decompositions.h"
+#include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
 #include "myoid/signals/spectrum.h"
 
@@ -29,11 +30,10 @@ double line_power(const PowerSpectrum& s, double line_hz) {
     if (away_hz >= 2.0 && away_hz <= 6.0) neighbors.push_back(s.density[k]);
   }
   if (neighbors.empty()) return 0.0;
-  const auto middle = neighbors.begin() + static_cast<std::ptrdiff_t>(neighbors.size() / 2);
-  std::nth_element(neighbors.begin(), middle, neighbors.end());
-  if (peak <= kStandsOut * *middle) return 0.0;
+  const double middle = math::upper_median(std::move(neighbors));
+  if (peak <= kStandsOut * middle) return 0.0;
   constexpr double kHalfWidth_hz = 1.5;  // the window's main lobe
-  return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) - 2.0 * kHalfWidth_hz * *middle);
+  return std::max(0.0, band_power(s, line_hz - kHalfWidth_hz, line_hz + kHalfWidth_hz) - 2.0 * kHalfWidth_hz * middle);
 }
 
 /// Extrapolates `count` samples beyond the last one: the lines continue as sines (least squares

@@ -85,7 +85,7 @@ std::vector<MarkerGap> find_marker_gaps(const MarkerSeries& markers) {
   return gaps;
 }
 
-std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const QualityLimits& limits) {
+std::vector<Remark> check_marker_gaps(const MarkerSeries& markers) {
   std::vector<Remark> faults;
   const std::vector<MarkerGap> gaps = find_marker_gaps(markers);
   const double interval_s = markers.frame_count() > 1
@@ -107,24 +107,25 @@ std::vector<Remark> check_marker_gaps(const MarkerSeries& markers, const Quality
     const bool never = missing == markers.frame_count();
     faults.push_back(
         {.code = RemarkCode::marker_gap,
-         .severity = (longest_s > limits.gap_s || share > limits.missing_share) ? Severity::warning : Severity::note,
+         .severity = (longest_s > kLimits.gap_s || share > kLimits.missing_share) ? Severity::warning : Severity::note,
          .about = marker,
          .when = Stretch{begin_s, end_s},
          .value = longest_s,
-         .says = never ? fmt::format("marker '{}' is in no frame", marker)
-                       : fmt::format("marker '{}' is missing in {:.1f} % of the frames, {} gap{}{} "
-                                     "from {:.6g} to {:.6g} s",
-                                     marker, 100.0 * share, count, count == 1 ? "" : "s",
-                                     count == 1 ? "" : ", the longest", begin_s, end_s),
-         .remedy = longest_s > limits.gap_s ? "where its segment's other markers do not show it either, that segment's "
-                                              "pose rests on fewer markers"
-                                            : ""});
+         .says =
+             never ? fmt::format("marker '{}' is in no frame", marker)
+                   : fmt::format("marker '{}' is missing in {:.1f} % of the frames, {} gap{}{} from {:.6g} to {:.6g} s",
+                                 marker, 100.0 * share, count, count == 1 ? "" : "s", count == 1 ? "" : ", the longest",
+                                 begin_s, end_s),
+         .remedy =
+             longest_s > kLimits.gap_s
+                 ? "where its segment's other markers do not show it either, that segment's pose rests on fewer markers"
+                 : ""});
     it = next;
   }
   return faults;
 }
 
-std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const QualityLimits& limits) {
+std::vector<Remark> check_marker_jumps(const MarkerSeries& markers) {
   std::vector<Remark> faults;
   const Eigen::Index frames = markers.frame_count();
   if (frames < 6) return faults;
@@ -144,7 +145,7 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
       at.push_back(f);
     }
     if (away.empty()) continue;
-    const double limit = std::max({limits.jump_m, fast_m, 10.0 * math::upper_median(away)});
+    const double limit = std::max({kLimits.jump_m, fast_m, 10.0 * math::upper_median(away)});
     const auto worst = std::max_element(away.begin(), away.end());
     if (*worst <= limit) continue;
     // The neighbors of a jump depart from their path too: separate jumps are at least five frames apart.
@@ -159,16 +160,16 @@ std::vector<Remark> check_marker_jumps(const MarkerSeries& markers, const Qualit
     }
     const std::string& marker = markers.names[static_cast<std::size_t>(m)];
     const double worst_s = markers.time_s[at[static_cast<std::size_t>(worst - away.begin())]];
-    faults.push_back({.code = RemarkCode::marker_jump,
-                      .severity = Severity::warning,
-                      .about = marker,
-                      .when = Stretch{markers.time_s[begin], markers.time_s[last]},
-                      .value = *worst,
-                      .says = fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
-                                          count == 1 ? std::string("once") : fmt::format("{} times", count),
-                                          1000.0 * *worst, worst_s),
-                      .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small "
-                                "[markers] weight"});
+    faults.push_back(
+        {.code = RemarkCode::marker_jump,
+         .severity = Severity::warning,
+         .about = marker,
+         .when = Stretch{markers.time_s[begin], markers.time_s[last]},
+         .value = *worst,
+         .says =
+             fmt::format("marker '{}' jumps {}, by {:.0f} mm at {:.6g} s", marker,
+                         count == 1 ? std::string("once") : fmt::format("{} times", count), 1000.0 * *worst, worst_s),
+         .remedy = "a ghost or a wrong label? Remove it there from the file, or give it a small [markers] weight"});
   }
   return faults;
 }
@@ -199,9 +200,7 @@ std::optional<Remark> check_marker_unit(const MarkerSeries& markers, const std::
                                        : fmt::format("{}: correct the unit in the file", unit)};
 }
 
-std::vector<Remark> check_markers(const MarkerSeries& markers,
-                                  const std::vector<ExpectedSegment>& expected,
-                                  const QualityLimits& limits) {
+std::vector<Remark> check_markers(const MarkerSeries& markers, const std::vector<ExpectedSegment>& expected) {
   std::vector<Remark> faults;
   if (markers.frame_count() < 2) return faults;
   const auto append = [&](std::vector<Remark> more) {
@@ -210,17 +209,17 @@ std::vector<Remark> check_markers(const MarkerSeries& markers,
   if (auto unit = check_marker_unit(markers, expected)) {
     // In a wrong unit no other check of lengths is meaningful.
     faults.push_back(std::move(*unit));
-    append(check_marker_gaps(markers, limits));
+    append(check_marker_gaps(markers));
     return faults;
   }
-  const std::vector<MarkerSwap> swaps = find_swaps(markers, limits);
+  const std::vector<MarkerSwap> swaps = find_swaps(markers);
   append(swap_faults(markers, swaps));
   const MarkerSeries right = undo_swaps(markers, swaps);
-  append(check_marker_jumps(right, limits));
+  append(check_marker_jumps(right));
   std::vector<RigidSegment> segments;
   for (const ExpectedSegment& e : expected) segments.push_back(e.segment);
-  append(check_rigid_segments(right, segments, limits));
-  append(check_marker_gaps(markers, limits));
+  append(check_rigid_segments(right, segments));
+  append(check_marker_gaps(markers));
   return faults;
 }
 

@@ -23,16 +23,14 @@ struct MarkerGap {
 [[nodiscard]] std::vector<MarkerGap> find_marker_gaps(const recording::MarkerSeries& markers);
 
 /// Reports one fault for each marker that is missing in a frame; grave beyond the limits.
-[[nodiscard]] std::vector<Remark> check_marker_gaps(const recording::MarkerSeries& markers,
-                                                    const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_marker_gaps(const recording::MarkerSeries& markers);
 
 /// Reports markers that leave the path through their neighbors in time. The departure
 ///   |p_i - (-p_{i-2} + 4 p_{i-1} + 4 p_{i+1} - p_{i+2}) / 6|
 /// vanishes on a cubic. It is 0 to 1 mm for people at 100 Hz, the height of a spike, and half the
 /// height of a step. A departure below ten times the marker's own median, or below that of a
 /// movement of 0.2 m at 4 Hz, is no fault. One fault for each marker, at its worst frame.
-[[nodiscard]] std::vector<Remark> check_marker_jumps(const recording::MarkerSeries& markers,
-                                                     const QualityLimits& limits = {});
+[[nodiscard]] std::vector<Remark> check_marker_jumps(const recording::MarkerSeries& markers);
 
 /// Positions of a segment's markers in the model.
 struct ExpectedSegment {
@@ -48,7 +46,6 @@ struct ExpectedSegment {
 
 /// Runs all checks of markers: swaps first, then jumps in the frames without swaps.
 [[nodiscard]] std::vector<Remark> check_markers(const recording::MarkerSeries& markers,
-                                                const std::vector<ExpectedSegment>& expected = {},
-                                                const QualityLimits& limits = {});
+                                                const std::vector<ExpectedSegment>& expected = {});
 
 }  // namespace myoid::signals

@@ -64,7 +64,7 @@ std::optional<std::pair<Eigen::Index, Eigen::Index>> crossing(const std::vector<
 
 }  // namespace
 
-std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLimits& limits) {
+std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers) {
   const Eigen::Index count = markers.marker_count();
   std::vector<Path> paths(static_cast<std::size_t>(count));
   Labels labels(static_cast<std::size_t>(count));
@@ -75,12 +75,12 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
     std::vector<Candidate> off;
     for (Eigen::Index m = 0; m < count; ++m) {
       if (markers.missing(f, m)) continue;
-      const auto expected = paths[static_cast<std::size_t>(m)].expected(now_s, limits.gap_s);
+      const auto expected = paths[static_cast<std::size_t>(m)].expected(now_s, kLimits.gap_s);
       const Vec3 p = markers.position(f, m);
-      if (expected && (p - *expected).norm() > 0.5 * limits.swap_m) off.push_back({m, p, *expected});
+      if (expected && (p - *expected).norm() > 0.5 * kLimits.swap_m) off.push_back({m, p, *expected});
     }
     bool changed = false;
-    while (const auto pair = crossing(off, limits.swap_m)) {
+    while (const auto pair = crossing(off, kLimits.swap_m)) {
       const auto [a, b] = *pair;
       std::swap(paths[static_cast<std::size_t>(a)], paths[static_cast<std::size_t>(b)]);
       std::swap(labels[static_cast<std::size_t>(a)], labels[static_cast<std::size_t>(b)]);
@@ -91,7 +91,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers, const QualityLim
     }
     if (changed) since.emplace_back(f, labels);
     for (Eigen::Index m = 0; m < count; ++m) {
-      if (!markers.missing(f, m)) paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, limits.gap_s);
+      if (!markers.missing(f, m)) paths[static_cast<std::size_t>(m)].see(markers.position(f, m), now_s, kLimits.gap_s);
     }
   }
   if (since.size() == 1) return {};
@@ -141,9 +141,8 @@ std::vector<Remark> swap_faults(const MarkerSeries& markers, const std::vector<M
                       .about = fmt::format("{}, {}", a, b),
                       .when = Stretch{begin_s, end_s},
                       .value = end_s - begin_s,
-                      .says = fmt::format("markers '{}' and '{}' carry each other's label from "
-                                          "{:.6g} to {:.6g} s",
-                                          a, b, begin_s, end_s),
+                      .says = fmt::format("markers '{}' and '{}' carry each other's label from {:.6g} to {:.6g} s", a,
+                                          b, begin_s, end_s),
                       .remedy = "they are exchanged back; correct the file"});
   }
   return faults;

@@ -23,8 +23,7 @@ struct MarkerSwap {
 /// Markers nearer than `swap_m` are skipped. The labels of the greater part of the recording are
 /// taken as right. An exchange of more than two labels at once is found if it is a chain of pairs.
 /// The result is in the order in which to undo the swaps.
-[[nodiscard]] std::vector<MarkerSwap> find_swaps(const recording::MarkerSeries& markers,
-                                                 const QualityLimits& limits = {});
+[[nodiscard]] std::vector<MarkerSwap> find_swaps(const recording::MarkerSeries& markers);
 
 /// Returns the series with these swaps undone.
 [[nodiscard]] recording::MarkerSeries undo_swaps(recording::MarkerSeries markers, const std::vector<MarkerSwap>& swaps);

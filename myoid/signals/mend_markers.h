@@ -12,7 +12,6 @@ namespace myoid::signals {
 struct MendOptions {
   bool undo_swaps = true;
   bool fill_gaps = true;
-  QualityLimits limits;
 };
 
 /// Repaired markers, with a sentence for every change.
@@ -23,9 +22,9 @@ struct MendedMarkers {
 
 /// Undoes swaps (`find_swaps`), then fills gaps before and after which the marker is seen:
 ///
-/// - up to `limits.gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
-/// - longer: from the segment, if three other markers of it are seen. The segment's mean shape is
-///   laid on these markers and shifted so that both ends of the gap match.
+/// - up to `QualityLimits::gap_s`: a cubic spline through four frames on either side, 0.03 s apart;
+/// - longer: from the segment, if three other markers of it are seen. The segment's mean shape is laid on these markers
+///   and shifted so that both ends of the gap match.
 ///
 /// All other gaps stay. A segment whose markers lie on a line fills none.
 [[nodiscard]] MendedMarkers mend_markers(recording::MarkerSeries markers,

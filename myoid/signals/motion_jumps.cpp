@@ -24,14 +24,13 @@ Eigen::VectorXd speeds(const Eigen::VectorXd& time_s, const Eigen::VectorXd& x) 
 std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
                               const Eigen::VectorXd& speed,
                               double least,
-                              const Stretch& within,
-                              const MotionJumpLimits& limits) {
+                              const Stretch& within) {
   constexpr double kUsual = 0.95;
   std::vector<double> sorted(speed.begin(), speed.end());
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(speed.size()));
   std::nth_element(sorted.begin(), at, sorted.end());
   const double usual = *at;
-  const double limit = std::max(least, limits.ratio * usual);
+  const double limit = std::max(least, kJumpLimits.ratio * usual);
   std::optional<Jump> found;
   for (Eigen::Index i = 0; i < speed.size();) {
     if (!(speed[i] > limit)) {
@@ -46,7 +45,7 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
     while (first > 0 && speed[first - 1] > 0.5 * speed[peak]) --first;
     while (last + 1 < speed.size() && speed[last + 1] > 0.5 * speed[peak]) ++last;
     const bool inside = time_s[peak + 1] >= within.begin_s && time_s[peak] <= within.end_s;
-    if (inside && time_s[last + 1] - time_s[first] < limits.for_s) {
+    if (inside && time_s[last + 1] - time_s[first] < kJumpLimits.for_s) {
       if (!found) found = Jump{peak, 0};
       if (speed[peak] > speed[found->at]) found->at = peak;
       ++found->count;
@@ -60,16 +59,13 @@ std::optional<Jump> find_jump(const Eigen::VectorXd& time_s,
 
 std::string MotionJump::sentence() const {
   return fmt::format(
-      "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its "
-      "acceleration would mean a torque that does not exist; mend the markers or angles there, or "
-      "leave that time out",
+      "'{}' moves at {} at {:.3f} s{}: no movement is so fast for so short a time, and its acceleration would mean a "
+      "torque that does not exist; mend the markers or angles there, or leave that time out",
       channel, unit == Unit::radian ? fmt::format("{:.0f} deg/s", speed / kDegree) : fmt::format("{:.2g} m/s", speed),
       time_s, count > 1 ? fmt::format(" ({} such moments)", count) : "");
 }
 
-std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
-                                          const Stretch& within,
-                                          const MotionJumpLimits& limits) {
+std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion, const Stretch& within) {
   constexpr Eigen::Index kLeastSamples = 20;
   std::vector<MotionJump> jumps;
   if (motion.sample_count() < kLeastSamples) return jumps;
@@ -80,7 +76,7 @@ std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
     const Eigen::VectorXd x = motion.values().col(c);
     if ((!angle && channel.unit != Unit::meter) || !x.allFinite()) continue;
     const Eigen::VectorXd speed = speeds(t, x);
-    if (const auto jump = find_jump(t, speed, angle ? limits.radps : limits.mps, within, limits))
+    if (const auto jump = find_jump(t, speed, angle ? kJumpLimits.radps : kJumpLimits.mps, within))
       jumps.push_back({channel.name, channel.unit, t[jump->at], speed[jump->at], jump->count});
   }
   return jumps;

@@ -27,6 +27,7 @@ struct MotionJumpLimits {
   double ratio = 3.0;   ///< Ratio of the speed to its 95 % quantile.
   double for_s = 0.08;  ///< Time for which the speed stays above half of its peak.
 };
+inline constexpr MotionJumpLimits kJumpLimits;
 
 /// Finds moments at which an angle [rad] or a length [m] changes too fast for too short a time. The speed |dx/dt|
 /// between samples exceeds the limit of its unit and `ratio` times its own 95 % quantile, and stays above half of that
@@ -35,7 +36,6 @@ struct MotionJumpLimits {
 /// at its greatest such speed within the stretch; the quantile is that of the whole motion. Channels of other units are
 /// skipped.
 [[nodiscard]] std::vector<MotionJump> find_motion_jumps(const TimeSeries& motion,
-                                                        const Stretch& within = {-1e300, 1e300},
-                                                        const MotionJumpLimits& limits = {});
+                                                        const Stretch& within = {-1e300, 1e300});
 
 }  // namespace myoid::signals

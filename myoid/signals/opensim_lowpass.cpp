@@ -54,9 +54,9 @@ Eigen::VectorXd pass(const ThirdOrder& f, const Eigen::VectorXd& x) {
 }  // namespace
 
 TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
-  if (!(cutoff_hz > 0.0)) throw InvalidInput(fmt::format("low-pass filter: found {} Hz, expected above 0", cutoff_hz));
+  if (!(cutoff_hz > 0.0)) throw InvalidInput("low-pass filter: found {} Hz, expected above 0", cutoff_hz);
   if (motion.sample_count() < 4) {
-    throw InvalidInput(fmt::format("low-pass filter: {} samples, expected at least 4", motion.sample_count()));
+    throw InvalidInput("low-pass filter: {} samples, expected at least 4", motion.sample_count());
   }
   require_finite(motion, "low-pass filter");
   const Eigen::VectorXd t = padded(motion.time_s());
@@ -64,10 +64,9 @@ TimeSeries opensim_lowpass(const TimeSeries& motion, double cutoff_hz) {
   const double intervals = (t[t.size() - 1] - t[0]) / interval_s;
   if (!(intervals < kMostSamples)) {
     throw InvalidInput(
-        fmt::format("low-pass filter: the smallest interval, {:.3g} s, would make {:.3g} samples "
-                    "of the record; "
-                    "are there rows of nearly the same time?",
-                    interval_s, intervals));
+        "low-pass filter: the smallest interval, {:.3g} s, would make {:.3g} samples of the record; are "
+        "there rows of nearly the same time?",
+        interval_s, intervals);
   }
   const auto count = static_cast<Eigen::Index>(std::floor(intervals)) + 1;
   Eigen::VectorXd even(count);

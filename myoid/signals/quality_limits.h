@@ -1,10 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "myoid/core/remark.h"
-
 namespace myoid::signals {
 
 /// Limits beyond which a recording is at fault. docs/guide/check.md has the same table; a test compares the two.
@@ -45,14 +40,6 @@ struct QualityLimits {
   /// Share of the loaded time for which it may be farther outside.
   double plate_outside_share = 0.01;
 };
-
-/// One row of the documented table.
-struct LimitRow {
-  RemarkCode code;
-  std::string limit;  ///< As the documentation writes it: "0.2 s".
-};
-
-/// Returns the limits as text, every fault once, in the order of RemarkCode.
-[[nodiscard]] std::vector<LimitRow> limit_rows(const QualityLimits& limits = {});
+inline constexpr QualityLimits kLimits;
 
 }  // namespace myoid::signals

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/core/units.h"
 #include "myoid/math/spline.h"
 
@@ -122,6 +122,17 @@ Eigen::MatrixXd low_passed(const TimeSeries& given, const Eigen::VectorXd& insid
   return result;
 }
 
+/// Returns the series at times inside it, on a clock of `rate_hz`; 0: a clock of one time.
+Eigen::MatrixXd at_times(const TimeSeries& series, const Eigen::VectorXd& inside, double rate_hz) {
+  const bool slower = rate_hz > 0.0 && series.sample_count() > 2 && rate_hz < kSlower * series.mean_rate_hz();
+  return slower ? low_passed(series, inside, rate_hz) : splined(series, inside);
+}
+
+double rate_of(const Eigen::VectorXd& time_s) {
+  const Eigen::Index n = time_s.size();
+  return n > 1 ? static_cast<double>(n - 1) / (time_s[n - 1] - time_s[0]) : 0.0;
+}
+
 }  // namespace
 
 TimeSeries anti_aliased(const TimeSeries& series, double rate_hz) {
@@ -132,15 +143,12 @@ TimeSeries anti_aliased(const TimeSeries& series, double rate_hz) {
 TimeSeries resample(const TimeSeries& series, const Eigen::VectorXd& time_s) {
   const Eigen::VectorXd inside =
       time_s.cwiseMax(series.time_s()[0]).cwiseMin(series.time_s()[series.sample_count() - 1]);
-  const Eigen::Index count = time_s.size();
-  const double rate_hz = count > 1 ? static_cast<double>(count - 1) / (time_s[count - 1] - time_s[0]) : 0.0;
-  const bool slower = count > 1 && series.sample_count() > 2 && rate_hz < kSlower * series.mean_rate_hz();
-  return {time_s, series.channels(), slower ? low_passed(series, inside, rate_hz) : splined(series, inside)};
+  return {time_s, series.channels(), at_times(series, inside, rate_of(time_s))};
 }
 
 Eigen::VectorXd even_clock(double start_s, double end_s, double rate_hz) {
   if (!(end_s > start_s) || !(rate_hz > 0.0)) {
-    throw InvalidInput(fmt::format("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz));
+    throw InvalidInput("clock: from {} s to {} s at {} Hz is empty", start_s, end_s, rate_hz);
   }
   const auto intervals = static_cast<Eigen::Index>(std::max(1.0, std::round((end_s - start_s) * rate_hz)));
   return Eigen::VectorXd::LinSpaced(intervals + 1, start_s, end_s);
@@ -150,12 +158,10 @@ recording::MarkerSeries resample(const recording::MarkerSeries& markers, const E
   recording::MarkerSeries result;
   result.names = markers.names;
   result.time_s = time_s;
-  result.positions_m =
-      Eigen::MatrixXd::Constant(time_s.size(), markers.positions_m.cols(), std::numeric_limits<double>::quiet_NaN());
+  result.positions_m = Eigen::MatrixXd::Constant(time_s.size(), markers.positions_m.cols(), kNan);
   const Eigen::Index n = markers.frame_count();
   const std::vector<Channel> axes{{"x", Unit::meter}, {"y", Unit::meter}, {"z", Unit::meter}};
-  const double rate_hz =
-      time_s.size() > 1 ? static_cast<double>(time_s.size() - 1) / (time_s[time_s.size() - 1] - time_s[0]) : 0.0;
+  const double rate_hz = rate_of(time_s);
   for (Eigen::Index m = 0; m < markers.marker_count(); ++m) {
     for (Eigen::Index first = 0; first < n;) {
       if (markers.missing(first, m)) {
@@ -176,9 +182,7 @@ recording::MarkerSeries resample(const recording::MarkerSeries& markers, const E
         if (b > a) {
           const Eigen::VectorXd inside =
               time_s.segment(a, b - a).cwiseMax(markers.time_s[first]).cwiseMin(markers.time_s[end - 1]);
-          result.positions_m.block(a, 3 * m, b - a, 3) = rate_hz > 0.0 && rate_hz < kSlower * stretch.mean_rate_hz()
-                                                             ? low_passed(stretch, inside, rate_hz)
-                                                             : splined(stretch, inside);
+          result.positions_m.block(a, 3 * m, b - a, 3) = at_times(stretch, inside, rate_hz);
         }
       }
       first = end;

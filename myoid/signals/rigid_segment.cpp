@@ -33,7 +33,7 @@ struct Pair {
   double median_m = 0.0;
 };
 
-Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const QualityLimits& l) {
+Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b) {
   Pair pair{.first = a, .second = b};
   std::vector<Eigen::Index> frames;
   std::vector<double> distances;
@@ -44,7 +44,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
   }
   if (distances.empty()) return pair;
   pair.median_m = math::upper_median(distances);
-  const double limit = std::max(l.rigid_m, l.rigid_share * pair.median_m);
+  const double limit = std::max(kLimits.rigid_m, kLimits.rigid_share * pair.median_m);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double change = std::abs(distances[i] - pair.median_m);
     if (change <= limit) continue;
@@ -58,8 +58,7 @@ Pair compare(const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const 
 
 RigidFit fit_rigid(const Eigen::Matrix3Xd& local_m, const Eigen::Matrix3Xd& seen_m) {
   if (local_m.cols() < 3 || local_m.cols() != seen_m.cols()) {
-    throw InvalidInput(
-        fmt::format("rigid fit: {} and {} points; expected as many, three or more", local_m.cols(), seen_m.cols()));
+    throw InvalidInput("rigid fit: {} and {} points; expected as many, three or more", local_m.cols(), seen_m.cols());
   }
   const Vec3 from = local_m.rowwise().mean();
   const Vec3 to = seen_m.rowwise().mean();
@@ -92,16 +91,14 @@ Eigen::Matrix3Xd mean_shape(const MarkerSeries& markers, const RigidSegment& seg
   return first;
 }
 
-std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
-                                         const std::vector<RigidSegment>& segments,
-                                         const QualityLimits& limits) {
+std::vector<Remark> check_rigid_segments(const MarkerSeries& markers, const std::vector<RigidSegment>& segments) {
   std::vector<Remark> faults;
   const auto marker = [&](Eigen::Index m) { return markers.names[static_cast<std::size_t>(m)]; };
   for (const RigidSegment& segment : segments) {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < segment.markers.size(); ++i) {
       for (std::size_t k = i + 1; k < segment.markers.size(); ++k) {
-        Pair pair = compare(markers, segment.markers[i], segment.markers[k], limits);
+        Pair pair = compare(markers, segment.markers[i], segment.markers[k]);
         if (static_cast<Eigen::Index>(pair.frames.size()) >= kLeastFrames) pairs.push_back(std::move(pair));
       }
     }
@@ -129,17 +126,18 @@ std::vector<Remark> check_rigid_segments(const MarkerSeries& markers,
         end = std::max(end, p.frames.back());
       }
       const Eigen::Index other = worst->first == culprit ? worst->second : worst->first;
-      faults.push_back({.code = RemarkCode::segment_not_rigid,
-                        .severity = Severity::warning,
-                        .about = partners > 1 ? marker(culprit) : fmt::format("{}, {}", marker(culprit), marker(other)),
-                        .when = Stretch{markers.time_s[begin], markers.time_s[end]},
-                        .value = worst->worst_m,
-                        .says = fmt::format("marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by "
-                                            "{:.0f} mm between {:.6g} and {:.6g} s",
-                                            marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m,
-                                            1000.0 * worst->worst_m, markers.time_s[begin], markers.time_s[end]),
-                        .remedy = "a wrong label or a marker that came loose? Give it a small [markers] weight, "
-                                  "or cut that part off"});
+      faults.push_back(
+          {.code = RemarkCode::segment_not_rigid,
+           .severity = Severity::warning,
+           .about = partners > 1 ? marker(culprit) : fmt::format("{}, {}", marker(culprit), marker(other)),
+           .when = Stretch{markers.time_s[begin], markers.time_s[end]},
+           .value = worst->worst_m,
+           .says = fmt::format(
+               "marker '{}' of {}: its distance to '{}', {:.0f} mm, changes by {:.0f} mm between {:.6g} and {:.6g} s",
+               marker(culprit), segment.name, marker(other), 1000.0 * worst->median_m, 1000.0 * worst->worst_m,
+               markers.time_s[begin], markers.time_s[end]),
+           .remedy =
+               "a wrong label or a marker that came loose? Give it a small [markers] weight, or cut that part off"});
       std::erase_if(pairs, [&](const Pair& p) { return p.first == culprit || p.second == culprit; });
     }
   }

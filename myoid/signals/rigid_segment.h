@@ -39,7 +39,6 @@ struct RigidFit {
 /// Checks that distances within a segment stay. Reports the markers that depart from their median
 /// distance to others of the segment for three frames or more, worst first, each once.
 [[nodiscard]] std::vector<Remark> check_rigid_segments(const recording::MarkerSeries& markers,
-                                                       const std::vector<RigidSegment>& segments,
-                                                       const QualityLimits& limits = {});
+                                                       const std::vector<RigidSegment>& segments);
 
 }  // namespace myoid::signals

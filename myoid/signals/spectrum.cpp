@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -40,9 +39,9 @@ double part_within(const PowerSpectrum& s, Eigen::Index k, double low_hz, double
 PowerSpectrum power_spectrum(const Eigen::VectorXd& x, double rate_hz, double segment_s) {
   if (x.size() < 8 || !x.allFinite() || !(rate_hz > 0.0) || !(segment_s > 0.0)) {
     throw InvalidInput(
-        fmt::format("power spectrum of {} samples at {} Hz in segments of {} s: at least 8 finite "
-                    "samples and positive numbers are needed",
-                    x.size(), rate_hz, segment_s));
+        "power spectrum of {} samples at {} Hz in segments of {} s: at least 8 finite samples and positive "
+        "numbers are needed",
+        x.size(), rate_hz, segment_s);
   }
   const Eigen::Index wanted =
       std::max<Eigen::Index>(8, static_cast<Eigen::Index>(std::lround(std::min(segment_s * rate_hz, 1e9))));
@@ -84,10 +83,10 @@ double band_power(const PowerSpectrum& spectrum, double low_hz, double high_hz) 
 }
 
 double statistical_bandwidth_hz(const PowerSpectrum& spectrum) {
-  if (spectrum.density.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (spectrum.density.size() < 2) return kNan;
   const double sum = spectrum.density.sum();
   const double width_hz = spectrum.frequency_hz[1] - spectrum.frequency_hz[0];
-  return sum > 0.0 ? width_hz * sum * sum / spectrum.density.squaredNorm() : std::numeric_limits<double>::quiet_NaN();
+  return sum > 0.0 ? width_hz * sum * sum / spectrum.density.squaredNorm() : kNan;
 }
 
 double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double high_hz) {
@@ -109,13 +108,12 @@ double median_frequency_hz(const PowerSpectrum& spectrum, double low_hz, double 
 TimeSeries median_frequency(const TimeSeries& raw, const MedianFrequencyOptions& options) {
   const double rate = raw.mean_rate_hz();
   if (!raw.is_uniform() || rate < 4.0 * options.low_hz) {
-    throw InvalidInput(
-        fmt::format("median frequency: {:.4g} Hz; raw EMG on an even clock of at least {:.4g} Hz is needed", rate,
-                    4.0 * options.low_hz));
+    throw InvalidInput("median frequency: {:.4g} Hz; raw EMG on an even clock of at least {:.4g} Hz is needed", rate,
+                       4.0 * options.low_hz);
   }
   if (options.resting_rms.size() != 0 && options.resting_rms.size() != raw.channel_count()) {
-    throw InvalidInput(fmt::format("median frequency: {} resting levels for {} channels", options.resting_rms.size(),
-                                   raw.channel_count()));
+    throw InvalidInput("median frequency: {} resting levels for {} channels", options.resting_rms.size(),
+                       raw.channel_count());
   }
   const double high_hz = std::min(options.high_hz, 0.45 * rate);
   const auto length = static_cast<Eigen::Index>(std::lround(options.window_s * rate));

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/numbers.h"
 #include "myoid/math/statistics.h"
 #include "myoid/signals/spectrum.h"
 #include "myoid/tables/instrument_names.h"
@@ -38,7 +39,7 @@ struct Segments {
   Eigen::VectorXd frequency_hz;
   std::vector<Eigen::VectorXd> density;
   std::vector<double> power;
-  double quiet_power = std::numeric_limits<double>::infinity();
+  double quiet_power = kInfinity;
   Eigen::VectorXd quiet;  ///< Mean density of the quiet segments; `quiet_power` is its sum.
 };
 
@@ -275,9 +276,9 @@ Whitening decide_whitening(std::span<const TimeSeries* const> trials, double hig
       result.reason = fmt::format("channel '{}': {}", filter->channel, filter->reason);
       if (!wanted) return result;
       throw InvalidInput(
-          fmt::format("whitening is asked for and cannot be done: channel '{}': {}; leave the "
-                      "channel out, or let the recording decide",
-                      filter->channel, filter->reason));
+          "whitening is asked for and cannot be done: channel '{}': {}; leave the channel out, or let the "
+          "recording decide",
+          filter->channel, filter->reason);
     }
     log_gain += std::log(filter->bandwidth_after_hz / filter->bandwidth_before_hz) / static_cast<double>(emg.size());
   }

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/file_in_parts.h"
+#include "myoid/files/atomic_file.h"
 
 namespace myoid::recording {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
-#include "myoid/files/file_in_parts.h"
+#include "myoid/files/atomic_file.h"
 #include "myoid/tables/text_rows.h"
 
 namespace myoid::recording {

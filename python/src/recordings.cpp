@@ -8,7 +8,7 @@
 
 #include "myoid/commands/convert.h"
 #include "myoid/commands/info.h"
-#include "myoid/recording/emg_channels.h"
+#include "myoid/recording/channel_choice.h"
 #include "myoid/recording/recording.h"
 #include "myoid/tables/result_units.h"
 #include "myoid/tables/series_file.h"

@@ -5,6 +5,8 @@
 #include "myoid/recording/force_plate.h"
 
 #include "fuzz.h"
+#include "tests/support/c3d_plates.h"
+#include "tests/support/whole_c3d.h"
 
 namespace rec = myoid::recording;
 
