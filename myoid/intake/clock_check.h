@@ -20,9 +20,7 @@ inline constexpr double kLongestGap_s = kLimits.pause_s;
 /// Reports a clock with a pause of more than kLongestGap_s.
 class ClockPause : public ReadError {
  public:
-  ClockPause(const std::filesystem::path& path,
-             const std::string& message,
-             std::vector<Stretch> stretches)
+  ClockPause(const std::filesystem::path& path, const std::string& message, std::vector<Stretch> stretches)
       : ReadError(path, 0, message), stretches_(std::move(stretches)) {}
   /// Returns the parts of the clock between the pauses.
   [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
