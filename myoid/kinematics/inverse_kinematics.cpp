@@ -18,6 +18,12 @@ namespace {
 
 using Pair = PoseFit::Pair;
 
+constexpr double kAtEnd = 1e-6;             // of the range: nearer to an end lies at it
+constexpr int kFramesBetweenSearches = 50;  // for other limbs, while coordinates lie at ends
+constexpr double kFarBetter = 0.5;          // share of the cost at which another minimum replaces the nearest
+constexpr double kBetterThanAtEnds = 0.8;   // the same where coordinates lie at ends
+constexpr double kMostFramesAtEnd = 0.9;    // a coordinate that lies at an end longer is told
+
 std::vector<Pair> pair_markers(const model::BodyModel& model,
                                const recording::MarkerSeries& markers,
                                const IkOptions& options,
@@ -90,12 +96,51 @@ std::vector<Eigen::VectorXd> fresh_starts(const model::BodyModel& model) {
   return starts;
 }
 
+bool lies_at_end(const model::Coordinate& of, double value) {
+  return of.clamped && std::min(value - of.lower, of.upper - value) < kAtEnd * (of.upper - of.lower);
+}
+
+/// Tells of coordinates that lie at an end of their range in nearly every frame.
+void note_ends(const model::BodyModel& model, const PoseFit& fit, const Eigen::MatrixXd& q, IkResult& result) {
+  for (const Eigen::Index c : fit.free()) {
+    const model::Coordinate& of = model.coordinates[at(c)];
+    Eigen::Index lower = 0, upper = 0;
+    for (const double value : q.col(c)) {
+      if (lies_at_end(of, value)) ++(value - of.lower < of.upper - value ? lower : upper);
+    }
+    const Eigen::Index most = std::max(lower, upper);
+    if (q.rows() < 2 || static_cast<double>(most) < kMostFramesAtEnd * static_cast<double>(q.rows())) continue;
+    const double end = lower > upper ? of.lower : of.upper;
+    result.notes.push_back(fmt::format(
+        "coordinate '{}' lies at the end of its range, {}, in {} of {} frames: its markers, or the range", of.name,
+        of.motion == model::MotionType::rotational ? fmt::format("{:.4g} deg", end * 180.0 / kPi)
+                                                   : fmt::format("{:.4g} m", end),
+        most, q.rows()));
+  }
+}
+
+/// Returns postures with the joints to ground as in q, and all others in their default posture or in the middle of
+/// their ranges: a limb whose search ended at the ends of ranges may have a far better posture elsewhere.
+std::vector<Eigen::VectorXd> other_limbs(const model::BodyModel& model, const Eigen::VectorXd& q) {
+  Eigen::VectorXd rest = model.default_q(), middle = rest;
+  for (const model::Joint& joint : model.joints) {
+    for (const int c : joint.coordinates) {
+      const model::Coordinate& of = model.coordinates[at(c)];
+      if (joint.parent == 0) rest[c] = middle[c] = q[c];
+      if (joint.parent != 0 && of.clamped) middle[c] = 0.5 * (of.lower + of.upper);
+    }
+  }
+  return {std::move(rest), std::move(middle)};
+}
+
 bool better(const PoseFit::Pose& a, const PoseFit::Pose& b) {
   return (a.converged && !b.converged && a.cost <= b.cost * (1.0 + 1e-9)) || a.cost < b.cost * (1.0 - 1e-9);
 }
 
-/// Returns true if a pose replaces the minimum nearest to the start: at half of its cost or less.
-bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b) { return a.converged && a.cost < 0.5 * b.cost; }
+/// Returns true if a pose replaces the minimum nearest to the start: at this share of its cost or less.
+bool much_better(const PoseFit::Pose& a, const PoseFit::Pose& b, double share) {
+  return a.converged && a.cost < share * b.cost;
+}
 
 void check_tasks(const model::BodyModel& model, const std::vector<CoordinateTask>& tasks, Eigen::Index frames) {
   for (const CoordinateTask& task : tasks) {
@@ -112,22 +157,23 @@ void check_tasks(const model::BodyModel& model, const std::vector<CoordinateTask
 class FrameSequence {
  public:
   FrameSequence(const model::BodyModel& model, const IkOptions& options, PoseFit& fit)
-      : barrier_(options.range_barrier), fit_(fit), posture_(model.default_q()), fresh_(fresh_starts(model)) {}
+      : model_(model),
+        barrier_(options.range_barrier),
+        fit_(fit),
+        posture_(model.default_q()),
+        fresh_(fresh_starts(model)) {}
 
   /// Returns the posture of the latest frame.
   [[nodiscard]] const Eigen::VectorXd& posture() const { return posture_; }
 
-  /// Returns the pose for the targets of `fit`. Tries other starts in the first frame, after a jump
-  /// of the cost, and where the search fails.
+  /// Returns the pose for the targets of `fit`. Tries other starts in the first frame, after a jump of the cost, and
+  /// where the search fails; other limbs also now and then while coordinates lie at ends of their ranges.
   PoseFit::Pose next() {
     PoseFit::Pose pose = solve_from(posture_);
     const bool jumped = pose.cost > 4.0 * cost_before_ + 1e-8;
-    if (!std::isfinite(cost_before_) || !pose.converged || jumped) {
-      for (const Eigen::VectorXd& start : fresh_) {
-        PoseFit::Pose again = solve_from(start);
-        if (pose.converged ? much_better(again, pose) : better(again, pose)) pose = std::move(again);
-      }
-    }
+    if (!std::isfinite(cost_before_) || !pose.converged || jumped) try_from(fresh_, kFarBetter, pose);
+    if (solved_++ % kFramesBetweenSearches == 0 && has_ends(pose.q))
+      try_from(other_limbs(model_, pose.q), kBetterThanAtEnds, pose);
     pose.cost = fit_.place(pose.q);
     if (!std::isfinite(cost_before_)) fit_.unwind(pose);
     cost_before_ = pose.cost;
@@ -141,8 +187,23 @@ class FrameSequence {
     return barrier_ > 0.0 ? fit_.solve_inside(start, barrier_) : fit_.solve(start);
   }
 
+  /// Replaces the pose where a search from one of the starts ends at this share of its cost or less.
+  void try_from(const std::vector<Eigen::VectorXd>& starts, double share, PoseFit::Pose& pose) {
+    for (const Eigen::VectorXd& start : starts) {
+      PoseFit::Pose again = solve_from(start);
+      if (pose.converged ? much_better(again, pose, share) : better(again, pose)) pose = std::move(again);
+    }
+  }
+
+  [[nodiscard]] bool has_ends(const Eigen::VectorXd& q) const {
+    return std::any_of(fit_.free().begin(), fit_.free().end(),
+                       [&](Eigen::Index c) { return lies_at_end(model_.coordinates[at(c)], q[c]); });
+  }
+
+  const model::BodyModel& model_;
   double barrier_;
   PoseFit& fit_;
+  int solved_ = 0;  ///< Frames.
   Eigen::VectorXd posture_;
   std::vector<Eigen::VectorXd> fresh_;
   double cost_before_ = std::numeric_limits<double>::infinity();
@@ -232,6 +293,7 @@ IkResult inverse_kinematics(const model::BodyModel& model,
     errors.row(frame) = error_row(fit);
     fit.locate(locations, frame);
   }
+  note_ends(model, fit, q, result);
   result.q = TimeSeries(markers.time_s, coordinate_channels(model), std::move(q));
   result.errors = TimeSeries(markers.time_s, error_channels(model, fit.pairs()), std::move(errors));
   result.marker_locations = TimeSeries(markers.time_s, location_channels(model, fit.pairs()), std::move(locations));

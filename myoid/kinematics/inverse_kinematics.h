@@ -52,7 +52,7 @@ struct IkResult {
   int frames_without_markers = 0;
   /// Free coordinates that the markers leave open in the frames seen.
   std::vector<std::string> undetermined;
-  std::vector<std::string> notes;  ///< Markers without counterpart.
+  std::vector<std::string> notes;  ///< Markers without counterpart, coordinates at ends of their ranges.
 };
 
 /// Fits the pose of the model to the measured markers, frame by frame from the previous solution:
