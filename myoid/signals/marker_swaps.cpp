@@ -1,6 +1,7 @@
 #include "myoid/signals/marker_swaps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -12,6 +13,9 @@ namespace myoid::signals {
 namespace {
 
 using recording::MarkerSeries;
+constexpr std::size_t kFewestFrames = 10;  // that tell a usual distance
+constexpr double kTellsApart = 4.0;        // spreads of a distance from that of the pair's other marker
+
 using Labels = std::vector<Eigen::Index>;  ///< The marker that each column shows.
 
 /// The end of a marker's path so far.
@@ -60,6 +64,43 @@ std::optional<std::pair<Eigen::Index, Eigen::Index>> crossing(const std::vector<
     }
   }
   return best;
+}
+
+/// Returns the distances of two markers in the frames that show both: those of the swap, or all others.
+std::vector<double> distances(
+    const MarkerSeries& markers, Eigen::Index a, Eigen::Index b, const MarkerSwap& swap, bool inside) {
+  std::vector<double> found;
+  for (Eigen::Index f = 0; f < markers.frame_count(); ++f) {
+    if ((f >= swap.begin && f < swap.end) != inside || markers.missing(f, a) || markers.missing(f, b)) continue;
+    found.push_back((markers.position(f, a) - markers.position(f, b)).norm());
+  }
+  return found;
+}
+
+/// Mean deviation from a length.
+double mean_off(const std::vector<double>& values, double length) {
+  double sum = 0.0;
+  for (const double v : values) sum += std::abs(v - length);
+  return sum / static_cast<double>(values.size());
+}
+
+/// Returns by how much an exchange of the pair in the swap's frames brings marker `of` nearer to its usual distance
+/// from a marker of the same body [m]. Of the same body is the marker whose distance outside these frames changes
+/// least, and is not the distance of the pair's other marker. Returns 0 where there is none.
+double gain(const MarkerSeries& markers, const MarkerSwap& swap, Eigen::Index of, Eigen::Index other) {
+  double best_spread = 0.0, found = 0.0;
+  for (Eigen::Index c = 0; c < markers.marker_count(); ++c) {
+    if (c == of || c == other) continue;
+    const std::vector<double> own = distances(markers, of, c, swap, false), now = distances(markers, of, c, swap, true),
+                              exchanged = distances(markers, other, c, swap, true);
+    if (own.size() < kFewestFrames || now.empty() || exchanged.empty()) continue;
+    const double usual = math::median(own), spread = mean_off(own, usual);
+    const double apart = std::abs(math::median(distances(markers, other, c, swap, false)) - usual);
+    if (kTellsApart * spread > apart || (best_spread > 0.0 && spread >= best_spread)) continue;
+    best_spread = std::max(spread, 1e-9);
+    found = mean_off(now, usual) - mean_off(exchanged, usual);
+  }
+  return found;
 }
 
 }  // namespace
@@ -117,6 +158,13 @@ std::vector<MarkerSwap> find_swaps(const MarkerSeries& markers) {
       swaps.push_back({m, at, since[i].first, end});
     }
   }
+  // A path that is lost in bad frames changes labels that are right: the markers of the same body tell.
+  MarkerSeries mended = markers;
+  std::erase_if(swaps, [&](const MarkerSwap& swap) {
+    const bool wrong = gain(mended, swap, swap.first, swap.second) + gain(mended, swap, swap.second, swap.first) < 0.0;
+    if (!wrong) mended = undo_swaps(std::move(mended), {swap});
+    return wrong;
+  });
   return swaps;
 }
 

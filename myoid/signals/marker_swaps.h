@@ -20,7 +20,8 @@ struct MarkerSwap {
 /// the other: with p the position in a frame and e its extrapolation from the last two positions
 /// (across gaps of up to `QualityLimits::gap_s`),
 ///   |p_a - e_b| + |p_b - e_a| < (|p_a - e_a| + |p_b - e_b|) / 4.
-/// Markers nearer than `swap_m` are skipped. The labels of the greater part of the recording are
+/// Markers nearer than `swap_m` are skipped. An exchange that takes a marker away from its usual distance to a marker
+/// of the same body is none. The labels of the greater part of the recording are
 /// taken as right. An exchange of more than two labels at once is found if it is a chain of pairs.
 /// The result is in the order in which to undo the swaps.
 [[nodiscard]] std::vector<MarkerSwap> find_swaps(const recording::MarkerSeries& markers);

@@ -75,6 +75,19 @@ TEST(MarkerSwaps, OfSeveralPairsOneAfterTheOtherAreUndone) {
   EXPECT_EQ(error_m(undo_swaps(swapped, find_swaps(swapped)), truth), 0.0);
 }
 
+TEST(MarkerSwaps, APathThatIsLostInBadFramesExchangesNothing) {
+  // The labels are wrong in four frames. In the gap behind them the paths are lost, and then the labels are right.
+  const MarkerSeries truth = test::moving_markers();
+  for (const Eigen::Index from : {100, 300}) {
+    MarkerSeries recorded = truth;
+    exchange(recorded, 1, 3, from, from + 4);
+    for (const Eigen::Index m : {1, 3}) test::hide(recorded, m, from + 4, from + 50);
+    const MarkerSeries mended = undo_swaps(recorded, find_swaps(recorded));
+    EXPECT_EQ(mended.positions_m.topRows(from), truth.positions_m.topRows(from)) << from;
+    EXPECT_EQ(mended.positions_m.bottomRows(350 - from), truth.positions_m.bottomRows(350 - from)) << from;
+  }
+}
+
 TEST(MarkerSwaps, AJumpOfOneMarkerIsNone) {
   MarkerSeries markers = test::moving_markers();
   markers.positions_m.block(200, 3, 50, 3).array() += 0.1;
