@@ -69,12 +69,15 @@ std::vector<Load> distances(const model::BodyModel& model, const dynamics::Exter
 
 }  // namespace
 
-std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSpec& trial, const TrialInput& input) {
+std::vector<Remark> misplaced_loads(const model::BodyModel& model,
+                                    const dynamics::ExternalLoads& all,
+                                    const recording::MarkerSeries* markers,
+                                    const TimeSeries* motion,
+                                    const std::string& file) {
   std::vector<Remark> found;
-  if (!input.loads || (!input.markers && !input.motion)) return found;
-  BodyPoints points(model, input.markers ? &*input.markers : nullptr, input.motion ? &*input.motion : nullptr);
-  const std::vector<Load> loads = distances(model, *input.loads, points);
-  const auto file = trial.external_loads ? trial.external_loads->filename().string() : std::string("the loads");
+  if (markers == nullptr && motion == nullptr) return found;
+  BodyPoints points(model, markers, motion);
+  const std::vector<Load> loads = distances(model, all, points);
   const auto name = [&](model::BodyIndex b) { return model.bodies[static_cast<std::size_t>(b)].name; };
   const auto off = [&](const Load& load, model::BodyIndex body) {
     return load.distance_m[static_cast<std::size_t>(body)];
@@ -87,7 +90,6 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
       found.push_back(
           {.code = RemarkCode::load_misplaced,
            .severity = Severity::error,
-           .where = trial.name,
            .says = fmt::format("{}: the point of '{}' lies {:.3g} m from {}, on which it acts (median while loaded), "
                                "expected under it: is it in mm, or in other axes or another origin than the motion?",
                                file, loads[i].force->name, off(loads[i], own), name(own))});
@@ -102,7 +104,6 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
       said[i] = said[j] = true;
       found.push_back({.code = RemarkCode::load_misplaced,
                        .severity = Severity::error,
-                       .where = trial.name,
                        .says = fmt::format(
                            "{}: '{}' is applied to {} and '{}' to {}, but each acts at the other's: {:.2g} m from its "
                            "own body and {:.2g} m from the other (median while loaded); exchange their applied_to_body",
@@ -119,7 +120,6 @@ std::vector<Remark> misplaced_loads(const model::BodyModel& model, const TrialSp
     found.push_back(
         {.code = RemarkCode::load_misplaced,
          .severity = Severity::warning,
-         .where = trial.name,
          .says = fmt::format("{}: '{}' is applied to {}, but acts {:.2g} m from it (median while loaded) and {:.2g} m "
                              "from {}; is applied_to_body right?",
                              file, loads[i].force->name, name(own), off(loads[i], own),

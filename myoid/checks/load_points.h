@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "myoid/core/remark.h"
-#include "myoid/intake/trial_input.h"
+#include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
+#include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
-#include "myoid/study/study.h"
 
 namespace myoid {
 
@@ -14,9 +15,13 @@ namespace myoid {
 /// its largest value or more). The distance from a body is the median distance from its nearest marker or, for a motion
 /// without markers, from the nearest of its markers, joints and center of mass in the model. It is an error if two
 /// forces are each nearer to the other's body (their feet are exchanged) or a force is more than 2 m away (wrong unit
-/// or axes). It is a warning if a force is more than 0.2 m from its own body and half as far from another.
+/// or axes). It is a warning if a force is more than 0.2 m from its own body and half as far from another. The motion
+/// holds the coordinates; markers come first where both are given, and without both nothing is said. `file` names the
+/// loads.
 [[nodiscard]] std::vector<Remark> misplaced_loads(const model::BodyModel& model,
-                                                  const TrialSpec& trial,
-                                                  const TrialInput& input);
+                                                  const dynamics::ExternalLoads& loads,
+                                                  const recording::MarkerSeries* markers,
+                                                  const TimeSeries* motion,
+                                                  const std::string& file);
 
 }  // namespace myoid

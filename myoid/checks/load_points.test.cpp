@@ -1,6 +1,7 @@
 #include "myoid/checks/load_points.h"
 
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -52,12 +53,13 @@ dynamics::LoadColumns columns(const Eigen::VectorXd& t, const Eigen::MatrixX3d& 
 /// Two seconds in which each foot is loaded for half a step; the center of pressure is 5 cm before its ankle.
 struct Walk {
   model::BodyModel model = walker();
-  TrialSpec trial;
-  TrialInput input;
+  struct {
+    std::optional<dynamics::ExternalLoads> loads;
+    std::optional<recording::MarkerSeries> markers;
+    std::optional<TimeSeries> motion;
+  } input;
 
   Walk() {
-    trial.name = "walk";
-    trial.external_loads = "grf.xml";
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);
     input.loads.emplace();
     for (const int foot : {2, 3}) {
@@ -91,7 +93,10 @@ struct Walk {
     input.markers = markers;
     input.motion.reset();
   }
-  [[nodiscard]] std::vector<Remark> findings() const { return misplaced_loads(model, trial, input); }
+  [[nodiscard]] std::vector<Remark> findings() const {
+    return misplaced_loads(model, *input.loads, input.markers ? &*input.markers : nullptr,
+                           input.motion ? &*input.motion : nullptr, "grf.xml");
+  }
 };
 
 TEST(MisplacedLoads, AreNoneWhereEveryForceActsUnderItsFoot) {

@@ -62,11 +62,16 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   std::ranges::move(found, std::back_inserter(of_trials_));
   auto sides = input.markers ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight) : std::nullopt;
   // Exchanged labels would put every force under the other foot.
-  found = sides ? std::vector<Remark>{*sides} : misplaced_loads(*model_, trial, input);
-  if (found.empty() && input.loads && (input.markers || input.motion))
-    found =
-        foreign_contacts(*model_, trial.name, *input.loads,
-                         {*model_, input.markers ? &*input.markers : nullptr, input.motion ? &*input.motion : nullptr});
+  found = sides ? std::vector<Remark>{*sides} : std::vector<Remark>{};
+  const recording::MarkerSeries* markers = input.markers ? &*input.markers : nullptr;
+  const TimeSeries* motion = input.motion ? &*input.motion : nullptr;
+  if (found.empty() && input.loads) {
+    found = misplaced_loads(*model_, *input.loads, markers, motion,
+                            trial.external_loads ? trial.external_loads->filename().string() : "the loads");
+    for (Remark& remark : found) remark.where = trial.name;
+  }
+  if (found.empty() && input.loads && (markers != nullptr || motion != nullptr))
+    found = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion});
   std::ranges::move(found, std::back_inserter(of_trials_));
   if (auto support = check_support(*study_, *model_, trial, input)) of_trials_.push_back(std::move(*support));
 }

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/arm/arm4.h"
+#include "myoid/checks/load_points.h"
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
 #include "myoid/model/path_survey.h"
@@ -168,6 +169,7 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                     "guessed by straight lines",
                     path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
+  for (const Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.warn(found.says);
   return loads;
 }
 
