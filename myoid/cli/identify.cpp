@@ -68,13 +68,23 @@ void print_samples(const identification::IdentificationResult& result,
              all, rate_hz, result.exact ? "" : " (--max-rate)");
 }
 
-/// Prints the errors of the fit: of the torque by trial and joint, or of the force by trial and muscle.
-void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
-  fmt::print("\n{:<34}{:>12}{:>10}\n", "fitted", torque ? "RMSE [N m]" : "RMSE [N]", "R2");
+bool any_held_back(const StudyData& data) {
+  return std::any_of(data.trials.begin(), data.trials.end(), [](const TrialData& trial) { return !trial.calibration; });
+}
+
+/// Prints the errors of the torque by trial and joint, or of the force by trial and muscle, of the trials that are
+/// fitted or of those that are held back.
+void print_errors(const identification::IdentificationResult& result,
+                  const StudyData& data,
+                  bool torque,
+                  bool fitted,
+                  const char* heading) {
+  fmt::print("\n{:<34}{:>12}{:>10}\n", heading, torque ? "RMSE [N m]" : "RMSE [N]", "R2");
   const auto row = [](const std::string& name, double rmse, double r2) {
     fmt::print("{:<34}{:>12.4g}{:>10}\n", name, rmse, identification::r2_text(r2));
   };
   for (const identification::TrialFit& t : result.trials) {
+    if (t.calibration != fitted) continue;
     if (torque) {
       row(t.joint == "joint" ? t.trial : t.trial + ", " + t.joint, t.score.rmse_nm(), t.score.r2());
       continue;
@@ -88,15 +98,23 @@ void print_fit(const identification::IdentificationResult& result, const StudyDa
       row(t.trial + ", " + data.muscles[k].name, s.rmse_nm(), s.r2());
     }
   }
+}
+
+void print_fit(const identification::IdentificationResult& result, const StudyData& data, bool torque) {
+  print_errors(result, data, torque, true, "fitted");
   fmt::print("{:<34}{:>12}{:>10}\n",
              result.method == "paper" ? "all, the least" : "all, below the fit's cut-off, least", "",
              identification::r2_text(result.r2));
+  if (any_held_back(data)) print_errors(result, data, torque, false, "held back, then predicted");
 }
 
 void print_folds(const std::vector<identification::Fold>& folds,
                  const std::string& why_not,
+                 bool held_back,
                  const commands::IdentifyOptions& o) {
-  if (!why_not.empty()) fmt::print("\nNothing was left out of the fit to be predicted: {}.\n", why_not);
+  if (!why_not.empty())
+    fmt::print("\n{} was left out of the fit to be predicted: {}.\n", held_back ? "No other trial" : "Nothing",
+               why_not);
   if (folds.empty()) return;
   const bool several = o.method == "force" || o.files.coordinates.size() > 1;
   fmt::print("\n{:<34}{:>12}{:>14}{:>10}{:>10}   {}\n", "left out of the fit, then predicted",
@@ -148,7 +166,7 @@ void print_identify(const commands::IdentifyResult& result, const commands::Iden
   print_result(result.fit, o.method != "paper" && !result.fit.exact && result.speed_may_be_free);
   print_samples(result.fit, result.data, o);
   print_fit(result.fit, result.data, o.method == "torque");
-  print_folds(result.folds, result.why_no_folds, o);
+  print_folds(result.folds, result.why_no_folds, any_held_back(result.data), o);
   for (const identification::BasinTable& searches : result.fit.basins) {
     fmt::print("\nSearches, {}:\n", searches.fit);
     print_basins(searches);

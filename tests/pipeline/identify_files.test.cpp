@@ -268,6 +268,24 @@ TEST(IdentifyFromFiles, WhatIsFixedStaysAndWhatIsBoundedStaysInside) {
   EXPECT_TRUE(bounded);
 }
 
+TEST(IdentifyFromFiles, ATrialThatIsHeldBackIsNotListedAsFitted) {
+  const TemporaryFolder folder;
+  const std::vector<Muscle> muscles = random_muscles(11);
+  for (int i = 1; i <= 2; ++i) write_trial(folder, muscles, i);
+  write_muscles(folder, muscles, false);
+  std::vector<std::string> arguments = command(folder, "torque", 2);
+  arguments.insert(arguments.end(), {"--validate", "2"});
+  const Finished run = myoid(arguments);
+  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
+  const std::size_t fitted = run.out.find("\nfitted "), one = run.out.find("\n1 (l1)"),
+                    held = run.out.find("\nheld back, then predicted"), two = run.out.find("\n2 (l2)");
+  ASSERT_NE(two, std::string::npos) << run.out;
+  EXPECT_LT(fitted, one) << run.out;
+  EXPECT_LT(one, held) << run.out;
+  EXPECT_LT(held, two) << run.out;
+  EXPECT_EQ(run.out.find("Nothing was left out"), std::string::npos) << run.out;
+}
+
 TEST(IdentifyFromFiles, ClocksThatDoNotMeetAreRefused) {
   const TemporaryFolder folder;
   const std::vector<Muscle> muscles = random_muscles(8);
