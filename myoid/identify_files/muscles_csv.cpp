@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameters.h"
@@ -193,6 +194,16 @@ Wishes read_wishes(const Row& row, const std::string& parameter) {
           .prior_sd = row.positive(parameter + "_prior_sd")};
 }
 
+/// Refuses a pennation beyond every muscle's, which most often is in degrees.
+void require_in_radians(const Row& row, const identification::ParameterField& field, const MuscleSetup& setup) {
+  const double angle_rad = setup.extras.pennation_angle_rad;
+  if (angle_rad >= field.bounds.lower && angle_rad <= field.bounds.upper) return;
+  row.fail(
+      fmt::format("muscle '{}': pennation_angle = {:g}, expected {:g} to {:g} rad; is it in degrees? Name the "
+                  "column pennation_angle [deg], or write {:.4g}",
+                  setup.name, angle_rad, field.bounds.lower, field.bounds.upper, angle_rad * kDegree));
+}
+
 /// Sets the parameter's bounds, and refuses a start outside if the method keeps to bounds.
 void set_bounds(const Row& row,
                 const identification::ParameterField& field,
@@ -258,6 +269,7 @@ void read_parameter(const Row& row,
     *extra = row.number(name).value_or(*extra);
     start = *extra;
   }
+  if (name == "pennation_angle") require_in_radians(row, field, setup);
   if (hill) start = setup.start.*muscle::hill_field(name).member;
   const Wishes wishes = read_wishes(row, name);
   set_bounds(row, field, wishes, start, within_bounds, setup);

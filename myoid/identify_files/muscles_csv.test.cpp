@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "myoid/core/units.h"
 #include "myoid/files/atomic_file.h"
 #include "myoid/muscle/literature.h"
 
@@ -62,6 +63,17 @@ TEST(MusclesCsv, WhatCannotBeMeantIsRefusedAtItsLine) {
             std::string::npos);
   EXPECT_NE(csv_message(kHeader + "\nBIC,,0.12,0.2,0.055,1.2,0.28,0.2,1.4\n").find("'BIC' has no max_isometric_force"),
             std::string::npos);
+}
+
+TEST(MusclesCsv, APennationInDegreesIsRefusedUnlessItsColumnSaysSo) {
+  const std::string row = "\n" + kBiceps + ",25\n";
+  const std::string said = csv_message(kHeader + ",pennation_angle" + row);
+  for (const char* part : {"muscles.csv:2", "'BIC'", "pennation_angle = 25, expected 0 to 1 rad", "[deg]", "0.4363"})
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  EXPECT_NE(csv_message(kHeader + ",pennation_angle\n" + kBiceps + ",-0.1\n").find("expected 0 to 1 rad"),
+            std::string::npos);
+  const MuscleTable table = table_of(kHeader + ",pennation_angle [deg]" + row);
+  EXPECT_NEAR(table.muscles.at(0).extras.pennation_angle_rad, 25.0 * kDegree, 1e-12);
 }
 
 TEST(MusclesCsv, AFileOfAnotherKindIsNamedAsThat) {

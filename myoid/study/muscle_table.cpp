@@ -1,7 +1,9 @@
 #include "myoid/study/muscle_table.h"
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,6 +30,15 @@ ChoiceNames parameter_names() {
     return list;
   }();
   return names;
+}
+
+/// Refuses a pennation beyond every muscle's, which most often is in degrees.
+void require_in_radians(std::string_view key, std::optional<double> angle_rad, SettingVisitor& v) {
+  const double most_rad = identification::parameter_field("pennation_angle").bounds.upper;
+  const double found = angle_rad.value_or(0.0);
+  v.must(found >= 0.0 && found <= most_rad, key,
+         fmt::format("found {:g}, expected 0 to {:g} rad; of an angle in degrees write {:.4g}", found, most_rad,
+                     found * kDegree));
 }
 
 /// Visits the starting values by the name of the muscle's parameter.
@@ -85,6 +96,10 @@ void visit(identification::ParameterRule& rule, SettingVisitor& v) {
   v.number("prior_mean", rule.prior_mean, {.says = "The value expected beforehand.", .limits = any_number()});
   v.number("prior_sd", rule.prior_sd, {.says = "The standard deviation of that expectation.", .limits = above_zero()});
   v.flag("tie", rule.tie, {.says = "One unknown for all: their ratios to the starting values are equal."});
+  if (rule.parameter == "pennation_angle") {
+    require_in_radians("value", rule.value, v);
+    require_in_radians("prior_mean", rule.prior_mean, v);
+  }
   v.must(!rule.lower || !rule.upper || *rule.lower < *rule.upper, "lower",
          fmt::format("found {}, not below upper = {}", rule.lower.value_or(0.0), rule.upper.value_or(0.0)));
 }

@@ -11,7 +11,9 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
+#include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
+#include "myoid/identification/parameter_fields.h"
 #include "myoid/muscle/literature.h"
 #include "myoid/osim/muscle_laws.h"
 #include "myoid/osim/osim_reader.h"
@@ -74,6 +76,11 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
   }
   const muscle::MusculotendonLaws laws = model::class_laws(p, muscle::TendonMode::equilibrium);
   const muscle::MusculotendonParameters<double> unit = model::musculotendon_parameters(p, laws);
+  if (unit.pennation_at_optimal_rad > identification::parameter_field("pennation_angle").bounds.upper)
+    throw ModelError(
+        fmt::format("muscle '{}': pennation_angle_at_optimal = {:g} rad, expected 0 to 1 rad; of an angle "
+                    "in degrees write {:.4g}",
+                    muscle.name, unit.pennation_at_optimal_rad, unit.pennation_at_optimal_rad * kDegree));
   return {.pennation_angle_rad = unit.pennation_at_optimal_rad,
           .passive_force = laws.passive == muscle::PassiveLaw::none ? 0.0 : 1.0,
           .passive_strain = unit.passive_strain,
