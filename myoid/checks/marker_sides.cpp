@@ -5,12 +5,15 @@
 #include <cctype>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
 #include "myoid/intake/limits.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/recording/laboratory_up.h"
+#include "myoid/study/trial_up.h"
 
 namespace myoid {
 namespace {
@@ -50,6 +53,45 @@ double rms_m(const model::BodyModel& model,
   return kinematics::inverse_kinematics(model, frame, {.marker_weights = weights}).errors.column("marker_error_RMS")[0];
 }
 
+std::string file_of(const TrialSpec& trial) {
+  return trial.markers ? trial.markers->filename().string() : "the markers";
+}
+
+/// Returns true for a distance from the model that is good, and far better than as read.
+bool much_better(double then_m, double now_m) {
+  return then_m < kLimits.sides_better * now_m && then_m <= kLimits.sides_m;
+}
+
+/// Markers in another place, and how the file is read so.
+struct Reading {
+  RemarkCode code = RemarkCode::vertical_across_trunk;
+  recording::MarkerSeries frame;
+  std::string by, remedy;
+};
+
+/// Returns a frame with each other axis up, and its mirror images by the planes of the model's ground.
+std::vector<Reading> other_readings(const model::BodyModel& model,
+                                    const recording::MarkerSeries& frame,
+                                    const Vec3& up_L) {
+  std::vector<Reading> others;
+  const recording::MarkerSeries laboratory = recording::rotated(frame, rotation_onto(model, up_L).transpose());
+  for (const char* up : {"x", "y", "z"}) {
+    if (up == recording::axis_name(up_L)) continue;
+    const Mat3 turn = rotation_onto(model, *recording::axis_vector(up));
+    others.push_back({RemarkCode::vertical_across_trunk, recording::rotated(laboratory, turn),
+                      fmt::format("with {} up", up), fmt::format("[markers] up = \"{}\"", up)});
+  }
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Reading mirrored{RemarkCode::sides_exchanged, frame, "as their mirror image",
+                     "if they are of the other side of the body, use that side's model; else one axis of the file is "
+                     "reversed: export it from a right-handed laboratory"};
+    for (Eigen::Index c = axis; c < mirrored.frame.positions_m.cols(); c += 3)
+      mirrored.frame.positions_m.col(c) *= -1.0;
+    others.push_back(std::move(mirrored));
+  }
+  return others;
+}
+
 }  // namespace
 
 std::optional<std::string> other_side(const std::string& label) {
@@ -86,15 +128,45 @@ std::optional<Remark> exchanged_sides(const model::BodyModel& model,
     const double now = rms_m(model, one_frame(markers), weights);
     if (!(now > kLimits.sides_m)) return std::nullopt;
     const double then = rms_m(model, one_frame(exchanged), weights);
-    if (!(then < kLimits.sides_better * now) || then > kLimits.sides_m) return std::nullopt;
-    return Remark{
-        .code = RemarkCode::sides_exchanged,
-        .severity = Severity::error,
-        .where = trial.name,
-        .about = "left, right",
-        .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm with the labels of left "
-                            "and right exchanged: exchange them in the file, or by [markers] rename",
-                            trial.markers ? trial.markers->filename().string() : "the markers", 1e3 * now, 1e3 * then)};
+    if (!much_better(then, now)) return std::nullopt;
+    return Remark{.code = RemarkCode::sides_exchanged,
+                  .severity = Severity::error,
+                  .where = trial.name,
+                  .about = "left, right",
+                  .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's, and {:.0f} mm "
+                                      "with the labels of left and right exchanged: exchange them in the "
+                                      "file, or by [markers] rename",
+                                      file_of(trial), 1e3 * now, 1e3 * then)};
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // the comparison of markers with the model reports this
+  }
+}
+
+std::optional<Remark> turned_markers(const model::BodyModel& model,
+                                     const TrialSpec& trial,
+                                     const recording::MarkerSeries& markers,
+                                     const Vec3& up_L,
+                                     const std::map<std::string, double>& weights) {
+  try {
+    const recording::MarkerSeries frame = one_frame(markers);
+    const double now = rms_m(model, frame, weights);
+    if (!(now > kLimits.sides_m)) return std::nullopt;
+    std::optional<Reading> best;
+    double least = now;
+    for (Reading& reading : other_readings(model, frame, up_L)) {
+      const double then = rms_m(model, reading.frame, weights);
+      if (!(then < least) || !much_better(then, now)) continue;
+      least = then;
+      best = std::move(reading);
+    }
+    if (!best) return std::nullopt;
+    return Remark{.code = best->code,
+                  .severity = Severity::error,
+                  .where = trial.name,
+                  .about = best->by,
+                  .says = fmt::format("{}: the markers lie {:.0f} mm rms from the model's with {} up, and {:.0f} mm {}",
+                                      file_of(trial), 1e3 * now, recording::axis_name(up_L), 1e3 * least, best->by),
+                  .remedy = best->remedy};
   } catch (const InvalidInput&) {
     return std::nullopt;  // the comparison of markers with the model reports this
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "myoid/core/geometry.h"
 #include "myoid/core/remark.h"
 #include "myoid/files/marker_series.h"
 #include "myoid/model/body_model.h"
@@ -21,5 +22,14 @@ namespace myoid {
                                                     const TrialSpec& trial,
                                                     const recording::MarkerSeries& markers,
                                                     const std::map<std::string, double>& weights);
+
+/// Returns an error if that frame lies more than 40 mm rms from the model, and less than half of that and less than
+/// 40 mm with another axis of the laboratory up, or as its mirror image. `up_L` is the axis by which the markers were
+/// turned on reading.
+[[nodiscard]] std::optional<Remark> turned_markers(const model::BodyModel& model,
+                                                   const TrialSpec& trial,
+                                                   const recording::MarkerSeries& markers,
+                                                   const Vec3& up_L,
+                                                   const std::map<std::string, double>& weights);
 
 }  // namespace myoid

@@ -4,7 +4,13 @@
 #include <map>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "myoid/recording/laboratory_up.h"
+#include "myoid/study/trial_up.h"
+
+#include "tests/support/written_trial.h"
 
 namespace myoid {
 namespace {
@@ -131,6 +137,56 @@ TEST(ExchangedSides, AMarkerWithoutWeightDecidesNothing) {
   EXPECT_FALSE(e.said());
   e.weights["nose"] = 0.0;
   EXPECT_TRUE(e.said());
+}
+
+/// The markers of the built-in arm with a bent elbow, in the model's ground.
+recording::MarkerSeries arm_markers() {
+  const model::BodyModel& arm = test_trials::arm();
+  Eigen::VectorXd q = arm.default_q();
+  q[arm.coordinate_index("elbow_flexion")] = 1.2;
+  model::BodyState state = model::make_state(arm);
+  model::compute_poses(arm, q, state);
+  recording::MarkerSeries markers;
+  markers.time_s = Eigen::VectorXd::Zero(1);
+  markers.positions_m.resize(1, static_cast<Eigen::Index>(3 * arm.markers.size()));
+  for (std::size_t m = 0; m < arm.markers.size(); ++m) {
+    markers.names.push_back(arm.markers[m].name);
+    markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3) =
+        (state.X_GB[static_cast<std::size_t>(arm.markers[m].body)] * arm.markers[m].p_BM).transpose();
+  }
+  return markers;
+}
+
+TEST(TurnedMarkers, OfAnArmAreToldByTheAxisThatIsUp) {
+  const model::BodyModel& arm = test_trials::arm();
+  TrialSpec trial;
+  trial.markers = "slow.trc";
+  EXPECT_FALSE(turned_markers(arm, trial, arm_markers(), Vec3::UnitY(), {}));
+  for (const auto& [name, axis] : {std::pair{"z", Vec3::UnitZ()}, {"x", Vec3::UnitX()}}) {
+    // Written with this axis up, and read as if y were up.
+    const auto file = recording::rotated(arm_markers(), rotation_onto(arm, axis).transpose());
+    const auto found = turned_markers(arm, trial, file, Vec3::UnitY(), {});
+    ASSERT_TRUE(found) << name;
+    EXPECT_EQ(found->severity, Severity::error);
+    EXPECT_EQ(found->remedy, fmt::format("[markers] up = \"{}\"", name)) << sentence(*found);
+    EXPECT_NE(found->says.find("slow.trc"), std::string::npos) << found->says;
+  }
+}
+
+TEST(TurnedMarkers, OfTheOtherArmAreAMirrorImage) {
+  recording::MarkerSeries left = arm_markers();
+  for (Eigen::Index c = 2; c < left.positions_m.cols(); c += 3) left.positions_m.col(c) *= -1.0;
+  const auto found = turned_markers(test_trials::arm(), {}, left, Vec3::UnitY(), {});
+  ASSERT_TRUE(found);
+  EXPECT_NE(sentence(*found).find("mirror image; if they are of the other side of the body, use that side's model"),
+            std::string::npos)
+      << sentence(*found);
+}
+
+TEST(TurnedMarkers, ThatFitNoWayAreNotGuessedAt) {
+  recording::MarkerSeries far = arm_markers();
+  far.positions_m *= 3.0;
+  EXPECT_FALSE(turned_markers(test_trials::arm(), {}, far, Vec3::UnitY(), {}));
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "myoid/checks/fiber_room.h"
 #include "myoid/checks/foreign_contacts.h"
 #include "myoid/checks/load_points.h"
 #include "myoid/checks/marker_sides.h"
+#include "myoid/checks/model_mass.h"
 #include "myoid/checks/study_muscles.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/ground_support.h"
@@ -61,6 +63,8 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
   std::vector<Remark> found = implausible(*study_, *model_, capacities_, trial, input);
   std::ranges::move(found, std::back_inserter(of_trials_));
   auto sides = input.markers ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight) : std::nullopt;
+  if (!sides && input.markers)
+    sides = turned_markers(*model_, trial, *input.markers, input.up_L, study_->markers.weight);
   // Exchanged labels would put every force under the other foot.
   found = sides ? std::vector<Remark>{*sides} : std::vector<Remark>{};
   const recording::MarkerSeries* markers = input.markers ? &*input.markers : nullptr;
@@ -93,7 +97,8 @@ std::vector<Remark> StudyPlausibility::findings() const {
     }
   }
   for (std::vector<Remark> more :
-       {shared_muscles(*study_), idle_muscles(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
+       {shared_muscles(*study_), idle_muscles(*study_, *model_), tendons_too_long(*study_, *model_),
+        unlikely_mass(*study_, *model_), same, grouped(unlike_lengths(lengths_))})
     std::ranges::move(more, std::back_inserter(found));
   return found;
 }

@@ -180,14 +180,18 @@ double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values) {
 std::string too_much_torque(const std::string& coordinate,
                             double peak_nm,
                             double greatest_nm,
-                            const std::string& what_it_is) {
+                            const std::string& what_it_is,
+                            TorqueSource source) {
   if (!(peak_nm > greatest_nm)) return {};
+  const char* remedy =
+      source == TorqueSource::computed
+          ? ""
+          : (peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
+                                            : "; correct its unit (N m)");
   return fmt::format(
-      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there in this model, "
-      "{:.3g} N m{}",
-      what_it_is, peak_nm, coordinate, greatest_nm,
-      peak_nm < 1000.0 * greatest_nm ? "; is it in N mm? Divide by 1000 (Myoid's torques are in N m)"
-                                     : "; correct its unit (N m)");
+      "{} reaches {:.4g} N m at {}, beyond what the strongest person's muscles and weight do there "
+      "in this model, {:.3g} N m{}",
+      what_it_is, peak_nm, coordinate, greatest_nm, remedy);
 }
 
 std::vector<Remark> implausible(const Study& study,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/checks/fiber_room.h"
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
@@ -23,7 +24,6 @@ using identification::TrialData;
 
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
-constexpr double kShortestFiber = 0.1, kLongestFiber = 3.0;  ///< in optimal lengths
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
 constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
@@ -123,16 +123,12 @@ class TrialCheck {
         lengths_without_tendon(k, typical, found);
         continue;
       }
-      const double fiber = typical - start.tendon_slack_length_m;
-      if (fiber <= 0.0)
-        fail(files_.lengths, fmt::format("{} and tendon_slack_length {:.4g} m leave no fiber; are these fiber lengths? "
-                                         "Then leave tendon_slack_length empty in muscles.csv",
-                                         found, start.tendon_slack_length_m));
-      const double relative = fiber / start.optimal_fiber_length_m;
-      if (relative < kShortestFiber || relative > kLongestFiber)
-        remark(files_.lengths, fmt::format("fibers of {} are {:.2g} times their optimal length of {:.4g} m, expected "
-                                           "about 1; check tendon_slack_length and optimal_fiber_length in muscles.csv",
-                                           muscle(k), relative, start.optimal_fiber_length_m));
+      const FiberRoom room = fiber_room(muscle(k), typical, start.tendon_slack_length_m, start.optimal_fiber_length_m);
+      if (room.none)
+        fail(files_.lengths,
+             room.says + "; are these fiber lengths? Then leave tendon_slack_length empty in muscles.csv");
+      if (!room.says.empty())
+        remark(files_.lengths, room.says + "; check tendon_slack_length and optimal_fiber_length in muscles.csv");
     }
   }
 

@@ -27,6 +27,15 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                   fmt::format("its moment arms about all coordinates of the study are below {:g} mm over their whole "
                               "range: the other side's? A warning if only some of the `osim` list are such muscles",
                               1000.0 * l.least_arm_m)});
+  rows.push_back({"a tendon as long as its muscle with it", "error",
+                  fmt::format("at no angle in the range of the study's coordinates is the path longer than "
+                              "`tendon_slack_length`: the muscle makes no force. A warning if the fibers are nowhere "
+                              "{:g} to {:g} times their optimal length",
+                              l.shortest_fiber, l.longest_fiber)});
+  rows.push_back({"masses of the model", "error or warning",
+                  fmt::format("an error above {:g} kg (grams?); a warning below {:g} kg, and above {:g} times "
+                              "`[subject] mass_kg`. A model of a part of the body is lighter than the person",
+                              l.heaviest_kg, l.lightest_kg, l.heavier_than)});
   rows.push_back({"envelopes that are called raw EMG", "error",
                   "every used channel is an envelope by the limit of `emg_envelope` above"});
   rows.push_back({"raw EMG that is called an envelope or an activation", "error",
@@ -119,6 +128,11 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
                               "as labelled, and with the labels of both sides exchanged less than {1:g} % of that and "
                               "less than {0:g} mm (at least {2} pairs: `R.Knee`, `RASI`, `knee_r`, `RightHeel`)",
                               1000.0 * l.sides_m, percent(l.sides_better), l.sides_pairs)});
+  rows.push_back({"another axis up, or a mirror image", "error",
+                  fmt::format("that frame is more than {0:g} mm rms from the model as read, and less than {1:g} % of "
+                              "that and less than {0:g} mm with another axis up, or mirrored (markers of the other "
+                              "side). A model with a free base fits with any axis up: the next row",
+                              1000.0 * l.sides_m, percent(l.sides_better))});
   rows.push_back({"the vertical lies across the trunk", "warning",
                   fmt::format("markers of the body on the ground joint are more than {:.0f} degrees from upright by "
                               "`[markers] up`, and less than {:.0f} by another axis",
@@ -156,10 +170,12 @@ void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) 
                    degrees_of(l.floor_cosine), l.two_steps_m)});
   rows.push_back(
       {"a foot beside the plates", "warning",
-       fmt::format("for {:g} s or more, the forces on the ground are below {:g} % of the weight, although they "
-                   "otherwise carry {:g} % of it and the body does not fall (by {:g} g or more). `run` detects this by "
-                   "the load that the joint to the ground would bear (half of the weight) and does not fit those times",
-                   l.unloaded_s, percent(l.bears_nothing), percent(l.bears), l.falls)});
+       fmt::format(
+           "for {:g} s or more, the forces on the ground are below {:g} % of the weight, although they "
+           "otherwise carry {:g} % of it and the body does not fall (by {:g} g or more); the times told reach to where "
+           "they carry three quarters of it. `run` detects this by the load that the joint to the ground would bear "
+           "(half of the weight) and does not fit those times",
+           l.unloaded_s, percent(l.bears_nothing), percent(l.bears), l.falls)});
   rows.push_back(
       {"nothing carries the body", "warning",
        "the model is a whole person on a free joint, the study concerns a leg's joint, and no force is measured"});
@@ -196,7 +212,8 @@ std::vector<PlausibilityRow> gate_rows(const GateLimits& l) {
       {"a reservation of the fit", "warning",
        "any: several minima, a wrong model, or motion that tells the torque without EMG"},
       {"an outlier among the trials left out", "warning",
-       fmt::format("its error is more than {:g} robust deviations from the others', and {:g} times their median",
+       fmt::format("its error, in N m or as a share of its torque's spread, is more than {:g} robust deviations "
+                   "(of logarithms) above the others', {:g} times their median in N m, and its R² is below theirs",
                    l.far_fold, l.larger_fold)},
       {"two electrodes that seem to be exchanged", "warning; fails",
        fmt::format("the gate's message has the figures; fails if R² with the given names is {:g} or less", l.explains)},

@@ -11,6 +11,11 @@ struct PlausibilityLimits {
   // One recording and its copies.
   double same_samples = 0.1;  ///< Share of equal samples from which two recordings are one.
   double least_arm_m = 1e-4;  ///< A muscle with smaller moment arms does not cross the joint.
+  // The model: lengths of fibers in optimal ones, the mass of the bodies.
+  double shortest_fiber = 0.1, longest_fiber = 3.0;
+  double heaviest_kg = 500.0;  ///< No person weighs more.
+  double heavier_than = 1.2;   ///< Ratio of the model's mass to the person's; clothes and shoes weigh less.
+  double lightest_kg = 0.1;    ///< A model of a hand is heavier.
   // EMG.
   double no_converter_v = 1e8;        ///< More than the counts of a converter of 24 bits.
   double slowest_raw_emg_hz = 800.0;  ///< Raw EMG reaches 400 Hz.

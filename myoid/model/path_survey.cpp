@@ -180,6 +180,15 @@ Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordi
   return arms;
 }
 
+Eigen::VectorXd lengths_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps) {
+  const CoordinateRange range = usual_range(model.coordinates[at(coordinate)]);
+  Sweep sweep(model, muscle, coordinate);
+  Eigen::VectorXd lengths(steps + 1);
+  for (int step = 0; step <= steps; ++step)
+    lengths[step] = sweep.at(range.lower + (range.upper - range.lower) * step / steps).length_m;
+  return lengths;
+}
+
 std::string describe(const BodyModel& model, const PathJump& jump) {
   const Coordinate& c = model.coordinates[at(jump.coordinate)];
   const bool is_angle = c.motion == MotionType::rotational;

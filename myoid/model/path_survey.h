@@ -60,6 +60,9 @@ struct PathJump {
 /// it move along, as in OpenSim (coupling_matrix in constraints.h).
 [[nodiscard]] Eigen::VectorXd arms_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps);
 
+/// Returns the muscle's lengths at the places of `arms_over_range_m`.
+[[nodiscard]] Eigen::VectorXd lengths_over_range_m(const BodyModel& model, int muscle, int coordinate, int steps);
+
 /// Describes the jump in a sentence: muscle, coordinate, place and size.
 [[nodiscard]] std::string describe(const BodyModel& model, const PathJump& jump);
 

@@ -93,7 +93,7 @@ std::optional<Gate> torque_gate(const StudyResult& result) {
       if (!column) continue;
       const double greatest = capacity.greatest_nm();
       const std::string text = too_much_torque(name, usual_peak(t.forces.muscle_torque.values().col(*column)), greatest,
-                                               fmt::format("the torque in '{}'", t.spec.name));
+                                               fmt::format("the torque in '{}'", t.spec.name), TorqueSource::computed);
       if (text.empty()) continue;
       return Gate{"Torques that a joint can make", GateStatus::fail, text, fmt::format("at most {:.3g} N m", greatest),
                   "Masses, loads or their units are wrong, or the clock of the motion is."};

@@ -1,0 +1,50 @@
+#include "myoid/checks/model_mass.h"
+
+#include <gtest/gtest.h>
+
+namespace myoid {
+namespace {
+
+model::BodyModel of_mass(double mass_kg) {
+  model::BodyModel model;
+  model.bodies = {
+      {.name = "ground"}, {.name = "trunk", .mass_kg = 0.9 * mass_kg}, {.name = "arm", .mass_kg = 0.1 * mass_kg}};
+  return model;
+}
+
+std::vector<Remark> found(double model_kg, std::optional<double> person_kg) {
+  Study study;
+  study.subject.mass_kg = person_kg;
+  return unlikely_mass(study, of_mass(model_kg));
+}
+
+TEST(UnlikelyMass, OfAPersonOrOfAPartOfThePersonIsNone) {
+  for (const double model_kg : {73.0, 85.0, 40.0, 4.0, 0.5}) {
+    EXPECT_TRUE(found(model_kg, 73.0).empty()) << model_kg;
+    EXPECT_TRUE(found(model_kg, std::nullopt).empty()) << model_kg;
+  }
+}
+
+TEST(UnlikelyMass, InGramsIsAnError) {
+  for (const std::optional<double> person_kg : {std::optional(73.0), std::optional<double>()}) {
+    const std::vector<Remark> said = found(40106.0, person_kg);
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0].severity, Severity::error);
+    EXPECT_NE(sentence(said[0]).find("in grams?"), std::string::npos) << sentence(said[0]);
+  }
+}
+
+TEST(UnlikelyMass, OfAHeavierBodyThanThePersonsIsAWarning) {
+  const std::vector<Remark> said = found(85.27, 40.0);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].severity, Severity::warning);
+  EXPECT_NE(said[0].says.find("85.27 kg, 2.13 times the person's 40 kg"), std::string::npos) << said[0].says;
+}
+
+TEST(UnlikelyMass, OfNoHandIsAWarning) {
+  ASSERT_EQ(found(0.04, 73.0).size(), 1U);
+  EXPECT_EQ(found(0.04, 73.0)[0].severity, Severity::warning);
+}
+
+}  // namespace
+}  // namespace myoid
