@@ -128,10 +128,10 @@ std::vector<std::string> warnings_of(const IdentificationResult& result,
         "the strengths to be taken out: they may come out too weak, above all where muscles work against each other");
   }
   if (result.r2 < kVerdictRules.least_r2) {
-    warnings.push_back(
-        fmt::format("the fit explains little of what it was fitted to (R2 {:.2f}): no number is called identified; "
-                    "look for a wrong sign, unit, order of files or column",
-                    result.r2));
+    warnings.push_back(fmt::format(
+        "the fit explains little of the fitted samples (R2 {:.2f}, of the joint that is explained least, without the "
+        "ends of the trials): no number is called identified; look for a wrong sign, unit, order of files or column",
+        result.r2));
   }
   if (result.model_error > kVerdictRules.model_error) {
     warnings.push_back(fmt::format(

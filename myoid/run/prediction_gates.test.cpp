@@ -74,6 +74,17 @@ TEST(FitGates, WhatIsWorseThanAnUnrelatedTorqueFails) {
   }
 }
 
+TEST(FitGates, AFitThatExplainsLittleOfItsSamplesDoesNotDescribeThem) {
+  IdentificationResult fit;
+  fit.trials = {trial(2.0, 1.0, 0.3, true)};
+  fit.r2 = 0.4;
+  const Gate gate = fit_gates(fit)[0];
+  EXPECT_EQ(gate.status, GateStatus::warn);
+  EXPECT_NE(gate.value.find("R2 0.40 of the fitted samples"), std::string::npos) << gate.value;
+  fit.r2 = 0.6;
+  EXPECT_EQ(fit_gates(fit)[0].status, GateStatus::pass);
+}
+
 TEST(FitGates, AMuscleThatLeftTheLiteratureIsNamed) {
   IdentificationResult fit;
   fit.prior_distances = {{"BIC", 1.2, "max_isometric_force", 2.1}, {"TRI", 2.0, "force_length_width", 2.9}};
@@ -122,6 +133,26 @@ TEST(OutlyingFolds, OneThatIsPredictedWorseThanTheOthersIsNamed) {
   EXPECT_EQ(found[0].trial, "wrong");
   EXPECT_NEAR(found[0].usual_rms_nm, std::sqrt(1.20 * 1.25), 1e-9);
   EXPECT_EQ(status_of(fold_gates(folds), "Trials alike"), GateStatus::warn);
+}
+
+TEST(OutlyingFolds, OneAmongEffortsOfSeveralSizesIsNamedByTheShareOfItsTorque) {
+  // Errors of 10 to 20 % of efforts of several sizes scatter fivefold in N m. One trial has exchanged electrodes.
+  std::vector<Fold> folds;
+  const double amplitudes[] = {10.0, 30.0, 20.0, 15.0, 20.0, 4.0, 5.0, 6.0};
+  const double shares[] = {0.12, 0.13, 0.11, 0.2, 0.15, 0.2, 0.18, 0.1};
+  for (std::size_t i = 0; i < 8; ++i) folds.push_back(fold("t", amplitudes[i], amplitudes[i] * shares[i]));
+  EXPECT_TRUE(outlying_folds(folds).empty());
+  folds.push_back(fold("exchanged", 4.0, 8.0));
+  const std::vector<OutlyingFold> found = outlying_folds(folds);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].trial, "exchanged");
+}
+
+TEST(OutlyingFolds, ASmallErrorOfATorqueThatHardlyChangesIsNone) {
+  std::vector<Fold> folds;
+  for (const double error : {0.84, 1.17, 1.20, 1.25, 1.32}) folds.push_back(fold("t", 3.0, error));
+  folds.push_back(fold("held still", 0.1, 1.3));
+  EXPECT_TRUE(outlying_folds(folds).empty());
 }
 
 TEST(OutlyingFolds, AHeavierTrialThatIsPredictedAsWellIsNone) {
