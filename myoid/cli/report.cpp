@@ -36,10 +36,11 @@ void report_run(Context& context, commands::ReportOptions& run, const MatOption&
 
 void report_group(Context& context, const Wishes& wishes) {
   context.prepare_folder(wishes.out);
-  report::write_report(cohort::group_report({.persons = {wishes.persons.begin(), wishes.persons.end()},
-                                             .after = {wishes.after.begin(), wishes.after.end()},
-                                             .folder = wishes.out}),
-                       wishes.out);
+  const report::Report page = cohort::group_report({.persons = {wishes.persons.begin(), wishes.persons.end()},
+                                                    .after = {wishes.after.begin(), wishes.after.end()},
+                                                    .folder = wishes.out});
+  for (const report::Gate& gate : page.gates) context.warn(gate.value);
+  report::write_report(page, wishes.out);
   print_page(wishes.out, context);
 }
 

@@ -77,7 +77,7 @@ void add_questions(const json& report, std::vector<Quality>& quality) {
 void add_fit(const json& parameters, std::vector<Quality>& quality) {
   for (const json& method : parameters.at("methods")) {
     if (method.at("method") == "torque" && method.at("r2").is_number())
-      quality.push_back({"R2 of the fit", "", method.at("r2").get<double>(), ""});
+      quality.push_back({"R2 of the fitted samples", "", method.at("r2").get<double>(), ""});
   }
   std::vector<double> r2, rmse_nm;
   for (const json& fold : parameters.value("leave_one_trial_out", json::array())) {
@@ -98,7 +98,8 @@ void add_markers(const fs::path& folder, std::vector<Quality>& quality) {
     const Eigen::VectorXd rms = series.column("marker_error_RMS");
     errors_mm.push_back(1000.0 * math::median({rms.begin(), rms.end()}));
   }
-  if (!errors_mm.empty()) quality.push_back({"marker error", "mm", math::median(std::move(errors_mm)), ""});
+  if (!errors_mm.empty())
+    quality.push_back({"marker error, median frame", "mm", math::median(std::move(errors_mm)), ""});
 }
 
 /// Finds the folders of runs in this one, in the order of their names.
@@ -221,10 +222,12 @@ std::vector<GroupPerson> read_group_persons(const std::vector<fs::path>& folders
   for (const fs::path& folder : folders)
     if (!add_virtual_persons(folder, persons)) others.push_back(folder);
   for (const GroupRun& run : group_runs(others))
-    persons.push_back({.name = run.name,
-                       .page = page_of(run, page_folder),
-                       .numbers = group_numbers(recording::read_csv_table(run.folder / "parameters.csv")),
-                       .quality = run_quality(run.folder)});
+    persons.push_back(
+        {.name = run.name,
+         .page = page_of(run, page_folder),
+         .numbers = group_numbers(recording::read_csv_table(run.folder / "parameters.csv")),
+         .quality = run_quality(run.folder),
+         .identity = fs::exists(run.folder / "parameters.json") ? read_run_identity(run.folder) : RunIdentity{}});
   return persons;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "myoid/study/run_identity.h"
 #include "myoid/tables/csv_reader.h"
 
 namespace myoid::cohort {
@@ -33,6 +34,7 @@ struct GroupPerson {
   std::string page;  ///< The person's report, relative to the group's; empty: none.
   std::vector<GroupNumber> numbers;
   std::vector<Quality> quality;
+  RunIdentity identity = {};  ///< Of a run; unknown for a virtual person.
 };
 
 /// Returns the numbers of method torque, or of the first method where torque was not asked for.
@@ -40,8 +42,8 @@ struct GroupPerson {
 [[nodiscard]] std::vector<GroupNumber> group_numbers(const recording::CsvTable& parameters);
 
 /// Returns the quality of the run in this folder, each number as far as the run has it: questions that were not
-/// answered well (report.json), R2 of the fit and, as medians over trials, R2 and torque error of the trials left out
-/// (parameters.json), marker error (ik_marker_errors.sto of the trials). Throws ReadError for a damaged file.
+/// answered well (report.json), R2 of the fitted samples and, as medians over trials, R2 and torque error of the trials
+/// left out (parameters.json), marker error (ik_marker_errors.sto of the trials). Throws ReadError for a damaged file.
 [[nodiscard]] std::vector<Quality> run_quality(const std::filesystem::path& folder);
 
 /// A run of a group.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +65,31 @@ std::string change_sentence(const std::vector<PersonChange>& changes) {
   return fmt::format("{}{}.", fmt::join(found, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
+/// Returns a warning if persons are not of one kind: other joints or muscles, or one recording in two runs. Each person
+/// is compared with the first, recordings with all before.
+std::optional<report::Gate> kind_gate(const std::vector<GroupPerson>& persons) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> found;
+  for (std::size_t i = 1; i < persons.size(); ++i) {
+    for (std::size_t before = 0; before < i; ++before) {
+      const IdentityDifferences unlike =
+          differences(persons[before].identity, persons[i].identity, Whose::several_persons);
+      std::vector<std::string> texts = unlike.grave;
+      texts.insert(texts.end(), unlike.other.begin(), unlike.other.end());
+      if (texts.empty()) continue;
+      found.push_back(fmt::format("{} and {}: {}", persons[before].name, persons[i].name, fmt::join(texts, "; ")));
+      break;
+    }
+  }
+  if (found.empty()) return std::nullopt;
+  const std::size_t more = found.size() - std::min(found.size(), kNamed);
+  found.resize(found.size() - more);
+  return report::Gate{"Persons of one kind", report::GateStatus::warn,
+                      fmt::format("{}{}", fmt::join(found, "; "), more > 0 ? fmt::format("; and {} more", more) : ""),
+                      "the same coordinates and muscles, and no recording twice",
+                      "Medians, spreads and outliers mean nothing among persons of several kinds."};
+}
+
 }  // namespace
 
 report::Report group_report(const GroupReportOptions& options) {
@@ -83,6 +109,7 @@ report::Report group_report(const GroupReportOptions& options) {
     page.sections.push_back(change_section(changes));
   }
   page.sections.push_back(std::move(beside.persons));
+  if (std::optional<report::Gate> gate = kind_gate(persons)) page.gates.push_back(std::move(*gate));
   page.provenance = {{"program", fmt::format("myoid {}", version())}};
   for (const std::filesystem::path& folder : options.persons) page.provenance.push_back({"persons", folder.string()});
   for (const std::filesystem::path& folder : options.after)

@@ -10,6 +10,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
+#include "myoid/files/text_file.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -62,10 +63,10 @@ TEST(GroupReport, HasTheRunsOfAFolderWithLinksAndQuality) {
   EXPECT_EQ(quality.rows[0].person, "one");
   EXPECT_EQ(quality.rows[1].page, "../../persons/two/result/report.html");
   EXPECT_EQ(value(quality, 0, "questions not passed"), 1.0);
-  EXPECT_EQ(value(quality, 0, "R2 of the fit"), 0.75);
+  EXPECT_EQ(value(quality, 0, "R2 of the fitted samples"), 0.75);
   EXPECT_EQ(value(quality, 0, "R2 of trials left out"), 0.6);
   EXPECT_EQ(value(quality, 0, "torque error, left out"), 2.0);
-  EXPECT_NEAR(value(quality, 0, "marker error"), 4.0, 1e-12);
+  EXPECT_NEAR(value(quality, 0, "marker error, median frame"), 4.0, 1e-12);
   EXPECT_EQ(value(page.sections[0].grids.at(1), 1, "BIC"), 700.0);
 }
 
@@ -94,6 +95,33 @@ TEST(GroupReport, OfTwoSessionsHasTheChangeAndTheSmallestThatShows) {
   EXPECT_TRUE(page.headline.starts_with("P150: ")) << page.headline;
   EXPECT_NE(page.headline.find("is stronger by 150 N (25 %)."), std::string::npos) << page.headline;
   EXPECT_EQ(page.headline.find("P30: "), std::string::npos) << page.headline;
+}
+
+/// Adds what a run of this coordinate and recording says of itself.
+void add_provenance(const fs::path& folder, const std::string& coordinate, const std::string& sha256) {
+  std::string json = recording::read_text_file(folder / "parameters.json");
+  json.insert(1, fmt::format(R"("provenance": {{"options": {{"model": {{"builtin": "arm4", "coordinate": ["{}"]}},
+                                "muscle": [{{"name": "BIC"}}]}},
+                                "inputs": [{{"path": "x/slow.trc", "sha256": "{}"}}]}}, )",
+                             coordinate, sha256));
+  recording::write_file(folder / "parameters.json", json);
+}
+
+TEST(GroupReport, NamesPersonsWhoAreNotOfOneKind) {
+  const test::TemporaryFolder folder;
+  const fs::path anna = run(folder / "anna", 600), bernd = run(folder / "bernd", 700), knee = run(folder / "knee", 900);
+  add_provenance(anna, "elbow_flexion", "11");
+  add_provenance(bernd, "elbow_flexion", "22");
+  add_provenance(knee, "knee_angle_r", "33");
+  EXPECT_TRUE(group_report({.persons = {anna, bernd}, .after = {}, .folder = "x"}).gates.empty());
+  const auto said = [&](const fs::path& third) {
+    const report::Report page = group_report({.persons = {anna, bernd, third}, .after = {}, .folder = "x"});
+    return page.gates.empty() ? std::string() : page.gates[0].value;
+  };
+  EXPECT_THAT(said(knee), HasSubstr("anna and knee: the coordinate is elbow_flexion here, knee_angle_r there"));
+  fs::create_directories(folder / "again");
+  fs::copy(bernd, folder / "again/bernd", fs::copy_options::recursive);
+  EXPECT_THAT(said(folder / "again/bernd"), HasSubstr("both rest on the recording slow.trc"));
 }
 
 TEST(GroupReport, SaysWhatIsMissing) {

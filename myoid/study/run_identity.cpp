@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/core/json_text.h"
 #include "myoid/core/provenance.h"
+#include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
 #include "myoid/study/study_text.h"
 
@@ -54,6 +55,31 @@ bool same_model(const RunIdentity& a, const RunIdentity& b) {
   return model_name(a) == model_name(b);
 }
 
+/// Returns a sentence on recordings that two results both rest on; empty if there are none.
+std::string shared_recordings(const RunIdentity& here, const RunIdentity& there) {
+  std::vector<std::string> both;
+  for (const RecordedFile& file : here.recordings) {
+    if (std::any_of(there.recordings.begin(), there.recordings.end(),
+                    [&](const RecordedFile& other) { return other.sha256 == file.sha256; }))
+      both.push_back(file.name);
+  }
+  if (both.empty()) return "";
+  return fmt::format("both rest on the recording {}{}: is one person there twice?", both.front(),
+                     both.size() > 1 ? fmt::format(" and {} more", both.size() - 1) : "");
+}
+
+void compare_subjects(const RunIdentity& here, const RunIdentity& there, std::vector<std::string>& found) {
+  const auto named = [](const RunIdentity& i) { return !i.subject.empty() && i.subject != SubjectSpec{}.name; };
+  if (here.subject != there.subject && named(here) && named(there))
+    found.push_back(fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
+  if (here.sex != there.sex && !here.sex.empty() && !there.sex.empty())
+    found.push_back(fmt::format("the subject is {} here, {} there", here.sex, there.sex));
+  constexpr double kSameMass_kg = 5.0;  // variation of one person over months
+  if (here.mass_kg && there.mass_kg && std::abs(*here.mass_kg - *there.mass_kg) > kSameMass_kg)
+    found.push_back(
+        fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there", *here.mass_kg, *there.mass_kg));
+}
+
 }  // namespace
 
 RunIdentity identity_of(const Study& study) {
@@ -72,6 +98,10 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
     for (const json& input : provenance->value("inputs", json::array())) {
       if (!identity.model.empty() && text(input, "path") == identity.model)
         identity.model_sha256 = text(input, "sha256");
+      const auto format = recording::format_of(text(input, "path"));
+      if (format && recording::is_recording(*format))
+        identity.recordings.push_back(
+            {std::filesystem::path(text(input, "path")).filename().string(), text(input, "sha256")});
     }
     // A result of `identify` has its muscles' names only in its rows.
     if (!identity.known) {
@@ -92,25 +122,20 @@ RunIdentity read_run_identity(const std::filesystem::path& folder) {
   }
 }
 
-IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there) {
+IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there, Whose whose) {
   IdentityDifferences found;
+  const bool one_person = whose == Whose::one_person;
   if (here.known && there.known) {
-    if (!same_model(here, there))
+    if (const std::string text = one_person ? "" : shared_recordings(here, there); !text.empty())
+      found.grave.push_back(text);
+    if (one_person && !same_model(here, there))
       found.grave.push_back(model_name(here) == model_name(there)
                                 ? fmt::format("the model {} is another one (its content differs)", model_name(here))
                                 : fmt::format("the model is {} here, {} there", model_name(here), model_name(there)));
     if (here.coordinates != there.coordinates)
       found.grave.push_back(fmt::format("the coordinate is {} here, {} there", fmt::join(here.coordinates, ", "),
                                         fmt::join(there.coordinates, ", ")));
-    const auto named = [](const RunIdentity& i) { return !i.subject.empty() && i.subject != SubjectSpec{}.name; };
-    if (here.subject != there.subject && named(here) && named(there))
-      found.other.push_back(fmt::format("the subject is '{}' here, '{}' there", here.subject, there.subject));
-    if (here.sex != there.sex && !here.sex.empty() && !there.sex.empty())
-      found.other.push_back(fmt::format("the subject is {} here, {} there", here.sex, there.sex));
-    constexpr double kSameMass_kg = 5.0;  // variation of one person over months
-    if (here.mass_kg && there.mass_kg && std::abs(*here.mass_kg - *there.mass_kg) > kSameMass_kg)
-      found.other.push_back(
-          fmt::format("the subject's mass is {:.4g} kg here, {:.4g} kg there", *here.mass_kg, *there.mass_kg));
+    if (one_person) compare_subjects(here, there, found.other);
   }
   std::vector<std::string> only_here, only_there;
   const auto has = [](const std::vector<std::string>& list, const std::string& name) {

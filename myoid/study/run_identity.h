@@ -9,6 +9,11 @@
 
 namespace myoid {
 
+/// A file of a recording that a run rests on.
+struct RecordedFile {
+  std::string name, sha256;
+};
+
 /// Person and model of a result. The numbers of two results are comparable if person and model are the same.
 struct RunIdentity {
   bool known = false;  ///< False: a result of `myoid identify`, which has neither person nor model.
@@ -18,6 +23,7 @@ struct RunIdentity {
   std::string model;         ///< File, or name of the built-in one.
   std::string model_sha256;  ///< Hash of the file; empty without a file.
   std::vector<std::string> coordinates, muscles;
+  std::vector<RecordedFile> recordings;  ///< Of a run; a study alone has none.
 };
 
 /// Returns the identity of a study. Throws ReadError if its model's file cannot be read.
@@ -26,12 +32,18 @@ struct RunIdentity {
 /// Returns the identity of a folder's parameters.json. Throws ReadError if there is none.
 [[nodiscard]] RunIdentity read_run_identity(const std::filesystem::path& folder);
 
+/// Whose results are compared: one person's, or those of several persons, who differ in body, model and name.
+enum class Whose { one_person, several_persons };
+
 struct IdentityDifferences {
   /// Model or coordinates differ, or no muscle is common: the numbers mean different things.
   std::vector<std::string> grave;
   std::vector<std::string> other;  ///< Subject, mass, sex, and muscles that only one result has.
 };
-/// Compares the facts that both results state, in sentences: "the model is arm4 here, wu.osim there".
-[[nodiscard]] IdentityDifferences differences(const RunIdentity& here, const RunIdentity& there);
+/// Compares the facts that both results state, in sentences: "the model is arm4 here, wu.osim there". Of several
+/// persons only coordinates and muscles, and recordings that both have, which count as grave.
+[[nodiscard]] IdentityDifferences differences(const RunIdentity& here,
+                                              const RunIdentity& there,
+                                              Whose whose = Whose::one_person);
 
 }  // namespace myoid

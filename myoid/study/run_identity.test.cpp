@@ -69,6 +69,26 @@ TEST(RunIdentity, AnotherModelOrNoCommonMuscleIsGrave) {
   EXPECT_EQ(differences(identity_of(changed), read_run_identity(folder.path() / "wu")).grave.size(), 1U);
 }
 
+TEST(RunIdentity, SeveralPersonsMayDifferInAllButJointsMusclesAndRecordings) {
+  RunIdentity anna = identity_of(study_of({"BIC", "TRI"}));
+  anna.recordings = {{"slow.trc", "11"}, {"fast.trc", "22"}};
+  RunIdentity bernd = anna;
+  bernd.subject = "bernd";
+  bernd.mass_kg = 90.0;
+  bernd.model = "bernd.osim";
+  bernd.recordings = {{"slow.trc", "33"}};
+  const IdentityDifferences alike = differences(anna, bernd, Whose::several_persons);
+  EXPECT_TRUE(alike.grave.empty());
+  EXPECT_TRUE(alike.other.empty());
+  bernd.coordinates = {"knee_angle_r"};
+  EXPECT_EQ(differences(anna, bernd, Whose::several_persons).grave.size(), 1U);
+  const IdentityDifferences twice = differences(anna, anna, Whose::several_persons);
+  ASSERT_EQ(twice.grave.size(), 1U);
+  EXPECT_NE(twice.grave[0].find("the recording slow.trc and 1 more"), std::string::npos) << twice.grave[0];
+  // Two sessions of one person may share a recording, such as a maximal contraction.
+  EXPECT_TRUE(differences(anna, anna).grave.empty());
+}
+
 TEST(RunIdentity, AnotherPersonAndFurtherMusclesAreRemarked) {
   Study other = study_of({"BIC", "TRI", "BRA"});
   other.subject.name = "bernd";
