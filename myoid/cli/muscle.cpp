@@ -86,12 +86,16 @@ void add_muscle(CLI::App& app, Context& context) {
   command.add_option("--column", o->column, "Which column of it (default: the only one)");
   command.add_option("--scale", o->scales, "Its numbers times this ... (default 1); with several files one for each");
   command.add_option("--offset", o->offset_m, "... plus this are the length [m] (default 0)");
-  command.add_option("--activation", o->activation, "Activation, a number in 0..1 or a file");
-  command.add_option("--excitation", o->excitation, "Excitation, a number in 0..1 or a file");
+  command.add_option("--activation", o->activation,
+                     "Activation, a number in 0..1 or a file; with several --length one, or one for each");
+  command.add_option("--excitation", o->excitation,
+                     "Excitation, a number in 0..1 or a file; with several --length one, or one for each");
+  command.add_option("--drive-column", o->drive_column, "Which column of these files (default: the only one)");
   command.add_option("--initial-activation", o->initial_activation,
                      "Activation at the start, with --excitation: a number, or `settled` on the first excitation "
                      "(default 0.01: at rest)");
   command.add_option("--measured", o->measured, "Measured force over time [N], to compare");
+  command.add_option("--measured-column", o->measured_column, "Which column of it (default: the only one)");
   command
       .add_option("--fit", o->fit,
                   "Parameters to identify from one or several --length and --measured, by comma: "
@@ -107,9 +111,9 @@ void add_muscle(CLI::App& app, Context& context) {
   add_common_options(command, context, {.threads = false, .seed = false});
   command.callback([&context, o, out] {
     if (!out->empty()) {
-      std::vector<std::string> inputs{o->muscle, o->activation, o->excitation};
-      inputs.insert(inputs.end(), o->lengths.begin(), o->lengths.end());
-      inputs.insert(inputs.end(), o->measured.begin(), o->measured.end());
+      std::vector<std::string> inputs{o->muscle};
+      for (const auto* files : {&o->lengths, &o->activation, &o->excitation, &o->measured})
+        inputs.insert(inputs.end(), files->begin(), files->end());
       context.prepare_file(*out, inputs);
     }
     o->call = context.call();

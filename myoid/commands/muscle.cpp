@@ -23,6 +23,11 @@ void refuse_contradictions(const MuscleOptions& o) {
   if (o.activation.empty() == o.excitation.empty()) {
     throw InvalidInput("give the drive once: --activation or --excitation, a number or a file");
   }
+  const std::vector<std::string>& drive = o.excitation.empty() ? o.activation : o.excitation;
+  if (drive.size() != 1 && drive.size() != o.lengths.size())
+    throw InvalidInput(fmt::format("{}: {} for {} of --length; give one, or one each",
+                                   o.excitation.empty() ? "--activation" : "--excitation",
+                                   counted(drive.size(), "file"), o.lengths.size()));
   if (o.fit.empty() && (o.lengths.size() > 1 || o.measured.size() > 1))
     throw InvalidInput("several recordings are for --fit: without it, give one --length");
   if (!o.fit.empty() && o.measured.size() != o.lengths.size()) {
@@ -64,7 +69,7 @@ ImposedLength simulate_muscle(const MuscleOptions& o, const muscle::MuscleFile& 
   options.progress = o.call.progress;
   std::optional<Column> measured;
   if (!o.measured.empty()) {
-    measured = read_column(o.measured.front(), "", remarks);
+    measured = read_column(o.measured.front(), {"--measured-column", o.measured_column}, remarks);
     options.output_time_s = measured->time_s;
   }
   ImposedLength result{simulate_isolated_muscle(unit, input, options), std::nullopt};
@@ -96,7 +101,7 @@ std::vector<IsolatedRecording> read_recordings(const MuscleOptions& o,
                                                Remarks& remarks) {
   std::vector<IsolatedRecording> recordings;
   for (std::size_t i = 0; i < o.lengths.size(); ++i) {
-    const Column force = read_column(o.measured[i], "", remarks);
+    const Column force = read_column(o.measured[i], {"--measured-column", o.measured_column}, remarks);
     recordings.push_back({o.measured[i], read_experiment(o, i, file, remarks), force.time_s, force.values});
   }
   return recordings;

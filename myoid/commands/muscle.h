@@ -20,9 +20,12 @@ struct MuscleOptions {
   /// The length is scale times the file's numbers plus the offset [m]; one scale, or one per file.
   std::vector<double> scales{1.0};
   double offset_m = 0.0;
-  std::string activation, excitation;       ///< Exactly one: a number in 0..1, or a file.
+  /// Exactly one of them: numbers in 0..1 or files; one, or one per length.
+  std::vector<std::string> activation, excitation;
+  std::string drive_column;                 ///< Column of the files of the drive; empty: the only one.
   std::string initial_activation = "0.01";  ///< With `excitation`: a number, or "settled" on it.
   std::vector<std::string> measured;        ///< Force [N] over time; with `fit` one file for each length.
+  std::string measured_column;              ///< Column of the forces; empty: the only one.
   std::vector<std::string> fit;             ///< Parameters to identify; empty: simulates only.
   double isometric_n = 0.0;                 ///< Reference force of relative errors; 0: F_max.
   double tolerance = 1e-9;                  ///< Relative tolerance of the integration.

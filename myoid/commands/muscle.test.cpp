@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/atomic_file.h"
 
+#include "tests/support/message_of.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
@@ -29,7 +31,7 @@ MuscleOptions swing(const test::TemporaryFolder& folder) {
   options.lengths = {folder / "l.csv"};
   options.scales = {0.001};
   options.offset_m = 0.0321;
-  options.activation = folder / "a.csv";
+  options.activation = {folder / "a.csv"};
   return options;
 }
 
@@ -67,9 +69,48 @@ TEST(MuscleFunction, ReadsAColumnByItsName) {
   const test::TemporaryFolder folder;
   recording::write_file(folder / "two.csv", "time,a,b\n0,1,3\n1,2,4\n");
   Remarks remarks{Call{}};
-  EXPECT_EQ(read_column(folder / "two.csv", "b", remarks).values, Eigen::Vector2d(3.0, 4.0));
-  EXPECT_THROW((void)read_column(folder / "two.csv", "", remarks), ReadError);
-  EXPECT_THROW((void)read_column(folder / "two.csv", "c", remarks), ReadError);
+  EXPECT_EQ(read_column(folder / "two.csv", {"--column", "b"}, remarks).values, Eigen::Vector2d(3.0, 4.0));
+  EXPECT_THAT(test::message_of([&] {
+                (void)read_column(folder / "two.csv", {"--measured-column", ""}, remarks);
+              }),
+              HasSubstr("columns a, b: choose one with --measured-column"));
+  EXPECT_THAT(test::message_of([&] {
+                (void)read_column(folder / "two.csv", {"--drive-column", "c"}, remarks);
+              }),
+              HasSubstr("'c' (--drive-column)"));
+}
+
+TEST(MuscleFunction, ReadsLengthStimulusAndForceOfOneFile) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  std::string table = "time,length,stim,force\n";
+  for (int k = 0; k <= 100; ++k)
+    table += fmt::format("{},{},{},{}\n", 0.005 * k, std::sin(0.1 * k), k < 50 ? 0 : 1, k < 50 ? 0.5 : 1.0);
+  recording::write_file(folder / "in_situ.csv", table);
+  options.lengths = options.measured = options.activation = {folder / "in_situ.csv"};
+  options.column = "length";
+  options.drive_column = "stim";
+  options.measured_column = "force";
+  const MuscleResult result = muscle(options);
+  const Eigen::VectorXd activation = result.simulated->simulated.series.column("activation");
+  EXPECT_EQ(activation[10], 0.0);
+  EXPECT_EQ(activation[90], 1.0);
+  EXPECT_EQ(result.simulated->comparison->samples, 101);
+}
+
+TEST(MuscleFunction, TakesOneDriveForAllExperimentsOrOneEach) {
+  const test::TemporaryFolder folder;
+  MuscleOptions options = swing(folder);
+  options.lengths = {folder / "l.csv", folder / "l.csv"};
+  options.activation = {"1", folder / "a.csv"};
+  const muscle::MuscleFile file = muscle::read_muscle_file(options.muscle);
+  Remarks remarks{Call{}};
+  EXPECT_EQ(read_experiment(options, 0, file, remarks).drive.size(), 1);
+  EXPECT_EQ(read_experiment(options, 1, file, remarks).drive.size(), 2);
+  options.fit = {"tendon_strain"};
+  options.measured = options.lengths;
+  options.activation = {"1", "1", "1"};
+  EXPECT_THAT(test::message_of([&] { (void)muscle(options); }), HasSubstr("--activation: 3 files for 2 of --length"));
 }
 
 }  // namespace

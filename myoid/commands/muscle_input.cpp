@@ -41,14 +41,15 @@ void check_length(const Eigen::VectorXd& length_m, const muscle::MuscleFile& fil
 }
 
 /// Reads the drive: a number, or a file with the drive over time.
-void read_drive(const MuscleOptions& o, Remarks& remarks, muscle::IsolatedMuscleInput& input) {
+void read_drive(const MuscleOptions& o, std::size_t index, Remarks& remarks, muscle::IsolatedMuscleInput& input) {
   input.drive_is_excitation = !o.excitation.empty();
-  const std::string& drive = input.drive_is_excitation ? o.excitation : o.activation;
+  const std::vector<std::string>& drives = input.drive_is_excitation ? o.excitation : o.activation;
+  const std::string& drive = drives[drives.size() > 1 ? index : 0];
   if (const std::optional<double> constant = as_number(drive)) {
     input.drive = Eigen::VectorXd::Constant(1, *constant);
     return;
   }
-  const Column column = read_column(drive, "", remarks);
+  const Column column = read_column(drive, {"--drive-column", o.drive_column}, remarks);
   input.drive_time_s = column.time_s;
   input.drive = column.values;
   const Eigen::Index last = column.time_s.size() - 1;
@@ -60,17 +61,18 @@ void read_drive(const MuscleOptions& o, Remarks& remarks, muscle::IsolatedMuscle
 
 }  // namespace
 
-Column read_column(const std::string& path, const std::string& wanted, Remarks& remarks) {
+Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks) {
+  const std::string& wanted = choice.name;
   const recording::SeriesFile file = recording::read_series(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries& series = file.data;
   const std::string names =
       fmt::format("{}", fmt::join(std::views::transform(series.channels(), &Channel::name), ", "));
   if (wanted.empty() && series.channel_count() != 1) {
-    throw ReadError(path, 0, fmt::format("has the columns {}: choose one with --column", names));
+    throw ReadError(path, 0, fmt::format("has the columns {}: choose one with {}", names, choice.option));
   }
   if (!wanted.empty() && !series.find(wanted)) {
-    throw ReadError(path, 0, fmt::format("has no column '{}'; there are {}", wanted, names));
+    throw ReadError(path, 0, fmt::format("has no column '{}' ({}); there are {}", wanted, choice.option, names));
   }
   const Eigen::Index at = wanted.empty() ? 0 : *series.find(wanted);
   Column column{series.time_s(), series.values().col(at), series.channels()[static_cast<std::size_t>(at)].name};
@@ -92,13 +94,13 @@ muscle::IsolatedMuscleInput read_experiment(const MuscleOptions& o,
                                             const muscle::MuscleFile& file,
                                             Remarks& remarks) {
   const std::string& path = o.lengths[index];
-  const Column length = within_call(read_column(path, o.column, remarks), o.call);
+  const Column length = within_call(read_column(path, {"--column", o.column}, remarks), o.call);
   muscle::IsolatedMuscleInput input;
   input.time_s = length.time_s;
   const double scale = o.scales[o.scales.size() > 1 ? index : 0];
   input.length_m = (scale * length.values.array() + o.offset_m).matrix();
   check_length(input.length_m, file, path);
-  read_drive(o, remarks, input);
+  read_drive(o, index, remarks, input);
   input.dynamics = file.activation;
   if (o.initial_activation == "settled") return input;
   input.initial_activation = as_number(o.initial_activation);

@@ -14,9 +14,14 @@ struct Column {
   std::string name;
 };
 
+/// The column that an option names; an empty name is the file's only column.
+struct ColumnChoice {
+  std::string option, name;
+};
+
 /// Returns the only column of a file, or the one of this name. Throws ReadError if the column is
 /// missing, is one of several, or has gaps.
-[[nodiscard]] Column read_column(const std::string& path, const std::string& wanted, Remarks& remarks);
+[[nodiscard]] Column read_column(const std::string& path, const ColumnChoice& choice, Remarks& remarks);
 
 /// Returns a number of the command line; empty if the text is not a number.
 [[nodiscard]] std::optional<double> as_number(const std::string& text);

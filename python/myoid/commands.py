@@ -489,9 +489,10 @@ class MuscleResult:
 
 
 def muscle(*, muscle: File, length: Files, column: str | None = None, scale: Sequence[float] | float | None = None,
-           offset: float | None = None, activation: float | File | None = None,
-           excitation: float | File | None = None, initial_activation: float | str | None = None,
-           measured: Files | None = None, fit: Texts | None = None, isometric_force: float | None = None,
+           offset: float | None = None, activation: float | Files | None = None,
+           excitation: float | Files | None = None, drive_column: str | None = None,
+           initial_activation: float | str | None = None, measured: Files | None = None,
+           measured_column: str | None = None, fit: Texts | None = None, isometric_force: float | None = None,
            tolerance: float | None = None, out: File | None = None, start: float | None = None,
            end: float | None = None, overwrite: bool = False, progress: Report = None) -> MuscleResult:  # fmt: skip
     """One muscle alone: which force does it make under an imposed length? With `fit`: which parameters?
@@ -501,9 +502,11 @@ def muscle(*, muscle: File, length: Files, column: str | None = None, scale: Seq
         length: Length of fiber and tendon together over time [m] (.sto, .mot, .csv).
         column: Which column of it.
         scale, offset: Its numbers times `scale` plus `offset` are the length [m].
-        activation, excitation: One of them: a number in 0..1, or a file.
+        activation, excitation: One of them: a number in 0..1, or a file, or one for each length.
+        drive_column: Which column of these files.
         initial_activation: With `excitation`: a number, or "settled".
         measured: Measured force over time [N].
+        measured_column: Which column of it.
         fit: Parameters to identify.
         isometric_force: Force that errors are related to [N].
         tolerance: Relative, of the integration.

@@ -58,10 +58,20 @@ commands::MuscleOptions muscle_options(Keywords& k) {
       k.take(name, value);
     }
   };
-  number_or_file("activation", o.activation);
-  number_or_file("excitation", o.excitation);
+  const auto numbers_or_files = [&](const char* name, std::vector<std::string>& values) {
+    const auto given = k.object(name);
+    if (given && PyNumber_Check(given->ptr()) != 0) {
+      values = {py::str(py::float_(*given))};
+    } else {
+      k.take(name, values);
+    }
+  };
+  numbers_or_files("activation", o.activation);
+  numbers_or_files("excitation", o.excitation);
+  k.take("drive_column", o.drive_column);
   number_or_file("initial_activation", o.initial_activation);
   k.take("measured", o.measured);
+  k.take("measured_column", o.measured_column);
   k.take("fit", o.fit);
   k.take("isometric_force", o.isometric_n);
   k.within("tolerance", o.tolerance, 1e-13, 1e-3);
@@ -103,9 +113,9 @@ py::dict muscle_command(py::dict given) {
   o.call = work.call();
   return muscle_dict(work.run([&] {
     if (!out.empty()) {
-      std::vector<std::string> inputs{o.muscle, o.activation, o.excitation};
-      inputs.insert(inputs.end(), o.lengths.begin(), o.lengths.end());
-      inputs.insert(inputs.end(), o.measured.begin(), o.measured.end());
+      std::vector<std::string> inputs{o.muscle};
+      for (const auto* files : {&o.lengths, &o.activation, &o.excitation, &o.measured})
+        inputs.insert(inputs.end(), files->begin(), files->end());
       commands::check_output(out, inputs, overwrite);
     }
     commands::MuscleResult r = commands::muscle(o);
