@@ -10,6 +10,7 @@
 #include "myoid/core/error.h"
 #include "myoid/files/file_format.h"
 #include "myoid/files/text_file.h"
+#include "myoid/opensim_tools/opensim_setup.h"
 #include "myoid/osim/osim_reader.h"
 #include "myoid/study/read_study.h"
 
@@ -40,11 +41,21 @@ ordered_json contents_of_model(const InfoOptions& o) {
                         ask);
 }
 
+/// Names the tool of a set-up file and the command that runs it.
+ordered_json setup_contents(const std::string& path) {
+  const OpensimSetup setup(path);
+  ordered_json j{{"kind", "set-up of an OpenSim tool"}, {"tool", setup.kind()}, {"name", setup.name()}};
+  for (const std::filesystem::path& input : setup.inputs()) j["reads"].push_back(input.string());
+  j["run"] = fmt::format("myoid run-tool {}", path);
+  return j;
+}
+
 ordered_json contents_of(const InfoOptions& o) {
   if (auto contents = recording_contents(o.file)) return *std::move(contents);
   if (is_model(o.file)) return contents_of_model(o);
   const auto format = recording::format_of(o.file);
   if (format == recording::FileFormat::toml) return study_contents(o.file);
+  if (format == recording::FileFormat::set_up) return setup_contents(o.file);
   (void)recording::read_text_file(o.file);  // reports a missing or empty file
   throw ReadError(
       o.file, 0,
@@ -56,7 +67,7 @@ ordered_json contents_of(const InfoOptions& o) {
 std::string known_endings() {
   return recording::endings_text([](const recording::FormatEntry& entry) {
     return recording::is_recording(entry.format) || entry.format == recording::FileFormat::model ||
-           entry.format == recording::FileFormat::toml;
+           entry.format == recording::FileFormat::toml || entry.format == recording::FileFormat::set_up;
   });
 }
 

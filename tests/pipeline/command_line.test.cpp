@@ -270,6 +270,16 @@ TEST(CommandLine, NumbersOutOfRangeAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.sto"));
 }
 
+TEST(Info, NamesTheToolOfASetUpAndTheCommandThatRunsIt) {
+  const TemporaryFolder folder;
+  write_text(folder / "ik.xml",
+             "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"walk\"><model_file>Unassigned"
+             "</model_file></InverseKinematicsTool></OpenSimDocument>\n");
+  const Finished done = myoid({"info", folder / "ik.xml"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("InverseKinematicsTool"), HasSubstr("myoid run-tool")));
+}
+
 TEST(Info, SaysTheUnitOfEmgThatTheTitleStatesAndNothingOfAngles) {
   const TemporaryFolder folder;
   write_text(folder / "e.sto", emg_text("EMG microvolt"));
