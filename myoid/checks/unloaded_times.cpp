@@ -1,5 +1,6 @@
 #include "myoid/checks/unloaded_times.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -72,8 +73,14 @@ std::vector<Remark> unloaded_times(const model::BodyModel& model, const TrialSpe
     if (i == first || t[i - 1] - t[first] < kLimits.unloaded_s || i - first < 4) continue;
     // A body in the air falls without any plate.
     if (acceleration_of(t.segment(first, i - first), height->segment(first, i - first)) < -kLimits.falls * g) continue;
-    times.push_back(fmt::format("{:.4g} to {:.4g} s", t[first], t[i - 1]));
-    sum_s += t[i - 1] - t[first];
+    // As `run` measures it: as long as a quarter of the weight is not carried.
+    const auto affected = [&](Eigen::Index k) { return share[k] <= 1.0 - dynamics::kAffectedWeight; };
+    Eigen::Index from = first, to = i - 1;
+    while (from > 0 && affected(from - 1)) --from;
+    while (to + 1 < t.size() && affected(to + 1)) ++to;
+    times.push_back(fmt::format("{:.4g} to {:.4g} s", t[from], t[to]));
+    sum_s += t[to] - t[from];
+    i = std::max(i, to);
   }
   if (times.empty()) return {};
   return {{.code = RemarkCode::unloaded_time,

@@ -35,6 +35,7 @@ struct WalkWithGap {
   double gap_s = 0.4;
   bool falls = false;
   bool markers = false;
+  double fades_s = 0.0;  ///< So long the load fades to nothing before the gap.
   int up = 1;            ///< The model's axis against gravity.
   double clock_s = 0.0;  ///< The loads' time at the motion's 0 s.
 
@@ -46,6 +47,7 @@ struct WalkWithGap {
       const double into = t[i] - 0.8;
       const bool gap = into > 0.0 && into < gap_s - 1e-3;
       share[i] = gap ? in_gap : before;
+      if (into <= 0.0 && into > -fades_s) share[i] = before * -into / fades_s;
       height[i] = gap && falls ? 0.5 * 9.80665 * into * (gap_s - into) : 0.0;
     }
     const auto upward = [&](const Eigen::VectorXd& values) {
@@ -91,6 +93,13 @@ TEST(UnloadedTimes, AreThoseInWhichNobodyFliesAndNoPlateBears) {
     EXPECT_THAT(found[0].says, testing::HasSubstr("in 20 % of the trial (0.805 to 1.195 s)"));
     EXPECT_TRUE((WalkWithGap{.falls = true, .markers = markers}.findings().empty()));
   }
+}
+
+TEST(UnloadedTimes, ReachToWhereThreeQuartersOfTheWeightAreCarriedAsInRun) {
+  // The load falls from the weight at 0.4 s to nothing at 0.8 s: a quarter of it is missing from 0.5 s on.
+  const std::vector<Remark> found = WalkWithGap{.fades_s = 0.4}.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].says, testing::HasSubstr("in 35 % of the trial (0.5 to 1.195 s)"));
 }
 
 TEST(UnloadedTimes, OfAModelWhoseThirdAxisPointsUpAreTheSame) {

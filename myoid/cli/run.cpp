@@ -77,9 +77,11 @@ void print_predictions(const StudyResult& result) {
 
 void print_next(const StudyResult& result) {
   if (!result.next || result.next->plan.empty()) return;
-  fmt::print("\nnext recording: {} of {} parameters identified now, median 95 % interval +-{:.0f} %\n",
-             identified_count(result.next->beforehand), result.next->beforehand.size(),
-             median_half_width(result.next->beforehand));
+  fmt::print(
+      "\nnext recording: {} of the {} parameters that it is planned for are identified now, median 95 % interval "
+      "+-{:.0f} %\n",
+      identified_count(result.next->beforehand), result.next->beforehand.size(),
+      median_half_width(result.next->beforehand));
   for (std::size_t i = 0; i < result.next->plan.size(); ++i) {
     const PlannedMovement& m = result.next->plan[i];
     fmt::print("{}. {:<58} {:>3} identified, +-{:.0f} %\n", i + 1, m.movement.description(),

@@ -89,7 +89,7 @@ std::string UncarriedTime::sentence() const {
 }
 
 std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model, const TimeSeries& generalized_forces) {
-  constexpr double kUncarried = 0.5, kAffected = 0.25;  // of the weight
+  constexpr double kUncarried = 0.5;  // of the weight
   constexpr double kBriefest_s = 0.05;
   constexpr double kThroughout = 0.9;
   const auto root = root_of(model);
@@ -98,7 +98,7 @@ std::optional<UncarriedTime> uncarried_time(const model::BodyModel& model, const
   if (!column || t.size() < 2) return std::nullopt;
   const Eigen::VectorXd force = generalized_forces.values().col(*column).cwiseAbs();
   UncarriedTime found{.coordinate = root->coordinate->name, .weight_n = root->weight_n};
-  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffected * root->weight_n; };
+  const auto affected = [&](Eigen::Index i) { return force[i] >= kAffectedWeight * root->weight_n; };
   double sum_s = 0.0;
   for (Eigen::Index i = 0; i < t.size(); ++i) {
     if (!affected(i)) continue;

@@ -39,6 +39,9 @@ struct UncarriedTime {
   [[nodiscard]] std::string sentence() const;
 };
 
+/// Share of the weight that no measured force carries at the ends of an uncarried stretch.
+inline constexpr double kAffectedWeight = 0.25;
+
 /// Returns the stretches in which the model's free translation along gravity bears half of the weight for 50 ms or
 /// more; each extends while the translation bears a quarter. In flight the translation bears no weight. Empty without
 /// such a stretch, and with more than nine tenths of the time in stretches, as for people who sit, lie or hang.
