@@ -12,6 +12,7 @@
 #include "myoid/core/error.h"
 #include "myoid/intake/limits.h"
 #include "myoid/kinematics/inverse_kinematics.h"
+#include "myoid/kinematics/marker_misfit.h"
 #include "myoid/recording/laboratory_up.h"
 #include "myoid/study/trial_up.h"
 
@@ -60,6 +61,13 @@ std::string file_of(const TrialSpec& trial) {
 /// Returns true for a distance from the model that is good, and far better than as read.
 bool much_better(double then_m, double now_m) {
   return then_m < kLimits.sides_better * now_m && then_m <= kLimits.sides_m;
+}
+
+/// Returns true if two segments of the model have three markers or more: fewer fit a turned or mirrored model as well.
+bool tell_the_way(const model::BodyModel& model, const recording::MarkerSeries& frame) {
+  const auto segments = kinematics::segments_of(model, frame);
+  return std::count_if(segments.begin(), segments.end(),
+                       [](const signals::ExpectedSegment& s) { return s.segment.markers.size() >= 3; }) >= 2;
 }
 
 /// Markers in another place, and how the file is read so.
@@ -149,6 +157,7 @@ std::optional<Remark> turned_markers(const model::BodyModel& model,
                                      const std::map<std::string, double>& weights) {
   try {
     const recording::MarkerSeries frame = one_frame(markers);
+    if (!tell_the_way(model, frame)) return std::nullopt;
     const double now = rms_m(model, frame, weights);
     if (!(now > kLimits.sides_m)) return std::nullopt;
     std::optional<Reading> best;

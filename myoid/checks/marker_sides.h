@@ -25,7 +25,7 @@ namespace myoid {
 
 /// Returns an error if that frame lies more than 40 mm rms from the model, and less than half of that and less than
 /// 40 mm with another axis of the laboratory up, or as its mirror image. `up_L` is the axis by which the markers were
-/// turned on reading.
+/// turned on reading. Needs two segments with three markers or more each.
 [[nodiscard]] std::optional<Remark> turned_markers(const model::BodyModel& model,
                                                    const TrialSpec& trial,
                                                    const recording::MarkerSeries& markers,

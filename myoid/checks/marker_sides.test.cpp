@@ -183,6 +183,24 @@ TEST(TurnedMarkers, OfTheOtherArmAreAMirrorImage) {
       << sentence(*found);
 }
 
+TEST(TurnedMarkers, OfOneSegmentTellNoWay) {
+  // The landmarks of an elbow and a wrist, and of a left arm: three on the upper arm, two on the forearm.
+  const recording::MarkerSeries all = arm_markers();
+  recording::MarkerSeries few;
+  few.time_s = all.time_s;
+  few.positions_m.resize(1, 0);
+  for (std::size_t m = 0; m < all.names.size(); ++m) {
+    const std::string& name = all.names[m];
+    if (name != "r_elbow" && !name.starts_with("r_epicondyle") && !name.starts_with("r_styloid")) continue;
+    few.names.push_back(name);
+    few.positions_m.conservativeResize(Eigen::NoChange, few.positions_m.cols() + 3);
+    few.positions_m.rightCols(3) = all.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3);
+  }
+  ASSERT_EQ(few.names.size(), 5U);
+  for (Eigen::Index c = 2; c < few.positions_m.cols(); c += 3) few.positions_m.col(c) *= -1.0;
+  EXPECT_FALSE(turned_markers(test_trials::arm(), {}, few, Vec3::UnitY(), {}));
+}
+
 TEST(TurnedMarkers, ThatFitNoWayAreNotGuessedAt) {
   recording::MarkerSeries far = arm_markers();
   far.positions_m *= 3.0;

@@ -128,11 +128,13 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
                               "as labelled, and with the labels of both sides exchanged less than {1:g} % of that and "
                               "less than {0:g} mm (at least {2} pairs: `R.Knee`, `RASI`, `knee_r`, `RightHeel`)",
                               1000.0 * l.sides_m, percent(l.sides_better), l.sides_pairs)});
-  rows.push_back({"another axis up, or a mirror image", "error",
-                  fmt::format("that frame is more than {0:g} mm rms from the model as read, and less than {1:g} % of "
-                              "that and less than {0:g} mm with another axis up, or mirrored (markers of the other "
-                              "side). A model with a free base fits with any axis up: the next row",
-                              1000.0 * l.sides_m, percent(l.sides_better))});
+  rows.push_back(
+      {"another axis up, or a mirror image", "error",
+       fmt::format("that frame is more than {0:g} mm rms from the model as read, and less than {1:g} % of "
+                   "that and less than {0:g} mm with another axis up, or mirrored (markers of the other "
+                   "side). Needs two segments with three markers or more. A model with a free base fits with any "
+                   "axis up: the next row",
+                   1000.0 * l.sides_m, percent(l.sides_better))});
   rows.push_back({"the vertical lies across the trunk", "warning",
                   fmt::format("markers of the body on the ground joint are more than {:.0f} degrees from upright by "
                               "`[markers] up`, and less than {:.0f} by another axis",
