@@ -45,7 +45,9 @@ ordered_json contents_of_model(const InfoOptions& o) {
 ordered_json setup_contents(const std::string& path) {
   const OpensimSetup setup(path);
   ordered_json j{{"kind", "set-up of an OpenSim tool"}, {"tool", setup.kind()}, {"name", setup.name()}};
-  for (const std::filesystem::path& input : setup.inputs()) j["reads"].push_back(input.string());
+  for (const std::filesystem::path& input : setup.inputs()) {
+    if (input != path) j["reads"].push_back(input.string());
+  }
   j["run"] = fmt::format("myoid run-tool {}", path);
   return j;
 }
