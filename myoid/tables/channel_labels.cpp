@@ -1,5 +1,6 @@
 #include "myoid/tables/channel_labels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/core/error.h"
 #include "myoid/files/file_words.h"
 
 namespace myoid::recording {
@@ -48,6 +50,13 @@ Kind kind_by_name(const std::string& label) {
   return Kind::channel;
 }
 
+/// Returns the letters from `at` on.
+std::string word_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
+  return std::string(text.substr(at, end - at));
+}
+
 }  // namespace
 
 std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
@@ -60,8 +69,13 @@ std::optional<ScaledUnit> unit_in_cell(std::string_view cell) {
 std::optional<double> rate_in_cell(std::string_view cell) {
   cell = trim(cell);
   if (cell.size() < 3 || !equal_ignoring_case(cell.substr(cell.size() - 2), "hz")) return std::nullopt;
-  const auto rate = parse_number(cell.substr(0, cell.size() - 2));
-  return rate && *rate > 0.0 && *rate <= 1e6 ? rate : std::nullopt;
+  cell.remove_suffix(2);
+  const bool kilo = cell.back() == 'k' || cell.back() == 'K';
+  if (kilo) cell.remove_suffix(1);
+  const auto number = parse_number(trim(cell));
+  if (!number) return std::nullopt;
+  const double rate = kilo ? 1000.0 * *number : *number;
+  return rate > 0.0 && rate <= 1e6 ? std::optional(rate) : std::nullopt;
 }
 
 TableColumn take_label_apart(const std::string& text) {
@@ -96,14 +110,23 @@ std::optional<double> rate_in_line(std::string_view line) {
     const std::size_t at = text.find(word);
     if (at == std::string::npos) continue;
     std::size_t i = at + std::string_view(word).size();
+    std::string unit;
     while (i < text.size() && (text[i] < '0' || text[i] > '9')) {
-      if (text[i] >= 'a' && text[i] <= 'z' && text.compare(i, 2, "hz") != 0) break;
-      ++i;
+      const std::string before = word_at(text, i);
+      if (!before.empty() && before != "hz" && before != "khz") break;
+      if (!before.empty()) unit = before;
+      i += std::max<std::size_t>(1, before.size());
     }
     std::size_t end = i;
     while (end < text.size() && ((text[end] >= '0' && text[end] <= '9') || text[end] == '.')) ++end;
-    const auto value = parse_number(std::string_view(text).substr(i, end - i));
-    if (value && *value >= 1.0 && *value <= 1e6) return value;
+    const auto number = parse_number(std::string_view(text).substr(i, end - i));
+    while (end < text.size() && std::string_view(" \t;[(").find(text[end]) != std::string_view::npos) ++end;
+    if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
+    if (!number) continue;
+    if (unit == "mhz" || unit == "ghz" || unit == "ms" || unit == "us" || unit == "ns")
+      throw InvalidInput("the header states a rate in '{}' ('{}'); write it in Hz or kHz", unit, line);
+    const double rate = unit == "khz" ? 1000.0 * *number : *number;
+    if (rate >= 1.0 && rate <= 1e6) return rate;
   }
   return std::nullopt;
 }

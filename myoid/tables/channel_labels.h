@@ -16,10 +16,11 @@ namespace myoid::recording {
 /// Returns the unit of a cell that holds nothing else, with or without brackets.
 [[nodiscard]] std::optional<ScaledUnit> unit_in_cell(std::string_view cell);
 
-/// Reads a rate such as "1259.2593 Hz".
+/// Reads a rate such as "1259.2593 Hz" or "2 kHz" [Hz].
 [[nodiscard]] std::optional<double> rate_in_cell(std::string_view cell);
 
-/// Returns the number behind a word that means a sampling rate, anywhere in a line.
+/// Returns the rate [Hz] behind a word that means a sampling rate, anywhere in a line: a number alone, in Hz or in kHz.
+/// Throws InvalidInput for MHz, GHz and for times (ms, us, ns).
 [[nodiscard]] std::optional<double> rate_in_line(std::string_view line);
 
 /// Gives every column its kind by its name: times, numbers of frames and samples, remarks. A second time column called
