@@ -14,6 +14,7 @@
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
 #include "myoid/study/trial_up.h"
+#include "myoid/tables/instrument_names.h"
 #include "myoid/tables/storage_reader.h"
 
 namespace myoid {
@@ -48,6 +49,12 @@ std::vector<std::string> words_of(const std::string& stem) {
   return words;
 }
 
+/// True if the name of a file or channel, or a title, in small letters says that it holds EMG or what follows from it.
+bool says_emg(const std::string& text) {
+  const auto has = [&](const char* word) { return text.find(word) != std::string::npos; };
+  return has("emg") || has("electromyo") || has("excitation") || has("activation");
+}
+
 }  // namespace
 
 std::string trial_stem(const fs::path& path) {
@@ -70,12 +77,16 @@ void find_emg(const fs::path& path,
   const bool storage = format == FileFormat::storage;
   const std::string name = small(path.filename().string());
   if (found.channels.empty() && (storage || format == FileFormat::text_table)) {
-    const bool stated = storage && recording::stated_voltage(recording::read_storage(path));
-    const bool named = name.find("emg") != std::string::npos || name.find("excitation") != std::string::npos ||
-                       name.find("activation") != std::string::npos;
-    if (!stated && !named) return;
-    for (const Channel& c : analog.channels()) found.channels.push_back(c.name);
-    found.has_unit = stated;
+    std::string title;
+    if (storage) {
+      const recording::Storage file = recording::read_storage(path);
+      found.has_unit = recording::stated_voltage(file).has_value();
+      title = small(file.title);
+    }
+    const bool all = found.has_unit || says_emg(name) || says_emg(title);
+    for (const Channel& c : analog.channels()) {
+      if (all || (says_emg(small(c.name)) && !recording::named_as_no_emg(c.name))) found.channels.push_back(c.name);
+    }
   }
   if (found.channels.empty()) return;
   // Raw EMG goes through its median many times a second, an envelope (below some 10 Hz) does not.

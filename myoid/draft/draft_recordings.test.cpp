@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "myoid/files/atomic_file.h"
+#include "myoid/tables/series_file.h"
 
 #include "tests/support/temporary_folder.h"
 
@@ -63,6 +64,27 @@ TEST(FindEmg, VoltagesThatGoThroughTheirMedianOftenAreRaw) {
   const Eigen::VectorXd slow = 1.0 + (20.0 * t.array()).sin();
   find_emg("a.csv", TimeSeries(t, {{"BIC", Unit::volt}}, slow), {}, envelope);
   EXPECT_FALSE(envelope.raw);
+}
+
+TEST(FindEmg, ATitleOrTheNamesOfChannelsSayThatItIsEmg) {
+  const test::TemporaryFolder folder;
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(1000, 0.0, 0.999);
+  Eigen::MatrixXd x(1000, 2);
+  x.col(0) = 1.0 + (20.0 * t.array()).sin();
+  x.col(1) = 1.0 + (15.0 * t.array()).sin();
+  const TimeSeries two(t, {{"soleus", Unit::dimensionless}, {"gastrocnemius", Unit::dimensionless}}, x);
+  for (const char* title : {"Electromyography", "Forces"}) {
+    recording::write_series(folder / "walk.sto", two, title);
+    FoundRecording found;
+    find_emg(folder / "walk.sto", two, {}, found);
+    EXPECT_EQ(found.channels.size(), title[0] == 'E' ? 2U : 0U) << title;
+    EXPECT_FALSE(found.has_unit);
+  }
+  FoundRecording named;
+  find_emg("walk.csv",
+           TimeSeries(t, {{"EMG 01 (54717) EMG 1", Unit::dimensionless}, {"EMG 01 ACC X", Unit::dimensionless}}, x), {},
+           named);
+  EXPECT_EQ(named.channels, std::vector<std::string>{"EMG 01 (54717) EMG 1"});
 }
 
 }  // namespace
