@@ -67,10 +67,14 @@ void compare_activations(const StudyData& data, const IdentifySources& sources, 
   const auto in_all = [&](const auto& holds) { return std::ranges::all_of(data.trials, holds); };
   const std::string& file = sources.activations.front();
   for (std::size_t c = 0; c < channels.size(); ++c) {
+    // A table with a row for each maximal contraction has the activation 1 throughout.
+    constexpr double kEffort = 0.5;
     if (in_all([&](const TrialData& trial) {
           const Eigen::VectorXd a = trial.activation.column(channels[c]);
           return !(a.maxCoeff() > a.minCoeff());
         })) {
+      if (in_all([&](const TrialData& trial) { return trial.activation.column(channels[c]).minCoeff() >= kEffort; }))
+        continue;
       remark(
           fmt::format("{}: activation '{}' never changes in any trial: was the electrode connected? The work of its "
                       "muscles is given to the others; leave them out of muscles.csv only if they were at rest",

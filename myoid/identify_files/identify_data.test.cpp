@@ -200,6 +200,20 @@ TEST(IdentifyData, ATorqueOfNothingIsRefused) {
   EXPECT_NE(files.message().find("id.sto: the torque is 0 in all trials"), std::string::npos) << files.message();
 }
 
+TEST(IdentifyData, AnEffortThatIsAlwaysTheGreatestIsNoDeadElectrode) {
+  Written files;
+  const TimeSeries& activation = files.study.data.trials[0].activation;
+  for (const double level : {1.0, 0.01}) {
+    Eigen::MatrixXd values = activation.values();
+    values.col(1).setConstant(level);
+    recording::write_series(files.folder / "a.sto", TimeSeries(activation.time_s(), activation.channels(), values),
+                            "a");
+    files.remarks.clear();
+    (void)files.read();
+    EXPECT_EQ(files.remarks.size(), level < 0.5 ? 1U : 0U) << level;
+  }
+}
+
 TEST(IdentifyData, AnElectrodeThatSaysNothingOrTheSameAsAnotherIsRemarkedOf) {
   Written files;
   const TimeSeries& activation = files.study.data.trials[0].activation;

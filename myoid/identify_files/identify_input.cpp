@@ -25,7 +25,7 @@ using identification::TrialData;
 constexpr double kShortestPath_m = 0.01, kLongestPath_m = 1.0;
 constexpr double kCertainlyShort_m = 0.002, kCertainlyLong_m = 3.0;
 constexpr double kLargestArm_m = 0.2, kCertainlyLargeArm_m = 0.5;
-constexpr double kHighestActivation = 1.05, kCertainlyHigh = 2.0;
+constexpr double kHighestActivation = 1.25, kCertainlyHigh = 2.0;
 constexpr double kLowestActivation = -0.01, kCertainlyLow = -0.1;
 constexpr double kSpike_s = 0.1;  ///< a shorter time above kCertainlyHigh is an artefact
 constexpr double kWindow_s = 0.1;
@@ -182,9 +182,10 @@ class TrialCheck {
         fail(files_.activations,
              found + ", expected 0 to 1; is this raw EMG? Rectify, low-pass and normalise it (myoid emg)");
       if (largest_mean(a) > kHighestActivation)
-        remark(files_.activations, fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1: an effort "
-                                               "beyond the one taken for the greatest",
-                                               found, largest_mean(a)));
+        remark(files_.activations,
+               fmt::format("{}, {:.3g} in the mean of half a second, expected 0 to 1, or to {:g} by "
+                           "the chance of the envelope: an effort beyond those that count as 1",
+                           found, largest_mean(a), kHighestActivation));
       if (low < kLowestActivation) remark(files_.activations, found + ", expected 0 to 1");
     }
     if (largest < kFlatActivation)
