@@ -249,9 +249,12 @@ std::vector<Remark> levels_alone(const TimeSeries& emg, bool raw, const std::str
   if (raw && emg.mean_rate_hz() < kSlowest_hz) return {};
   signals::EnvelopeOptions options;
   options.whitening = false;
-  const TimeSeries envelope = raw ? signals::process_emg(emg, options).envelope : emg;
-  const std::vector<signals::TrialEnvelope> one{{where, false, &envelope, {}}};
-  return signals::check_emg_levels(one);
+  const signals::EmgStages stages = raw ? signals::process_emg(emg, options) : signals::EmgStages{};
+  const std::vector<signals::TrialEnvelope> one{{where, false, raw ? &stages.envelope : &emg, {}, stages.flatness}};
+  std::vector<Remark> faults = signals::check_emg_levels(one);
+  // A muscle may rest throughout one recording.
+  for (Remark& fault : faults) fault.severity = std::max(fault.severity, Severity::warning);
+  return faults;
 }
 
 }  // namespace

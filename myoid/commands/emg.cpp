@@ -14,12 +14,25 @@
 namespace myoid::commands {
 namespace {
 
-void warn_of_levels(const std::vector<signals::TrialEnvelope>& trials, Remarks& remarks) {
+/// Warns of the levels and returns the channels that are nothing but noise, which are left out. Throws InvalidInput if
+/// such a channel was asked for, or there is no other.
+std::vector<std::string> noise_by_levels(const std::vector<signals::TrialEnvelope>& trials,
+                                         bool asked_for,
+                                         Remarks& remarks) {
   GroupedWarnings warnings(remarks);
+  std::vector<std::string> noise;
+  std::string why;
   for (const Remark& fault : signals::check_emg_levels(trials)) {
-    if (fault.severity == Severity::warning)
-      warnings.add(fault.code, fmt::format("'{}'", fault.about), "channels", sentence(fault));
+    const bool left_out = fault.code == RemarkCode::emg_low_signal && fault.severity == Severity::error;
+    if (left_out) noise.push_back(fault.about);
+    if (left_out) why = sentence(fault);
+    if (fault.severity != Severity::note)
+      warnings.add(fault.code, fmt::format("'{}'", fault.about), left_out ? "noise" : "channels",
+                   left_out ? fault.says + ": it is left out; was the electrode connected?" : sentence(fault));
   }
+  const auto all = static_cast<std::size_t>(trials.front().envelope->channel_count());
+  if (!noise.empty() && (asked_for || noise.size() == all)) throw InvalidInput(why);
+  return noise;
 }
 
 /// The EMG of all files, cleaned, whitened and smoothed. Either all files are whitened or none.
@@ -78,22 +91,28 @@ EmgResult emg(const EmgOptions& o) {
   SmoothedFiles files = smooth(o, paths, remarks);
   std::vector<signals::TrialEnvelope> trials;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    trials.push_back({paths[i], i >= o.in.size(), &files.stages[i].envelope, files.stages[i].bandwidth_hz});
+    trials.push_back({paths[i], i >= o.in.size(), &files.stages[i].envelope, files.stages[i].bandwidth_hz,
+                      files.stages[i].flatness});
   }
   const signals::NormalisationOptions window{.window_s = o.window_s};
   EmgResult result;
   result.normalisation = signals::find_normalisation(trials, window);
-  warn_of_levels(trials, remarks);
+  const std::vector<std::string> noise = noise_by_levels(trials, !o.channels.empty(), remarks);
+  std::erase_if(result.normalisation, [&](const signals::ChannelNormalisation& n) {
+    return std::find(noise.begin(), noise.end(), n.channel) != noise.end();
+  });
   result.whitening = files.whitening;
   result.chain = signals::envelope_chain(files.views(), o.chain, files.whitening);
   result.envelope_header = signals::header_lines(result.chain);
   signals::add_normalisation(result.normalisation, window, result.chain);
   result.chain.steps.emplace_back("activation dynamics: none in this file");
   result.activation_header = signals::header_lines(result.chain);
+  std::vector<std::string> channels;
+  for (const signals::ChannelNormalisation& n : result.normalisation) channels.push_back(n.channel);
   for (std::size_t i = 0; i < o.in.size(); ++i) {
     const TimeSeries& envelope = files.stages[i].envelope;
     result.activations.push_back(cut(signals::normalise(envelope, result.normalisation), o.call));
-    if (o.keep_envelopes) result.envelopes.push_back(cut(envelope, o.call));
+    if (o.keep_envelopes) result.envelopes.push_back(cut(envelope.select(channels), o.call));
     files.stages[i] = {};
   }
   result.remarks = remarks.list();

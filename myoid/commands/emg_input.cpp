@@ -11,6 +11,7 @@
 #include "myoid/recording/channel_choice.h"
 #include "myoid/recording/emg_reader.h"
 #include "myoid/recording/recording.h"
+#include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_quality.h"
 
 namespace myoid::commands {
@@ -82,11 +83,15 @@ void keep_common_channels(const std::vector<std::string>& paths,
 }
 
 /// Warns of faults in raw EMG. Throws ReadError if no channel is raw.
-void warn_of_faults(const std::string& path, const TimeSeries& emg, bool highpass, GroupedWarnings& warnings) {
+void warn_of_faults(const std::string& path,
+                    const TimeSeries& emg,
+                    const signals::EnvelopeOptions& chain,
+                    GroupedWarnings& warnings) {
   std::vector<std::string> envelopes;
-  const std::vector<Remark> faults = signals::check_emg(emg, highpass);
-  for (const Remark& fault : faults) {
-    if (fault.code == RemarkCode::emg_envelope) envelopes.push_back(fault.about);
+  const std::vector<Remark> faults =
+      signals::check_emg(emg, {.high_passed = !chain.as_published, .notched = chain.notch && !chain.as_published});
+  for (const Channel& channel : emg.channels()) {
+    if (signals::is_envelope(emg.column(channel.name), emg.mean_rate_hz())) envelopes.push_back(channel.name);
   }
   const std::string what = fmt::format(
       "{} never negative and slow: rectified and smoothed already. This command would turn such an envelope into noise",
@@ -137,7 +142,7 @@ std::vector<TimeSeries> read_raw_emg(const EmgOptions& o, GroupedWarnings& warni
   std::vector<TimeSeries> raw;
   for (const std::string& path : paths) raw.push_back(read_raw(path, o, warnings));
   keep_common_channels(paths, raw, warnings);
-  for (std::size_t i = 0; i < raw.size(); ++i) warn_of_faults(paths[i], raw[i], !o.chain.as_published, warnings);
+  for (std::size_t i = 0; i < raw.size(); ++i) warn_of_faults(paths[i], raw[i], o.chain, warnings);
   return raw;
 }
 

@@ -72,7 +72,7 @@ std::vector<signals::TrialEnvelope> envelopes_of(const Study& study,
     if (emg[i] == nullptr || (without_validation && !seen[i])) continue;
     const auto& stages = envelopes.trials[i].stages;
     found.push_back({study.trials[i].name, study.trials[i].use == Use::mvc, stages ? &stages->envelope : emg[i],
-                     stages ? stages->bandwidth_hz : Eigen::VectorXd()});
+                     stages ? stages->bandwidth_hz : Eigen::VectorXd(), stages ? stages->flatness : Eigen::VectorXd()});
   }
   return found;
 }

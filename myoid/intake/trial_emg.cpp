@@ -17,8 +17,8 @@
 #include "myoid/intake/trial_clock.h"
 #include "myoid/intake/trial_quality.h"
 #include "myoid/recording/emg_reader.h"
+#include "myoid/signals/emg_kind.h"
 #include "myoid/signals/emg_levels.h"
-#include "myoid/signals/emg_quality.h"
 #include "myoid/signals/resample.h"
 
 namespace myoid {

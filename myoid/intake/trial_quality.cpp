@@ -35,7 +35,9 @@ std::vector<Remark> trial_faults(const Study& study, const TrialInput& input, co
   const auto check_clock_of = [&](const Eigen::VectorXd& time_s, const char* what) {
     if (auto uneven = signals::check_clock_evenness(time_s, what)) faults.push_back(std::move(*uneven));
   };
-  if (input.emg && study.emg.kind == EmgKind::raw) append(signals::check_emg(*input.emg, !study.emg.as_published));
+  if (input.emg && study.emg.kind == EmgKind::raw)
+    append(signals::check_emg(
+        *input.emg, {.high_passed = !study.emg.as_published, .notched = study.emg.notch && !study.emg.as_published}));
   if (input.emg) check_clock_of(input.emg->time_s(), "EMG");
   if (input.markers) check_clock_of(input.markers->time_s, "markers");
   if (input.motion) check_clock_of(input.motion->time_s(), "motion");

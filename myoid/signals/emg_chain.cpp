@@ -25,6 +25,20 @@ std::string lines_of(std::span<const EmgStages* const> trials) {
   return text;
 }
 
+/// Adds the replacement of spikes, of all trials together, if there were any.
+void add_spikes(std::span<const EmgStages* const> trials, EmgChain& chain) {
+  std::map<std::string, std::size_t> counts;
+  for (const EmgStages* trial : trials) {
+    for (const MendedSpikes& spikes : trial->spikes) counts[spikes.channel] += spikes.count;
+  }
+  if (counts.empty()) return;
+  std::string text;
+  for (const auto& [channel, count] : counts)
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", count, channel);
+  chain.steps.push_back(fmt::format("spikes narrower than EMG replaced by straight lines: {}", text));
+  chain.methods.push_back(fmt::format("Isolated spikes were replaced by linear interpolation ({}).", text));
+}
+
 void add_highpass(std::span<const EmgStages* const> trials, const EnvelopeOptions& options, EmgChain& chain) {
   chain.steps.emplace_back("mean of the trial removed");
   if (options.as_published) {
@@ -74,6 +88,7 @@ EmgChain envelope_chain(std::span<const EmgStages* const> trials,
                         const EnvelopeOptions& options,
                         const Whitening& whitening) {
   EmgChain chain;
+  add_spikes(trials, chain);
   add_highpass(trials, options, chain);
   add_rectification(options, whitening, chain);
   return chain;
@@ -85,7 +100,7 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
   chain.steps.push_back(
       fmt::format("amplitude normalization over all trials and maximal contractions together: root of (envelope "
                   "squared less rest squared) over the reference; rest is the mean of the quiet seconds, the reference "
-                  "that of the greatest moving means of {:g} s, less rest likewise",
+                  "that of the greatest moving means of {:g} s that differ by chance only, less rest likewise",
                   options.window_s));
   const auto level = [](const ChannelNormalisation& n, double value) {
     const bool volts = n.unit != Unit::dimensionless;
@@ -103,12 +118,13 @@ void add_normalisation(const std::vector<ChannelNormalisation>& normalisation,
   const bool task = std::none_of(normalisation.begin(), normalisation.end(),
                                  [](const ChannelNormalisation& n) { return n.from_mvc; });
   chain.methods.push_back(fmt::format(
-      "The baseline noise was subtracted in quadrature, and the EMG amplitude of each muscle was normalized to {} "
-      "({:g} s moving mean) recorded in {}.",
-      mvc    ? "its greatest amplitude during maximal voluntary contractions (MVC)"
-      : task ? "its greatest amplitude"
-             : "its greatest amplitude during maximal voluntary contractions (MVC) and tasks",
+      "The baseline noise was subtracted in quadrature, and the EMG amplitude of each muscle was normalized to the "
+      "average of its greatest {:g} s moving means{} (those that differ by no more than the noise of such a mean) "
+      "recorded in {}.",
       options.window_s,
+      mvc    ? " during maximal voluntary contractions (MVC)"
+      : task ? ""
+             : " during maximal voluntary contractions (MVC) and tasks",
       task ? "the tasks, because no maximal voluntary contraction (MVC) exceeded it" : "all trials of the session"));
 }
 

@@ -11,6 +11,7 @@
 #include "myoid/core/index.h"
 #include "myoid/core/normal.h"
 #include "myoid/math/statistics.h"
+#include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/filter.h"
 #include "myoid/signals/mains_hum.h"
 #include "myoid/signals/quality_limits.h"
@@ -129,6 +130,36 @@ void take_out_hum(bool notch, EmgStages& stages) {
   stages.filtered = TimeSeries(stages.filtered.time_s(), stages.filtered.channels(), std::move(values));
 }
 
+/// Replaces the spikes of all channels by straight lines and notes them in `stages`.
+Eigen::MatrixXd take_out_spikes(const TimeSeries& raw, EmgStages& stages) {
+  Eigen::MatrixXd values = raw.values();
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const std::vector<EmgSpike> spikes = find_spikes(values.col(c), raw.mean_rate_hz());
+    if (spikes.empty()) continue;
+    values.col(c) = without_spikes(values.col(c), spikes);
+    stages.spikes.push_back({raw.channels()[static_cast<std::size_t>(c)].name, spikes.size()});
+  }
+  return values;
+}
+
+/// Returns `EmgStages::flatness` of a channel; 0 for a rate without such a band.
+double flatness_of(const Eigen::VectorXd& x, double rate_hz, double highpass_hz) {
+  constexpr double kMost_hz = 450.0;  // amplifiers and converters hold back what is above
+  const double from_hz = 1.25 * highpass_hz;
+  const double to_hz = std::min(kMost_hz, 0.45 * rate_hz);
+  PowerSpectrum spectrum = power_spectrum(x, rate_hz, kSpectrumSegment_s);
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < spectrum.density.size(); ++i) {
+    const bool inside = spectrum.frequency_hz[i] >= from_hz && spectrum.frequency_hz[i] <= to_hz;
+    count += inside ? 1 : 0;
+    if (!inside) spectrum.density[i] = 0.0;
+  }
+  if (count < 10) return 0.0;
+  const double white_hz = static_cast<double>(count) * (spectrum.frequency_hz[1] - spectrum.frequency_hz[0]);
+  const double bandwidth_hz = statistical_bandwidth_hz(spectrum);
+  return std::isfinite(bandwidth_hz) ? bandwidth_hz / white_hz : 0.0;
+}
+
 }  // namespace
 
 Eigen::Index window_samples(const TimeSeries& series, double window_s) {
@@ -140,8 +171,10 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
   EmgStages stages;
-  const Eigen::MatrixXd centered = raw.values().rowwise() - raw.values().colwise().mean();
-  stages.raw = TimeSeries(raw.time_s(), raw.channels(), centered);
+  Eigen::MatrixXd values = take_out_spikes(raw, stages);
+  const Eigen::RowVectorXd mean = values.colwise().mean();
+  values.rowwise() -= mean;
+  stages.raw = TimeSeries(raw.time_s(), raw.channels(), std::move(values));
   const double rate = raw.mean_rate_hz();
   if (rate < 500.0) {
     stages.findings.push_back(fmt::format(
@@ -152,6 +185,9 @@ EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options) {
                         : zero_phase_filter(stages.raw, math::FilterBand::high_pass, options.highpass_hz,
                                             {.order = 2, .ends = math::Ends::even});
   take_out_hum(options.notch && !options.as_published, stages);
+  stages.flatness.setZero(raw.channel_count());
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
+    stages.flatness[c] = flatness_of(stages.filtered.values().col(c), rate, options.highpass_hz);
   return stages;
 }
 

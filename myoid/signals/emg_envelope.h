@@ -30,19 +30,29 @@ struct Notch {
   std::vector<double> lines_hz;
 };
 
+/// Spikes that were taken out of a channel (`find_spikes`).
+struct MendedSpikes {
+  std::string channel;
+  std::size_t count = 0;
+};
+
 /// One trial's EMG at each stage of processing.
 struct EmgStages {
-  TimeSeries raw;                ///< As read, mean removed [V].
+  TimeSeries raw;                ///< As read, without spikes, mean removed [V].
   TimeSeries filtered;           ///< High-passed, hum removed [V].
   TimeSeries rectified;          ///< Whitened (if so decided) and rectified [V].
   TimeSeries envelope;           ///< Low-passed, never negative [V].
   Eigen::VectorXd bandwidth_hz;  ///< Statistical bandwidth of the signal before rectification.
+  /// Statistical bandwidth of `filtered` between the high-pass and 450 Hz, over that of white noise: an electrode that
+  /// is not on a muscle has 0.9 to 1, EMG 0.2 to 0.65.
+  Eigen::VectorXd flatness;
   std::vector<Notch> notches;
+  std::vector<MendedSpikes> spikes;
   std::vector<std::string> findings;  ///< Mains hum, a rate too low for the EMG, an envelope clipped at 0.
 };
 
-/// Removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,
-/// `filtered` and the findings. Throws InvalidInput unless `raw` is in volts and finite.
+/// Replaces spikes, removes the mean, high-passes and removes hum, every filter without delay: fills `raw`,
+/// `filtered`, `flatness` and the findings. Throws InvalidInput unless `raw` is in volts and finite.
 [[nodiscard]] EmgStages clean_emg(const TimeSeries& raw, const EnvelopeOptions& options = {});
 
 /// Decides on whitening for all clean trials of one person. Throws as `decide_whitening`.
@@ -64,6 +74,7 @@ struct TrialEnvelope {
   bool is_mvc = false;
   const TimeSeries* envelope = nullptr;
   Eigen::VectorXd bandwidth_hz;  ///< Bandwidth of each channel's raw EMG; empty if unknown.
+  Eigen::VectorXd flatness;      ///< `EmgStages::flatness`; empty if unknown.
 };
 
 /// A pause between the bursts of a cyclic movement; shorter than a burst of walking.

@@ -32,6 +32,44 @@ TEST(EmgLevels, AChannelThatHardlyRisesIsNamed) {
   EXPECT_NEAR(*faults[0].value, 3.0, 1e-9);
 }
 
+/// The spectrum of noise (0.97) and of EMG (0.4).
+TrialEnvelope with_flatness(TrialEnvelope trial, double flatness) {
+  trial.flatness = Eigen::VectorXd::Constant(1, flatness);
+  return trial;
+}
+
+TEST(EmgLevels, AChannelOfNothingButNoiseIsAnErrorAndAHeldEffortIsNot) {
+  const TimeSeries noise = envelope({2e-6, 2.2e-6, 1.9e-6});
+  for (const double flatness : {0.97, 0.4, 0.0}) {
+    const std::vector<TrialEnvelope> trials{with_flatness({"a", false, &noise}, flatness)};
+    const auto faults = check_emg_levels(trials);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].severity, flatness > 0.9 ? Severity::error : Severity::warning);
+  }
+}
+
+TEST(EmgLevels, AnElectrodeThatIsLostInOneTrialIsNamedAndAMuscleAtRestIsNot) {
+  const TimeSeries works = envelope({1e-5, 1e-4});
+  const TimeSeries rests = envelope({1.05e-5, 1.1e-5});
+  const TimeSeries silent = envelope({2e-6, 2.1e-6});
+  const TimeSeries loud = envelope({4e-5, 4.2e-5});
+  const auto faults_with = [&](const TimeSeries& one, double flatness, int others) {
+    std::vector<TrialEnvelope> trials{with_flatness({"one", false, &one}, flatness)};
+    for (int i = 0; i < others; ++i) trials.push_back(with_flatness({"other", false, &works}, 0.4));
+    return check_emg_levels(trials);
+  };
+  EXPECT_TRUE(faults_with(rests, 0.97, 3).empty());
+  EXPECT_TRUE(faults_with(loud, 0.4, 3).empty());     // an effort held throughout
+  EXPECT_TRUE(faults_with(silent, 0.97, 2).empty());  // two trials do not tell rest
+  for (const TimeSeries* lost : {&silent, &loud}) {
+    const auto faults = faults_with(*lost, 0.97, 3);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].code, RemarkCode::emg_low_signal);
+    EXPECT_EQ(faults[0].severity, Severity::warning);
+    EXPECT_NE(faults[0].says.find("'BIC' in one is steady noise"), std::string::npos) << faults[0].says;
+  }
+}
+
 /// Bursts of 0.3 s in a cycle of 1.1 s: the second of lowest mean always holds most of one.
 TEST(EmgLevels, TwoStepsOfWalkingAreNotComplainedOf) {
   const Eigen::Index n = 240;

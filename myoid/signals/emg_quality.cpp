@@ -11,6 +11,8 @@
 #include "myoid/math/butterworth.h"
 #include "myoid/math/statistics.h"
 #include "myoid/math/zero_phase.h"
+#include "myoid/signals/emg_kind.h"
+#include "myoid/signals/emg_spikes.h"
 #include "myoid/signals/mains_hum.h"
 
 namespace myoid::signals {
@@ -50,17 +52,21 @@ Run longest_run(const Eigen::VectorXd& x, std::optional<double> value = std::nul
 /// Runs all checks of one channel and keeps the filtered signal for the pairs.
 class ChannelCheck {
  public:
-  ChannelCheck(const TimeSeries& raw, Eigen::Index c, bool high_passed)
+  ChannelCheck(const TimeSeries& raw, Eigen::Index c, const EmgTreatment& treatment)
       : time_s_(raw.time_s()),
         x_(raw.values().col(c)),
         name_(raw.channels()[static_cast<std::size_t>(c)].name),
         rate_hz_(raw.mean_rate_hz()),
-        high_passed_(high_passed) {}
+        treatment_(treatment) {}
 
   /// Returns the signal for the pair checks; empty if the channel has none.
   Eigen::VectorXd run(std::vector<Remark>& faults) {
+    const std::vector<EmgSpike> spikes = find_spikes(x_, rate_hz_);
+    if (!spikes.empty()) faults.push_back(spike_remark(name_, time_s_, spikes));
+    x_ = without_spikes(x_, spikes);
     amplitude(faults);
     const bool smoothed = is_envelope(x_, rate_hz_);
+    const bool rectified = !smoothed && is_rectified(x_);
     x_.array() -= x_.mean();
     if (rms(x_) < kLimits.flat_v) {
       add(faults, RemarkCode::emg_flat, true, 0, x_.size() - 1, rms(x_),
@@ -81,6 +87,14 @@ class ChannelCheck {
           fmt::format("channel '{}' is never negative and hardly goes up and down: it has been rectified and smoothed",
                       name_),
           "an envelope that is high-passed and rectified once more is no activation: set [emg] kind = \"envelope\"");
+      return {};
+    }
+    if (rectified) {
+      add(faults, RemarkCode::emg_envelope, true, 0, x_.size() - 1, 0.0,
+          fmt::format("channel '{}' goes up and down as raw EMG does and is never negative: it has been rectified",
+                      name_),
+          "the high-pass makes another signal of it: give the raw EMG, or low-pass it and set [emg] kind = "
+          "\"envelope\"");
       return {};
     }
     if (rate_hz_ < 4.0 * kEmgFrom_hz || x_.size() < static_cast<Eigen::Index>(rate_hz_)) return {};
@@ -162,7 +176,8 @@ class ChannelCheck {
     add(faults, RemarkCode::emg_hum, true, 0, x_.size() - 1, found->share,
         fmt::format("channel '{}': {:.0f} % of its power is hum, in lines at {:.0f} Hz", name_, 100.0 * found->share,
                     fmt::join(found->lines_hz, ", ")),
-        "it is taken out by a notch (unless [emg] notch = \"none\"); check the reference electrode");
+        treatment_.notched ? "notches take it out; check the reference electrode"
+                           : "no notch takes it out, so it becomes activation; check the reference electrode");
     emg_ = without_hum(emg_, rate_hz_, *found);
   }
 
@@ -175,11 +190,11 @@ class ChannelCheck {
     means.array() -= means.mean();
     const double value = rms(means) / rms(emg_);
     if (value < kLimits.drift_over_rms) return;
-    add(faults, RemarkCode::emg_drift, !high_passed_, 0, x_.size() - 1, value,
+    add(faults, RemarkCode::emg_drift, !treatment_.high_passed, 0, x_.size() - 1, value,
         fmt::format("channel '{}': its baseline wanders by {:.3g} uV, {:.2g} times the EMG", name_, 1e6 * rms(means),
                     value),
-        high_passed_ ? "the high-pass takes it out; check the skin's preparation"
-                     : "without a high-pass it becomes activation: set [emg] highpass_hz");
+        treatment_.high_passed ? "the high-pass takes it out; check the skin's preparation"
+                               : "without a high-pass it becomes activation: set [emg] highpass_hz");
   }
 
   void artifact(std::vector<Remark>& faults) const {
@@ -212,7 +227,7 @@ class ChannelCheck {
   Eigen::VectorXd emg_;
   std::string name_;
   double rate_hz_;
-  bool high_passed_;
+  EmgTreatment treatment_;
 };
 
 /// Returns the largest correlation within 10 ms to either side, over at most 20 one-second blocks.
@@ -243,14 +258,13 @@ double common_share(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double r
 
 }  // namespace
 
-std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed) {
+std::vector<Remark> check_emg(const TimeSeries& raw, const EmgTreatment& treatment) {
   require_unit(raw, Unit::volt, "EMG");
   require_finite(raw, "EMG");
   std::vector<Remark> faults;
   if (raw.sample_count() < 10) return faults;
   std::vector<Eigen::VectorXd> signals;
-  for (Eigen::Index c = 0; c < raw.channel_count(); ++c)
-    signals.push_back(ChannelCheck(raw, c, high_passed).run(faults));
+  for (Eigen::Index c = 0; c < raw.channel_count(); ++c) signals.push_back(ChannelCheck(raw, c, treatment).run(faults));
   for (std::size_t a = 0; a < signals.size(); ++a) {
     for (std::size_t b = a + 1; b < signals.size(); ++b) {
       if (signals[a].size() == 0 || signals[b].size() == 0) continue;
@@ -277,21 +291,6 @@ std::vector<Remark> check_emg(const TimeSeries& raw, bool high_passed) {
     }
   }
   return faults;
-}
-
-bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
-  constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
-  const Eigen::Index n = x.size();
-  if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff())) return false;
-  const double median = math::upper_median({x.begin(), x.end()});
-  // With few different values the median may be the highest or the lowest of all.
-  Eigen::Index above = 0;
-  Eigen::Index not_below = 0;
-  for (Eigen::Index i = 1; i < n; ++i) {
-    above += (x[i] > median) != (x[i - 1] > median) ? 1 : 0;
-    not_below += (x[i] >= median) != (x[i - 1] >= median) ? 1 : 0;
-  }
-  return static_cast<double>(std::max(above, not_below)) * rate_hz <= kLimits.raw_hz * static_cast<double>(n);
 }
 
 }  // namespace myoid::signals

@@ -45,9 +45,9 @@ TimeSeries recording(const std::vector<Eigen::VectorXd>& columns) {
 Eigen::ArrayXd seconds() { return Eigen::ArrayXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / kEmgRate_hz); }
 
 /// Returns the kinds of fault found in one channel.
-std::set<RemarkCode> kinds(const Eigen::VectorXd& x, bool high_passed = true) {
+std::set<RemarkCode> kinds(const Eigen::VectorXd& x) {
   std::set<RemarkCode> result;
-  for (const Remark& fault : check_emg(recording({x}), high_passed)) result.insert(fault.code);
+  for (const Remark& fault : check_emg(recording({x}))) result.insert(fault.code);
   return result;
 }
 
@@ -63,6 +63,8 @@ TEST(EmgQuality, WhatNoElectrodeGivesIsNamedWithItsSize) {
   EXPECT_NE(faults[0].says.find(" V at "), std::string::npos) << faults[0].says;
   Eigen::VectorXd spike = muscle(3);
   spike[7000] = 1e30;
+  EXPECT_EQ(kinds(spike), Kinds{RemarkCode::emg_artifact});
+  spike.segment(7000, 20).setConstant(1e30);  // too long for a spike
   EXPECT_TRUE(kinds(spike).contains(RemarkCode::emg_amplitude));
 }
 
@@ -75,6 +77,19 @@ TEST(EmgQuality, AnEnvelopeIsToldFromRawEmgWhateverItsOffset) {
   EXPECT_FALSE(kinds(muscle(3).array() + 2.5).contains(RemarkCode::emg_envelope));
   // A large drift of the baseline keeps raw EMG from crossing its median for a long time.
   EXPECT_FALSE(kinds(muscle(3).array() + 1e-3 * (0.3 * seconds()).sin()).contains(RemarkCode::emg_envelope));
+}
+
+TEST(EmgQuality, RectifiedEmgIsToldFromRawEmg) {
+  for (const Eigen::VectorXd& x : {Eigen::VectorXd(muscle(3).cwiseAbs()), Eigen::VectorXd(1e3 * muscle(4).cwiseAbs())})
+    EXPECT_EQ(kinds(x), Kinds{RemarkCode::emg_envelope});
+  // Raw EMG on an offset is never negative, but it keeps far from zero.
+  EXPECT_TRUE(kinds(muscle(3).array() - muscle(3).minCoeff() + 1e-6).empty());
+}
+
+TEST(EmgQuality, OfHumItIsSaidWhetherANotchTakesItOut) {
+  const Eigen::VectorXd x = muscle(1) + (1e-4 * (2.0 * kPi * 50.0 * seconds()).sin()).matrix();
+  EXPECT_NE(check_emg(recording({x}))[0].remedy.find("notches take it out"), std::string::npos);
+  EXPECT_NE(check_emg(recording({x}), {.notched = false})[0].remedy.find("no notch takes it out"), std::string::npos);
 }
 
 TEST(EmgQuality, OfCleanRecordingsNothingIsSaid) {
@@ -109,11 +124,11 @@ TEST(EmgQuality, HumIsHeard) {
 
 TEST(EmgQuality, AWanderingBaselineMattersWithoutAHighPassOnly) {
   const Eigen::VectorXd x = muscle(1) + (1e-3 * (0.6 * seconds()).sin()).matrix();
-  const auto removed = check_emg(recording({x}), true);
+  const auto removed = check_emg(recording({x}));
   ASSERT_EQ(removed.size(), 1U);
   EXPECT_EQ(removed[0].code, RemarkCode::emg_drift);
   EXPECT_EQ(removed[0].severity, Severity::note);
-  EXPECT_EQ(check_emg(recording({x}), false)[0].severity, Severity::warning);
+  EXPECT_EQ(check_emg(recording({x}), {.high_passed = false})[0].severity, Severity::warning);
 }
 
 TEST(EmgQuality, AMovementOfTheCableIsAnArtifactAtItsTime) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace myoid::signals {
+
+/// True for rectified and smoothed EMG: the samples are never negative (except for a filter's swing
+/// of 5 %) and go through their median less than `raw_hz` times a second.
+[[nodiscard]] bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& samples, double rate_hz);
+
+/// True for rectified EMG that was not smoothed: no sample is negative, and at least `rectified_share` of all lie below
+/// a tenth of the median (of rectified Gaussian noise 5 %). Raw EMG on an offset keeps far from zero.
+[[nodiscard]] bool is_rectified(const Eigen::Ref<const Eigen::VectorXd>& samples);
+
+}  // namespace myoid::signals
