@@ -19,19 +19,24 @@ namespace {
 std::vector<std::string> noise_by_levels(const std::vector<signals::TrialEnvelope>& trials,
                                          bool asked_for,
                                          Remarks& remarks) {
+  const std::vector<Remark> faults = signals::check_emg_levels(trials);
+  const auto is_noise = [](const Remark& fault) {
+    return fault.code == RemarkCode::emg_low_signal && fault.severity == Severity::error;
+  };
+  const auto all = trials.front().envelope->channel_count();
+  if (asked_for || std::count_if(faults.begin(), faults.end(), is_noise) == all) {
+    const auto first = std::find_if(faults.begin(), faults.end(), is_noise);
+    if (first != faults.end()) throw InvalidInput(sentence(*first));
+  }
   GroupedWarnings warnings(remarks);
   std::vector<std::string> noise;
-  std::string why;
-  for (const Remark& fault : signals::check_emg_levels(trials)) {
-    const bool left_out = fault.code == RemarkCode::emg_low_signal && fault.severity == Severity::error;
+  for (const Remark& fault : faults) {
+    const bool left_out = is_noise(fault);
     if (left_out) noise.push_back(fault.about);
-    if (left_out) why = sentence(fault);
     if (fault.severity != Severity::note)
       warnings.add(fault.code, fmt::format("'{}'", fault.about), left_out ? "noise" : "channels",
                    left_out ? fault.says + ": it is left out; was the electrode connected?" : sentence(fault));
   }
-  const auto all = static_cast<std::size_t>(trials.front().envelope->channel_count());
-  if (!noise.empty() && (asked_for || noise.size() == all)) throw InvalidInput(why);
   return noise;
 }
 

@@ -1,7 +1,10 @@
 #include "myoid/commands/emg.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,6 +59,44 @@ TEST(EmgFunction, AWarningIsToldAlthoughALaterFileIsRefused) {
   o.mvc = {folder / "missing.csv"};
   EXPECT_THROW((void)emg(o), ReadError);
   EXPECT_THAT(heard, testing::Contains(HasSubstr("'TRI' has the same value throughout")));
+}
+
+/// Four seconds at 2000 Hz: noise of 200 uV in bursts on BIC, with a spike if there is one, and 2 uV throughout on TRI.
+std::string burst_and_noise(double spike_v) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> normal;
+  std::string text = "time,BIC [V],TRI [V]\n";
+  for (int i = 0; i < 8000; ++i) {
+    const double bic = (i > 2000 && i < 6000 ? 2e-4 : 5e-6) * normal(engine);
+    text += fmt::format("{},{},{}\n", 0.0005 * i, i == 4001 && spike_v > 0.0 ? spike_v : bic, 2e-6 * normal(engine));
+  }
+  return text;
+}
+
+TEST(EmgFunction, ASpikeChangesNothingAndNoiseIsLeftOut) {
+  const test::TemporaryFolder folder;
+  EmgOptions o;
+  o.chain.whitening = false;
+  std::vector<EmgResult> results;
+  for (const double spike_v : {0.0, 0.05}) {
+    recording::write_file(folder / "a.csv", burst_and_noise(spike_v));
+    o.in = {folder / "a.csv"};
+    results.push_back(emg(o));
+    ASSERT_EQ(results.back().normalisation.size(), 1U);
+    EXPECT_EQ(results.back().activations[0].channels()[0].name, "BIC");
+  }
+  // The line takes the place of one sample of 2000.
+  EXPECT_NEAR(results[1].normalisation[0].reference_v / results[0].normalisation[0].reference_v, 1.0, 2e-3);
+  const auto says = [](const EmgResult& result, const char* what) {
+    return std::any_of(result.remarks.begin(), result.remarks.end(),
+                       [&](const Remark& r) { return r.says.find(what) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(results[0], "'TRI' never rises"));
+  EXPECT_FALSE(says(results[0], "spike"));
+  EXPECT_TRUE(says(results[1], "'BIC' has a spike of 50 mV at 2.0005 s"));
+  EXPECT_NE(results[1].chain.steps[0].find("1 in BIC"), std::string::npos) << results[1].chain.steps[0];
+  o.channels = {"TRI"};
+  EXPECT_THROW((void)emg(o), InvalidInput);
 }
 
 TEST(GroupedWarnings, WhatIsAlikeIsSaidOnceWithTheOtherPlaces) {

@@ -78,6 +78,7 @@ void find_emg(const fs::path& path,
   const std::string name = small(path.filename().string());
   if (found.channels.empty() && (storage || format == FileFormat::text_table)) {
     std::string title;
+    found.has_unit = false;
     if (storage) {
       const recording::Storage file = recording::read_storage(path);
       found.has_unit = recording::stated_voltage(file).has_value();

@@ -39,6 +39,7 @@ class Draft {
     for (const fs::path& loads : beside.external_loads) loads_data_.insert(loads_data_file(loads).lexically_normal());
     choose_model(beside.models);
     for (const fs::path& file : files) read(file);
+    leave_envelopes_of_raw_out();
     if (coordinate_.empty()) choose_coordinate();
     if (std::ranges::none_of(found_, [](const FoundRecording& f) {
           return f.markers.frame_count() > 0 || !f.angles.empty() || !f.channels.empty();
@@ -248,6 +249,20 @@ class Draft {
     for (const auto& [name, like] : similar_) pairs.push_back(fmt::format("{} = {}", in_quotes(name), in_quotes(like)));
     todo("are these the same? Then take the # away");
     line(fmt::format("# rename = {{ {} }}", fmt::join(pairs, ", ")));
+  }
+
+  /// Leaves files out that hold nothing but envelopes, where others hold raw EMG.
+  void leave_envelopes_of_raw_out() {
+    if (std::none_of(found_.begin(), found_.end(),
+                     [](const FoundRecording& f) { return f.raw && !f.channels.empty(); }))
+      return;
+    std::erase_if(found_, [&](const FoundRecording& f) {
+      const bool envelopes_alone = !f.raw && !f.channels.empty() && f.angles.empty() && f.markers.frame_count() == 0;
+      if (envelopes_alone)
+        draft_.notes.push_back(
+            fmt::format("{}: envelopes of EMG, and other files hold raw EMG; not used", f.path.filename().string()));
+      return envelopes_alone;
+    });
   }
 
   [[nodiscard]] std::vector<std::string> all_channels() const {

@@ -106,6 +106,7 @@ TEST(StudyDraft, OfAWalkingTrialTheJointIsThatOfTheChannelsAndTheGroundReactionC
   for (const MuscleSpec& muscle : study.muscles) emg.push_back(muscle.emg);
   EXPECT_THAT(emg, ::testing::UnorderedElementsAre("GAS", "MH", "BF", "VL", "VM", "RF"));
   EXPECT_THAT(draft.notes, ::testing::Not(Contains(HasSubstr("grf_walk"))));
+  EXPECT_THAT(draft.notes, Contains(HasSubstr("electromyography.sto: envelopes of EMG")));
 }
 
 TEST(StudyDraft, OfTheElbowRecordingsPassesTheCheck) {
