@@ -125,7 +125,7 @@ void add(const Levels& here, Levels& all) {
 }
 
 Remark low_signal(const std::string& channel, const Levels& all, double greatest_s) {
-  const bool noise = !all.rises() && all.flatness > kLimits.noise_flatness;
+  const bool noise = !all.rises() && all.flatness > kLimits.noise_flatness && all.greatest < kLimits.noise_v;
   return {.code = RemarkCode::emg_low_signal,
           .severity = noise ? Severity::error : Severity::warning,
           .about = channel,

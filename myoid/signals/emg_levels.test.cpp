@@ -40,6 +40,8 @@ TrialEnvelope with_flatness(TrialEnvelope trial, double flatness) {
 
 TEST(EmgLevels, AChannelOfNothingButNoiseIsAnErrorAndAHeldEffortIsNot) {
   const TimeSeries noise = envelope({2e-6, 2.2e-6, 1.9e-6});
+  const TimeSeries loud = envelope({2e-5, 2.2e-5, 1.9e-5});
+  EXPECT_EQ(check_emg_levels(std::vector{with_flatness({"a", false, &loud}, 0.97)})[0].severity, Severity::warning);
   for (const double flatness : {0.97, 0.4, 0.0}) {
     const std::vector<TrialEnvelope> trials{with_flatness({"a", false, &noise}, flatness)};
     const auto faults = check_emg_levels(trials);

@@ -27,6 +27,7 @@ struct QualityLimits {
   double spike_s = 1e-3;           ///< Width of a spike; EMG behind an amplifier's band is wider.
   double spike_over_emg = 5.0;     ///< Height of a spike over the 98th percentile around it.
   double noise_flatness = 0.8;     ///< Bandwidth over that of white noise; EMG has 0.2 to 0.65.
+  double noise_v = 1e-5;           ///< No amplifier is so noisy.
   double noise_rises = 1.5;        ///< Largest over smallest level of a channel that is nothing but noise.
   double noise_level = 2.0;        ///< Factor between the level of such noise and the channel's rest.
   double rectified_share = 0.02;   ///< Samples near zero of rectified EMG.
