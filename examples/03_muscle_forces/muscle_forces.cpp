@@ -13,7 +13,7 @@ void tell_forces(const char* muscle, const char* lengths) {
   myoid::commands::MuscleOptions options;
   options.muscle = muscle;
   options.lengths = {lengths};
-  options.activation = "0.5";
+  options.activation = {"0.5"};
   const myoid::commands::MuscleResult result = myoid::commands::muscle(options);
 
   // The series has a row for each sample of the file and a column for each quantity.
