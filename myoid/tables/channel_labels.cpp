@@ -103,7 +103,7 @@ TableColumn take_label_apart(const std::string& text) {
   return column;
 }
 
-std::optional<double> rate_in_line(std::string_view line) {
+std::optional<StatedRate> rate_in_line(std::string_view line) {
   const std::string text = lower(line);
   for (const char* word : {"sampling frequency", "sampling rate", "sample rate", "samplerate", "sample frequency",
                            "samplingrate", "frequency", "rate", "fs"}) {
@@ -124,9 +124,9 @@ std::optional<double> rate_in_line(std::string_view line) {
     if (const std::string behind = word_at(text, end); !behind.empty()) unit = behind;
     if (!number) continue;
     if (unit == "mhz" || unit == "ghz" || unit == "ms" || unit == "us" || unit == "ns")
-      throw InvalidInput("the header states a rate in '{}' ('{}'); write it in Hz or kHz", unit, line);
+      return StatedRate{.hz = 0.0, .other_unit = unit};
     const double rate = unit == "khz" ? 1000.0 * *number : *number;
-    if (rate >= 1.0 && rate <= 1e6) return rate;
+    if (rate >= 1.0 && rate <= 1e6) return StatedRate{.hz = rate, .other_unit = {}};
   }
   return std::nullopt;
 }

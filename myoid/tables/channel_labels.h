@@ -19,9 +19,14 @@ namespace myoid::recording {
 /// Reads a rate such as "1259.2593 Hz" or "2 kHz" [Hz].
 [[nodiscard]] std::optional<double> rate_in_cell(std::string_view cell);
 
-/// Returns the rate [Hz] behind a word that means a sampling rate, anywhere in a line: a number alone, in Hz or in kHz.
-/// Throws InvalidInput for MHz, GHz and for times (ms, us, ns).
-[[nodiscard]] std::optional<double> rate_in_line(std::string_view line);
+/// A rate that a line states.
+struct StatedRate {
+  double hz = 0.0;
+  std::string other_unit;  ///< MHz, GHz or a time (ms, us, ns) in place of Hz and kHz; `hz` is 0 then.
+};
+
+/// Finds the number behind a word that means a sampling rate, anywhere in a line. A number alone is in Hz.
+[[nodiscard]] std::optional<StatedRate> rate_in_line(std::string_view line);
 
 /// Gives every column its kind by its name: times, numbers of frames and samples, remarks. A second time column called
 /// just "t" or "T" counts as a channel (a trigger, a torque), unless the first has the same name.

@@ -214,11 +214,13 @@ class TableFinder {
   void read_head() {
     std::map<std::string, std::optional<ScaledUnit>> known;
     std::optional<double> rate;
+    bool in_hz = true;
     for (std::size_t n = 0; n < layout_.names_line; ++n) {
       if (const auto label = label_line(text_.lines[n])) {
         known[label->name] = label->unit;
-      } else if (!rate) {
-        rate = rate_in_line(text_.lines[n]);
+      } else if (const auto stated = rate ? std::nullopt : rate_in_line(text_.lines[n])) {
+        in_hz = stated->other_unit.empty();
+        if (in_hz) rate = stated->hz;
       }
     }
     const std::size_t end = layout_.names_line;
@@ -229,7 +231,7 @@ class TableFinder {
       const auto it = known.find(column.name);
       column.unit = it != known.end() ? it->second : unit;
     }
-    if (!rate) rate = stated_number(text_, end, separator, {"frequency", "sampling rate"});
+    if (!rate && in_hz) rate = stated_number(text_, end, separator, {"frequency", "sampling rate"});
     layout_.rate_hz = rate && *rate > 0.0 && *rate <= 1e6 ? *rate : 0.0;
     layout_.rows_said = stated_number(text_, end, separator, {"count", "number of samples"});
     layout_.length_s = stated_number(text_, end, separator, {"collection length (seconds)"});
@@ -279,13 +281,27 @@ void refuse_two_commas(const TableText& text, const TableLayout& layout, const s
                               2 * names, names));
 }
 
+/// Throws ReadError where the table has no clock and the only stated rate is not in Hz or kHz.
+void refuse_other_rates(const TableText& text, const TableLayout& layout, const std::filesystem::path& path) {
+  if (layout.count(Kind::time) > 0 || layout.rate_hz > 0.0) return;
+  for (std::size_t n = 0; n < layout.names_line; ++n) {
+    const auto stated = rate_in_line(text.lines[n]);
+    if (stated && !stated->other_unit.empty())
+      throw ReadError(path, n + 1, "found a sampling rate in '{}', expected Hz or kHz; write it so",
+                      stated->other_unit);
+  }
+}
+
 }  // namespace
 
 CsvSeries parse_emg_table(std::string_view text, const std::filesystem::path& path) {
   const TableText table(text);
   if (const auto layout = makers_layout(table, path)) return channels_of_table(table, *layout, path);
   const auto layout = find_table(table);
-  if (layout) refuse_two_commas(table, *layout, path);
+  if (layout) {
+    refuse_two_commas(table, *layout, path);
+    refuse_other_rates(table, *layout, path);
+  }
   if (layout && is_numbers(cells_of(table.lines[layout->names_line], layout->separator), layout->separator)) {
     throw ReadError(path, layout->names_line + 1,
                     "the table begins with numbers; expected a row of names above them, and a column 'time' or a line "

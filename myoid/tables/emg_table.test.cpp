@@ -107,6 +107,18 @@ TEST(EmgTable, WithoutATimeColumnTheStatedRateIsTheClock) {
   EXPECT_THROW(static_cast<void>(parse_emg_table("Export\n" + body, "a.txt")), ReadError);
 }
 
+TEST(EmgTable, ARateInAnotherUnitIsRefusedWhereItIsTheOnlyClock) {
+  try {
+    (void)parse_emg_table("Export of 2024\nSampling rate: 5 ms\nVL [uV],BF [uV]\n1,2\n3,4\n", "a.csv");
+    ADD_FAILURE();
+  } catch (const ReadError& error) {
+    EXPECT_STREQ(error.what(), "a.csv:2: found a sampling rate in 'ms', expected Hz or kHz; write it so");
+  }
+  const CsvSeries timed =
+      parse_emg_table("Export of 2024\nSampling rate: 5 ms\ntime,VL [uV],BF [uV]\n0,1,2\n0.005,3,4\n", "a.csv");
+  EXPECT_EQ(timed.data.time_s()[1], 0.005);
+}
+
 TEST(EmgTable, ATriggerCalledTIsNoSecondClock) {
   const CsvSeries s = parse_emg_table("time,E1 [mV],T\n0,1,0\n0.001,2,5\n0.002,3,0\n", "a.csv");
   EXPECT_EQ(s.data.channel_count(), 2);
