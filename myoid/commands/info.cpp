@@ -48,6 +48,7 @@ ordered_json setup_contents(const std::string& path) {
   for (const std::filesystem::path& input : setup.inputs()) {
     if (input != path) j["reads"].push_back(input.string());
   }
+  for (const std::filesystem::path& input : setup.missing_inputs()) j["missing"].push_back(input.string());
   j["run"] = fmt::format("myoid run-tool {}", path);
   return j;
 }

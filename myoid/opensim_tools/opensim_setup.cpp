@@ -168,6 +168,13 @@ std::vector<std::filesystem::path> OpensimSetup::inputs() const {
   return files;
 }
 
+std::vector<std::filesystem::path> OpensimSetup::missing_inputs() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [element, file] : named_inputs())
+    if (!file.exists && file.path.has_filename()) files.push_back(file.path);
+  return files;
+}
+
 std::vector<std::string> OpensimSetup::notes() const {
   std::vector<std::string> notes;
   const auto add = [&](const char* name, const std::string& text) {

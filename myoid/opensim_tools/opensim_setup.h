@@ -55,6 +55,8 @@ class OpensimSetup {
   [[nodiscard]] std::optional<std::filesystem::path> output_file(pugi::xml_node object, const char* name) const;
   /// Returns the existing files that the set-up names as inputs.
   [[nodiscard]] std::vector<std::filesystem::path> inputs() const;
+  /// Returns the files that the set-up names as inputs and that do not exist.
+  [[nodiscard]] std::vector<std::filesystem::path> missing_inputs() const;
   /// Returns the folder of the results; the set-up's own if no folder, or one of another computer, is given.
   [[nodiscard]] std::filesystem::path results_folder() const;
   /// Returns a sentence for each file whose place differs from the name in the set-up.

@@ -274,10 +274,11 @@ TEST(Info, NamesTheToolOfASetUpAndTheCommandThatRunsIt) {
   const TemporaryFolder folder;
   write_text(folder / "ik.xml",
              "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"walk\"><model_file>Unassigned"
-             "</model_file></InverseKinematicsTool></OpenSimDocument>\n");
+             "</model_file><marker_file>lost.trc</marker_file></InverseKinematicsTool></OpenSimDocument>\n");
   const Finished done = myoid({"info", folder / "ik.xml"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("InverseKinematicsTool"), HasSubstr("myoid run-tool")));
+  EXPECT_THAT(done.out, AllOf(HasSubstr("InverseKinematicsTool"), HasSubstr("myoid run-tool"), HasSubstr("missing (1)"),
+                              HasSubstr("lost.trc")));
 }
 
 TEST(Info, SaysTheUnitOfEmgThatTheTitleStatesAndNothingOfAngles) {
