@@ -9,7 +9,7 @@
 
 namespace myoid {
 
-/// What a length of a muscle with its tendon leaves for the fibers.
+/// Tells whether a length of a muscle with its tendon leaves room for the fibers.
 struct FiberRoom {
   bool none = false;  ///< The tendon is as long as the muscle with it.
   std::string says;   ///< A sentence if there is no room or fibers have an unlikely length, else empty.

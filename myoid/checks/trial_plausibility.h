@@ -33,7 +33,7 @@ inline constexpr double kFlatActivation = kLimits.flat_activation;
 /// Returns the size that one sample in a hundred exceeds, so that a single spike does not decide.
 [[nodiscard]] double usual_peak(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// Where a torque comes from: of a file, whose unit may be wrong, or of inverse dynamics.
+/// The origin of a torque: a file, whose unit may be wrong, or inverse dynamics.
 enum class TorqueSource { file, computed };
 
 /// Returns "16194 N m at elbow_flexion is more than ...; N mm?" for too large a torque, else an empty text.

@@ -33,7 +33,7 @@ TEST(RouteRemarks, SayOnceWhichNumbersDisagreeAndByHowMuchAtMost) {
 }
 
 TEST(RouteRemarks, AreSilentOnWhatChanceMakesOfTheirWidths) {
-  // Of five trials alike a variance is known to sqrt(2 / 5), a width to 0.32: 3 of that are a factor of 2.6 either way.
+  // Five equal trials tell a variance to sqrt(2 / 5), a width to 0.32. Three such spreads are a factor of 2.6.
   for (const auto& [wide, disagree] : {std::pair{0.25, false}, std::pair{0.28, true}}) {
     ParameterEstimate e = routes("a", 0.1, wide);
     e.estimate = 1.0;

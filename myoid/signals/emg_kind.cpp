@@ -1,26 +1,17 @@
 #include "myoid/signals/emg_kind.h"
 
 #include <algorithm>
-#include <vector>
 
+#include "myoid/math/statistics.h"
 #include "myoid/signals/quality_limits.h"
 
 namespace myoid::signals {
-namespace {
-
-double median_sample(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  std::vector<double> sorted(x.begin(), x.end());
-  std::nth_element(sorted.begin(), sorted.begin() + x.size() / 2, sorted.end());
-  return sorted[static_cast<std::size_t>(x.size() / 2)];
-}
-
-}  // namespace
 
 bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
   constexpr double kRinging = 0.05;  // share of the maximum by which a filter may swing below zero
   const Eigen::Index n = x.size();
   if (n < 3 || x.minCoeff() < -kRinging * x.maxCoeff() || !(x.maxCoeff() > x.minCoeff())) return false;
-  const double median = median_sample(x);
+  const double median = math::upper_median({x.begin(), x.end()});
   // With few different values the median may be the highest or the lowest of all.
   Eigen::Index above = 0;
   Eigen::Index not_below = 0;
@@ -33,7 +24,7 @@ bool is_envelope(const Eigen::Ref<const Eigen::VectorXd>& x, double rate_hz) {
 
 bool is_rectified(const Eigen::Ref<const Eigen::VectorXd>& x) {
   if (x.size() < 3 || !(x.minCoeff() >= 0.0) || !(x.maxCoeff() > x.minCoeff())) return false;
-  const double median = median_sample(x);
+  const double median = math::upper_median({x.begin(), x.end()});
   const auto near = (x.array() < 0.1 * median).count();
   return static_cast<double>(near) >= kLimits.rectified_share * static_cast<double>(x.size());
 }
