@@ -7,7 +7,7 @@ target_compile_options(myoid_warnings INTERFACE
   -Wdouble-promotion          # there is no float here; one would be a mistake
   -Wold-style-cast            # casts say what they do
   -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wduplicated-cond -Wduplicated-branches -Wlogical-op
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond$<SEMICOLON>-Wduplicated-branches$<SEMICOLON>-Wlogical-op>
   -Wformat=2)
 # Designated initializers leave the other members at their defaults on purpose.
 target_compile_options(myoid_warnings INTERFACE -Wno-missing-field-initializers)

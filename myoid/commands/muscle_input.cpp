@@ -1,13 +1,12 @@
 #include "myoid/commands/muscle_input.h"
 
 #include <charconv>
-#include <ranges>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/tables/series_file.h"
 
 namespace myoid::commands {
@@ -66,8 +65,7 @@ Column read_column(const std::string& path, const ColumnChoice& choice, Remarks&
   const recording::SeriesFile file = recording::read_series(path);
   warn_of_repairs(path, file.repairs, remarks);
   const TimeSeries& series = file.data;
-  const std::string names =
-      fmt::format("{}", fmt::join(std::views::transform(series.channels(), &Channel::name), ", "));
+  const std::string names = name_list(series.channels(), &Channel::name);
   if (wanted.empty() && series.channel_count() != 1) {
     throw ReadError(path, 0, fmt::format("has the columns {}: choose one with {}", names, choice.option));
   }

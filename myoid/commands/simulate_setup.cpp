@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "myoid/commands/stage_input.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
 #include "myoid/simulation/arm_parameters.h"
@@ -62,7 +62,7 @@ std::size_t index_of(const std::string& name,
   const auto found = std::ranges::find(coordinates, name, &NamedCoordinate::name);
   if (found != coordinates.end()) return static_cast<std::size_t>(found - coordinates.begin());
   throw InvalidInput(fmt::format("{} {}: the model has no such coordinate; there are {}", option, name,
-                                 fmt::join(std::views::transform(coordinates, &NamedCoordinate::name), ", ")));
+                                 name_list(coordinates, &NamedCoordinate::name)));
 }
 
 }  // namespace

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/intervals/identifiability.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/math/random.h"
@@ -106,7 +105,7 @@ std::vector<Eigen::Index> targets_of(const std::vector<Unknown>& free, const std
     if (known.contains(w)) continue;
     throw InvalidInput(
         fmt::format("target '{}' is no parameter, muscle or muscle.parameter that can be identified; there are {}", w,
-                    fmt::join(std::views::transform(free, &Unknown::label), ", ")));
+                    name_list(free, &Unknown::label)));
   }
   return targets;
 }

@@ -1,5 +1,7 @@
 #include "myoid/draft/draft_text.h"
 
+#include "myoid/core/names.h"
+
 namespace myoid {
 
 std::string in_quotes(const std::string& text) {
@@ -11,10 +13,6 @@ std::string in_quotes(const std::string& text) {
   return out + '"';
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + in_quotes(name);
-  return "[" + list + "]";
-}
+std::string list_of(const std::vector<std::string>& names) { return "[" + name_list(names, in_quotes) + "]"; }
 
 }  // namespace myoid

@@ -1,10 +1,12 @@
 #include "myoid/dynamics/held_mass.h"
 
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 
 namespace myoid::dynamics {
 
@@ -14,9 +16,8 @@ model::BodyModel with_held_mass(model::BodyModel model, std::string_view body, c
   }
   const auto index = model.find_body(body);
   if (!index || *index == 0) {
-    std::string names;
-    for (std::size_t i = 1; i < model.bodies.size(); ++i) names += (i == 1 ? "" : ", ") + model.bodies[i].name;
-    throw ModelError(fmt::format("held mass: the model has no body '{}'; there are {}", body, names));
+    throw ModelError(fmt::format("held mass: the model has no body '{}'; there are {}", body,
+                                 name_list(std::span(model.bodies).subspan(1), &model::Body::name)));
   }
   if (mass_kg == 0.0) return model;
   model::Body& carrier = model.bodies[static_cast<std::size_t>(*index)];

@@ -7,6 +7,7 @@
 
 #include "myoid/beliefs/beliefs.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 
 namespace myoid::identification {
 namespace {
@@ -90,12 +91,11 @@ bool is_lag(std::string_view parameter) {
 }
 
 const ParameterField& parameter_field(std::string_view name) {
-  std::string names;
   for (const ParameterField& field : kFields) {
     if (field.name == name) return field;
-    names += (names.empty() ? "" : ", ") + std::string(field.name);
   }
-  throw InvalidInput(fmt::format("no parameter is named '{}'; there are {}", name, names));
+  throw InvalidInput(
+      fmt::format("no parameter is named '{}'; there are {}", name, name_list(kFields, &ParameterField::name)));
 }
 
 }  // namespace myoid::identification

@@ -1,14 +1,13 @@
 #include "myoid/intake/read_trial.h"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "myoid/core/angle_unit.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/core/provenance.h"
 #include "myoid/files/byte_source.h"
 #include "myoid/intake/emg_cover.h"
@@ -52,8 +51,7 @@ TimeSeries read_motion(const std::filesystem::path& path, const model::BodyModel
     throw ReadError(
         path, 0,
         fmt::format("no column is a coordinate of the model; found {}, expected some of {}; rename the columns",
-                    channel_names(motion),
-                    fmt::join(std::views::transform(model.coordinates, &model::Coordinate::name), ", ")));
+                    channel_names(motion), name_list(model.coordinates, &model::Coordinate::name)));
   return motion;
 }
 

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <ranges>
+#include <span>
 
 #include "myoid/model/functions.h"
 
@@ -13,9 +13,9 @@ namespace {
 using Curve = FunctionValue;
 
 /// Evaluates a power series with its derivatives: of tau = theta^2, or of e = 1 - c.
-template <std::size_t N>
-Curve series(const std::array<double, N>& coefficients, double x) {
-  return polynomial_value(std::views::reverse(coefficients), x);
+Curve series(std::span<const double> coefficients, double x) {
+  const Eigen::Map<const Eigen::VectorXd> lowest_first(coefficients.data(), std::ssize(coefficients));
+  return polynomial_value(lowest_first.reverse(), x);
 }
 
 struct Rod {

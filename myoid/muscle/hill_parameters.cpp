@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 
 namespace myoid::muscle {
 
 const HillField& hill_field(std::string_view name) {
-  std::string names;
   for (const HillField& field : kHillFields) {
     if (field.name == name) return field;
-    names += (names.empty() ? "" : ", ") + std::string(field.name);
   }
-  throw InvalidInput(fmt::format("no muscle parameter is named '{}'; there are {}", name, names));
+  throw InvalidInput(
+      fmt::format("no muscle parameter is named '{}'; there are {}", name, name_list(kHillFields, &HillField::name)));
 }
 
 void validate(const HillParameters<double>& parameters) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 
 namespace myoid::muscle {
 
@@ -22,12 +23,11 @@ HillParameters<double> literature_parameters(const LiteratureMuscle& muscle) {
 }
 
 const LiteratureMuscle& literature_muscle(std::string_view name) {
-  std::string names;
   for (const LiteratureMuscle& muscle : kElbowMuscles) {
     if (muscle.name == name) return muscle;
-    names += (names.empty() ? "" : ", ") + std::string(muscle.name);
   }
-  throw InvalidInput(fmt::format("no literature for a muscle '{}'; there is for {}", name, names));
+  throw InvalidInput(fmt::format("no literature for a muscle '{}'; there is for {}", name,
+                                 name_list(kElbowMuscles, &LiteratureMuscle::name)));
 }
 
 }  // namespace myoid::muscle

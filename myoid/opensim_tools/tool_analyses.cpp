@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/kinematics/angular_speeds.h"
 #include "myoid/math/spline.h"
@@ -165,7 +165,7 @@ void run_analyses(const ToolRun& tool_run) {
     if (!is_known_analysis(node.name())) {
       require_opensim_analysis(xml, node);
       run.note("analysis {} is not supported: its files are not written; {} are", node.name(),
-               fmt::join(kKnown | std::views::transform(&KnownAnalysis::class_name), ", "));
+               name_list(kKnown, &KnownAnalysis::class_name));
     }
   }
   read_loads(run);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <variant>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 
 #include "myoid/arm/arm4.h"
 #include "myoid/core/error.h"
+#include "myoid/core/names.h"
 #include "myoid/core/units.h"
 #include "myoid/files/text_file.h"
 #include "myoid/identification/parameter_fields.h"
@@ -143,8 +144,7 @@ std::optional<model::BodyModel> arm_of_markers(const Study& study, const recordi
 }
 
 std::string body_names(const model::BodyModel& model) {
-  return fmt::format("{}",
-                     fmt::join(model.bodies | std::views::drop(1) | std::views::transform(&model::Body::name), ", "));
+  return name_list(std::span(model.bodies).subspan(1), &model::Body::name);
 }
 
 HeldMassSpec held_mass_place(const Study& study) {

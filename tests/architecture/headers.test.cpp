@@ -157,6 +157,16 @@ TEST(Headers, EveryTestIsBuilt) {
   }
 }
 
+/// The fuzz targets are built by clang 14 (Debian 12), which does not compile the views of libstdc++ 12.
+TEST(Headers, NoSourceTakesTheStandardsViews) {
+  for (const char* ending : {".h", ".cpp"}) {
+    for (const fs::path& file : files_below("myoid", ending)) {
+      const auto included = includes(file);
+      EXPECT_EQ(std::ranges::count(included, "<ranges>"), 0) << file << ": see myoid/core/names.h";
+    }
+  }
+}
+
 TEST(Headers, EveryHeaderIsGuarded) {
   for (const fs::path& header : files_below("myoid", ".h")) {
     std::ifstream stream(kRoot / header);
