@@ -1,7 +1,6 @@
 #include "myoid/identify_files/identify_input.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -11,6 +10,7 @@
 #include "myoid/checks/trial_plausibility.h"
 #include "myoid/core/error.h"
 #include "myoid/dynamics/joint_capacity.h"
+#include "myoid/files/text_file.h"
 #include "myoid/math/decompositions.h"
 #include "myoid/math/statistics.h"
 #include "myoid/methods/prediction.h"
@@ -37,8 +37,7 @@ constexpr double kShortestActive = 0.4, kLongestActive = 1.8;
 
 /// Returns true if a file's name is that of musculotendon lengths in OpenSim or CEINMS.
 bool names_whole_muscles(const std::string& path) {
-  std::string name = std::filesystem::path(path).stem().string();
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string name = recording::small_letters(std::filesystem::path(path).stem().string());
   return name.ends_with("muscleanalysis_length") || name.find("lmt") != std::string::npos ||
          name.find("muscletendon") != std::string::npos || name.find("musculotendon") != std::string::npos;
 }

@@ -1,13 +1,13 @@
 #include "myoid/identify_files/joint_of_arms.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "myoid/core/error.h"
+#include "myoid/files/text_file.h"
 
 namespace myoid {
 namespace {
@@ -20,14 +20,8 @@ constexpr double kAngleWindow_s = 0.1;
 constexpr double kMovesByAngle_m = 5e-4;  ///< root mean square of a length's changes over a window
 constexpr double kExplains = 0.5;
 
-std::string in_small_letters(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 bool one_holds_the_other(std::string_view a, std::string_view b) {
-  const std::string x = in_small_letters(a), y = in_small_letters(b);
+  const std::string x = recording::small_letters(std::string(a)), y = recording::small_letters(std::string(b));
   return x.find(y) != std::string::npos || y.find(x) != std::string::npos;
 }
 
@@ -136,7 +130,7 @@ std::string_view coordinate_in_name(std::string_view path) {
   const std::size_t folder = path.find_last_of("/\\");
   if (folder != std::string_view::npos) path.remove_prefix(folder + 1);
   path = path.substr(0, path.find_last_of('.'));
-  const std::size_t at = in_small_letters(path).find(kMark);
+  const std::size_t at = recording::small_letters(std::string(path)).find(kMark);
   return at == std::string::npos ? std::string_view() : path.substr(at + kMark.size());
 }
 

@@ -11,6 +11,7 @@
 
 #include "myoid/core/error.h"
 #include "myoid/core/units.h"
+#include "myoid/files/text_file.h"
 #include "myoid/files/toml_table.h"
 #include "myoid/identification/parameters.h"
 
@@ -72,8 +73,7 @@ constexpr std::array kAliases = {
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) result += recording::small_letter(c);
   }
   return result;
 }
