@@ -93,7 +93,7 @@ function(myoid_layer name)
   target_link_libraries(myoid_${name} PUBLIC ${deps} ${ARG_EXTERNAL} Eigen3::Eigen fmt::fmt
                                       PRIVATE $<BUILD_INTERFACE:myoid_warnings>)
   if(name IN_LIST MYOID_LIGHT_LAYERS)
-    myoid_light(myoid_${name})
+    myoid_optimize(myoid_${name} -O1)
   endif()
   set_target_properties(myoid_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS myoid_${name} EXPORT MyoidTargets DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
@@ -102,7 +102,7 @@ function(myoid_layer name)
     list(TRANSFORM ARG_TESTS_USE PREPEND myoid_)
     target_link_libraries(${name}_tests PRIVATE myoid_${name} ${ARG_TESTS_USE} myoid_test_support
                                                 myoid_warnings)
-    myoid_light(${name}_tests)
+    myoid_optimize(${name}_tests -Og)
     gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                          PROPERTIES TIMEOUT 600)
   endif()

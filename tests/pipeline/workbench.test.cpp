@@ -46,7 +46,7 @@ class WorkbenchPage : public testing::Test {
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
     const std::string text = ::myoid::test::read_text(*folder_ / "result/report.html");
     if (text.find("id=\"workbench-data\"") == std::string::npos) return;  // built without three.js
-    browser_ = std::make_unique<Browser>(1280, 900);
+    browser_ = std::make_unique<Browser>(960, 720);
   }
   static void TearDownTestSuite() {
     browser_.reset();
@@ -55,7 +55,7 @@ class WorkbenchPage : public testing::Test {
 
   void SetUp() override {
     if (!browser_) GTEST_SKIP() << "needs the packages chromium, and libjs-three and esbuild in the build";
-    browser_->resize(1280, 900);
+    browser_->resize(960, 720);
     open();
   }
   void TearDown() override {
@@ -509,7 +509,7 @@ TEST_F(WorkbenchPage, AFilmThatIsMissingIsNamed) {
   myoid::recording::write_file(film, "no film");
   ASSERT_EQ(myoid({"report", out, "--video", "swing_2kg=" + film}).exit_code, 0);
   std::filesystem::remove(film);
-  Browser browser(1280, 900);  // its console names the file that it did not find
+  Browser browser(960, 720);  // its console names the file that it did not find
   browser.open("file://" + out.string() + "/report.html#trial=swing_2kg&t=2.5");
   browser.wait_for("!myoid.video.says.hidden");
   EXPECT_EQ(browser.evaluate("myoid.video.film.hidden"), true);
