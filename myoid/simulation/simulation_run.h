@@ -16,6 +16,7 @@
 #include "myoid/math/stiff_ode.h"
 #include "myoid/simulation/activation_signal.h"
 #include "myoid/simulation/simulation.h"
+#include "myoid/simulation/simulation_record.h"
 
 namespace myoid::simulation {
 
@@ -61,7 +62,11 @@ class SimulationRun {
     check_simulation(names, nq_, input, start, options);
     times_ = output_times(start, options);
     states_ = offsets_.back();
-    works_ = options.energy ? kMuscleWorks * n_ + kJointWorks : 0;
+    works_ = options.energy ? SimulationRecord::kMuscleWorks * n_ + SimulationRecord::kJointWorks : 0;
+    std::vector<SimulationRecord::Coordinate> coordinates;
+    for (std::size_t k = 0; k < nq_; ++k)
+      coordinates.push_back({skeleton_.coordinate_name(k), skeleton_.is_rotational(k)});
+    record_ = SimulationRecord(std::move(names), std::move(coordinates), times_.size(), options.energy);
     hints_.assign(n_, 0);
     activation_.assign(n_, 0.0);
     excitation_.assign(n_, 0.0);
@@ -75,7 +80,6 @@ class SimulationRun {
     std::copy(start.qdot.begin(), start.qdot.end(), y_.begin() + static_cast<std::ptrdiff_t>(nq_));
     begin(start);
     breaks_ = break_times(input, now_, options);
-    make_result();
   }
 
   Simulation go() {
@@ -88,16 +92,6 @@ class SimulationRun {
 
  private:
   static constexpr long kMostJumps = 200;
-  static constexpr std::size_t kMuscleWorks = 6;
-  static constexpr const char* kMuscleWorkNames[] = {"active", "passive",       "viscous",
-                                                     "tendon", "musculotendon", "kinetic"};
-  static constexpr std::size_t kJointWorks = 4;
-  static constexpr const char* kJointWorkNames[] = {"gravity_work", "joint_elastic_work", "joint_viscous_work",
-                                                    "external_work"};
-  static constexpr const char* kStored[] = {"passive", "tendon", "kinetic"};
-  static constexpr const char* kStoredTogether[] = {"skeleton_kinetic_energy", "gravity_energy",
-                                                    "joint_elastic_energy"};
-  static constexpr const char* kTorques[] = {"muscles", "gravity", "joint", "external", "device"};
 
   [[nodiscard]] bool controlled() const { return static_cast<bool>(options_.controller.excite); }
 
@@ -183,7 +177,7 @@ class SimulationRun {
     for (std::size_t i = 0; i < n_; ++i) {
       const auto o = muscle::musculotendon_output(skeleton_.unit(i), input_of(i), fiber(i, y));
       pull(i, o.tendon_force_n);
-      double* w = p + kMuscleWorks * i;
+      double* w = p + SimulationRecord::kMuscleWorks * i;
       w[0] = o.active_power_w;
       w[1] = o.passive_power_w;
       w[2] = o.viscous_power_w;
@@ -192,8 +186,8 @@ class SimulationRun {
       w[5] = o.kinetic_power_w;
     }
     skeleton_.accelerate(tau_.data(), prescribed_.data(), qddot_.data(), device_.data());
-    double* w = p + kMuscleWorks * n_;
-    std::fill(w, w + kJointWorks, 0.0);
+    double* w = p + SimulationRecord::kMuscleWorks * n_;
+    std::fill(w, w + SimulationRecord::kJointWorks, 0.0);
     for (std::size_t k = 0; k < nq_; ++k) {
       const double speed = y[nq_ + k];
       w[0] += skeleton_.gravity(k) * speed;
@@ -336,124 +330,61 @@ class SimulationRun {
     return status;
   }
 
-  void make_result() {
-    const auto rows = static_cast<Eigen::Index>(times_.size());
-    const auto n = static_cast<Eigen::Index>(n_);
-    const auto nq = static_cast<Eigen::Index>(nq_);
-    motion_.resize(rows, 3 * nq);
-    torque_.resize(rows, 5 * nq);
-    arm_m_.resize(rows, nq * n);
-    for (auto* m : {&excitations_, &activations_, &length_, &velocity_, &fiber_length_, &fiber_velocity_,
-                    &tendon_length_, &fiber_force_, &tendon_force_})
-      m->resize(rows, n);
-    if (works_ > 0) energy_.resize(rows, static_cast<Eigen::Index>(works_) + 3 * n + 3);
-  }
-
   void record(double t, Eigen::Index row) {
+    SimulationRecord& r = record_;
     set(t, y_.data());
     const auto nq = static_cast<Eigen::Index>(nq_);
-    for (Eigen::Index k = 0; k < nq; ++k) torque_(row, 5 * k) = -tau_[static_cast<std::size_t>(k)];
+    for (Eigen::Index k = 0; k < nq; ++k) r.torque(row, 5 * k) = -tau_[static_cast<std::size_t>(k)];
     for (std::size_t i = 0; i < n_; ++i) {
       const auto c = static_cast<Eigen::Index>(i);
       const auto in = input_of(i);
       const auto o = muscle::musculotendon_output(skeleton_.unit(i), in, fiber(i, y_.data()));
       pull(i, o.tendon_force_n);
-      excitations_(row, c) = controlled() ? excitation_[i] : value_at(input_.excitation[i], t);
-      activations_(row, c) = activation_[i];
-      length_(row, c) = in.length_m;
-      velocity_(row, c) = in.velocity_mps;
+      r.excitation(row, c) = controlled() ? excitation_[i] : value_at(input_.excitation[i], t);
+      r.activation(row, c) = activation_[i];
+      r.length(row, c) = in.length_m;
+      r.velocity(row, c) = in.velocity_mps;
       for (std::size_t k = 0; k < nq_; ++k)
-        arm_m_(row, static_cast<Eigen::Index>(k * n_ + i)) = skeleton_.moment_arm_m(i, k);
-      fiber_length_(row, c) = o.fiber_length_m;
-      fiber_velocity_(row, c) = o.fiber_velocity_mps;
-      tendon_length_(row, c) = o.tendon_length_m;
-      fiber_force_(row, c) = o.fiber_force_n;
-      tendon_force_(row, c) = o.tendon_force_n;
+        r.moment_arm(row, static_cast<Eigen::Index>(k * n_ + i)) = skeleton_.moment_arm_m(i, k);
+      r.fiber_length(row, c) = o.fiber_length_m;
+      r.fiber_velocity(row, c) = o.fiber_velocity_mps;
+      r.tendon_length(row, c) = o.tendon_length_m;
+      r.fiber_force(row, c) = o.fiber_force_n;
+      r.tendon_force(row, c) = o.tendon_force_n;
       if (works_ > 0) {
         const auto w = static_cast<Eigen::Index>(works_) + 3 * c;
-        energy_(row, w) = o.passive_energy_j;
-        energy_(row, w + 1) = o.tendon_energy_j;
-        energy_(row, w + 2) = o.kinetic_energy_j;
+        r.energy(row, w) = o.passive_energy_j;
+        r.energy(row, w + 1) = o.tendon_energy_j;
+        r.energy(row, w + 2) = o.kinetic_energy_j;
       }
     }
     skeleton_.accelerate(tau_.data(), prescribed_.data(), qddot_.data(), device_.data());
     for (Eigen::Index c = 0; c < nq; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      torque_(row, 5 * c) += tau_[k];
-      torque_(row, 5 * c + 1) = skeleton_.gravity(k);
-      torque_(row, 5 * c + 2) = skeleton_.joint_elastic(k) + skeleton_.joint_viscous(k);
-      torque_(row, 5 * c + 3) = external(k, clamped(t));
-      torque_(row, 5 * c + 4) = device_[k];
-      motion_(row, 3 * c) = y_[k];
-      motion_(row, 3 * c + 1) = y_[nq_ + k];
-      motion_(row, 3 * c + 2) = qddot_[k];
+      r.torque(row, 5 * c) += tau_[k];
+      r.torque(row, 5 * c + 1) = skeleton_.gravity(k);
+      r.torque(row, 5 * c + 2) = skeleton_.joint_elastic(k) + skeleton_.joint_viscous(k);
+      r.torque(row, 5 * c + 3) = external(k, clamped(t));
+      r.torque(row, 5 * c + 4) = device_[k];
+      r.motion(row, 3 * c) = y_[k];
+      r.motion(row, 3 * c + 1) = y_[nq_ + k];
+      r.motion(row, 3 * c + 2) = qddot_[k];
     }
     if (works_ > 0) {
-      for (std::size_t k = 0; k < works_; ++k) energy_(row, static_cast<Eigen::Index>(k)) = work_[k];
+      for (std::size_t k = 0; k < works_; ++k) r.energy(row, static_cast<Eigen::Index>(k)) = work_[k];
       const auto w = static_cast<Eigen::Index>(works_) + 3 * static_cast<Eigen::Index>(n_);
-      energy_(row, w) = skeleton_.kinetic_energy_j();
-      energy_(row, w + 1) = skeleton_.gravity_energy_j();
-      energy_(row, w + 2) = skeleton_.joint_elastic_energy_j();
+      r.energy(row, w) = skeleton_.kinetic_energy_j();
+      r.energy(row, w + 1) = skeleton_.gravity_energy_j();
+      r.energy(row, w + 2) = skeleton_.joint_elastic_energy_j();
     }
-  }
-
-  [[nodiscard]] std::vector<Channel> per_muscle(Unit unit) const {
-    std::vector<Channel> channels;
-    for (std::size_t i = 0; i < n_; ++i) channels.push_back({skeleton_.muscle_name(i), unit});
-    return channels;
-  }
-  [[nodiscard]] std::string of_coordinate(std::size_t k, std::string_view what) const {
-    return nq_ == 1 ? std::string(what) : fmt::format("{}/{}", skeleton_.coordinate_name(k), what);
   }
 
   Simulation finish() {
-    const auto rows = static_cast<Eigen::Index>(row_);
-    const Eigen::VectorXd t = Eigen::Map<const Eigen::VectorXd>(times_.data(), rows);
-    const auto series = [&](std::vector<Channel> channels, const Eigen::MatrixXd& values) {
-      return TimeSeries(t, std::move(channels), values.topRows(rows));
-    };
     result_.message = std::string(math::explain(result_.status));
     if (result_.jumps_passed > 0)
       result_.message += fmt::format(", past {} jumps of the equations", result_.jumps_passed);
     if (result_.status != math::OdeStatus::done) result_.message += fmt::format(" (at {:.6g} s)", result_.reached_s);
-    std::vector<Channel> motion;
-    std::vector<Channel> torque;
-    std::vector<Channel> arms;
-    for (std::size_t k = 0; k < nq_; ++k) {
-      const bool turns = skeleton_.is_rotational(k);
-      const std::string name = skeleton_.coordinate_name(k);
-      motion.push_back({name, turns ? Unit::radian : Unit::meter});
-      motion.push_back({name + "_speed", turns ? Unit::radian_per_second : Unit::meter_per_second});
-      motion.push_back({name + "_acceleration", turns ? Unit::radian_per_second2 : Unit::meter_per_second2});
-      for (const char* what : kTorques)
-        torque.push_back({of_coordinate(k, what), turns ? Unit::newton_meter : Unit::newton});
-      for (std::size_t i = 0; i < n_; ++i) arms.push_back({of_coordinate(k, skeleton_.muscle_name(i)), Unit::meter});
-    }
-    result_.motion = series(std::move(motion), motion_);
-    result_.torque = series(std::move(torque), torque_);
-    result_.moment_arm = series(std::move(arms), arm_m_);
-    result_.excitation = series(per_muscle(Unit::dimensionless), excitations_);
-    result_.activation = series(per_muscle(Unit::dimensionless), activations_);
-    result_.musculotendon_length = series(per_muscle(Unit::meter), length_);
-    result_.musculotendon_velocity = series(per_muscle(Unit::meter_per_second), velocity_);
-    result_.fiber_length = series(per_muscle(Unit::meter), fiber_length_);
-    result_.fiber_velocity = series(per_muscle(Unit::meter_per_second), fiber_velocity_);
-    result_.tendon_length = series(per_muscle(Unit::meter), tendon_length_);
-    result_.fiber_force = series(per_muscle(Unit::newton), fiber_force_);
-    result_.tendon_force = series(per_muscle(Unit::newton), tendon_force_);
-    if (works_ > 0) {
-      std::vector<Channel> channels;
-      const auto add = [&](std::string name) { channels.push_back({std::move(name), Unit::newton_meter}); };
-      for (std::size_t i = 0; i < n_; ++i) {
-        for (const char* what : kMuscleWorkNames) add(fmt::format("{}_{}_work", skeleton_.muscle_name(i), what));
-      }
-      for (const char* what : kJointWorkNames) add(what);
-      for (std::size_t i = 0; i < n_; ++i) {
-        for (const char* what : kStored) add(fmt::format("{}_{}_energy", skeleton_.muscle_name(i), what));
-      }
-      for (const char* what : kStoredTogether) add(what);
-      result_.energy = series(std::move(channels), energy_);
-    }
+    record_.write_to(result_, Eigen::Map<const Eigen::VectorXd>(times_.data(), static_cast<Eigen::Index>(row_)));
     return std::move(result_);
   }
 
@@ -471,10 +402,8 @@ class SimulationRun {
   std::vector<double> y_, work_, breaks_;
   std::size_t row_ = 0;
   long calls_ = 0, ticks_ = 0;
+  SimulationRecord record_;
   Simulation result_;
-  Eigen::MatrixXd motion_, torque_, energy_, arm_m_;
-  Eigen::MatrixXd excitations_, activations_, length_, velocity_, fiber_length_;
-  Eigen::MatrixXd fiber_velocity_, tendon_length_, fiber_force_, tendon_force_;
 };
 
 }  // namespace myoid::simulation
