@@ -60,11 +60,12 @@ set(MYOID_LAYER_cli core math files intervals methods report study results conte
 set(MYOID_LIGHT_LAYERS osim arm beliefs report phases study intake checks design run scene results draft contents
     identify_files opensim_tools twin cohort mat commands cli)
 
-# myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [EXTERNAL targets...])
+# myoid_layer(NAME UNITS ... [GENERATED sources...] [TESTS_USE layers...] [TESTS_TOGETHER] [EXTERNAL targets...])
 # A folder is a target; its tests are one executable. A unit u stands for those of u.h, u.cpp and u.test.cpp
-# that exist. TESTS_USE names the layers that only the tests need.
+# that exist. TESTS_USE names the layers that only the tests need. TESTS_TOGETHER: ctest starts the tests as one, because
+# many of them look at one result that takes seconds to make.
 function(myoid_layer name)
-  cmake_parse_arguments(ARG "" "" "UNITS;GENERATED;TESTS_USE;EXTERNAL" ${ARGN})
+  cmake_parse_arguments(ARG "TESTS_TOGETHER" "" "UNITS;GENERATED;TESTS_USE;EXTERNAL" ${ARGN})
   set(headers)
   set(sources ${ARG_GENERATED})
   set(tests)
@@ -103,8 +104,12 @@ function(myoid_layer name)
     target_link_libraries(${name}_tests PRIVATE myoid_${name} ${ARG_TESTS_USE} myoid_test_support
                                                 myoid_warnings)
     myoid_optimize(${name}_tests -Og)
-    gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                         PROPERTIES TIMEOUT 600)
+    if(ARG_TESTS_TOGETHER)
+      add_test(NAME ${name}.all COMMAND ${name}_tests)
+      set_tests_properties(${name}.all PROPERTIES COST 10 TIMEOUT 600)
+    else()
+      gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+    endif()
   endif()
 endfunction()
 
