@@ -183,7 +183,11 @@ inline constexpr std::string_view kPosterior = "estimator `posterior`";
 inline constexpr Belief kTorqueNoise =
     belief("error of the torque, over its root mean square", 0.05, 1.5, logarithm, "").judged(kPosterior);
 inline constexpr Belief kTorqueNoiseTime =
-    belief("time after which the error of the torque is another", 0.3, 1.0, logarithm, "s").judged(kPosterior);
+    belief("time after which the error of the torque is another", 0.3, 0.5, logarithm, "s")
+        .used(kPosterior)
+        .from(
+            "judgment: of skin, filters and a muscle model that errs with the posture; errors that last are those of "
+            "offset, scale and moment arms, which are unknowns of their own");
 inline constexpr Belief kTrialTorqueNoise =
     belief("torque error of a trial over all", 1.0, 1.0, logarithm, "").judged(kPosterior);
 inline constexpr Belief kStrength =

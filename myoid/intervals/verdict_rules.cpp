@@ -41,6 +41,8 @@ std::string verdict_rules_markdown() {
   row("speed of a muscle that shortens or lengthens",
       fmt::format("above {:g} v_max, for {:g} s", r.moving_share, r.least_s));
   row("share of the variance that makes an uncertainty the tendon's", fmt::format("above {:g}", r.mostly_tendon));
+  row("distance of the posterior's interval from a bound that counts as none",
+      fmt::format("below {} of the possible range", percent(r.on_bound)));
   row("a delay on its bound that counts as none", fmt::format("at most {:g} µs", 1e6 * r.no_delay_s));
   return text;
 }

@@ -124,11 +124,12 @@ std::string without_maximum(const Reporting& of, const Eigen::VectorXd& f_max, i
       reach(force, 0.025), reach(force, 0.975), 100.0 * reach(share, 0.025), 100.0 * reach(share, 0.975));
 }
 
-/// Fills the interval and the verdict of a row from draws of its value.
+/// Fills the interval and the verdict of a row from draws of its value, which has these bounds.
 void judge_row(const Reporting& of,
                std::size_t unknown,
                const Eigen::VectorXd& values,
                int owner,
+               const muscle::Range& bounds,
                ParameterEstimate& e,
                PosteriorFacts facts) {
   const Unknown& p = of.map.free()[unknown];
@@ -143,6 +144,9 @@ void judge_row(const Reporting& of,
   facts.value = e.estimate;
   facts.low = *e.ci_low;
   facts.high = *e.ci_high;
+  const double touches = kVerdictRules.on_bound * (bounds.upper - bounds.lower);
+  const bool cut = facts.low - bounds.lower < touches || bounds.upper - facts.high < touches;
+  facts.at_bound = cut && !p.is(Scope::channel, kDelay);  // no delay is a delay
   facts.contraction = e.shrinkage;
   if (e.prior_distance) facts.prior_distance = std::abs(*e.prior_distance);
   facts.nuisance_gain = p.is(Scope::channel, kGain);
@@ -185,7 +189,7 @@ ParameterEstimate reported_row(const Reporting& of, std::size_t unknown, std::si
   const Eigen::VectorXd draws = of.sample.z.row(at).unaryExpr([&](double z) { return value(z); }).transpose();
   facts.low_given = value(of.given.low[at]);
   facts.high_given = value(of.given.high[at]);
-  judge_row(of, unknown, draws, target.owner, e, facts);
+  judge_row(of, unknown, draws, target.owner, {value(p.bounds.lower), value(p.bounds.upper)}, e, facts);
   e.routes.push_back({.route = "geometry_and_sensors_exact", .low = facts.low_given, .high = facts.high_given});
   return e;
 }
@@ -204,7 +208,7 @@ ParameterEstimate product_row(const Reporting& of, std::size_t unknown, int owne
   PosteriorFacts facts;
   facts.low_given = weighted_quantile(draws, of.sample.weight, 0.025);
   facts.high_given = weighted_quantile(draws, of.sample.weight, 0.975);
-  judge_row(of, unknown, draws, owner, e, facts);
+  judge_row(of, unknown, draws, owner, physical, e, facts);
   return e;
 }
 

@@ -56,6 +56,7 @@ Finding finding(const PosteriorFacts& facts) {
   if (half > (facts.is_delay ? rules.delay_identified_s : rules.identified_half_width)) return Finding::wide;
   if (facts.model_error > rules.model_error) return Finding::wrong_model;
   if (is_far(facts)) return Finding::narrow_and_far;
+  if (facts.at_bound) return Finding::cut_off;
   if (facts.contraction && *facts.contraction < rules.half_shrinkage) return Finding::half_the_prior;
   return Finding::narrow;
 }
@@ -66,6 +67,7 @@ Verdict verdict_of(Finding finding) {
     case Finding::unexplained:
     case Finding::too_wide:
     case Finding::far_from_prior:
+    case Finding::cut_off:
       return Verdict::not_identifiable;
     case Finding::impossible:
       return Verdict::non_physical;
@@ -102,6 +104,8 @@ std::string reason_of(Finding finding, const PosteriorFacts& facts) {
     text = "no muscle has this ratio of l_sh to l0: the fit describes another thing; " + text;
   if (finding == Finding::narrow_and_far)
     text = "a simplification of the model, or the EMG, may be what is fitted; " + text;
+  if (finding == Finding::cut_off)
+    text = "the interval ends at a bound: the recording pulls beyond what is physically possible; " + text;
   if (finding == Finding::wrong_model)
     text = fmt::format("the model errs by {:.0f} % in a way that depends on posture, effort and speed; {}",
                        100.0 * facts.model_error, text);

@@ -20,6 +20,7 @@ struct PosteriorFacts {
   std::optional<double> prior_distance;
   bool possible = true;  ///< A muscle can have this value.
   bool is_delay = false;
+  bool at_bound = false;  ///< An end of the interval is as good as a bound (VerdictRules::on_bound).
   /// For l0 and l_sh: range of lengths at which the muscle is active, over l0.
   std::optional<double> length_span;
   double r2 = 1.0;           ///< R2 of the fitted torque.
@@ -41,6 +42,7 @@ enum class Finding {
   wide,            ///< Beyond VerdictRules::identified_half_width.
   wrong_model,     ///< Narrow enough, but the model errs by more than VerdictRules::model_error.
   narrow_and_far,  ///< Narrow enough, but farther than VerdictRules::prior_conflict.
+  cut_off,         ///< Narrow enough, but by a bound.
   half_the_prior,  ///< Narrow enough, but contraction below VerdictRules::half_shrinkage.
   narrow
 };

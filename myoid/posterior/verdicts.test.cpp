@@ -50,6 +50,14 @@ TEST(PosteriorVerdict, WhereTheModelIsWrongNothingIsIdentified) {
   EXPECT_THAT(reason_of(Finding::wrong_model, facts), HasSubstr("the model errs by 33 %"));
 }
 
+TEST(PosteriorVerdict, AnIntervalThatABoundCutsOffIdentifiesNothing) {
+  PosteriorFacts facts = good();
+  facts.at_bound = true;
+  EXPECT_EQ(finding(facts), Finding::cut_off);
+  EXPECT_EQ(verdict_of(Finding::cut_off), Verdict::not_identifiable);
+  EXPECT_THAT(reason_of(Finding::cut_off, facts), HasSubstr("ends at a bound"));
+}
+
 TEST(PosteriorVerdict, TheFartherEndCounts) {
   PosteriorFacts facts = good();
   facts.high = 1130.0;
