@@ -63,6 +63,7 @@ model::BodyModel load_model(const std::string& name, const std::string& compat, 
   const model::OsimOptions options{.compat = model::parse_compat(compat)};
   model::BodyModel model =
       name == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim", options) : model::read_osim(name, options);
+  model::require_lengths_in_m(model, name);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
   for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
   return model;
