@@ -170,6 +170,9 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                     "guessed by straight lines",
                     path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
+  if (const auto wrong = dynamics::wrong_support(model, loads, time_s);
+      wrong && dynamics::stands(model, motion.q.values().row(0).transpose()))
+    remarks.warn(fmt::format("{}: {}", path.string(), wrong->sentence()));
   for (const Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.warn(found.says);
   return loads;
 }
