@@ -20,7 +20,8 @@ namespace {
 
 /// Names the file of a trial's loads.
 std::string loads_of(const TrialSpec& trial) {
-  return trial.external_loads ? trial.external_loads->filename().string() : "the measured forces";
+  if (trial.external_loads) return trial.external_loads->filename().string();
+  return trial.plates ? trial.plates->file.filename().string() : "the load cell";
 }
 
 /// Finds a coordinate that carries the body in a trial without any measured force, or with wrong ones.
