@@ -269,13 +269,23 @@ std::vector<ForeignStretch> foreign_stretches(const GroundContact& contact, bool
   return found;
 }
 
+/// Returns true if another body of the model is near.
+bool is_of_another(const ForeignStretch& s) { return s.second_foot || s.other_m <= kLimits.second_foot_m; }
+
 std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s) {
-  const std::string other =
-      s.other_m <= kLimits.second_foot_m
-          ? fmt::format("{:.2g} m from {}", s.other_m, model.bodies[static_cast<std::size_t>(s.other)].name)
-          : "no other body of the model is near";
-  return fmt::format("from {:.4g} to {:.4g} s {} ({:.2g} m from its own, {})", s.begin_s, s.end_s,
-                     s.second_foot ? "a second foot stands beside" : "another foot's", s.own_m, other);
+  if (!is_of_another(s)) return fmt::format("from {:.4g} to {:.4g} s {:.2g} m away", s.begin_s, s.end_s, s.own_m);
+  return fmt::format("from {:.4g} to {:.4g} s {} ({:.2g} m from its own, {:.2g} m from {})", s.begin_s, s.end_s,
+                     s.second_foot ? "a second foot stands beside" : "another foot's", s.own_m, s.other_m,
+                     model.bodies[static_cast<std::size_t>(s.other)].name);
+}
+
+/// Says the cause and the remedy of contacts that another body bears, or that no body of the model is near.
+std::string remedy_of(bool of_another, bool own_clock) {
+  if (of_another) return "; leave these times out (start_s, end_s), or give them to the body that bears them";
+  return fmt::format(
+      ", and no other body of the model is near: {}did somebody else step there? Else leave these times "
+      "out (start_s, end_s)",
+      own_clock ? "are the forces on another clock than the motion ([sync] loads_offset_s), or " : "");
 }
 
 }  // namespace
@@ -283,7 +293,8 @@ std::string stretch_words(const model::BodyModel& model, const ForeignStretch& s
 std::vector<Remark> foreign_contacts(const model::BodyModel& model,
                                      const std::string& trial,
                                      const dynamics::ExternalLoads& loads,
-                                     BodyPoints points) {
+                                     BodyPoints points,
+                                     bool own_clock) {
   std::vector<Remark> findings;
   const GroundContacts contacts(model, loads, std::move(points));
   for (std::size_t k = 0; k < contacts.forces().size(); ++k) {
@@ -298,26 +309,29 @@ std::vector<Remark> foreign_contacts(const model::BodyModel& model,
     std::vector<std::string> said;
     std::size_t foreign = 0;
     std::size_t touched = 0;
+    bool of_another = false;
     for (const GroundContact& c : contacts.of(k)) {
       const std::vector<ForeignStretch> stretches = foreign_stretches(c, near);
       touched += stretches.empty() ? 0 : 1;
       for (const ForeignStretch& s : stretches) {
         foreign += s.frames;
+        of_another = of_another || is_of_another(s);
         said.push_back(stretch_words(model, s));
       }
     }
     if (said.empty()) continue;
     const dynamics::ExternalForce& force = *contacts.forces()[k];
+    const std::string& body = model.bodies[static_cast<std::size_t>(force.body)].name;
     findings.push_back(
         {.code = RemarkCode::foreign_contact,
          .severity = Severity::warning,
          .where = trial,
          .says = fmt::format(
-             "'{}' is applied to {}, but not all that it bears is {}'s, in {} of {} contacts and {:.0f} % of the "
-             "loaded time: {}; leave these times out (start_s, end_s), or give them to the body that bears them",
-             force.name, model.bodies[static_cast<std::size_t>(force.body)].name,
-             model.bodies[static_cast<std::size_t>(force.body)].name, touched, contacts.of(k).size(),
-             100.0 * static_cast<double>(foreign) / static_cast<double>(loaded), fmt::join(said, "; "))});
+             "'{}' is applied to {}, but {}, in {} of {} contacts and {:.0f} % of the loaded time: {}{}", force.name,
+             body,
+             of_another ? "not all that it bears is " + body + "'s" : "its center of pressure lies beside " + body,
+             touched, contacts.of(k).size(), 100.0 * static_cast<double>(foreign) / static_cast<double>(loaded),
+             fmt::join(said, "; "), remedy_of(of_another, own_clock))});
   }
   return findings;
 }

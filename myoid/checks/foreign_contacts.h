@@ -21,12 +21,14 @@ namespace myoid {
 /// - a second foot: the center of pressure is more than 0.1 m from the body, while another foot
 ///   without a force of its own stands still at the same height within 0.4 m.
 ///
-/// Gives one warning for each force, with the times, their share of the loaded time, the distances
-/// and the remedy. If a plate's force is given at the middle of its surface, the center of pressure
-/// follows from its moment, in the horizontal plane through that point.
+/// Gives one warning for each force, with the times, their share of the loaded time, the distances and the remedy. If
+/// no other body is within 0.4 m at any of these times, it says so, and asks for the clock if the loads have their own.
+/// If a plate's force is given at the middle of its surface, the center of pressure follows from its moment, in the
+/// horizontal plane through that point.
 [[nodiscard]] std::vector<Remark> foreign_contacts(const model::BodyModel& model,
                                                    const std::string& trial,
                                                    const dynamics::ExternalLoads& loads,
-                                                   BodyPoints points);
+                                                   BodyPoints points,
+                                                   bool own_clock = false);
 
 }  // namespace myoid

@@ -107,8 +107,8 @@ struct PlateTrial {
     if (about_a_point) e.torque = force_columns(time_s, moment);
     loads.forces.push_back(e);
   }
-  [[nodiscard]] std::vector<Remark> findings() const {
-    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr});
+  [[nodiscard]] std::vector<Remark> findings(bool own_clock = false) const {
+    return foreign_contacts(model, "walk", loads, {model, &markers, nullptr}, own_clock);
   }
 };
 
@@ -159,7 +159,9 @@ TEST(ForeignContacts, AFootOfSomebodyElseIsSaidToo) {
   const std::vector<Remark> found = trial.findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].says, AllOf(HasSubstr("in 1 of 5 contacts"), HasSubstr("from 5.2"),
-                                   HasSubstr("no other body of the model is near")));
+                                   HasSubstr("no other body of the model is near"), Not(HasSubstr("another foot's")),
+                                   Not(HasSubstr("loads_offset_s"))));
+  EXPECT_THAT(trial.findings(true)[0].says, HasSubstr("another clock than the motion ([sync] loads_offset_s)"));
 }
 
 TEST(ForeignContacts, ASecondFootOnThePlateIsSaid) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace myoid {
@@ -171,8 +172,33 @@ TEST(MisplacedLoads, APointInTheFrameOfItsBodyIsNoneInGround) {
 
 TEST(MisplacedLoads, APointFarFromEveryBodyIsNoOtherBodys) {
   Walk walk;
-  move_points(walk, 0, Vec3(0.0, 0.0, 0.7), false);
+  move_points(walk, 0, Vec3(0.0, 0.0, 0.35), false);
   EXPECT_TRUE(walk.findings().empty());
+  move_points(walk, 0, Vec3(0.0, 0.0, 0.35), false);
+  const std::vector<Remark> found = walk.findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_NE(found[0].says.find("and under no other body"), std::string::npos) << found[0].says;
+  // A hand leans on a stick.
+  walk.input.loads->forces[0].body = 1;
+  EXPECT_TRUE(walk.findings().empty());
+}
+
+TEST(MisplacedLoads, ATurnAboutTheVerticalIsSaidOnce) {
+  for (const int turns : {1, 2, 3}) {
+    Walk walk;
+    walk.with_markers();
+    Eigen::MatrixXd& positions = walk.input.markers->positions_m;
+    const Mat3 turn = Eigen::AngleAxisd(turns * 0.5 * 3.14159265358979, Vec3::UnitY()).toRotationMatrix();
+    for (Eigen::Index m = 0; m < positions.cols(); m += 3)
+      positions.middleCols(m, 3) = (positions.middleCols(m, 3) * turn.transpose()).eval();
+    const std::vector<Remark> found = walk.findings();
+    ASSERT_EQ(found.size(), 1U) << turns;
+    EXPECT_EQ(found[0].severity, Severity::error);
+    EXPECT_NE(found[0].says.find("after a turn by " + std::to_string(90 * turns) + " degrees about the vertical"),
+              std::string::npos)
+        << found[0].says;
+  }
 }
 
 TEST(MisplacedLoads, AreLookedForAtTheLoadsOwnTime) {

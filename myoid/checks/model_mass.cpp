@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "myoid/dynamics/ground_support.h"
 #include "myoid/intake/limits.h"
 
 namespace myoid {
@@ -34,6 +35,12 @@ std::vector<Remark> unlikely_mass(const Study& study, const model::BodyModel& mo
                                "inertia is too large by that",
                                found, mass_kg / *person_kg, *person_kg),
                    "scale the model to the person (myoid scale), or correct mass_kg");
+  if (person_kg && kLimits.heavier_than * mass_kg < *person_kg && dynamics::stands(model, model.default_q()))
+    return finding(Severity::warning,
+                   fmt::format("{}, {:.3g} times the person's {:g} kg ([subject] mass_kg), though the model is a whole "
+                               "person (mass_kg in pounds?)",
+                               found, mass_kg / *person_kg, *person_kg),
+                   "correct mass_kg, or scale the model to the person (myoid scale)");
   return {};
 }
 

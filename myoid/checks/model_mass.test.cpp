@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/vertical_slider.h"
+
 namespace myoid {
 namespace {
 
@@ -44,6 +46,28 @@ TEST(UnlikelyMass, OfAHeavierBodyThanThePersonsIsAWarning) {
 TEST(UnlikelyMass, OfNoHandIsAWarning) {
   ASSERT_EQ(found(0.04, 73.0).size(), 1U);
   EXPECT_EQ(found(0.04, 73.0)[0].severity, Severity::warning);
+}
+
+TEST(UnlikelyMass, OfAWholeBodyThatIsLighterThanThePersonIsAWarning) {
+  model::BodyModel model;
+  model.bodies = {{.name = "ground"}, {.name = "trunk", .mass_kg = 60.0}, {.name = "leg", .mass_kg = 25.0}};
+  model::Joint hip{.name = "hip", .class_name = "PinJoint", .parent = 1, .child = 2};
+  hip.X_PF.p = Vec3(0.0, -0.4, 0.0);
+  hip.coordinates = {1};
+  hip.rotation = {model::TransformAxis{Vec3::UnitZ(), 1, model::Linear{1.0, 0.0}}, model::TransformAxis{Vec3::UnitX()},
+                  model::TransformAxis{Vec3::UnitY()}};
+  model.joints = {test::vertical_slider(), hip};
+  model.coordinates = {{.name = "height", .joint = 0, .motion = model::MotionType::translational},
+                       {.name = "hip_flexion", .joint = 1}};
+  model = model::finalize(std::move(model));
+  Study study;
+  study.subject.mass_kg = 180.0;
+  const std::vector<Remark> said = unlikely_mass(study, model);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].severity, Severity::warning);
+  EXPECT_NE(said[0].says.find("(mass_kg in pounds?)"), std::string::npos) << said[0].says;
+  study.subject.mass_kg = 95.0;
+  EXPECT_TRUE(unlikely_mass(study, model).empty());
 }
 
 }  // namespace

@@ -18,12 +18,18 @@
 namespace myoid {
 namespace {
 
-/// Finds a coordinate that carries the body in a trial without any measured force.
+/// Names the file of a trial's loads.
+std::string loads_of(const TrialSpec& trial) {
+  if (trial.external_loads) return trial.external_loads->filename().string();
+  return trial.plates ? trial.plates->file.filename().string() : "the load cell";
+}
+
+/// Finds a coordinate that carries the body in a trial without any measured force, or with wrong ones.
 std::optional<Remark> check_support(const Study& study,
                                     const model::BodyModel& model,
                                     const TrialSpec& trial,
                                     const TrialInput& input) {
-  if (input.loads || input.external_torque || trial.use == Use::static_pose) return std::nullopt;
+  if ((!input.loads && trial.use == Use::static_pose) || input.external_torque) return std::nullopt;
   if (!input.motion && !input.markers) return std::nullopt;
   Eigen::VectorXd q = model.default_q();
   if (input.motion) {
@@ -35,13 +41,23 @@ std::optional<Remark> check_support(const Study& study,
   for (const std::string& name : study_coordinates(study.model)) {
     if (!model.find_coordinate(name) || !dynamics::bears_the_body(model, name, q, study.subject.mass_kg.value_or(0.0)))
       continue;
+    Remark remark{.code = RemarkCode::body_unsupported,
+                  .severity = Severity::warning,
+                  .where = trial.name,
+                  .about = "ground",
+                  .says = {}};
+    if (input.loads) {
+      const Eigen::VectorXd& time_s = input.markers ? input.markers->time_s : input.motion->time_s();
+      const auto wrong = dynamics::wrong_support(model, *input.loads, time_s);
+      if (!wrong) return std::nullopt;
+      if (wrong->is_misdirected()) remark.severity = Severity::error;
+      remark.says = fmt::format("{}: {}", loads_of(trial), wrong->sentence());
+      return remark;
+    }
     const auto weight = dynamics::unsupported_weight(model);
-    if (weight)
-      return Remark{.code = RemarkCode::body_unsupported,
-                    .severity = Severity::warning,
-                    .where = trial.name,
-                    .about = "ground",
-                    .says = weight->sentence()};
+    if (!weight) return std::nullopt;
+    remark.says = weight->sentence("external_loads or force_plates");
+    return remark;
   }
   return std::nullopt;
 }
@@ -53,7 +69,8 @@ StudyPlausibility::StudyPlausibility(const Study& study, const model::BodyModel&
 
 void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input) {
   prints_.push_back(print_of(trial, input));
-  for (TrialLengths& lengths : lengths_of(trial, input)) lengths_.push_back(std::move(lengths));
+  const std::vector<TrialLengths> lengths = lengths_of(trial, input);
+  std::ranges::copy(lengths, std::back_inserter(lengths_));
   if (input.emg) {
     for (const MuscleSpec& muscle : study_->muscles) {
       if (const auto column = input.emg->find(muscle.emg))
@@ -61,21 +78,25 @@ void StudyPlausibility::look_at(const TrialSpec& trial, const TrialInput& input)
     }
   }
   std::vector<Remark> found = implausible(*study_, *model_, capacities_, trial, input);
-  std::ranges::move(found, std::back_inserter(of_trials_));
   auto sides = input.markers ? exchanged_sides(*model_, trial, *input.markers, study_->markers.weight) : std::nullopt;
   if (!sides && input.markers)
     sides = turned_markers(*model_, trial, *input.markers, input.up_L, study_->markers.weight);
-  // Exchanged labels would put every force under the other foot.
+  const auto is_vertical = [](const Remark& f) { return f.code == RemarkCode::vertical_across_trunk; };
+  // A trunk with exchanged labels seems to stand on its head.
+  if (sides) std::erase_if(found, is_vertical);
+  // Exchanged labels, another vertical or another rate put the forces elsewhere.
+  const bool places_differ = std::ranges::any_of(found, is_vertical) || is_rate_wrong(lengths);
+  std::ranges::move(found, std::back_inserter(of_trials_));
   found = sides ? std::vector<Remark>{*sides} : std::vector<Remark>{};
   const recording::MarkerSeries* markers = input.markers ? &*input.markers : nullptr;
   const TimeSeries* motion = input.motion ? &*input.motion : nullptr;
-  if (found.empty() && input.loads) {
-    found = misplaced_loads(*model_, *input.loads, markers, motion,
-                            trial.external_loads ? trial.external_loads->filename().string() : "the loads");
+  if (found.empty() && !places_differ && input.loads) {
+    found = misplaced_loads(*model_, *input.loads, markers, motion, loads_of(trial));
     for (Remark& remark : found) remark.where = trial.name;
   }
-  if (found.empty() && input.loads && (markers != nullptr || motion != nullptr))
-    found = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion});
+  if (found.empty() && !places_differ && input.loads && (markers != nullptr || motion != nullptr))
+    found = foreign_contacts(*model_, trial.name, *input.loads, {*model_, markers, motion},
+                             trial.external_loads.has_value());
   std::ranges::move(found, std::back_inserter(of_trials_));
   if (auto support = check_support(*study_, *model_, trial, input)) of_trials_.push_back(std::move(*support));
 }

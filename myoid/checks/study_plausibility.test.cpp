@@ -194,5 +194,65 @@ TEST(StudyPlausibility, AStandingPersonWithoutAnyMeasuredForceIsSaid) {
   EXPECT_FALSE(said(held, Use::calibration, 0.0));
 }
 
+TEST(StudyPlausibility, ForcesOfTheWrongSignAreAnErrorAndOfAnotherUnitAWarning) {
+  Study study;
+  study.model.file = "person.osim";
+  study.model.coordinate = "knee_angle";
+  const model::BodyModel model = stander();
+  const auto found = [&](double force_n) {
+    const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
+    TrialInput input;
+    input.motion = TimeSeries(t, {{"knee_angle", Unit::radian}}, Eigen::MatrixXd::Zero(100, 1));
+    input.loads.emplace().forces.push_back({.name = "plate",
+                                            .body = 3,
+                                            .force = dynamics::LoadColumns{.constant = Vec3(0.0, force_n, 0.0)},
+                                            .point = dynamics::LoadColumns{},
+                                            .torque = {}});
+    TrialSpec trial;
+    trial.name = "squat";
+    trial.external_loads = "folder/grf.xml";
+    StudyPlausibility plausibility(study, model);
+    plausibility.look_at(trial, input);
+    return plausibility.findings();
+  };
+  EXPECT_TRUE(found(680.0).empty());
+  ASSERT_EQ(found(-680.0).size(), 1U);
+  EXPECT_EQ(found(-680.0)[0].severity, Severity::error);
+  EXPECT_EQ(found(-680.0)[0].says.find("grf.xml: the forces pull the body downwards"), 0U) << found(-680.0)[0].says;
+  ASSERT_EQ(found(69.0).size(), 1U);
+  EXPECT_EQ(found(69.0)[0].severity, Severity::warning);
+}
+
+TEST(StudyPlausibility, AWrongRateIsToldInPlaceOfForcesThatActElsewhereByIt) {
+  Study study;
+  study.model.file = "person.osim";
+  study.model.coordinate = "knee_angle";
+  const model::BodyModel model = stander();
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(100, 0.0, 1.0);
+  const auto always = [&](const Vec3& value) {
+    return dynamics::LoadColumns::interpolate(math::SplineKnots(t, 1), value.transpose().replicate(100, 1));
+  };
+  TrialInput input;
+  input.motion = TimeSeries(t, {{"knee_angle", Unit::radian}}, Eigen::MatrixXd::Zero(100, 1));
+  input.loads.emplace().forces.push_back({.name = "plate",
+                                          .body = 3,
+                                          .force = always(Vec3(0.0, 680.0, 0.0)),
+                                          .point = always(Vec3(5.0, 0.0, 0.0)),
+                                          .torque = {}});
+  TrialSpec trial;
+  trial.name = "squat";
+  trial.external_loads = "grf.xml";
+  for (const RemarkCode code : {RemarkCode::load_misplaced, RemarkCode::emg_length}) {
+    StudyPlausibility plausibility(study, model);
+    plausibility.look_at(trial, input);
+    const std::vector<Remark> found = plausibility.findings();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].code, code) << found[0].says;
+    // Before the trial was cut to its loads, its EMG lasted half as long as the motion.
+    input.lengths = {
+        {.trial = "squat", .emg_s = 2.39, .motion_s = 4.74, .motion_rate_hz = 50.0, .emg_rate_hz = 2000.0}};
+  }
+}
+
 }  // namespace
 }  // namespace myoid

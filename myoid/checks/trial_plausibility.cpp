@@ -135,20 +135,25 @@ void check_vertical(const Study& study,
   const recording::MarkerSeries laboratory = recording::rotated(trunk, back);
   const std::optional<double> now = upright(model, laboratory, input.up_L);
   if (!now || *now > kLimits.trunk_across) return;
-  for (const char* up : {"x", "y", "z"}) {
+  for (const char* up : {"x", "y", "z", "-x", "-y", "-z"}) {
     const std::optional<double> other = upright(model, laboratory, *recording::axis_vector(up));
     if (up == told || !other || *other < kLimits.trunk_upright) continue;
+    const bool settable = std::string_view(up).size() == 1;
     findings.push_back(
         {.code = RemarkCode::vertical_across_trunk,
          .severity = Severity::warning,
          .where = where,
          .about = "trunk",
          .says = fmt::format(
-             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, and {:.0f} with [markers] "
-             "up = \"{}\": unless the person lies, gravity pulls across the body; correct [markers] up",
+             "{} is up ({}), but the trunk's markers lie {:.0f} degrees from upright by it, and {:.0f} with {} up: "
+             "unless the person {}, gravity pulls {} the body; {}",
              told, study.markers.up == kUpOfTheFile ? "as the file says" : "[markers] up",
-             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree, std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree,
-             up)});
+             std::acos(std::clamp(*now, -1.0, 1.0)) / kDegree, std::acos(std::clamp(*other, -1.0, 1.0)) / kDegree, up,
+             *now < -kLimits.trunk_upright ? "stands on the head" : "lies",
+             *now < -kLimits.trunk_upright ? "up through" : "across",
+             settable ? fmt::format("correct it: [markers] up = \"{}\"", up)
+                      : fmt::format("turn the markers of the file, whose {} points down{}", up + 1,
+                                    *now < -kLimits.trunk_upright ? ", or exchange left and right" : ""))});
     return;
   }
 }

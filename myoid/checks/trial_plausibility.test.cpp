@@ -206,6 +206,19 @@ std::vector<Remark> of_a_trunk_along(const Vec3& axis, const std::string& coordi
   return elbow.findings();
 }
 
+TEST(Implausible, AVerticalInAnyOfSixDirectionsIsFound) {
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
+    for (const double sign : {1.0, -1.0}) {
+      const std::vector<Remark> found = of_a_trunk_along(sign * axis);
+      ASSERT_EQ(found.size(), 1U);
+      const std::string name = recording::axis_name(sign * axis);
+      EXPECT_NE(found[0].says.find("with " + name + " up"), std::string::npos) << found[0].says;
+      // [markers] up has no word for an axis that points down.
+      EXPECT_EQ(found[0].says.find("up = \"" + name) != std::string::npos, sign > 0.0) << found[0].says;
+    }
+  }
+}
+
 TEST(Implausible, ALeaningTrunkOrALimbIsNoWrongVertical) {
   const auto leaning = [](double deg) { return Vec3(0.0, std::cos(deg * kDegree), std::sin(deg * kDegree)); };
   EXPECT_EQ(of_a_trunk_along(leaning(65.0)).size(), 1U);

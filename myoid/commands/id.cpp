@@ -46,8 +46,9 @@ IdResult id(const IdOptions& o) {
   IdResult result;
   result.forces = dynamics::inverse_dynamics(model, motion, {.loads = loads ? &*loads : nullptr});
   if (const auto weight = dynamics::unsupported_weight(model, result.forces);
-      weight && dynamics::stands(model, motion.q.values().row(0).transpose()))
-    remarks.warn(weight->sentence("--loads"));
+      weight && !(loads && dynamics::wrong_support(model, *loads, motion.q.time_s())) &&
+      dynamics::stands(model, motion.q.values().row(0).transpose()))
+    remarks.warn(weight->sentence(loads ? "" : "--loads"));
   result.remarks = remarks.list();
   return result;
 }

@@ -63,6 +63,7 @@ model::BodyModel load_model(const std::string& name, const std::string& compat, 
   const model::OsimOptions options{.compat = model::parse_compat(compat)};
   model::BodyModel model =
       name == "arm4" ? model::parse_osim(model::arm4_osim(), "arm4.osim", options) : model::read_osim(name, options);
+  model::require_lengths_in_m(model, name);
   for (const std::string& text : model.unsupported) remarks.warn(fmt::format("{}: {}", name, text));
   for (const std::string& text : model.notes) remarks.detail(fmt::format("{}: {}", name, text));
   return model;
@@ -169,6 +170,9 @@ dynamics::ExternalLoads load_external_loads(const model::BodyModel& model,
                     "guessed by straight lines",
                     path.string(), loads.start_s, loads.end_s, time_s[0], time_s[time_s.size() - 1]));
   }
+  if (const auto wrong = dynamics::wrong_support(model, loads, time_s);
+      wrong && dynamics::stands(model, motion.q.values().row(0).transpose()))
+    remarks.warn(fmt::format("{}: {}", path.string(), wrong->sentence()));
   for (const Remark& found : misplaced_loads(model, loads, nullptr, &motion.q, path.string())) remarks.warn(found.says);
   return loads;
 }

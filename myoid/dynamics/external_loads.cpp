@@ -259,6 +259,7 @@ ExternalLoads read_external_loads(const model::BodyModel& model, const std::file
   loads.start_s = data.time_s()[0];
   loads.end_s = data.time_s()[data.sample_count() - 1];
   Clock clock;
+  if (data.sample_count() > 1) loads.rate_hz = data.mean_rate_hz();
   if (data.sample_count() > 1) clock.emplace(data.time_s(), data.sample_count() >= 4 ? 3 : 1);
   for (const auto node : OsimXml::objects(set)) {
     const std::string_view kind = node.name();

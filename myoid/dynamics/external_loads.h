@@ -36,7 +36,8 @@ struct ExternalForce {
 struct ExternalLoads {
   std::vector<ExternalForce> forces;
   double start_s = 0.0,
-         end_s = 0.0;  ///< First and last time of the data; lines continue the splines.
+         end_s = 0.0;    ///< First and last time of the data; lines continue the splines.
+  double rate_hz = 0.0;  ///< Of the data; 0 for one row.
   /// Time of the motion = time of the data + offset_s + 1e-6 drift_ppm x time of the data.
   /// `start_s` and `end_s` are times of the motion.
   double offset_s = 0.0, drift_ppm = 0.0;

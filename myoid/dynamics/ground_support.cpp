@@ -55,6 +55,12 @@ std::optional<Root> root_of(const model::BodyModel& model) {
 }  // namespace
 
 std::string UnsupportedWeight::sentence(const std::string& given_by) const {
+  if (given_by.empty())
+    return fmt::format(
+        "the measured forces do not carry the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} "
+        "N); "
+        "are the forces complete, of both feet and of all times, and in N?",
+        coordinate, force_n, 100.0 * force_n / weight_n, weight_n);
   return fmt::format(
       "nothing carries the body: {} has to bear {:.0f} N, {:.0f} % of the model's weight ({:.0f} N); the torques "
       "between the ground and the trunk lack the ground reaction: give it by {}",
@@ -76,6 +82,70 @@ std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& mode
   const auto root = root_of(model);
   if (!root) return std::nullopt;
   return UnsupportedWeight{root->coordinate->name, root->weight_n, root->weight_n};
+}
+
+bool WrongSupport::is_misdirected() const { return force_n.norm() >= kCarriedWeight * weight_n; }
+
+std::string WrongSupport::sentence() const {
+  struct ForceUnit {
+    const char* name;
+    double newtons;
+  };
+  const std::string mean = fmt::format(
+      "mean vertical force while they act {:.4g} N, {:.3g} times the model's weight ({:.0f} N), expected "
+      "about +1 of a person who stands or walks",
+      up.dot(force_n), upward(), weight_n);
+  if (upward() <= -kCarriedWeight)
+    return fmt::format(
+        "the forces pull the body downwards ({}): reverse their sign; they must be those of the ground on "
+        "the body, upwards in stance",
+        mean);
+  if (is_misdirected())
+    return fmt::format(
+        "the forces push the body sideways, along ({:.2g}, {:.2g}, {:.2g}) with ({:.2g}, {:.2g}, {:.2g}) "
+        "up ({}): turn the forces and their points to the model's axes",
+        force_n.x() / weight_n, force_n.y() / weight_n, force_n.z() / weight_n, up.x(), up.y(), up.z(), mean);
+  for (const ForceUnit& unit : {ForceUnit{"kgf", 9.80665}, {"lbf", 4.4482}, {"kN", 1000.0}}) {
+    const double right = unit.newtons * upward();  // half to one and a half of the weight, as in stance
+    if (right > 0.7 && right < 1.4)
+      return fmt::format(
+          "the forces carry {:.2g} % of the body's weight ({}): are they in {}? Then multiply them by "
+          "{:.4g}; they must be in N",
+          100.0 * upward(), mean, unit.name, unit.newtons);
+  }
+  return fmt::format(
+      "the forces carry {:.2g} % of the body's weight ({}): is a plate or a foot missing, or are they not "
+      "in N? If the person sits, leans or hangs, nothing is wrong",
+      100.0 * upward(), mean);
+}
+
+std::optional<WrongSupport> wrong_support(const model::BodyModel& model,
+                                          const ExternalLoads& loads,
+                                          const Eigen::VectorXd& time_s) {
+  constexpr double kActs = 0.2;  // of the largest force
+  const auto root = root_of(model);
+  if (!root || time_s.size() == 0) return std::nullopt;
+  const auto is_on_ground = [](const ExternalForce& f) {
+    return f.body != 0 && f.force_frame == 0 && f.point_frame == 0 && f.force && f.point;
+  };
+  if (std::ranges::none_of(loads.forces, is_on_ground)) return std::nullopt;
+  Eigen::MatrixX3d sum_n = Eigen::MatrixX3d::Zero(time_s.size(), 3);
+  for (const ExternalForce& force : loads.forces) {
+    if (!is_on_ground(force)) continue;
+    for (Eigen::Index i = 0; i < time_s.size(); ++i)
+      sum_n.row(i) += force.force->at(loads.data_time_s(time_s[i])).transpose();
+  }
+  const Eigen::VectorXd size = sum_n.rowwise().norm();
+  WrongSupport found{.up = -model.gravity_G.normalized(), .weight_n = root->weight_n};
+  double count = 0.0;
+  for (Eigen::Index i = 0; i < size.size(); ++i) {
+    if (size[i] < kActs * size.maxCoeff()) continue;
+    found.force_n += sum_n.row(i).transpose();
+    count += 1.0;
+  }
+  found.force_n /= count;
+  if (found.upward() >= kCarriedWeight) return std::nullopt;
+  return found;
 }
 
 std::string UncarriedTime::sentence() const {
@@ -125,10 +195,12 @@ bool bears_the_body(const model::BodyModel& model,
                     double body_mass_kg) {
   // Head, arms and trunk are 0.68 of a person's mass (Winter 2009): a standing model has more.
   constexpr double kMostOfABody = 0.75;
-  constexpr double kGenericBody_kg = 75.0;  // if the person's mass is not stated
+  constexpr double kGenericBody_kg = 75.0;  // if the person's mass is not stated, or is larger
   double mass = 0.0;
   for (const model::Body& body : model.bodies) mass += body.mass_kg;
-  if (mass < kMostOfABody * (body_mass_kg > 0.0 ? body_mass_kg : kGenericBody_kg)) return false;
+  // A stated mass that is too large takes the ground from no model.
+  if (mass < kMostOfABody * (body_mass_kg > 0.0 ? std::min(body_mass_kg, kGenericBody_kg) : kGenericBody_kg))
+    return false;
   const double g = model.gravity_G.norm();
   if (!(g > 0.0)) return false;
   const Vec3 up = -model.gravity_G / g;

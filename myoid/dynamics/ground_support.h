@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "myoid/core/geometry.h"
 #include "myoid/core/stretch.h"
 #include "myoid/core/time_series.h"
+#include "myoid/dynamics/external_loads.h"
 #include "myoid/model/body_model.h"
 
 namespace myoid::dynamics {
@@ -15,8 +17,9 @@ struct UnsupportedWeight {
   std::string coordinate;  ///< The translation along gravity of the joint to the ground.
   double force_n = 0.0;    ///< Its mean generalized force.
   double weight_n = 0.0;   ///< Weight of all bodies.
-  /// Describes the finding. `given_by` names the input for a ground reaction: a study's keys, a command's option.
-  [[nodiscard]] std::string sentence(const std::string& given_by = "external_loads or force_plates") const;
+  /// Describes the finding. `given_by` names the input for a ground reaction: a study's keys, a command's option;
+  /// empty: measured forces are given.
+  [[nodiscard]] std::string sentence(const std::string& given_by) const;
 };
 
 /// Returns the model's free translation along gravity with its mean generalized force, if this
@@ -27,6 +30,28 @@ struct UnsupportedWeight {
 
 /// Returns the translation for a motion without any load; it then carries the whole weight.
 [[nodiscard]] std::optional<UnsupportedWeight> unsupported_weight(const model::BodyModel& model);
+
+/// Measured forces on the ground that do not carry the body which stands on them.
+struct WrongSupport {
+  Vec3 force_n = Vec3::Zero();  ///< Mean of their sum while they act, in ground.
+  Vec3 up = Vec3::UnitY();      ///< Direction against gravity.
+  double weight_n = 0.0;        ///< Weight of all bodies.
+  [[nodiscard]] double upward() const { return up.dot(force_n) / weight_n; }
+  /// Returns true for forces that point down or sideways with half of the weight or more.
+  [[nodiscard]] bool is_misdirected() const;
+  /// Says the mean, and the sign, axis or unit (kgf, lbf, kN) that explains it.
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// Share of the weight that measured forces on the ground carry at least, mean while they act.
+inline constexpr double kCarriedWeight = 0.5;
+
+/// Returns the forces with a point in ground if their sum pushes up with less than half of the weight, mean over the
+/// times in which it is a fifth of its largest size or more. Empty without such forces, and for a model that is fixed
+/// to the ground.
+[[nodiscard]] std::optional<WrongSupport> wrong_support(const model::BodyModel& model,
+                                                        const ExternalLoads& loads,
+                                                        const Eigen::VectorXd& time_s);
 
 /// Parts of a trial in which no measured force carries the body while measured forces carry it in
 /// the rest of the trial: a foot beside the plates.
@@ -49,8 +74,8 @@ inline constexpr double kAffectedWeight = 0.25;
                                                           const TimeSeries& generalized_forces);
 
 /// Returns true if a ground reaction would act on the coordinate, which then lies between the ground and the rest of
-/// the body: the model is most of a person (three quarters of `body_mass_kg`, or of 75 kg), and the part that the
-/// coordinate moves reaches lower than all other parts in this posture.
+/// the body: the model is most of a person (three quarters of `body_mass_kg`, or of 75 kg if that is less or not
+/// stated), and the part that the coordinate moves reaches lower than all other parts in this posture.
 [[nodiscard]] bool bears_the_body(const model::BodyModel& model,
                                   const std::string& coordinate,
                                   const Eigen::VectorXd& q,

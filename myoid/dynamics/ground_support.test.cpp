@@ -1,5 +1,6 @@
 #include "myoid/dynamics/ground_support.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "myoid/core/units.h"
@@ -100,6 +101,64 @@ TEST(BearsTheBody, NothingOfAModelThatIsNoWholePerson) {
   EXPECT_FALSE(bears_the_body(model, "knee_angle", model.default_q(), 75.0));
   EXPECT_FALSE(stands(standing_person(15.0), model.default_q()));
   EXPECT_TRUE(stands(standing_person(60.0), model.default_q()));
+}
+
+/// A plate whose force is `n` for the second half of two seconds, and nothing before.
+ExternalLoads plate(const Vec3& n) {
+  const auto columns = [](const Vec3& late) {
+    Eigen::MatrixX3d values = Eigen::MatrixX3d::Zero(200, 3);
+    values.bottomRows(100).rowwise() = late.transpose();
+    return LoadColumns::interpolate(math::SplineKnots(Eigen::VectorXd::LinSpaced(200, 0.0, 2.0), 1), values);
+  };
+  ExternalLoads loads;
+  loads.forces.push_back(
+      {.name = "plate", .body = 3, .force = columns(n), .point = columns(Vec3::Zero()), .torque = {}});
+  return loads;
+}
+
+TEST(WrongSupport, SaysTheSignTheAxisOrTheUnitOfForcesThatDoNotCarryTheBody) {
+  using ::testing::HasSubstr;
+  const model::BodyModel model = standing_person(60.0);
+  const double weight_n = 75.0 * kStandardGravity;
+  const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(100, 0.0, 2.0);
+  const auto says = [&](const Vec3& force_n) {
+    const auto wrong = wrong_support(model, plate(force_n), time_s);
+    return wrong ? (wrong->is_misdirected() ? "misdirected: " : "") + wrong->sentence() : std::string();
+  };
+  EXPECT_EQ(says(0.95 * weight_n * Vec3::UnitY()), "");
+  EXPECT_EQ(says(0.55 * weight_n * Vec3::UnitY()), "");
+  // The mean while the force acts, not over the two seconds.
+  EXPECT_THAT(says(-0.95 * weight_n * Vec3::UnitY()),
+              AllOf(HasSubstr("misdirected: the forces pull the body downwards"), HasSubstr("-0.95 times"),
+                    HasSubstr("reverse their sign")));
+  EXPECT_THAT(says(0.95 * weight_n * Vec3::UnitZ()), HasSubstr("misdirected: the forces push the body sideways"));
+  EXPECT_THAT(says(0.95 / 9.80665 * weight_n * Vec3::UnitY()),
+              AllOf(HasSubstr("the forces carry 9.7 % of the body's weight"), HasSubstr("are they in kgf?")));
+  EXPECT_THAT(says(0.95 / 4.4482 * weight_n * Vec3::UnitY()), HasSubstr("are they in lbf?"));
+  EXPECT_THAT(says(0.95e-3 * weight_n * Vec3::UnitY()), HasSubstr("are they in kN? Then multiply them by 1000"));
+  EXPECT_THAT(says(0.4 * weight_n * Vec3::UnitY()), HasSubstr("is a plate or a foot missing"));
+}
+
+TEST(WrongSupport, IsOfForcesOnTheGroundUnderABodyThatIsFree) {
+  const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(100, 0.0, 2.0);
+  model::BodyModel model = standing_person(60.0);
+  ExternalLoads loads = plate(-700.0 * Vec3::UnitY());
+  ASSERT_TRUE(wrong_support(model, loads, time_s));
+  loads.forces[0].point_frame = 3;  // a weight that hangs from the body
+  EXPECT_FALSE(wrong_support(model, loads, time_s));
+  loads.forces[0].point_frame = 0;
+  model.coordinates[0].locked = true;
+  EXPECT_FALSE(wrong_support(model, loads, time_s));
+}
+
+TEST(UnsupportedWeight, AsksNotForForcesThatAreGiven) {
+  const UnsupportedWeight weight{"pelvis_ty", 765.0, 836.0};
+  EXPECT_EQ(weight.sentence("").find("give it by"), std::string::npos);
+  EXPECT_NE(weight.sentence("--loads").find("give it by --loads"), std::string::npos);
+}
+
+TEST(BearsTheBody, AStatedMassThatIsTooLargeTakesTheGroundFromNoModel) {
+  EXPECT_TRUE(bears_the_body(standing_person(60.0), "knee_angle", standing_person(60.0).default_q(), 180.0));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -29,15 +30,16 @@ std::optional<double> whole_factor(double ratio) {
 }
 
 std::string lasts(const TrialLengths& t) {
-  return fmt::format("the EMG lasts {:.4g} s and the motion {:.4g} s, {:.3g} times as long", t.emg_s, t.motion_s,
-                     t.emg_s / t.motion_s);
+  return fmt::format("the {} {:.4g} s and the motion {:.4g} s, {:.3g} times as long",
+                     t.of_loads ? "loads last" : "EMG lasts", t.emg_s, t.motion_s, t.emg_s / t.motion_s);
 }
 
 std::string which_rate(const TrialLengths& t) {
   return fmt::format(
-      "EMG at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would end together with "
+      "{} at {:.4g} Hz instead of {:.4g} Hz, or a motion at {:.4g} Hz instead of {:.4g} Hz, would end together with "
       "the other: correct the rate or the times in the file that is wrong",
-      t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz, t.motion_rate_hz * t.motion_s / t.emg_s, t.motion_rate_hz);
+      t.of_loads ? "Loads" : "EMG", t.emg_rate_hz * t.emg_s / t.motion_s, t.emg_rate_hz,
+      t.motion_rate_hz * t.motion_s / t.emg_s, t.motion_rate_hz);
 }
 
 }  // namespace
@@ -83,17 +85,27 @@ Rows rows_with_emg(const Eigen::VectorXd& motion_s, const Eigen::VectorXd& emg_s
 
 std::vector<TrialLengths> lengths_of(const TrialSpec& trial, const TrialInput& input) {
   const Eigen::VectorXd* clock = motion_clock(input);
-  if (clock == nullptr || !input.emg || trial.start_s || trial.end_s || input.emg_clock) return {};
+  if (!input.lengths.empty()) return input.lengths;
+  if (clock == nullptr || trial.start_s || trial.end_s) return {};
   if (trial.use == Use::mvc || trial.use == Use::static_pose) return {};
-  if (trial.emg == trial.markers || trial.emg == trial.motion) return {};
-  const Eigen::VectorXd& emg = input.emg->time_s();
   const double begin_s = (*clock)[0];
-  if (std::abs(emg[0] - begin_s) > kLimits.same_begin_s) return {};
-  return {{.trial = trial.name,
-           .emg_s = emg[emg.size() - 1] - begin_s,
-           .motion_s = length_s(*clock),
-           .motion_rate_hz = static_cast<double>(clock->size() - 1) / length_s(*clock),
-           .emg_rate_hz = input.emg->mean_rate_hz()}};
+  std::vector<TrialLengths> found;
+  const auto add = [&](double first_s, double last_s, double rate_hz, bool of_loads) {
+    if (std::abs(first_s - begin_s) > kLimits.same_begin_s) return;
+    found.push_back({.trial = trial.name,
+                     .emg_s = last_s - begin_s,
+                     .motion_s = length_s(*clock),
+                     .motion_rate_hz = static_cast<double>(clock->size() - 1) / length_s(*clock),
+                     .emg_rate_hz = rate_hz,
+                     .of_loads = of_loads});
+  };
+  if (input.emg && !input.emg_clock && trial.emg != trial.markers && trial.emg != trial.motion) {
+    const Eigen::VectorXd& emg = input.emg->time_s();
+    add(emg[0], emg[emg.size() - 1], input.emg->mean_rate_hz(), false);
+  }
+  if (input.loads && trial.external_loads && input.loads->offset_s == 0.0 && input.loads->drift_ppm == 0.0)
+    add(input.loads->start_s, input.loads->end_s, input.loads->rate_hz, true);
+  return found;
 }
 
 std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
@@ -101,7 +113,9 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
   double least = 1e300;
   double most = 0.0;
   bool all = true;
-  for (const TrialLengths& t : trials) {
+  std::vector<TrialLengths> of_emg;
+  std::ranges::copy_if(trials, std::back_inserter(of_emg), [](const TrialLengths& t) { return !t.of_loads; });
+  for (const TrialLengths& t : of_emg) {
     const double ratio = t.emg_s / t.motion_s;
     least = std::min(least, ratio);
     most = std::max(most, ratio);
@@ -121,10 +135,23 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                              "start_s and end_s that both have",
                              lasts(t), sure ? "so" : "is", sure ? " is" : "", sure ? "." : "?", which_rate(t))});
   }
+  for (const TrialLengths& t : trials) {
+    if (!t.of_loads || std::abs(t.emg_s - t.motion_s) < kLimits.by_hand_s || !whole_factor(t.emg_s / t.motion_s) ||
+        std::ranges::any_of(found, [&](const Remark& of_emg_too) { return of_emg_too.where == t.trial; }))
+      continue;
+    found.push_back(
+        {.code = RemarkCode::emg_length,
+         .severity = Severity::warning,
+         .where = t.trial,
+         .about = "loads and motion",
+         .says = fmt::format("{}: is the rate of one of them wrong? {}. If both did last so, give the trial "
+                             "the start_s and end_s that both have",
+                             lasts(t), which_rate(t))});
+  }
   // Recordings stopped by hand differ by some seconds, not by one factor.
-  if (trials.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least) return found;
-  const TrialLengths& first = trials.front();
-  if (trials.size() == 1) {
+  if (of_emg.empty() || !found.empty() || !all || most > (1.0 + kLimits.same_factor) * least) return found;
+  const TrialLengths& first = of_emg.front();
+  if (of_emg.size() == 1) {
     // A single trial must be longer by more than a late stop explains.
     if (most < kLimits.alone_longer) return found;
     found.push_back(
@@ -141,6 +168,12 @@ std::vector<Remark> unlike_lengths(const std::vector<TrialLengths>& trials) {
                    .says = fmt::format("in every trial {} (so in '{}'): is a rate wrong? {}", lasts(first), first.trial,
                                        which_rate(first))});
   return found;
+}
+
+bool is_rate_wrong(const std::vector<TrialLengths>& of_one_trial) {
+  return std::ranges::any_of(unlike_lengths(of_one_trial), [](const Remark& found) {
+    return found.severity == Severity::error || found.about == "loads and motion";
+  });
 }
 
 }  // namespace myoid

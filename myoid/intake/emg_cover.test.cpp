@@ -115,5 +115,23 @@ TEST(RowsWithEmg, AreThoseThatTheEmgCovers) {
   EXPECT_LE(rows_with_emg(motion, Eigen::VectorXd::LinSpaced(9, 20.0, 30.0)).count(), 0);
 }
 
+TEST(UnlikeLengths, LoadsTwiceAsLongAreAWarningUnlessTheEmgSaysSo) {
+  TrialLengths loads = lengths(4.777, 2.37);
+  loads.of_loads = true;
+  const std::vector<Remark> found = unlike_lengths({lengths(2.38, 2.37), loads});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_EQ(found[0].says.find("the loads last 4.777 s and the motion 2.37 s"), 0U) << found[0].says;
+  EXPECT_TRUE(is_rate_wrong({loads}));
+  loads.emg_s = 3.9;  // of no whole factor: recorded for longer
+  EXPECT_TRUE(unlike_lengths({lengths(2.38, 2.37), loads}).empty());
+  EXPECT_FALSE(is_rate_wrong({lengths(2.38, 2.37), loads}));
+  const TrialLengths emg = lengths(2.39, 4.74);
+  loads = {.trial = "t", .emg_s = 2.39, .motion_s = 4.74, .of_loads = true};
+  ASSERT_EQ(unlike_lengths({emg, loads}).size(), 1U);
+  EXPECT_EQ(unlike_lengths({emg, loads})[0].about, "EMG and motion");
+  EXPECT_TRUE(is_rate_wrong({emg, loads}));
+}
+
 }  // namespace
 }  // namespace myoid

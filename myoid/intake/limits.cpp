@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "myoid/core/units.h"
+#include "myoid/dynamics/ground_support.h"
+#include "myoid/osim/osim_reader.h"
 #include "myoid/signals/motion_jumps.h"
 
 namespace myoid {
@@ -34,8 +36,16 @@ void add_recordings(const PlausibilityLimits& l, std::vector<PlausibilityRow>& r
                               l.shortest_fiber, l.longest_fiber)});
   rows.push_back({"masses of the model", "error or warning",
                   fmt::format("an error above {:g} kg (grams?); a warning below {:g} kg, and above {:g} times "
-                              "`[subject] mass_kg`. A model of a part of the body is lighter than the person",
+                              "`[subject] mass_kg`; so below, of a model that stands (pounds?). A model of a part of "
+                              "the body is lighter than the person",
                               l.heaviest_kg, l.lightest_kg, l.heavier_than)});
+  rows.push_back({"lengths of the model", "error",
+                  fmt::format("two neighboring segments have their origins more than {:g} m apart: mm, cm? No command "
+                              "that computes takes such a model",
+                              model::kLongestSegment_m)});
+  rows.push_back({"markers in another unit", "error",
+                  "the limit of `marker_unit` above, and a power of ten tells the unit; nothing else of the trial is "
+                  "checked"});
   rows.push_back({"envelopes that are called raw EMG", "error",
                   "every used channel is an envelope by the limit of `emg_envelope` above"});
   rows.push_back({"raw EMG that is called an envelope or an activation", "error",
@@ -71,7 +81,8 @@ void add_clocks(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows)
        fmt::format("the ratio of the lengths is 2, 3, 4, 5 or 10, within {:g} %: a wrong rate. An error if the EMG is "
                    "the shorter one, or if both end within {:g} % of each other at the corrected rate; else a warning. "
                    "Also a warning: one ratio in every trial, with differences of {:g} s or more; in a single trial, "
-                   "EMG that is {:g} times as long. Maximal contractions, trials with their own window or clock, and "
+                   "EMG that is {:g} times as long; such a ratio of `external_loads` and motion. Maximal contractions, "
+                   "trials with their own window or clock, and "
                    "beginnings more than {:g} s apart are not checked",
                    percent(l.same_factor), percent(l.ends_together), l.by_hand_s, l.alone_longer, l.same_begin_s)});
 }
@@ -137,7 +148,7 @@ void add_markers(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows
                    1000.0 * l.sides_m, percent(l.sides_better))});
   rows.push_back({"the vertical lies across the trunk", "warning",
                   fmt::format("markers of the body on the ground joint are more than {:.0f} degrees from upright by "
-                              "`[markers] up`, and less than {:.0f} by another axis",
+                              "`[markers] up`, and less than {:.0f} by another axis, up or down",
                               degrees_of(l.trunk_across), degrees_of(l.trunk_upright))});
 }
 
@@ -146,9 +157,12 @@ void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) 
       {"a center of pressure that is not under its foot", "error or warning",
        fmt::format("the median distance under load of a point of ExternalLoads from the nearest marker (or point of "
                    "the model) of its body. An error if two forces are each more than {:g} m from their own body and "
-                   "less than {:g} % of that from the other's (feet exchanged), or if a force is more than {:g} m away "
-                   "(mm, other axes). A warning if a force is so far off and nearer to another body",
-                   l.off_body_m, percent(l.much_nearer), l.elsewhere_m)});
+                   "less than {:g} % of that from the other's (feet exchanged), if a force is more than {:g} m away "
+                   "(mm, other axes), or if a turn by 90, 180 or 270 degrees about the vertical brings all forces "
+                   "within {:g} m and one is more than {:g} m away. A warning if a force is {:g} m off and nearer to "
+                   "another body, or {:g} m from a foot (a body at most so high above the lowest)",
+                   l.off_body_m, percent(l.much_nearer), l.elsewhere_m, l.off_body_m, l.far_off_m, l.off_body_m,
+                   l.far_off_m)});
   rows.push_back(
       {"a force plate under nobody", "error",
        fmt::format(
@@ -181,6 +195,14 @@ void add_loads(const PlausibilityLimits& l, std::vector<PlausibilityRow>& rows) 
   rows.push_back(
       {"nothing carries the body", "warning",
        "the model is a whole person on a free joint, the study concerns a leg's joint, and no force is measured"});
+  rows.push_back(
+      {"measured forces that do not carry the body", "error or warning",
+       fmt::format(
+           "of such a model, the sum of the forces with a point in ground, mean while it is a fifth of its "
+           "largest size or more, pushes up with less than {0:g} % of the weight. An error if it points down or "
+           "sideways with {0:g} % or more (sign, axes); else a warning, with the unit (kgf, lbf, kN) that would "
+           "make 70 to 140 %. `id` and `so` warn, too",
+           percent(dynamics::kCarriedWeight))});
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ struct PlausibilityLimits {
   // Loads.
   double plate_far_m = 0.3;        ///< A marker farther from a contact does not stand on it.
   double off_body_m = 0.2;         ///< A foot is 0.27 m long: half of it, and the error of markers.
+  double far_off_m = 0.4;          ///< A foot's length and the error of markers.
   double elsewhere_m = 2.0;        ///< Distance beyond any body.
   double much_nearer = 0.5;        ///< Ratio to the distance from the own body.
   double contact_share = 0.05;     ///< Share of the largest force.

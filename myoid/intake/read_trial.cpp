@@ -149,9 +149,11 @@ std::vector<TrialPart> read_trial_parts(const Study& study, const TrialSpec& tri
     within.start_s = cover->begin_s;
     within.end_s = cover->end_s;
     parts = read_trial_parts(study, within, model);
-    for (TrialPart& part : parts)
+    for (TrialPart& part : parts) {
+      part.input.lengths = lengths_of(trial, whole.input);
       warn(part.input, RemarkCode::general,
            cover->lacks + ": those seconds are left out. A file that was cut off ends early, too");
+    }
     return parts;
   } catch (const ClockPause& pause) {
     if (study.ik.calibrate) throw;

@@ -93,6 +93,9 @@ TEST(ReadTrialParts, LeavesOutTheMotionBeyondTheForcesFile) {
   EXPECT_TRUE(std::any_of(input.remarks.begin(), input.remarks.end(), [](const Remark& remark) {
     return remark.says.find("loads.xml: the force (1 to 4 s) lacks 1.99 s of the motion") == 0;
   }));
+  // The check of rates sees the durations of the files.
+  ASSERT_EQ(input.lengths.size(), 1U);
+  EXPECT_NEAR(input.lengths[0].motion_s, 4.99, 1e-9);
 }
 
 }  // namespace

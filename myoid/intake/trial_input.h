@@ -18,6 +18,14 @@
 
 namespace myoid {
 
+/// Durations of a recording and of the trial's motion, for files of their own without a window.
+struct TrialLengths {
+  std::string trial;
+  double emg_s = 0.0, motion_s = 0.0;  ///< Counted from the same beginning.
+  double motion_rate_hz = 0.0, emg_rate_hz = 0.0;
+  bool of_loads = false;  ///< Loads in the place of EMG.
+};
+
 /// The files of one trial as values: in SI, turned onto the model's vertical, with markers renamed
 /// to the model's and mended.
 struct TrialInput {
@@ -31,6 +39,7 @@ struct TrialInput {
   std::vector<Remark> remarks;          ///< Notes and warnings about the files.
   std::vector<Remark> marker_faults;    ///< Faults of the markers as recorded, before mending.
   std::vector<InputFile> files;
+  std::vector<TrialLengths> lengths;  ///< Durations before the trial was cut to its loads; else empty.
 };
 
 /// Adds a warning that a number may be wrong.

@@ -77,6 +77,7 @@ recording::MarkerSeries frames_between(const recording::MarkerSeries& markers, d
 /// Notes the faults of the markers and repairs as many as possible.
 recording::MarkerSeries mended(const Study& study,
                                const model::BodyModel& model,
+                               const std::filesystem::path& path,
                                recording::MarkerSeries markers,
                                TrialInput& input) {
   const std::vector<signals::ExpectedSegment> expected = kinematics::segments_of(model, markers);
@@ -84,6 +85,8 @@ recording::MarkerSeries mended(const Study& study,
   bool right_unit = true;
   for (Remark& fault : input.marker_faults) {
     right_unit = right_unit && fault.code != RemarkCode::marker_unit;
+    // In a wrong unit no other check of the trial is meaningful.
+    if (fault.severity == Severity::error) throw ReadError(path, 0, sentence(fault));
     const bool used =
         std::ranges::any_of(model.markers, [&](const model::Marker& marker) { return fault.about == marker.name; });
     // A fault of a marker that the model lacks has no effect.
@@ -113,7 +116,7 @@ recording::MarkerSeries read_trial_markers(const Study& study,
   if (std::string pauses = check_clock(*trial.markers, markers.time_s); !pauses.empty())
     warn(input, RemarkCode::clock_pause, std::move(pauses));
   check_cutoff(study, *trial.markers, markers.time_s);
-  return mended(study, model, std::move(markers), input);
+  return mended(study, model, *trial.markers, std::move(markers), input);
 }
 
 recording::MarkerSeries calibration_window(const CalibrationSpec& spec, const recording::MarkerSeries& markers) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "myoid/recording/recording.h"
 #include "myoid/tables/trc_writer.h"
 
 #include "tests/support/temporary_folder.h"
@@ -72,6 +73,20 @@ TEST(ReadTrialMarkers, FewerThanTenFramesAreRefused) {
   TrialInput input;
   const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
   EXPECT_NE(message.find("only 6 frames"), std::string::npos) << message;
+}
+
+TEST(ReadTrialMarkers, AnotherUnitIsRefusedWithTheFileAndTheUnit) {
+  MarkerTrial trial(first_name(), 50);
+  recording::MarkerFile file = recording::read_markers(*trial.spec.markers);
+  for (std::size_t m = 0; m < arm().markers.size(); ++m)
+    file.markers.positions_m.middleCols(3 * static_cast<Eigen::Index>(m), 3) =
+        1000.0 * arm().markers[m].p_BM.transpose().replicate(50, 1);
+  recording::write_trc(*trial.spec.markers, file.markers);
+  TrialInput input;
+  const std::string message = message_of([&] { (void)read_trial_markers(arm_study(), trial.spec, arm(), input); });
+  EXPECT_NE(message.find("m.trc: the markers lie 1e+03 times as far apart as the model's"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("millimeters that are declared as meters"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "myoid/core/error.h"
+#include "myoid/core/index.h"
 #include "myoid/files/named_file.h"
 #include "myoid/files/text_file.h"
+#include "myoid/model/kinematic_tree.h"
 #include "myoid/osim/osim_frames.h"
 #include "myoid/osim/osim_parts.h"
 
@@ -113,6 +115,28 @@ BodyModel parse_osim(std::string_view text, const std::filesystem::path& path, c
 
 BodyModel read_osim(const std::filesystem::path& path, const OsimOptions& options) {
   return parse_osim(recording::read_text_file(path), path, options);
+}
+
+void require_lengths_in_m(const BodyModel& model, const std::filesystem::path& path) {
+  BodyState state = make_state(model);
+  compute_poses(model, model.default_q(), state);
+  const Joint* longest = nullptr;
+  double length_m = kLongestSegment_m;
+  for (const Joint& joint : model.joints) {
+    const double now_m =
+        joint.parent == 0 ? 0.0 : (state.X_GB[at(joint.child)].p - state.X_GB[at(joint.parent)].p).norm();
+    if (!(now_m > length_m)) continue;
+    length_m = now_m;
+    longest = &joint;
+  }
+  if (longest == nullptr) return;
+  constexpr double kLongestInCentimeters = 100.0;
+  throw ReadError(
+      path, 0,
+      fmt::format("the origin of the model's {} lies {:.3g} m from that of {}, expected less than {:g} m: are "
+                  "the model's lengths in {}? They must be in m",
+                  model.bodies[at(longest->child)].name, length_m, model.bodies[at(longest->parent)].name,
+                  kLongestSegment_m, length_m > kLongestInCentimeters ? "mm" : "cm"));
 }
 
 BodyModel with_force_set(BodyModel model, const std::filesystem::path& path) {

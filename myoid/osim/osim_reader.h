@@ -30,6 +30,11 @@ struct OsimOptions {
                                    const std::filesystem::path& path,
                                    const OsimOptions& options = {});
 
+/// No two neighboring segments of a person or an animal have their origins farther apart.
+inline constexpr double kLongestSegment_m = 10.0;
+/// Throws ReadError if a joint, other than to ground, has its segments' origins farther apart at the default posture.
+void require_lengths_in_m(const BodyModel& model, const std::filesystem::path& path);
+
 /// Reads the force set of a file whose root holds a <ForceSet> (reserve actuators) into a copy of
 /// the model. Of two forces with one name the model keeps its own, as OpenSim does, with a note.
 [[nodiscard]] BodyModel with_force_set(BodyModel model, const std::filesystem::path& path);

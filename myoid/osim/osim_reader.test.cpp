@@ -312,5 +312,22 @@ TEST(ParseOsim, MarkersOfArm26LieWhereOpenSimPutsThem) {
   EXPECT_LT(worst_marker_error("arm26", "random"), 1e-8);
 }
 
+TEST(RequireLengthsInM, RefusesAModelInMillimetersAndNamesTheSegments) {
+  BodyModel arm = parse_osim(arm4_osim(), "arm4.osim");
+  EXPECT_NO_THROW(require_lengths_in_m(arm, "arm4.osim"));
+  for (Joint& joint : arm.joints) {
+    joint.X_PF.p *= 1000.0;
+    joint.X_BM.p *= 1000.0;
+  }
+  try {
+    require_lengths_in_m(arm, "arm4.osim");
+    FAIL() << "not refused";
+  } catch (const ReadError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("arm4.osim: the origin of the model's "), 0U) << text;
+    EXPECT_NE(text.find("are the model's lengths in mm?"), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace myoid::model

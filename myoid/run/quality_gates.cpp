@@ -115,12 +115,16 @@ std::optional<Gate> support_gate(const StudyResult& result) {
     if (!t.has_motion() || t.spec.external_torque || t.forces.generalized.empty()) continue;
     const auto weight = dynamics::unsupported_weight(*t.motion.model, t.forces.generalized);
     if (!weight) continue;
+    const auto wrong = t.input.loads
+                           ? dynamics::wrong_support(*t.motion.model, *t.input.loads, t.motion.joints.q.time_s())
+                           : std::nullopt;
+    const std::string says =
+        wrong ? wrong->sentence() : weight->sentence(t.input.loads ? "" : "external_loads or force_plates");
     for (const std::string& name : study_coordinates(result.source.study.model)) {
       if (!dynamics::bears_the_body(*t.motion.model, name, t.motion.joints.q.values().row(0).transpose(),
                                     result.source.study.subject.mass_kg.value_or(0.0)))
         continue;
-      return Gate{"Something carries the body", GateStatus::warn,
-                  fmt::format("'{}': {}", t.spec.name, weight->sentence()),
+      return Gate{"Something carries the body", GateStatus::warn, fmt::format("'{}': {}", t.spec.name, says),
                   "less than half of the weight on the joint to the ground",
                   fmt::format("Unless the person hangs, sits or lies, the torque of {} is wrong.", name)};
     }

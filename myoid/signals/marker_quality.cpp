@@ -178,7 +178,8 @@ std::optional<Remark> check_marker_unit(const MarkerSeries& markers, const std::
   constexpr double kFactor = 5.0;
   double ratio = 1.0;
   std::string text;
-  if (const auto ratio_found = size_ratio(markers, expected)) {
+  const auto ratio_found = size_ratio(markers, expected);
+  if (ratio_found) {
     ratio = *ratio_found;
     text = fmt::format("the markers lie {:.3g} times as far apart as the model's", ratio);
   } else if (const auto extent = extent_m(markers)) {
@@ -191,7 +192,7 @@ std::optional<Remark> check_marker_unit(const MarkerSeries& markers, const std::
   if (ratio < kFactor && ratio > 1.0 / kFactor) return std::nullopt;
   const std::string unit = probable_unit(ratio);
   return Remark{.code = RemarkCode::marker_unit,
-                .severity = Severity::warning,
+                .severity = ratio_found && !unit.empty() ? Severity::error : Severity::warning,
                 .about = "markers",
                 .when = Stretch{markers.time_s[0], markers.time_s[markers.frame_count() - 1]},
                 .value = ratio,

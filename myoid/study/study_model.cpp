@@ -91,6 +91,7 @@ identification::MuscleExtras model_extras(const model::Muscle& muscle) {
 
 /// Applies the study's settings to the model, after a check that it has the study's names.
 model::BodyModel prepared(const Study& study, model::BodyModel model) {
+  model::require_lengths_in_m(model, study.model.file.value_or("arm4.osim"));
   const auto coordinate = [&](std::string_view key, const std::string& name) -> model::Coordinate& {
     try {
       return model.coordinates[static_cast<std::size_t>(model.coordinate_index(name))];
