@@ -71,8 +71,9 @@ std::vector<identification::Fold> held_out(const IdentifyOptions& o,
                                            const EstimatorOptions& options,
                                            const MuscleTable& table,
                                            std::string& why_not) {
-  const identification::CrossValidationOptions how{.kind = o.folds == "block" ? identification::FoldKind::block
-                                                                              : identification::FoldKind::trial};
+  const identification::CrossValidationOptions how{
+      .kind = o.folds == "block" ? identification::FoldKind::block : identification::FoldKind::trial,
+      .setting = "--folds"};
   (void)identification::splits(data, how, &why_not);
   const auto fit_fold = [&](StudyData& fold, const EstimatorOptions& once) { return fit_torque(table, once, fold); };
   if (o.method == "torque") return identification::cross_validate(data, fit_fold, options, how);
