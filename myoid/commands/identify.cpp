@@ -145,7 +145,7 @@ IdentifyResult identify(const IdentifyOptions& o) {
     for (const std::string& text : *warnings) remarks.warn(text);
   result.speed_may_be_free = !table.speed_may_be_free.empty();
   if (o.method != "paper") result.told.max_rate_hz = o.max_rate_hz;
-  result.told.left_out = result.folds.empty() ? "none" : o.folds;
+  result.told.left_out = o.folds;
   result.told.starting_values = table.assumed;
   result.provenance = provenance_of(o);
   result.remarks = remarks.list();
